@@ -1,0 +1,5 @@
+//! The Universal Robot Description Directory (URDD): its format, its published schemas, and the
+//! validator that checks a URDD from any producer. `SPEC.md` is the normative text.
+
+pub mod directory;
+pub mod format;
