@@ -1,5 +1,7 @@
 //! The Universal Robot Description Directory (URDD): its format, its published schemas, and the
 //! validator that checks a URDD from any producer. `SPEC.md` is the normative text.
 
+#[doc(hidden)]
+pub mod cli;
 pub mod directory;
 pub mod format;

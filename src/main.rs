@@ -1,1 +1,7 @@
-fn main() {}
+//! The `urdd` program.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    urdd::cli::run()
+}

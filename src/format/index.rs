@@ -1,0 +1,39 @@
+//! Index spaces and counts. One Rust type for each, so that a link index is never taken for a
+//! joint index.
+
+use super::object::integer;
+
+integer! {
+    /// Index of a link: its place in `links` of `urdf_module`, from 0.
+    pub struct LinkIdx;
+}
+
+integer! {
+    /// Index of a joint: its place in `joints` of `urdf_module`, from 0.
+    pub struct JointIdx;
+}
+
+integer! {
+    /// Index of a degree of freedom (DOF): its place in a configuration vector, from 0.
+    pub struct DofIdx;
+}
+
+integer! {
+    /// Index of a convex piece among the pieces of one link, from 0.
+    pub struct PieceIdx;
+}
+
+integer! {
+    /// Index of a `visual` or `collision` element within its link, from 0.
+    pub struct ElementIdx;
+}
+
+integer! {
+    /// A number of things.
+    pub struct Count;
+}
+
+integer! {
+    /// Number of a sampled configuration: `k` of SPEC's sequence, from 0.
+    pub struct SampleIdx;
+}

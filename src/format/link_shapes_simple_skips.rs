@@ -1,0 +1,65 @@
+//! `link_shapes_simple_skips_module`: pairs that need no collision check, found by sampling.
+
+use super::index::LinkIdx;
+use super::object::{module, object, string_enum};
+use super::shapes::PieceShape;
+
+module! {
+    /// For each pair of shapes, whether a collision check may skip it because the two are always in
+    /// contact, and how the pair is classed.
+    pub struct LinkShapesSimpleSkipsModule {
+        /// What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
+        pub full_shapes: Vec<LinkIdx>,
+        /// What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order.
+        pub decomposition_shapes: Vec<PieceShape>,
+        /// Skips between the links' convex hulls: true where both shapes are on one link, or where
+        /// the largest sampled distance is at most 0.001 m.
+        pub full_convex_hulls_simple_skips: Vec<Vec<bool>>,
+        /// Skips between the links' boxes.
+        pub full_obbs_simple_skips: Vec<Vec<bool>>,
+        /// Skips between the links' spheres.
+        pub full_bounding_spheres_simple_skips: Vec<Vec<bool>>,
+        /// Skips between convex pieces; null where the statistics are.
+        pub decomposition_convex_hulls_simple_skips: Option<Vec<Vec<bool>>>,
+        /// Skips between the boxes of convex pieces; null where the statistics are.
+        pub decomposition_obbs_simple_skips: Option<Vec<Vec<bool>>>,
+        /// Skips between the spheres of convex pieces; null where the statistics are.
+        pub decomposition_bounding_spheres_simple_skips: Option<Vec<Vec<bool>>>,
+        /// Why, for each of the matrices above.
+        pub reasons: SkipReasons,
+    }
+}
+
+object! {
+    /// The class of each pair, for each kind of shape.
+    pub struct SkipReasons {
+        /// Between the links' convex hulls.
+        pub full_convex_hulls: Vec<Vec<SkipReason>>,
+        /// Between the links' boxes.
+        pub full_obbs: Vec<Vec<SkipReason>>,
+        /// Between the links' spheres.
+        pub full_bounding_spheres: Vec<Vec<SkipReason>>,
+        /// Between convex pieces; null where the statistics are.
+        pub decomposition_convex_hulls: Option<Vec<Vec<SkipReason>>>,
+        /// Between the boxes of convex pieces; null where the statistics are.
+        pub decomposition_obbs: Option<Vec<Vec<SkipReason>>>,
+        /// Between the spheres of convex pieces; null where the statistics are.
+        pub decomposition_bounding_spheres: Option<Vec<Vec<SkipReason>>>,
+    }
+}
+
+string_enum! {
+    /// The class of a pair of shapes: the first of these that applies.
+    pub enum SkipReason {
+        /// Both shapes are on one link. Skipped.
+        SameLink,
+        /// The largest sampled distance is at most 0.001 m: always in contact. Skipped.
+        Always,
+        /// A joint connects the two links. Not skipped by this module.
+        Adjacent,
+        /// The smallest sampled distance is more than 0.001 m: never in contact. Not skipped by this module.
+        Never,
+        /// In contact in some of the sampled configurations and not in others.
+        None,
+    }
+}

@@ -1,0 +1,26 @@
+//! What the mesh modules share.
+
+use super::object::{object, string_enum};
+
+string_enum! {
+    /// Which of a link's two geometries a mesh was made from.
+    pub enum GeometryKind {
+        /// The `visual` elements.
+        Visual,
+        /// The `collision` elements.
+        Collision,
+    }
+}
+
+object! {
+    /// One mesh in three formats, the same triangles in each: vertices in metres, in the link's
+    /// frame, binary32. Paths are relative to the URDD's root, with forward slashes.
+    pub struct MeshFiles {
+        /// Binary STL.
+        pub stl: String,
+        /// Wavefront OBJ.
+        pub obj: String,
+        /// Binary glTF 2.0, one identity node, vertices in link axes, with the source's colours.
+        pub glb: String,
+    }
+}

@@ -1,0 +1,181 @@
+//! The one list of every (module, version) that exists: its folder, its type and schema, what it
+//! is derived from, and the conformance class that asks for it.
+
+use schemars::Schema;
+use serde_json::Value;
+
+use super::root_metadata::ConformanceClass;
+use super::*;
+
+/// Version of the specification that this crate implements.
+pub const SPEC_VERSION: &str = "1.0.0";
+
+/// Which family of formats a (module, version) belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Profile {
+    /// Version 1 of the specification.
+    V1,
+    /// The versions that were published before there was a specification.
+    Legacy,
+}
+
+impl Profile {
+    /// The word in reports: `1.0` or `legacy`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Profile::V1 => "1.0",
+            Profile::Legacy => "legacy",
+        }
+    }
+}
+
+macro_rules! kinds {
+    ($($(#[$meta:meta])* $kind:ident = $name:literal in $folder:literal, $class:expr, needs [$($needs:ident),*];)*) => {
+        /// A module of the format, whatever its version.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum ModuleKind { $($(#[$meta])* $kind,)* }
+
+        impl ModuleKind {
+            /// Every module, in the order of the specification's table; what a module is derived
+            /// from comes before it.
+            pub const ALL: &[ModuleKind] = &[$(ModuleKind::$kind),*];
+
+            /// Name of the module, the last part of its folder.
+            pub fn name(self) -> &'static str {
+                match self { $(ModuleKind::$kind => $name,)* }
+            }
+
+            /// Folder of the module, relative to the URDD's root.
+            pub fn folder(self) -> &'static str {
+                match self { $(ModuleKind::$kind => concat!($folder, $name),)* }
+            }
+
+            /// The first conformance class that asks for the module; `None` where none does.
+            pub fn class(self) -> Option<ConformanceClass> {
+                match self { $(ModuleKind::$kind => $class,)* }
+            }
+
+            /// The modules that this one is derived from, in version 1.
+            pub fn depends_on(self) -> &'static [ModuleKind] {
+                match self { $(ModuleKind::$kind => &[$(ModuleKind::$needs),*],)* }
+            }
+        }
+    };
+}
+
+use ConformanceClass::{Core, Geometry, Shapes};
+
+kinds! {
+    /// The source URDF as data.
+    Urdf = "urdf_module" in "", Some(Core), needs [];
+    /// Degrees of freedom.
+    Dof = "dof_module" in "", Some(Core), needs [Urdf];
+    /// The kinematic tree.
+    Chain = "chain_module" in "", Some(Core), needs [Urdf];
+    /// Paths between links.
+    Connections = "connections_module" in "", Some(Core), needs [Chain];
+    /// Bounds of the DOFs.
+    Bounds = "bounds_module" in "", Some(Core), needs [Urdf, Dof];
+    /// Golden values for forward kinematics. Recommended.
+    KinematicsSamples = "kinematics_samples_module" in "", None, needs [Dof, Chain, Bounds];
+    /// Mesh files as the URDF names them.
+    OriginalMeshes = "original_meshes_module" in "mesh_modules/", Some(Geometry), needs [Urdf];
+    /// One mesh per link.
+    PlainMeshes = "plain_meshes_module" in "mesh_modules/", Some(Geometry), needs [Urdf, OriginalMeshes];
+    /// Convex hulls.
+    ConvexHullMeshes = "convex_hull_meshes_module" in "mesh_modules/", Some(Geometry), needs [PlainMeshes];
+    /// Convex pieces.
+    ConvexDecompositionMeshes = "convex_decomposition_meshes_module" in "mesh_modules/", Some(Geometry), needs [PlainMeshes];
+    /// Boxes and spheres.
+    LinkShapesApproximations = "link_shapes_approximations_module" in "link_shapes_modules/", Some(Shapes), needs [ConvexHullMeshes, ConvexDecompositionMeshes];
+    /// How far shapes reach.
+    LinkShapesMaxDistanceFromOrigin = "link_shapes_max_distance_from_origin_module" in "link_shapes_modules/", Some(Shapes), needs [ConvexHullMeshes, ConvexDecompositionMeshes, LinkShapesApproximations];
+    /// How near shapes come.
+    LinkShapesDistanceStatistics = "link_shapes_distance_statistics_module" in "link_shapes_modules/", Some(Shapes), needs [Dof, Chain, Bounds, ConvexHullMeshes, ConvexDecompositionMeshes, LinkShapesApproximations];
+    /// Pairs that are always in contact.
+    LinkShapesSimpleSkips = "link_shapes_simple_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Chain, LinkShapesDistanceStatistics];
+    /// Pairs to skip, after a person's edits.
+    LinkShapesSkips = "link_shapes_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Urdf, LinkShapesSimpleSkips];
+}
+
+macro_rules! modules {
+    ($($variant:ident($ty:ty): $kind:ident @ $version:literal, $profile:ident;)*) => {
+        /// The document of a module, read.
+        #[derive(Debug, Clone, PartialEq)]
+        pub enum ModuleDocument {
+            $(#[doc = concat!("`", stringify!($kind), "` at version ", $version, ".")] $variant(Box<$ty>),)*
+        }
+
+        /// Every (module, version) that exists, in the order of the specification's table, newest first.
+        pub static MODULES: &[ModuleSpec] = &[$(ModuleSpec {
+            kind: ModuleKind::$kind,
+            version: $version,
+            profile: Profile::$profile,
+            schema: || schemars::schema_for!($ty),
+            read: |value| serde::Deserialize::deserialize(value).map(|m| ModuleDocument::$variant(Box::new(m))),
+        }),*];
+    };
+}
+
+/// One (module, version).
+pub struct ModuleSpec {
+    /// The module.
+    pub kind: ModuleKind,
+    /// Version of its format; empty where the published module has no `VERSION` file.
+    pub version: &'static str,
+    /// The family it belongs to.
+    pub profile: Profile,
+    schema: fn() -> Schema,
+    read: fn(&Value) -> Result<ModuleDocument, serde_json::Error>,
+}
+
+modules! {
+    Urdf(urdf::UrdfModule): Urdf @ "1.0.0", V1;
+    Dof(dof::DofModule): Dof @ "1.0.0", V1;
+    Chain(chain::ChainModule): Chain @ "1.0.0", V1;
+    Connections(connections::ConnectionsModule): Connections @ "1.0.0", V1;
+    Bounds(bounds::BoundsModule): Bounds @ "1.0.0", V1;
+    KinematicsSamples(kinematics_samples::KinematicsSamplesModule): KinematicsSamples @ "1.0.0", V1;
+    OriginalMeshes(original_meshes::OriginalMeshesModule): OriginalMeshes @ "1.0.0", V1;
+    PlainMeshes(plain_meshes::PlainMeshesModule): PlainMeshes @ "1.0.0", V1;
+    ConvexHullMeshes(convex_hull_meshes::ConvexHullMeshesModule): ConvexHullMeshes @ "1.0.0", V1;
+    ConvexDecompositionMeshes(convex_decomposition_meshes::ConvexDecompositionMeshesModule): ConvexDecompositionMeshes @ "1.0.0", V1;
+    LinkShapesApproximations(link_shapes_approximations::LinkShapesApproximationsModule): LinkShapesApproximations @ "1.0.0", V1;
+    LinkShapesMaxDistanceFromOrigin(link_shapes_max_distance_from_origin::LinkShapesMaxDistanceFromOriginModule): LinkShapesMaxDistanceFromOrigin @ "1.0.0", V1;
+    LinkShapesDistanceStatistics(link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule): LinkShapesDistanceStatistics @ "1.0.0", V1;
+    LinkShapesSimpleSkips(link_shapes_simple_skips::LinkShapesSimpleSkipsModule): LinkShapesSimpleSkips @ "1.0.0", V1;
+    LinkShapesSkips(link_shapes_skips::LinkShapesSkipsModule): LinkShapesSkips @ "1.0.0", V1;
+}
+
+impl ModuleSpec {
+    /// The module's name and version as one word: `dof_module@1.0.0`.
+    pub fn id(&self) -> String {
+        let version = if self.version.is_empty() {
+            "unversioned"
+        } else {
+            self.version
+        };
+        format!("{}@{version}", self.kind.name())
+    }
+
+    /// Its strict JSON Schema.
+    pub fn schema(&self) -> Schema {
+        (self.schema)()
+    }
+
+    /// Reads a document of this module.
+    ///
+    /// # Errors
+    /// Where the document breaks the schema; serde's message says how, not where.
+    pub fn read(&self, document: &Value) -> Result<ModuleDocument, serde_json::Error> {
+        (self.read)(document)
+    }
+}
+
+/// The entry of a (module, version), by the module and the text of its version; the empty text
+/// stands for a published module that has no version.
+pub fn find(kind: ModuleKind, version: &str) -> Option<&'static ModuleSpec> {
+    MODULES
+        .iter()
+        .find(|spec| spec.kind == kind && spec.version == version)
+}

@@ -1,0 +1,14 @@
+//! What the link shape modules share: what a shape index stands for.
+
+use super::index::{LinkIdx, PieceIdx};
+use super::object::object;
+
+object! {
+    /// A convex piece of a link.
+    pub struct PieceShape {
+        /// The link.
+        pub link_idx: LinkIdx,
+        /// The piece, as in `link_pieces` of `convex_decomposition_meshes_module`.
+        pub piece_idx: PieceIdx,
+    }
+}
