@@ -1,0 +1,89 @@
+//! Paths as documents write them (SPEC 2.8): relative to the URDD's root, portable, never outside.
+
+use thiserror::Error;
+
+/// What is wrong with a path that a document names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum PathFault {
+    /// Nothing at all.
+    #[error("the path is empty")]
+    Empty,
+    /// Begins with `/`.
+    #[error("the path is absolute; write it relative to the URDD's root")]
+    Absolute,
+    /// An empty part: `a//b`, or a slash at the end.
+    #[error("the path has an empty part; write single slashes, and none at the end")]
+    EmptyPart,
+    /// A part that is `.` or `..`.
+    #[error("the path has a `.` or `..` part; write it straight from the URDD's root")]
+    DotPart,
+    /// A backslash.
+    #[error("the path has a backslash; separate parts with forward slashes")]
+    Backslash,
+    /// A colon, as in a drive letter or a URI.
+    #[error(
+        "the path has a colon, as a drive letter or URI has; write it relative to the URDD's root"
+    )]
+    Colon,
+    /// A control character.
+    #[error("the path has a control character")]
+    ControlCharacter,
+}
+
+/// Checks that a path is one that SPEC 2.8 allows.
+///
+/// # Errors
+/// The first fault, from the left.
+pub fn check(path: &str) -> Result<(), PathFault> {
+    if path.is_empty() {
+        return Err(PathFault::Empty);
+    }
+    if path.starts_with('/') {
+        return Err(PathFault::Absolute);
+    }
+    for part in path.split('/') {
+        match part {
+            "" => return Err(PathFault::EmptyPart),
+            "." | ".." => return Err(PathFault::DotPart),
+            _ => {}
+        }
+        for character in part.chars() {
+            match character {
+                '\\' => return Err(PathFault::Backslash),
+                ':' => return Err(PathFault::Colon),
+                c if c.is_control() => return Err(PathFault::ControlCharacter),
+                _ => {}
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_fault_is_told_apart() {
+        for (path, fault) in [
+            ("", PathFault::Empty),
+            ("/etc/passwd", PathFault::Absolute),
+            ("a//b", PathFault::EmptyPart),
+            ("a/", PathFault::EmptyPart),
+            ("a/../b", PathFault::DotPart),
+            ("./a", PathFault::DotPart),
+            ("a\\b", PathFault::Backslash),
+            ("C:/a", PathFault::Colon),
+            ("a/b\n", PathFault::ControlCharacter),
+        ] {
+            assert_eq!(check(path), Err(fault), "{path:?}");
+        }
+    }
+
+    #[test]
+    fn dots_and_spaces_within_a_part_are_fine() {
+        for path in ["a", "a/b.stl", "..a/b..", "ä b/c", ".gitattributes"] {
+            assert_eq!(check(path), Ok(()), "{path:?}");
+        }
+    }
+}

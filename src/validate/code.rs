@@ -1,0 +1,62 @@
+//! The code of every rule there is or was. A code is never used again for something else: a rule
+//! that goes leaves its code here, marked.
+
+macro_rules! codes {
+    ($($code:ident)*) => {
+        /// The code of a rule: a family of three letters, and a number within it.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Code { $(#[doc = concat!("See `urdd explain ", stringify!($code), "`.")] $code,)* }
+
+        impl Code {
+            /// Every code, family by family in the order of the specification.
+            pub const ALL: &[Code] = &[$(Code::$code),*];
+
+            /// As it is written: `DOF003`.
+            pub fn as_str(self) -> &'static str {
+                match self { $(Code::$code => stringify!($code),)* }
+            }
+        }
+    };
+}
+
+codes! {
+    DIR001 DIR002 DIR003 DIR004 DIR005 DIR006 DIR007 DIR008 DIR009 DIR010 DIR011 DIR012 DIR013
+    DIR014 DIR015 DIR016 DIR017 DIR018 DIR019 DIR020 DIR021 DIR022 DIR023 DIR024 DIR025 DIR026
+    JSN001 JSN002 JSN003 JSN004 JSN005 JSN006
+    YML001 YML002 YML003 YML004 YML005 YML006 YML007 YML008
+    SCH001
+    EXT001 EXT002
+    URD001 URD002 URD003 URD004 URD005 URD006 URD007 URD008 URD009 URD010 URD011 URD012
+    SRC001 SRC002 SRC003 SRC004 SRC005 SRC006 SRC007
+    DOF001 DOF002 DOF003 DOF004 DOF005 DOF006 DOF007
+    CHN001 CHN002 CHN003 CHN004 CHN005 CHN006 CHN007 CHN008 CHN009 CHN010
+    CON001 CON002 CON003 CON004 CON005 CON006
+    BND001 BND002 BND003 BND004 BND005 BND006
+    MSH001 MSH002 MSH003 MSH004 MSH005 MSH006 MSH007 MSH008 MSH009 MSH010 MSH011
+    SHP001 SHP002 SHP003 SHP004 SHP005 SHP006 SHP007 SHP008 SHP009 SHP010 SHP011 SHP012 SHP013
+    SHP014 SHP015
+    KIN001 KIN002 KIN003 KIN004 KIN005
+    LEG001 LEG002 LEG003 LEG004 LEG006
+    TST001
+}
+
+impl Code {
+    /// The code written as `text`, in either case.
+    pub fn parse(text: &str) -> Option<Code> {
+        Code::ALL
+            .iter()
+            .copied()
+            .find(|code| code.as_str().eq_ignore_ascii_case(text))
+    }
+
+    /// The three letters of its family.
+    pub fn family(self) -> &'static str {
+        &self.as_str()[..3]
+    }
+}
+
+impl std::fmt::Display for Code {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.as_str())
+    }
+}

@@ -1,0 +1,190 @@
+//! Findings, and how many of the same are folded into one.
+
+use std::collections::HashMap;
+
+use crate::directory::position::Position;
+
+/// How many places of a folded finding are kept.
+pub const KEPT_PLACES: usize = 3;
+
+/// Where a finding is.
+#[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Place {
+    /// File relative to the URDD's root, with forward slashes.
+    pub file: Option<String>,
+    /// JSON Pointer into the document.
+    pub pointer: Option<String>,
+    /// Line and column in the file.
+    pub position: Option<Position>,
+}
+
+/// Something that a rule found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// Where.
+    pub place: Place,
+    /// What is wrong, and what to do, for a person.
+    pub message: String,
+    /// What should be there.
+    pub expected: Option<String>,
+    /// What is there.
+    pub actual: Option<String>,
+    /// Where numbers were compared: the tolerance, in the unit of the numbers.
+    pub tolerance: Option<f64>,
+    /// How many findings this one stands for.
+    pub count: usize,
+    /// The next few of these, after this one.
+    pub more: Vec<Occurrence>,
+}
+
+/// Another place of a folded finding.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Occurrence {
+    /// Where.
+    pub place: Place,
+    /// What should be there.
+    pub expected: Option<String>,
+    /// What is there.
+    pub actual: Option<String>,
+}
+
+impl Finding {
+    /// A finding about a value of a document.
+    pub fn at(file: impl Into<String>, pointer: impl Into<String>, message: impl Into<String>) -> Self {
+        let mut finding = Finding::in_file(file, message);
+        finding.place.pointer = Some(pointer.into());
+        finding
+    }
+
+    /// A finding about a file.
+    pub fn in_file(file: impl Into<String>, message: impl Into<String>) -> Self {
+        let mut finding = Finding::in_directory(message);
+        finding.place.file = Some(file.into());
+        finding
+    }
+
+    /// A finding about the directory as a whole.
+    pub fn in_directory(message: impl Into<String>) -> Self {
+        Finding {
+            place: Place::default(),
+            message: message.into(),
+            expected: None,
+            actual: None,
+            tolerance: None,
+            count: 1,
+            more: Vec::new(),
+        }
+    }
+
+    /// With the line and column of the place.
+    pub fn position(mut self, position: Option<Position>) -> Self {
+        self.place.position = position;
+        self
+    }
+
+    /// With what should be there.
+    pub fn expected(mut self, expected: impl ToString) -> Self {
+        self.expected = Some(expected.to_string());
+        self
+    }
+
+    /// With what is there.
+    pub fn actual(mut self, actual: impl ToString) -> Self {
+        self.actual = Some(actual.to_string());
+        self
+    }
+
+    /// With the tolerance of the comparison.
+    pub fn tolerance(mut self, tolerance: f64) -> Self {
+        self.tolerance = Some(tolerance);
+        self
+    }
+
+    /// Standing for several that were counted elsewhere.
+    pub fn count(mut self, count: usize) -> Self {
+        self.count = count;
+        self
+    }
+}
+
+/// What one rule found in one URDD. Findings at the same kind of place (the same file, and the
+/// same pointer but for list indices) are folded into one with a count, so that a million of them
+/// cost no more memory than a few.
+#[derive(Debug, Default)]
+pub struct Findings {
+    findings: Vec<Finding>,
+    by_place: HashMap<(Option<String>, String), usize>,
+}
+
+impl Findings {
+    /// Takes a finding.
+    pub fn report(&mut self, finding: Finding) {
+        let kind = match &finding.place.pointer {
+            Some(pointer) => without_indices(pointer),
+            None => finding.message.clone(),
+        };
+        let key = (finding.place.file.clone(), kind);
+        match self.by_place.get(&key) {
+            None => {
+                self.by_place.insert(key, self.findings.len());
+                self.findings.push(finding);
+            }
+            Some(&first) => {
+                let first = &mut self.findings[first];
+                first.count += finding.count;
+                if first.more.len() + 1 < KEPT_PLACES {
+                    first.more.push(Occurrence {
+                        place: finding.place,
+                        expected: finding.expected,
+                        actual: finding.actual,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Whether nothing was found.
+    pub fn is_empty(&self) -> bool {
+        self.findings.is_empty()
+    }
+
+    /// The findings, in the order in which the first of each was reported.
+    pub fn into_vec(self) -> Vec<Finding> {
+        self.findings
+    }
+}
+
+/// A JSON Pointer with every list index replaced by `*`.
+fn without_indices(pointer: &str) -> String {
+    let parts: Vec<&str> = pointer
+        .split('/')
+        .map(|part| if !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()) { "*" } else { part })
+        .collect();
+    parts.join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flood_is_folded_by_kind_of_place() {
+        let mut findings = Findings::default();
+        for i in 0..1000 {
+            findings.report(Finding::at("a.json", format!("/m/{i}/0"), "wrong").actual(i));
+            findings.report(Finding::at("b.json", format!("/m/{i}/0"), "wrong"));
+        }
+        findings.report(Finding::at("a.json", "/n/7", "wrong"));
+        let findings = findings.into_vec();
+        assert_eq!(findings.iter().map(|f| f.count).collect::<Vec<_>>(), [1000, 1000, 1]);
+        assert_eq!(findings[0].more.len(), KEPT_PLACES - 1);
+        assert_eq!(findings[0].more[1].actual.as_deref(), Some("2"));
+    }
+
+    #[test]
+    fn keys_are_not_taken_for_indices() {
+        assert_eq!(without_indices("/links/12/name"), "/links/*/name");
+        assert_eq!(without_indices("/12a/0"), "/12a/*");
+        assert_eq!(without_indices(""), "");
+    }
+}

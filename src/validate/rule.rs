@@ -1,0 +1,127 @@
+//! What a rule is: what it says, what it needs, and how it checks.
+
+use super::code::Code;
+use super::context::Context;
+use super::finding::Findings;
+use crate::format::registry::ModuleKind;
+
+/// How bad a finding is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// A convention of old, or something worth knowing.
+    Info,
+    /// A SHOULD of the specification that is not kept, or an odd robot.
+    Warning,
+    /// A MUST of the specification that is not kept.
+    Error,
+}
+
+impl Severity {
+    /// The word in reports and settings.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Severity::Info => "info",
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+        }
+    }
+}
+
+/// When a rule runs. Phases run in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Phase {
+    /// What lies in the directory.
+    Files,
+    /// JSON and YAML as text.
+    Syntax,
+    /// Documents against their schemas.
+    Schema,
+    /// Values against each other, within and across modules.
+    References,
+    /// Poses.
+    Kinematics,
+}
+
+/// What a rule needs before it can say anything.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Need {
+    /// The module is there, and its document fits its schema.
+    Module(ModuleKind),
+    /// `urdd.json` is there and fits its schema.
+    RootMetadata,
+    /// The source URDF is carried, and is well-formed.
+    CarriedUrdf,
+    /// The other rule ran and found nothing.
+    Passed(Code),
+    /// The URDD is of version 1.
+    Version1,
+    /// The URDD was published before there was a version 1.
+    Legacy,
+}
+
+/// A rule: one fault that a URDD can have.
+pub struct Rule {
+    /// Its code.
+    pub code: Code,
+    /// Its name, which states the fault.
+    pub name: &'static str,
+    /// How bad a finding is, unless settings say otherwise.
+    pub severity: Severity,
+    /// The clause of SPEC.md that it checks.
+    pub clause: &'static str,
+    /// The version of urdd that it came in.
+    pub since: &'static str,
+    /// When it runs.
+    pub phase: Phase,
+    /// What it needs.
+    pub needs: &'static [Need],
+    /// Its documentation, in Markdown, line by line: first what is wrong, then why and what to do.
+    pub doc: &'static [&'static str],
+    /// Looks, and reports what it finds.
+    pub check: fn(&Context, &mut Findings),
+}
+
+impl Rule {
+    /// Its documentation as one text.
+    pub fn explanation(&self) -> String {
+        let lines: Vec<&str> = self.doc.iter().map(|line| line.strip_prefix(' ').unwrap_or(line)).collect();
+        lines.join("\n").trim().to_owned()
+    }
+
+    /// The first sentence of its documentation.
+    pub fn summary(&self) -> String {
+        let text = self.explanation();
+        text.split("\n\n").next().unwrap_or_default().replace('\n', " ")
+    }
+}
+
+/// Declares the rule of a file as `RULE`. Its documentation is what `urdd explain` prints.
+macro_rules! declare_rule {
+    (
+        $(#[doc = $doc:literal])+
+        $code:ident $name:literal, $severity:ident, clause $clause:literal, since $since:literal,
+        phase $phase:ident, needs [$($need:expr),* $(,)?], check $check:path $(,)?
+    ) => {
+        $(#[doc = $doc])+
+        pub static RULE: $crate::validate::rule::Rule = {
+            #[allow(unused_imports)]
+            use $crate::validate::rule::Need::*;
+            #[allow(unused_imports)]
+            use $crate::format::registry::ModuleKind as Kind;
+            #[allow(unused_imports)]
+            use $crate::validate::code::Code::*;
+            $crate::validate::rule::Rule {
+                code: $crate::validate::code::Code::$code,
+                name: $name,
+                severity: $crate::validate::rule::Severity::$severity,
+                clause: $clause,
+                since: $since,
+                phase: $crate::validate::rule::Phase::$phase,
+                needs: &[$($need),*],
+                doc: &[$($doc),+],
+                check: $check,
+            }
+        };
+    };
+}
+pub(crate) use declare_rule;
