@@ -37,3 +37,8 @@ integer! {
     /// Number of a sampled configuration: `k` of SPEC's sequence, from 0.
     pub struct SampleIdx;
 }
+
+integer! {
+    /// Index of a robot among those that a robot was put together from, from 0.
+    pub struct RobotIdx;
+}

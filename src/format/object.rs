@@ -4,7 +4,8 @@
 //! serde's own derive is laxer than a JSON Schema in some places (a struct may be read from an
 //! array, a missing `Option` is `None`, a unit variant may be written as an object) and stricter
 //! in others (`1.0` is not an integer). These macros close both gaps, and allow the keys that
-//! SPEC reserves for others: `x_…` in every object, `$schema` at the top of a document.
+//! SPEC reserves for others: `x_…` in every object, `$schema` at the top of a document. A choice
+//! between kinds of things is declared by [`tagged`](super::tagged).
 
 use std::fmt;
 
@@ -324,6 +325,11 @@ pub(crate) fn close(schema: &mut Schema) {
         .unwrap_or_default();
     schema.insert("type".to_owned(), json!("object"));
     schema.insert("required".to_owned(), json!(required));
+    extension_properties(schema);
+}
+
+/// Closes an object to all keys but those it names and extensions.
+pub(crate) fn extension_properties(schema: &mut Schema) {
     schema.insert(
         "patternProperties".to_owned(),
         json!({ format!("^{EXTENSION_PREFIX}"): {} }),
@@ -342,7 +348,7 @@ pub(crate) fn close_document(schema: &mut Schema) {
     }
 }
 
-fn paragraph(doc: &[&str]) -> String {
+pub(crate) fn paragraph(doc: &[&str]) -> String {
     let lines: Vec<&str> = doc.iter().map(|line| line.trim()).collect();
     lines.join("\n").trim().to_owned()
 }
@@ -366,7 +372,7 @@ pub(crate) fn string_enum_schema(doc: &[&str], variants: &[(&str, &[&str])]) -> 
     object_schema(json!({ "description": description, "type": "string", "enum": words }))
 }
 
-fn object_schema(value: Value) -> Schema {
+pub(crate) fn object_schema(value: Value) -> Schema {
     match value {
         Value::Object(map) => map.into(),
         _ => Schema::default(),

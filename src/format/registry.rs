@@ -96,24 +96,36 @@ kinds! {
     LinkShapesSimpleSkips = "link_shapes_simple_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Chain, LinkShapesDistanceStatistics];
     /// Pairs to skip, after a person's edits.
     LinkShapesSkips = "link_shapes_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Urdf, LinkShapesSimpleSkips];
+    /// Error of linearised distances. Legacy only.
+    LinkShapesLieAlgErrorModels = "link_shapes_lie_alg_error_models_module" in "link_shapes_modules/", None, needs [];
+    /// A viewer's bookkeeping. Legacy only.
+    FirstLookVis = "first_look_vis_module" in "bevy_modules/", None, needs [];
+    /// How a robot was put together from others. Legacy only.
+    CombinedRobot = "combined_robot_module" in "", None, needs [];
+    /// How a robot was trimmed from another. Legacy only.
+    AdjustedRobot = "adjusted_robot_module" in "", None, needs [];
+    /// How a chain was put together from mesh files. Legacy only.
+    Creator = "creator_module" in "", None, needs [];
 }
 
 macro_rules! modules {
-    ($($variant:ident($ty:ty): $kind:ident @ $version:literal, $profile:ident;)*) => {
-        /// The document of a module, read.
-        #[derive(Debug, Clone, PartialEq)]
+    ($($variant:ident($ty:ty): $kind:ident @ $($version:literal)|+, $profile:ident;)*) => {
+        /// The document of a module, read. Versions of one shape share a variant.
+        #[derive(Debug, Clone, PartialEq, serde::Serialize)]
+        #[serde(untagged)]
         pub enum ModuleDocument {
-            $(#[doc = concat!("`", stringify!($kind), "` at version ", $version, ".")] $variant(Box<$ty>),)*
+            $(#[doc = concat!("`", stringify!($kind), "` at version ", stringify!($($version)|+), ".")] $variant(Box<$ty>),)*
         }
 
-        /// Every (module, version) that exists, in the order of the specification's table, newest first.
-        pub static MODULES: &[ModuleSpec] = &[$(ModuleSpec {
+        /// Every (module, version) that exists: version 1 in the order of the specification's table,
+        /// then legacy ones in that order, newest first.
+        pub static MODULES: &[ModuleSpec] = &[$($(ModuleSpec {
             kind: ModuleKind::$kind,
             version: $version,
             profile: Profile::$profile,
             schema: || schemars::schema_for!($ty),
             read: |value| serde::Deserialize::deserialize(value).map(|m| ModuleDocument::$variant(Box::new(m))),
-        }),*];
+        },)+)*];
     };
 }
 
@@ -145,6 +157,26 @@ modules! {
     LinkShapesDistanceStatistics(link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule): LinkShapesDistanceStatistics @ "1.0.0", V1;
     LinkShapesSimpleSkips(link_shapes_simple_skips::LinkShapesSimpleSkipsModule): LinkShapesSimpleSkips @ "1.0.0", V1;
     LinkShapesSkips(link_shapes_skips::LinkShapesSkipsModule): LinkShapesSkips @ "1.0.0", V1;
+    LegacyUrdf(legacy::urdf::UrdfModule): Urdf @ "0.0.3" | "0.0.1", Legacy;
+    LegacyDof(legacy::dof::DofModule): Dof @ "0.0.2" | "0.0.1", Legacy;
+    LegacyChain(legacy::chain::ChainModule): Chain @ "0.0.1", Legacy;
+    LegacyConnections(legacy::connections::ConnectionsModule): Connections @ "0.0.1", Legacy;
+    LegacyBounds(legacy::bounds::BoundsModule): Bounds @ "0.0.1", Legacy;
+    LegacyOriginalMeshLists(legacy::original_meshes::OriginalMeshListsModule): OriginalMeshes @ "0.0.2", Legacy;
+    LegacyOriginalMeshes(legacy::original_meshes::OriginalMeshesModule): OriginalMeshes @ "0.0.1", Legacy;
+    LegacyPlainMeshes(legacy::plain_meshes::PlainMeshesModule): PlainMeshes @ "0.0.2" | "0.0.1", Legacy;
+    LegacyConvexHullMeshes(legacy::convex_hull_meshes::ConvexHullMeshesModule): ConvexHullMeshes @ "0.0.1", Legacy;
+    LegacyConvexDecompositionMeshes(legacy::convex_decomposition_meshes::ConvexDecompositionMeshesModule): ConvexDecompositionMeshes @ "0.0.1", Legacy;
+    LegacyLinkShapesApproximations(legacy::link_shapes_approximations::LinkShapesApproximationsModule): LinkShapesApproximations @ "0.0.3", Legacy;
+    LegacyLinkShapesMaxDistanceFromOrigin(legacy::link_shapes_max_distance_from_origin::LinkShapesMaxDistanceFromOriginModule): LinkShapesMaxDistanceFromOrigin @ "0.0.3", Legacy;
+    LegacyLinkShapesDistanceStatistics(legacy::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule): LinkShapesDistanceStatistics @ "0.0.3", Legacy;
+    LegacyLinkShapesSimpleSkips(legacy::link_shapes_simple_skips::LinkShapesSimpleSkipsModule): LinkShapesSimpleSkips @ "0.0.5", Legacy;
+    LegacyLinkShapesSkips(legacy::link_shapes_skips::LinkShapesSkipsModule): LinkShapesSkips @ "0.0.2" | "0.0.1", Legacy;
+    LegacyLinkShapesLieAlgErrorModels(legacy::link_shapes_lie_alg_error_models::LinkShapesLieAlgErrorModelsModule): LinkShapesLieAlgErrorModels @ "0.0.2" | "0.0.1", Legacy;
+    LegacyFirstLookVis(legacy::first_look_vis::FirstLookVisModule): FirstLookVis @ "0.0.1", Legacy;
+    LegacyCombinedRobot(legacy::combined_robot::CombinedRobotModule): CombinedRobot @ "", Legacy;
+    LegacyAdjustedRobot(legacy::adjusted_robot::AdjustedRobotModule): AdjustedRobot @ "", Legacy;
+    LegacyCreator(legacy::creator::CreatorModule): Creator @ "", Legacy;
 }
 
 impl ModuleSpec {

@@ -1,9 +1,8 @@
 //! `urdd.json`: what a URDD is, where it came from, and what is in it.
 
-use serde::{Deserialize, Serialize};
-
 use super::index::Count;
 use super::object::{module, object, pattern, string_enum};
+use super::tagged::tagged;
 
 pattern! {
     /// A semantic version (semver.org, 2.0.0) of three numbers and nothing after them.
@@ -69,13 +68,14 @@ object! {
     }
 }
 
-/// What a URDD was made from: one key, which says of what kind the source is.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-pub enum Source {
-    /// A URDF, carried verbatim in the URDD's root.
-    Urdf(FileEntry),
-    /// Several robots, put together.
-    Composition(Composition),
+tagged! {
+    /// What a URDD was made from: one key, which says of what kind the source is.
+    pub enum Source {
+        /// A URDF, carried verbatim in the URDD's root.
+        Urdf(FileEntry),
+        /// Several robots, put together.
+        Composition(Composition),
+    }
 }
 
 object! {

@@ -1,8 +1,7 @@
 //! `urdf_module`: the source URDF, all of it, as JSON.
 
-use serde::{Deserialize, Serialize};
-
 use super::object::{module, object, string_enum};
+use super::tagged::tagged;
 
 module! {
     /// The source URDF as data. What the URDF leaves out is null (or an empty list), never a default.
@@ -115,19 +114,20 @@ object! {
     }
 }
 
-/// A shape: an object of one key, which says of what kind it is.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-pub enum Geometry {
-    /// A mesh file.
-    Mesh(Mesh),
-    /// A box about the origin.
-    Box(Cuboid),
-    /// A cylinder about the origin, along z.
-    Cylinder(Cylinder),
-    /// A capsule about the origin, along z.
-    Capsule(Capsule),
-    /// A sphere about the origin.
-    Sphere(Sphere),
+tagged! {
+    /// A shape: an object of one key, which says of what kind it is.
+    pub enum Geometry {
+        /// A mesh file.
+        Mesh(Mesh),
+        /// A box about the origin.
+        Box(Cuboid),
+        /// A cylinder about the origin, along z.
+        Cylinder(Cylinder),
+        /// A capsule about the origin, along z.
+        Capsule(Capsule),
+        /// A sphere about the origin.
+        Sphere(Sphere),
+    }
 }
 
 object! {

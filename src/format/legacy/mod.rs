@@ -1,0 +1,27 @@
+//! The module versions that were published before there was a specification, as their converter
+//! wrote them. Shapes and meanings are frozen: what was wrong then is described, not mended.
+//!
+//! What holds for all of them: lengths are metres, angles radians; rotations are fixed-axis roll,
+//! pitch, yaw; a *shape index* counts the links that have a mesh, in link order, or their convex
+//! pieces, in link order then piece order; mesh paths start with a robot's folder name and are
+//! relative to the folder above the URDD, where a composed robot finds its parts.
+
+pub mod adjusted_robot;
+pub mod bounds;
+pub mod chain;
+pub mod combined_robot;
+pub mod connections;
+pub mod convex_decomposition_meshes;
+pub mod convex_hull_meshes;
+pub mod creator;
+pub mod dof;
+pub mod first_look_vis;
+pub mod link_shapes_approximations;
+pub mod link_shapes_distance_statistics;
+pub mod link_shapes_lie_alg_error_models;
+pub mod link_shapes_max_distance_from_origin;
+pub mod link_shapes_simple_skips;
+pub mod link_shapes_skips;
+pub mod original_meshes;
+pub mod plain_meshes;
+pub mod urdf;
