@@ -5,3 +5,5 @@
 pub mod cli;
 pub mod directory;
 pub mod format;
+pub mod report;
+pub mod validate;

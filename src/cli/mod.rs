@@ -1,6 +1,9 @@
 //! The command line: arguments in, text out. Everything else is in the library.
 
+mod explain;
+mod output;
 mod schema;
+mod validate;
 
 use std::process::ExitCode;
 
@@ -16,6 +19,10 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Check URDDs against the specification.
+    Validate(validate::ValidateArguments),
+    /// Tell about a rule, or list them all.
+    Explain(explain::ExplainArguments),
     /// Show, export or check the published JSON Schemas.
     Schema(schema::SchemaArguments),
 }
@@ -23,6 +30,8 @@ enum Command {
 /// Reads the command line and runs what it asks for.
 pub fn run() -> ExitCode {
     match Arguments::parse().command {
+        Command::Validate(arguments) => validate::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     }
 }

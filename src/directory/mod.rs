@@ -1,6 +1,17 @@
-//! A URDD on disk: finding it, listing it, reading from it safely.
+//! A URDD on disk: finding it, listing it, reading from it safely; and JSON and YAML as text.
 
+pub mod canonical;
 pub mod discover;
+pub mod json;
+pub mod json_scan;
 pub mod limits;
+pub mod number_text;
 pub mod path;
+pub mod position;
 pub mod root;
+pub mod text_fault;
+pub mod yaml;
+mod yaml_compare;
+mod yaml_message;
+pub mod yaml_scalar;
+mod yaml_tabs;

@@ -50,7 +50,11 @@ pub struct Occurrence {
 
 impl Finding {
     /// A finding about a value of a document.
-    pub fn at(file: impl Into<String>, pointer: impl Into<String>, message: impl Into<String>) -> Self {
+    pub fn at(
+        file: impl Into<String>,
+        pointer: impl Into<String>,
+        message: impl Into<String>,
+    ) -> Self {
         let mut finding = Finding::in_file(file, message);
         finding.place.pointer = Some(pointer.into());
         finding
@@ -158,7 +162,13 @@ impl Findings {
 fn without_indices(pointer: &str) -> String {
     let parts: Vec<&str> = pointer
         .split('/')
-        .map(|part| if !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()) { "*" } else { part })
+        .map(|part| {
+            if !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()) {
+                "*"
+            } else {
+                part
+            }
+        })
         .collect();
     parts.join("/")
 }
@@ -176,7 +186,10 @@ mod tests {
         }
         findings.report(Finding::at("a.json", "/n/7", "wrong"));
         let findings = findings.into_vec();
-        assert_eq!(findings.iter().map(|f| f.count).collect::<Vec<_>>(), [1000, 1000, 1]);
+        assert_eq!(
+            findings.iter().map(|f| f.count).collect::<Vec<_>>(),
+            [1000, 1000, 1]
+        );
         assert_eq!(findings[0].more.len(), KEPT_PLACES - 1);
         assert_eq!(findings[0].more[1].actual.as_deref(), Some("2"));
     }

@@ -84,14 +84,21 @@ pub struct Rule {
 impl Rule {
     /// Its documentation as one text.
     pub fn explanation(&self) -> String {
-        let lines: Vec<&str> = self.doc.iter().map(|line| line.strip_prefix(' ').unwrap_or(line)).collect();
+        let lines: Vec<&str> = self
+            .doc
+            .iter()
+            .map(|line| line.strip_prefix(' ').unwrap_or(line))
+            .collect();
         lines.join("\n").trim().to_owned()
     }
 
     /// The first sentence of its documentation.
     pub fn summary(&self) -> String {
         let text = self.explanation();
-        text.split("\n\n").next().unwrap_or_default().replace('\n', " ")
+        text.split("\n\n")
+            .next()
+            .unwrap_or_default()
+            .replace('\n', " ")
     }
 }
 

@@ -1,0 +1,14 @@
+//! Reports: one model, and a file for each rendering of it.
+
+pub mod human;
+pub mod model;
+
+pub use model::Report;
+
+/// The report as JSON, indented, with a newline at its end.
+///
+/// # Errors
+/// Never for a report that [`Report::new`] made: every number in it is finite.
+pub fn json(report: &Report) -> serde_json::Result<String> {
+    Ok(serde_json::to_string_pretty(report)? + "\n")
+}

@@ -1,0 +1,122 @@
+//! What a rule sees of a URDD.
+
+use std::sync::OnceLock;
+
+use super::load::{CarriedUrdf, Loaded, MetadataFile, Module};
+use super::views::mimics::Mimics;
+use super::views::robot::Robot;
+use super::views::tree::Tree;
+use super::views::{Bounds, Chain, Dofs, bounds, chain, dofs, robot};
+use crate::directory::root::{Listing, Root};
+use crate::format::registry::{ModuleDocument, ModuleKind, Profile};
+use crate::format::root_metadata::{ConformanceClass, RootMetadata};
+
+/// A URDD, as rules see it. A rule may count on what it says that it needs.
+pub struct Context {
+    loaded: Loaded,
+    class: Option<ConformanceClass>,
+    robot: OnceLock<Option<Robot>>,
+    tree: OnceLock<Option<Tree>>,
+    mimics: OnceLock<Option<Mimics>>,
+}
+
+impl Context {
+    /// For a URDD that was read. `class` is the conformance class to hold it to, where that is
+    /// not the one that it claims.
+    pub fn new(loaded: Loaded, class: Option<ConformanceClass>) -> Self {
+        Context {
+            loaded,
+            class,
+            robot: OnceLock::new(),
+            tree: OnceLock::new(),
+            mimics: OnceLock::new(),
+        }
+    }
+
+    /// The root folder.
+    pub fn root(&self) -> &Root {
+        &self.loaded.root
+    }
+
+    /// What lies in the root folder.
+    pub fn listing(&self) -> &Listing {
+        &self.loaded.listing
+    }
+
+    /// The family of formats that the URDD follows.
+    pub fn profile(&self) -> Profile {
+        self.loaded.profile
+    }
+
+    /// The root metadata's file, as far as it could be read.
+    pub fn metadata_file(&self) -> &MetadataFile {
+        &self.loaded.metadata
+    }
+
+    /// The root metadata.
+    pub fn metadata(&self) -> Option<&RootMetadata> {
+        self.loaded.metadata.metadata.as_ref()
+    }
+
+    /// The conformance class to hold the URDD to: the one that was asked for, or that it claims.
+    pub fn class(&self) -> Option<ConformanceClass> {
+        self.class
+            .or_else(|| self.metadata().map(|metadata| metadata.conformance_class))
+    }
+
+    /// The source URDF, or why there is none to look at.
+    pub fn urdf(&self) -> Result<&CarriedUrdf, &str> {
+        self.loaded.urdf.as_ref().map_err(String::as_str)
+    }
+
+    /// Every module folder.
+    pub fn modules(&self) -> &[Module] {
+        &self.loaded.modules
+    }
+
+    /// The folder of a module.
+    pub fn module(&self, kind: ModuleKind) -> Option<&Module> {
+        self.loaded
+            .modules
+            .iter()
+            .find(|module| module.kind == Some(kind))
+    }
+
+    /// The document of a module, where it fits its schema.
+    pub fn document(&self, kind: ModuleKind) -> Option<&ModuleDocument> {
+        self.module(kind)?.document.as_ref()
+    }
+
+    /// The robot as `urdf_module` has it, whatever the module's version.
+    pub fn robot(&self) -> Option<&Robot> {
+        let make = || robot::view(self.document(ModuleKind::Urdf)?);
+        self.robot.get_or_init(make).as_ref()
+    }
+
+    /// The kinematic tree that follows from `urdf_module`; `None` where its joints form no tree.
+    pub fn tree(&self) -> Option<&Tree> {
+        self.tree.get_or_init(|| Tree::new(self.robot()?)).as_ref()
+    }
+
+    /// The mimic joints of `urdf_module`, resolved; `None` where that has no meaning.
+    pub fn mimics(&self) -> Option<&Mimics> {
+        self.mimics
+            .get_or_init(|| Mimics::resolve(self.robot()?))
+            .as_ref()
+    }
+
+    /// `dof_module`, whatever its version.
+    pub fn dofs(&self) -> Option<Dofs<'_>> {
+        dofs::view(self.document(ModuleKind::Dof)?)
+    }
+
+    /// `chain_module`, whatever its version.
+    pub fn chain(&self) -> Option<Chain<'_>> {
+        chain::view(self.document(ModuleKind::Chain)?)
+    }
+
+    /// `bounds_module`, whatever its version.
+    pub fn bounds(&self) -> Option<Bounds<'_>> {
+        bounds::view(self.document(ModuleKind::Bounds)?)
+    }
+}

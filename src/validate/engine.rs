@@ -1,0 +1,180 @@
+//! Runs the rules over a URDD: phase by phase, each rule only when what it needs is sound, a rule
+//! that crashes caught.
+
+use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use super::code::Code;
+use super::context::Context;
+use super::finding::{Finding, Findings};
+use super::rule::{Need, Rule, Severity};
+use crate::directory::position;
+use crate::format::registry::Profile;
+
+/// What became of a rule on one URDD.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// It ran and found nothing.
+    Passed,
+    /// It ran and found something.
+    Failed,
+    /// It did not run, for this reason.
+    Skipped(String),
+    /// It ran into a fault of its own, with this message.
+    Crashed(String),
+}
+
+/// A rule and what became of it.
+pub struct Check {
+    /// The rule.
+    pub rule: &'static Rule,
+    /// How bad its findings are: the rule's word, unless settings have another.
+    pub severity: Severity,
+    /// What became of it.
+    pub outcome: Outcome,
+    /// What it found.
+    pub findings: Vec<Finding>,
+}
+
+impl Check {
+    fn new(rule: &'static Rule, outcome: Outcome, findings: Vec<Finding>) -> Self {
+        Check {
+            rule,
+            severity: rule.severity,
+            outcome,
+            findings,
+        }
+    }
+}
+
+/// Runs rules over a URDD, in the order of their phases.
+pub fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
+    let mut rules: Vec<&'static Rule> = rules.to_vec();
+    rules.sort_by_key(|rule| (rule.phase, rule.code));
+    let mut outcomes: HashMap<Code, Outcome> = HashMap::new();
+    let mut checks = Vec::with_capacity(rules.len());
+    // A rule may need one of the same phase with a higher code: those that wait go round again.
+    let mut waiting = rules;
+    while !waiting.is_empty() {
+        let codes: Vec<Code> = waiting.iter().map(|rule| rule.code).collect();
+        let before = waiting.len();
+        let mut later = Vec::new();
+        for rule in waiting {
+            let waits = rule.needs.iter().any(|need| match need {
+                Need::Passed(code) => !outcomes.contains_key(code) && codes.contains(code),
+                _ => false,
+            });
+            if waits {
+                later.push(rule);
+                continue;
+            }
+            let check = run_rule(context, rule, &outcomes);
+            outcomes.insert(rule.code, check.outcome.clone());
+            checks.push(check);
+        }
+        if later.len() == before {
+            // Rules that wait for each other: a fault of the rules, not of the URDD.
+            for rule in later.drain(..) {
+                let outcome = Outcome::Crashed("its needs go in a circle".to_owned());
+                checks.push(Check::new(rule, outcome, Vec::new()));
+            }
+        }
+        waiting = later;
+    }
+    checks.sort_by_key(|check| check.rule.code);
+    checks
+}
+
+fn run_rule(context: &Context, rule: &'static Rule, outcomes: &HashMap<Code, Outcome>) -> Check {
+    let unmet = rule
+        .needs
+        .iter()
+        .find_map(|need| unmet(context, *need, outcomes));
+    if let Some(reason) = unmet {
+        return Check::new(rule, Outcome::Skipped(reason), Vec::new());
+    }
+    let mut findings = Findings::default();
+    let ran = catch_unwind(AssertUnwindSafe(|| (rule.check)(context, &mut findings)));
+    if let Err(panic) = ran {
+        let message = panic
+            .downcast_ref::<&str>()
+            .map(|text| (*text).to_owned())
+            .or_else(|| panic.downcast_ref::<String>().cloned())
+            .unwrap_or_else(|| "unknown".to_owned());
+        return Check::new(rule, Outcome::Crashed(message), Vec::new());
+    }
+    let outcome = if findings.is_empty() {
+        Outcome::Passed
+    } else {
+        Outcome::Failed
+    };
+    let mut findings = findings.into_vec();
+    for finding in &mut findings {
+        locate(context, finding);
+    }
+    Check::new(rule, outcome, findings)
+}
+
+/// Why a need is not met, if it is not.
+fn unmet(context: &Context, need: Need, outcomes: &HashMap<Code, Outcome>) -> Option<String> {
+    match need {
+        Need::Module(kind) => match context.module(kind) {
+            None => Some(format!("there is no {}", kind.name())),
+            Some(module) => module.unusable(),
+        },
+        Need::RootMetadata => match context.metadata() {
+            Some(_) => None,
+            None => Some("there is no usable urdd.json".to_owned()),
+        },
+        Need::CarriedUrdf => context.urdf().err().map(str::to_owned),
+        Need::Passed(code) => match outcomes.get(&code) {
+            Some(Outcome::Passed) => None,
+            Some(Outcome::Failed) => Some(format!("{code} found a fault")),
+            Some(Outcome::Skipped(reason)) => Some(reason.clone()),
+            Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
+            None => Some(format!("{code} did not run")),
+        },
+        Need::Version1 => {
+            (context.profile() != Profile::V1).then(|| "this is a legacy URDD".to_owned())
+        }
+        Need::Legacy => {
+            (context.profile() != Profile::Legacy).then(|| "this is not a legacy URDD".to_owned())
+        }
+    }
+}
+
+/// Adds line and column to places that only have a pointer. Done for what is kept of a finding,
+/// since it reads through the text.
+fn locate(context: &Context, finding: &mut Finding) {
+    let more = finding
+        .more
+        .iter_mut()
+        .map(|occurrence| &mut occurrence.place);
+    for place in std::iter::once(&mut finding.place).chain(more) {
+        if place.position.is_some() {
+            continue;
+        }
+        if let (Some(file), Some(pointer)) = (&place.file, &place.pointer)
+            && let Some(text) = json_text(context, file)
+        {
+            place.position = position::locate(text, pointer);
+        }
+    }
+}
+
+fn json_text<'a>(context: &'a Context, file: &str) -> Option<&'a str> {
+    let folder = file.strip_suffix("/module.json");
+    let document = match folder {
+        Some(folder) => context
+            .modules()
+            .iter()
+            .find(|module| module.folder == folder)?
+            .json
+            .document()?,
+        None if file == crate::directory::discover::ROOT_METADATA => {
+            context.metadata_file().json.document()?
+        }
+        None => return None,
+    };
+    Some(&document.text)
+}

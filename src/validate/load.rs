@@ -1,0 +1,426 @@
+//! Reading a URDD into memory, once, for all rules.
+
+use rayon::prelude::*;
+use serde::Deserialize;
+
+use super::schema_check::{self, SchemaViolation};
+use crate::directory::discover::ROOT_METADATA;
+use crate::directory::json::{self, JsonDocument};
+use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::directory::root::{EntryKind, Listing, ReadError, Root};
+use crate::directory::text_fault::TextFaults;
+use crate::directory::yaml;
+use crate::format::registry::{self, ModuleDocument, ModuleKind, ModuleSpec, Profile};
+use crate::format::root_metadata::{RootMetadata, Source};
+
+/// Longest `VERSION` file that is read, bytes.
+const MAX_VERSION_BYTES: u64 = 1024;
+
+/// Longest source URDF that is read, bytes.
+const MAX_URDF_BYTES: u64 = 64 << 20;
+
+/// A JSON file, as far as it could be read.
+pub enum JsonFile {
+    /// There is none.
+    Missing,
+    /// It is there and cannot be read.
+    Unreadable(ReadError),
+    /// It is not JSON.
+    Broken(TextFaults),
+    /// It is JSON.
+    Read(Box<JsonDocument>),
+}
+
+impl JsonFile {
+    fn read(root: &Root, path: &str) -> Self {
+        match root.read(path, MAX_DOCUMENT_BYTES) {
+            Err(ReadError::Missing) => JsonFile::Missing,
+            Err(error) => JsonFile::Unreadable(error),
+            Ok(bytes) => match json::read(&bytes) {
+                Ok(document) => JsonFile::Read(Box::new(document)),
+                Err(unreadable) => JsonFile::Broken(unreadable.faults),
+            },
+        }
+    }
+
+    /// The document, where it could be read.
+    pub fn document(&self) -> Option<&JsonDocument> {
+        match self {
+            JsonFile::Read(document) => Some(document),
+            _ => None,
+        }
+    }
+
+    /// What is wrong with its text.
+    pub fn faults(&self) -> Option<&TextFaults> {
+        match self {
+            JsonFile::Broken(faults) => Some(faults),
+            JsonFile::Read(document) => Some(&document.faults),
+            _ => None,
+        }
+    }
+}
+
+/// The YAML mirror of a document.
+pub enum Mirror {
+    /// There is none.
+    Missing,
+    /// It is there and cannot be read.
+    Unreadable(ReadError),
+    /// It was not compared, because there is no JSON to compare it with.
+    NotCompared,
+    /// It was compared.
+    Compared(TextFaults),
+}
+
+/// A module's `VERSION` file.
+pub enum VersionFile {
+    /// There is none.
+    Missing,
+    /// It is there and cannot be read.
+    Unreadable(ReadError),
+    /// Its text, without the newline that may end it.
+    Text(String),
+}
+
+/// The root metadata file.
+pub struct MetadataFile {
+    /// The file.
+    pub json: JsonFile,
+    /// How it breaks its schema.
+    pub violations: Vec<SchemaViolation>,
+    /// What it says, where it fits its schema.
+    pub metadata: Option<RootMetadata>,
+}
+
+/// A module's folder.
+pub struct Module {
+    /// Folder relative to the root.
+    pub folder: String,
+    /// Which module it is; `None` for extensions and unknown ones.
+    pub kind: Option<ModuleKind>,
+    /// Its `VERSION` file.
+    pub version_file: VersionFile,
+    /// The version that it has by its `VERSION` file or else by the root metadata.
+    pub version: Option<String>,
+    /// The registry's entry by which it is checked.
+    pub spec: Option<&'static ModuleSpec>,
+    /// Whether its version is newer than any that is known, and it is checked as the newest.
+    pub newer: bool,
+    /// Its `module.json`.
+    pub json: JsonFile,
+    /// Its `module.yaml`.
+    pub mirror: Mirror,
+    /// How the document breaks its schema.
+    pub violations: Vec<SchemaViolation>,
+    /// The document, where it fits its schema.
+    pub document: Option<ModuleDocument>,
+}
+
+impl Module {
+    /// Path of a file of the module, relative to the root.
+    pub fn file(&self, name: &str) -> String {
+        format!("{}/{name}", self.folder)
+    }
+
+    /// The last part of its folder.
+    pub fn name(&self) -> &str {
+        self.folder.rsplit('/').next().unwrap_or(&self.folder)
+    }
+
+    /// Why its document is of no use, where it is not.
+    pub fn unusable(&self) -> Option<String> {
+        let file = self.file("module.json");
+        match (&self.json, &self.document) {
+            (_, Some(_)) => None,
+            (JsonFile::Missing, _) => Some(format!("{file} is missing")),
+            (JsonFile::Unreadable(_), _) => Some(format!("{file} cannot be read")),
+            (JsonFile::Broken(_), _) => Some(format!("{file} is not well-formed JSON")),
+            (JsonFile::Read(_), None) if self.spec.is_none() => Some(match &self.version {
+                Some(version) => format!("version {version} of {} is not known", self.name()),
+                None => format!("the version of {} is not known", self.name()),
+            }),
+            (JsonFile::Read(_), None) => Some(format!("{file} breaks its schema")),
+        }
+    }
+}
+
+/// The source URDF that a URDD carries.
+pub struct CarriedUrdf {
+    /// Path relative to the root.
+    pub path: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// A URDD, read.
+pub struct Loaded {
+    /// Its root folder.
+    pub root: Root,
+    /// What lies in it.
+    pub listing: Listing,
+    /// `urdd.json`.
+    pub metadata: MetadataFile,
+    /// Its modules, in the order of the specification, others after them by folder.
+    pub modules: Vec<Module>,
+    /// The source URDF, or why there is none to look at.
+    pub urdf: Result<CarriedUrdf, String>,
+    /// The family of formats that it follows.
+    pub profile: Profile,
+}
+
+impl Loaded {
+    /// Reads a URDD.
+    ///
+    /// # Errors
+    /// Where the root folder itself cannot be opened or listed.
+    pub fn read(path: &std::path::Path) -> Result<Self, ReadError> {
+        let root = Root::open(path)?;
+        let listing = root.list()?;
+        let metadata = read_metadata(&root);
+        let folders = module_folders(&listing);
+        let modules: Vec<Module> = folders
+            .into_par_iter()
+            .map(|(folder, kind)| {
+                read_module(&root, &listing, folder, kind, metadata.metadata.as_ref())
+            })
+            .collect();
+        let versioned = modules
+            .iter()
+            .filter_map(|module| module.spec)
+            .any(|spec| spec.profile == Profile::V1);
+        let has_metadata = !matches!(metadata.json, JsonFile::Missing);
+        let legacy = modules
+            .iter()
+            .filter_map(|module| module.spec)
+            .any(|spec| spec.profile == Profile::Legacy);
+        let profile = if has_metadata || versioned || !legacy {
+            Profile::V1
+        } else {
+            Profile::Legacy
+        };
+        let urdf = read_urdf(&root, &listing, &metadata);
+        Ok(Loaded {
+            root,
+            listing,
+            metadata,
+            modules,
+            urdf,
+            profile,
+        })
+    }
+}
+
+fn read_metadata(root: &Root) -> MetadataFile {
+    let json = JsonFile::read(root, ROOT_METADATA);
+    let mut file = MetadataFile {
+        json,
+        violations: Vec::new(),
+        metadata: None,
+    };
+    if let JsonFile::Read(document) = &file.json {
+        match RootMetadata::deserialize(&document.value) {
+            Ok(metadata) => file.metadata = Some(metadata),
+            Err(error) => {
+                let schema = schemars::schema_for!(RootMetadata);
+                file.violations = schema_check::violations(&schema, &document.value, &error);
+            }
+        }
+    }
+    file
+}
+
+/// Every module folder: those of the registry first, then whatever else looks like a module.
+fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
+    let mut folders: Vec<(String, Option<ModuleKind>)> = ModuleKind::ALL
+        .iter()
+        .filter(|kind| listing.has_folder(kind.folder()))
+        .map(|kind| (kind.folder().to_owned(), Some(*kind)))
+        .collect();
+    let known = folders.len();
+    for entry in listing
+        .entries
+        .iter()
+        .filter(|entry| entry.kind == EntryKind::Folder)
+    {
+        let path = &entry.path;
+        let inside = |(folder, _): &(String, _)| {
+            path.strip_prefix(folder.as_str())
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
+        let like_a_module = path.ends_with("_module")
+            && (listing.has_file(&format!("{path}/VERSION"))
+                || listing.has_file(&format!("{path}/module.json")));
+        if !folders.iter().any(inside) && (like_a_module || is_extension(path)) {
+            folders.push((path.clone(), None));
+        }
+    }
+    folders[known..].sort();
+    folders
+}
+
+/// Whether a folder is named as an extension module is (SPEC 11.1).
+pub fn is_extension(folder: &str) -> bool {
+    let Some(middle) = folder
+        .strip_prefix("x_")
+        .and_then(|rest| rest.strip_suffix("_module"))
+    else {
+        return false;
+    };
+    let allowed = middle
+        .bytes()
+        .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_');
+    let parts: Vec<&str> = middle.splitn(2, '_').collect();
+    allowed && parts.len() == 2 && parts.iter().all(|part| !part.is_empty())
+}
+
+fn read_module(
+    root: &Root,
+    listing: &Listing,
+    folder: String,
+    kind: Option<ModuleKind>,
+    metadata: Option<&RootMetadata>,
+) -> Module {
+    let file = |name: &str| format!("{folder}/{name}");
+    let version_file = match root.read(&file("VERSION"), MAX_VERSION_BYTES) {
+        Err(ReadError::Missing) => VersionFile::Missing,
+        Err(error) => VersionFile::Unreadable(error),
+        Ok(bytes) => {
+            let text = String::from_utf8_lossy(&bytes);
+            let line = text.strip_suffix('\n').unwrap_or(&text);
+            VersionFile::Text(line.strip_suffix('\r').unwrap_or(line).to_owned())
+        }
+    };
+    let stated = match &version_file {
+        VersionFile::Text(text) if semver::Version::parse(text).is_ok() => Some(text.clone()),
+        _ => None,
+    };
+    let listed = || {
+        let entry = metadata?
+            .modules
+            .iter()
+            .find(|entry| entry.path == folder)?;
+        Some(entry.version.as_str().to_owned())
+    };
+    let version = stated.or_else(listed);
+    let (spec, newer) = match kind {
+        Some(kind) => find_spec(kind, version.as_deref()),
+        None => (None, false),
+    };
+    let json = JsonFile::read(root, &file("module.json"));
+    let mirror =
+        if !listing.has_file(&file("module.yaml")) && listing.get(&file("module.yaml")).is_none() {
+            Mirror::Missing
+        } else {
+            match (
+                root.read(&file("module.yaml"), MAX_DOCUMENT_BYTES),
+                json.document(),
+            ) {
+                (Err(ReadError::Missing), _) => Mirror::Missing,
+                (Err(error), _) => Mirror::Unreadable(error),
+                (Ok(_), None) => Mirror::NotCompared,
+                (Ok(bytes), Some(document)) => {
+                    Mirror::Compared(yaml::check_mirror(&bytes, &document.value))
+                }
+            }
+        };
+    let mut module = Module {
+        folder,
+        kind,
+        version_file,
+        version,
+        spec,
+        newer,
+        json,
+        mirror,
+        violations: Vec::new(),
+        document: None,
+    };
+    if let (Some(spec), Some(document)) = (module.spec, module.json.document()) {
+        let (read, violations) = schema_check::read(spec, &document.value, newer);
+        module.document = read;
+        module.violations = violations;
+    }
+    module
+}
+
+/// The registry's entry for a version; for a newer minor or patch number than any that is known,
+/// the newest of that major number.
+fn find_spec(kind: ModuleKind, version: Option<&str>) -> (Option<&'static ModuleSpec>, bool) {
+    let Some(text) = version else {
+        return (registry::find(kind, ""), false);
+    };
+    if let Some(spec) = registry::find(kind, text) {
+        return (Some(spec), false);
+    }
+    let Ok(version) = semver::Version::parse(text) else {
+        return (None, false);
+    };
+    let newest = registry::MODULES
+        .iter()
+        .filter(|spec| spec.kind == kind && version.major >= 1)
+        .filter_map(|spec| semver::Version::parse(spec.version).ok().map(|v| (v, spec)))
+        .filter(|(known, _)| known.major == version.major && *known < version)
+        .max_by(|a, b| a.0.cmp(&b.0));
+    match newest {
+        Some((_, spec)) => (Some(spec), true),
+        None => (None, false),
+    }
+}
+
+fn read_urdf(
+    root: &Root,
+    listing: &Listing,
+    metadata: &MetadataFile,
+) -> Result<CarriedUrdf, String> {
+    let path = match (&metadata.json, &metadata.metadata) {
+        (JsonFile::Missing, _) => lone_urdf(root, listing)?,
+        (_, None) => {
+            return Err(format!(
+                "{ROOT_METADATA} does not fit its schema, so the source is not known"
+            ));
+        }
+        (_, Some(metadata)) => match &metadata.source {
+            Some(Source::Urdf(file)) => file.path.clone(),
+            Some(Source::Composition(_)) => {
+                return Err("the source is a composition; no URDF is carried".to_owned());
+            }
+            None => return Err("the root metadata names no source".to_owned()),
+        },
+    };
+    let bytes = root
+        .read(&path, MAX_URDF_BYTES)
+        .map_err(|error| format!("{path}: {error}"))?;
+    let text = String::from_utf8(bytes).map_err(|_| format!("{path} is not UTF-8"))?;
+    let text = text
+        .strip_prefix('\u{feff}')
+        .map(str::to_owned)
+        .unwrap_or(text);
+    Ok(CarriedUrdf { path, text })
+}
+
+/// Without root metadata: the one `.urdf` in the root, or the one that is named as the folder is.
+fn lone_urdf(root: &Root, listing: &Listing) -> Result<String, String> {
+    let mut urdfs = listing
+        .entries
+        .iter()
+        .filter(|entry| {
+            entry.kind == EntryKind::File
+                && !entry.path.contains('/')
+                && entry.path.ends_with(".urdf")
+        })
+        .map(|entry| entry.path.clone());
+    match (urdfs.next(), urdfs.next()) {
+        (None, _) => Err("no URDF file is carried".to_owned()),
+        (Some(only), None) => Ok(only),
+        (Some(_), Some(_)) => {
+            let named = format!("{}.urdf", root.folder_name());
+            match listing.has_file(&named) {
+                true => Ok(named),
+                false => Err(
+                    "several URDF files are carried, and none is named as the folder is".to_owned(),
+                ),
+            }
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! Settings: what `urdd.toml` may say, and how it changes what is reported.
+
+use std::collections::BTreeMap;
+
+use globset::{Glob, GlobMatcher};
+use serde::Deserialize;
+use thiserror::Error;
+
+use super::Examined;
+use super::code::Code;
+use super::engine::Outcome;
+use super::rule::Severity;
+use crate::format::root_metadata::ConformanceClass;
+
+/// Settings of a run.
+#[derive(Debug, Clone, Default)]
+pub struct Settings {
+    /// The conformance class to hold every URDD to, instead of the one that it claims.
+    pub class: Option<ConformanceClass>,
+    /// From which severity on a run fails; `None` means from errors on.
+    pub fail_on: Option<Severity>,
+    /// Severities that replace those of the rules.
+    pub severities: BTreeMap<Code, Severity>,
+    /// Findings that are not wanted.
+    pub ignores: Vec<Ignore>,
+}
+
+/// A kind of finding that is not wanted in some files.
+#[derive(Debug, Clone)]
+pub struct Ignore {
+    /// The rule.
+    pub code: Code,
+    /// Which files: matched against the URDD's name, a slash, and the file's path.
+    pub path: GlobMatcher,
+    /// Why.
+    pub reason: String,
+}
+
+/// An ignore that matched nothing: the fault is gone, or the path is wrong.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StaleIgnore {
+    /// The rule.
+    pub code: Code,
+    /// The pattern.
+    pub path: String,
+}
+
+/// What is wrong with a settings file.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum SettingsError {
+    /// Not TOML, or with unknown keys.
+    #[error("{0}")]
+    Syntax(String),
+    /// A code that no rule has.
+    #[error("there is no rule {0}; `urdd explain` lists them")]
+    UnknownCode(String),
+    /// Not a severity.
+    #[error("`{0}` is no severity; write \"error\", \"warning\" or \"info\"")]
+    UnknownSeverity(String),
+    /// Not a conformance class.
+    #[error("`{0}` is no conformance class; write \"core\", \"geometry\" or \"shapes\"")]
+    UnknownClass(String),
+    /// A pattern that cannot be read.
+    #[error("the pattern `{pattern}` cannot be read: {reason}")]
+    Pattern {
+        /// The pattern.
+        pattern: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// An ignore without a reason.
+    #[error("the ignore of {0} has an empty reason; say why, for whoever reads this in a year")]
+    EmptyReason(String),
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+struct File {
+    class: Option<String>,
+    fail_on: Option<String>,
+    severity: BTreeMap<String, String>,
+    ignore: Vec<FileIgnore>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileIgnore {
+    code: String,
+    path: String,
+    reason: String,
+}
+
+impl Settings {
+    /// Reads settings from the text of a `urdd.toml`.
+    ///
+    /// # Errors
+    /// Where it is not TOML, has keys or codes that do not exist, or patterns that cannot be read.
+    pub fn from_toml(text: &str) -> Result<Settings, SettingsError> {
+        let file: File =
+            toml::from_str(text).map_err(|error| SettingsError::Syntax(error.to_string()))?;
+        let code = |text: &str| {
+            Code::parse(text).ok_or_else(|| SettingsError::UnknownCode(text.to_owned()))
+        };
+        let mut settings = Settings {
+            class: file.class.as_deref().map(parse_class).transpose()?,
+            fail_on: file.fail_on.as_deref().map(parse_severity).transpose()?,
+            ..Settings::default()
+        };
+        for (rule, severity) in &file.severity {
+            settings
+                .severities
+                .insert(code(rule)?, parse_severity(severity)?);
+        }
+        for ignore in file.ignore {
+            if ignore.reason.trim().is_empty() {
+                return Err(SettingsError::EmptyReason(ignore.code));
+            }
+            let path = Glob::new(&ignore.path).map_err(|error| SettingsError::Pattern {
+                pattern: ignore.path.clone(),
+                reason: error.kind().to_string(),
+            })?;
+            settings.ignores.push(Ignore {
+                code: code(&ignore.code)?,
+                path: path.compile_matcher(),
+                reason: ignore.reason,
+            });
+        }
+        Ok(settings)
+    }
+
+    /// Applies severities and ignores, and tells which ignores matched nothing.
+    pub fn apply<'a>(&self, examined: impl Iterator<Item = &'a mut Examined>) -> Vec<StaleIgnore> {
+        let mut used = vec![false; self.ignores.len()];
+        for urdd in examined {
+            for check in &mut urdd.checks {
+                if let Some(severity) = self.severities.get(&check.rule.code) {
+                    check.severity = *severity;
+                }
+                let mut reason = None;
+                check.findings.retain(|finding| {
+                    let file = finding.place.file.as_deref().unwrap_or("");
+                    let path = format!("{}/{file}", urdd.name);
+                    let ignore = self.ignores.iter().position(|ignore| {
+                        ignore.code == check.rule.code && ignore.path.is_match(&path)
+                    });
+                    if let Some(place) = ignore {
+                        used[place] = true;
+                        reason = Some(&self.ignores[place].reason);
+                    }
+                    ignore.is_none()
+                });
+                if let (Some(reason), true) = (reason, check.findings.is_empty()) {
+                    check.outcome = Outcome::Skipped(format!("ignored by the settings: {reason}"));
+                }
+            }
+        }
+        self.ignores
+            .iter()
+            .zip(used)
+            .filter(|(_, used)| !used)
+            .map(|(ignore, _)| StaleIgnore {
+                code: ignore.code,
+                path: ignore.path.glob().to_string(),
+            })
+            .collect()
+    }
+}
+
+/// A severity by its word.
+///
+/// # Errors
+/// Where there is none of that name.
+pub fn parse_severity(text: &str) -> Result<Severity, SettingsError> {
+    [Severity::Error, Severity::Warning, Severity::Info]
+        .into_iter()
+        .find(|severity| severity.as_str() == text)
+        .ok_or_else(|| SettingsError::UnknownSeverity(text.to_owned()))
+}
+
+/// A conformance class by its word, in any case.
+///
+/// # Errors
+/// Where there is none of that name.
+pub fn parse_class(text: &str) -> Result<ConformanceClass, SettingsError> {
+    ConformanceClass::ALL
+        .iter()
+        .copied()
+        .find(|class| class.as_str().eq_ignore_ascii_case(text))
+        .ok_or_else(|| SettingsError::UnknownClass(text.to_owned()))
+}

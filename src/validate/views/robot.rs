@@ -1,0 +1,309 @@
+//! The robot that `urdf_module` describes, with URDF's defaults filled in.
+
+use std::collections::HashMap;
+
+use crate::format::legacy::urdf as legacy;
+use crate::format::registry::ModuleDocument;
+use crate::format::urdf::{self as v1, JointType};
+
+/// A robot.
+#[derive(Debug, Clone, Default)]
+pub struct Robot {
+    /// Its name.
+    pub name: String,
+    /// Its links, in link order.
+    pub links: Vec<Link>,
+    /// Its joints, in joint order.
+    pub joints: Vec<Joint>,
+    link_by_name: HashMap<String, usize>,
+    joint_by_name: HashMap<String, usize>,
+}
+
+/// A link.
+#[derive(Debug, Clone)]
+pub struct Link {
+    /// Its name.
+    pub name: String,
+    /// Its mass properties, where it has any.
+    pub inertial: Option<Inertial>,
+    /// The shapes of its visual elements; `None` for an element without one.
+    pub visual: Vec<Option<v1::Geometry>>,
+    /// The shapes of its collision elements.
+    pub collision: Vec<Option<v1::Geometry>>,
+}
+
+/// Mass properties.
+#[derive(Debug, Clone, Copy)]
+pub struct Inertial {
+    /// Mass, kg.
+    pub mass: Option<f64>,
+    /// xx, xy, xz, yy, yz, zz, kg m²; what is absent is 0.
+    pub inertia: Option<[f64; 6]>,
+}
+
+/// A joint.
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// How it moves.
+    pub joint_type: JointType,
+    /// Position of its frame in the parent link's, m.
+    pub xyz: [f64; 3],
+    /// Rotation of its frame: fixed-axis roll, pitch, yaw, rad.
+    pub rpy: [f64; 3],
+    /// Its axis as written, or (1, 0, 0).
+    pub axis: [f64; 3],
+    /// Name of the link that carries it.
+    pub parent: String,
+    /// Name of the link that it moves.
+    pub child: String,
+    /// Its limits. Legacy modules write absent limits as zeros, which are taken for absent.
+    pub limit: Option<Limit>,
+    /// The joint that it follows.
+    pub mimic: Option<Mimic>,
+}
+
+/// Limits.
+#[derive(Debug, Clone, Copy)]
+pub struct Limit {
+    /// Smallest position.
+    pub lower: Option<f64>,
+    /// Largest position.
+    pub upper: Option<f64>,
+    /// Largest effort.
+    pub effort: Option<f64>,
+    /// Largest speed.
+    pub velocity: Option<f64>,
+}
+
+/// A mimic: `multiplier * position of joint + offset`.
+#[derive(Debug, Clone)]
+pub struct Mimic {
+    /// Name of the joint that is followed.
+    pub joint: String,
+    /// Factor.
+    pub multiplier: f64,
+    /// Offset.
+    pub offset: f64,
+}
+
+impl Robot {
+    fn new(name: String, links: Vec<Link>, joints: Vec<Joint>) -> Self {
+        let mut robot = Robot {
+            name,
+            links,
+            joints,
+            ..Robot::default()
+        };
+        // Of a name that is there twice, the first counts; URD002 and URD003 tell of it.
+        for (index, link) in robot.links.iter().enumerate() {
+            robot.link_by_name.entry(link.name.clone()).or_insert(index);
+        }
+        for (index, joint) in robot.joints.iter().enumerate() {
+            robot
+                .joint_by_name
+                .entry(joint.name.clone())
+                .or_insert(index);
+        }
+        robot
+    }
+
+    /// Index of a link.
+    pub fn link(&self, name: &str) -> Option<usize> {
+        self.link_by_name.get(name).copied()
+    }
+
+    /// Index of a joint.
+    pub fn joint(&self, name: &str) -> Option<usize> {
+        self.joint_by_name.get(name).copied()
+    }
+}
+
+impl Joint {
+    /// Number of DOFs that a joint of this type has, mimic or not (SPEC 5.8).
+    pub fn freedom(&self) -> usize {
+        match self.joint_type {
+            JointType::Fixed => 0,
+            JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
+            JointType::Planar | JointType::Spherical => 3,
+            JointType::Floating => 6,
+        }
+    }
+
+    /// The mimic of a joint that can follow: a fixed joint cannot.
+    pub fn active_mimic(&self) -> Option<&Mimic> {
+        match self.joint_type {
+            JointType::Fixed => None,
+            _ => self.mimic.as_ref(),
+        }
+    }
+
+    /// Whether the joint has an axis (SPEC 6.3.4).
+    pub fn has_axis(&self) -> bool {
+        matches!(
+            self.joint_type,
+            JointType::Revolute | JointType::Continuous | JointType::Prismatic | JointType::Planar
+        )
+    }
+
+    /// Position limits, where the joint is limited (SPEC 6.5.2).
+    pub fn position_limits(&self) -> Option<(f64, f64)> {
+        let limit = self.limit?;
+        match (self.joint_type, limit.lower, limit.upper) {
+            (JointType::Revolute | JointType::Prismatic, lower, upper)
+                if lower.is_some() || upper.is_some() =>
+            {
+                Some((lower.unwrap_or(0.0), upper.unwrap_or(0.0)))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The robot of a `urdf_module`.
+pub fn view(document: &ModuleDocument) -> Option<Robot> {
+    match document {
+        ModuleDocument::Urdf(module) => Some(Robot::new(
+            module.name.clone(),
+            module.links.iter().map(from_v1_link).collect(),
+            module.joints.iter().map(from_v1_joint).collect(),
+        )),
+        ModuleDocument::LegacyUrdf(module) => Some(Robot::new(
+            module.name.clone(),
+            module.links.iter().map(from_legacy_link).collect(),
+            module.joints.iter().map(from_legacy_joint).collect(),
+        )),
+        _ => None,
+    }
+}
+
+fn from_v1_link(link: &v1::Link) -> Link {
+    let inertial = link.inertial.as_ref().map(|inertial| Inertial {
+        mass: inertial.mass.as_ref().map(|mass| mass.value),
+        inertia: inertial.inertia.as_ref().map(|i| {
+            [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz].map(|element| element.unwrap_or(0.0))
+        }),
+    });
+    Link {
+        name: link.name.clone(),
+        inertial,
+        visual: link
+            .visual
+            .iter()
+            .map(|visual| visual.geometry.clone())
+            .collect(),
+        collision: link
+            .collision
+            .iter()
+            .map(|collision| collision.geometry.clone())
+            .collect(),
+    }
+}
+
+fn from_v1_joint(joint: &v1::Joint) -> Joint {
+    let origin = joint.origin.as_ref();
+    Joint {
+        name: joint.name.clone(),
+        joint_type: joint.joint_type,
+        xyz: origin.and_then(|origin| origin.xyz).unwrap_or_default(),
+        rpy: origin.and_then(|origin| origin.rpy).unwrap_or_default(),
+        axis: joint
+            .axis
+            .as_ref()
+            .and_then(|axis| axis.xyz)
+            .unwrap_or([1.0, 0.0, 0.0]),
+        parent: joint.parent.link.clone(),
+        child: joint.child.link.clone(),
+        limit: joint.limit.as_ref().map(|limit| Limit {
+            lower: limit.lower,
+            upper: limit.upper,
+            effort: limit.effort,
+            velocity: limit.velocity,
+        }),
+        mimic: joint.mimic.as_ref().map(|mimic| Mimic {
+            joint: mimic.joint.clone(),
+            multiplier: mimic.multiplier.unwrap_or(1.0),
+            offset: mimic.offset.unwrap_or(0.0),
+        }),
+    }
+}
+
+fn from_legacy_link(link: &legacy::Link) -> Link {
+    let i = &link.inertial.inertia;
+    let inertia = [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz];
+    let mass = link.inertial.mass.value;
+    let absent = mass == 0.0 && inertia == [0.0; 6];
+    Link {
+        name: link.name.clone(),
+        inertial: (!absent).then_some(Inertial {
+            mass: Some(mass),
+            inertia: Some(inertia),
+        }),
+        visual: link
+            .visual
+            .iter()
+            .map(|visual| Some(from_legacy_geometry(&visual.geometry)))
+            .collect(),
+        collision: link
+            .collision
+            .iter()
+            .map(|collision| Some(from_legacy_geometry(&collision.geometry)))
+            .collect(),
+    }
+}
+
+fn from_legacy_geometry(geometry: &legacy::Geometry) -> v1::Geometry {
+    match geometry {
+        legacy::Geometry::Mesh(mesh) => v1::Geometry::Mesh(v1::Mesh {
+            filename: mesh.filename.clone(),
+            scale: mesh.scale,
+        }),
+        legacy::Geometry::Box(cuboid) => v1::Geometry::Box(v1::Cuboid { size: cuboid.size }),
+        legacy::Geometry::Cylinder(cylinder) => v1::Geometry::Cylinder(v1::Cylinder {
+            radius: cylinder.radius,
+            length: cylinder.length,
+        }),
+        legacy::Geometry::Capsule(capsule) => v1::Geometry::Capsule(v1::Capsule {
+            radius: capsule.radius,
+            length: capsule.length,
+        }),
+        legacy::Geometry::Sphere(sphere) => v1::Geometry::Sphere(v1::Sphere {
+            radius: sphere.radius,
+        }),
+    }
+}
+
+fn from_legacy_joint(joint: &legacy::Joint) -> Joint {
+    use legacy::JointType as Old;
+    let limit = &joint.limit;
+    let absent = [limit.lower, limit.upper, limit.effort, limit.velocity] == [0.0; 4];
+    Joint {
+        name: joint.name.clone(),
+        joint_type: match joint.joint_type {
+            Old::Revolute => JointType::Revolute,
+            Old::Continuous => JointType::Continuous,
+            Old::Prismatic => JointType::Prismatic,
+            Old::Fixed => JointType::Fixed,
+            Old::Floating => JointType::Floating,
+            Old::Planar => JointType::Planar,
+            Old::Spherical => JointType::Spherical,
+        },
+        xyz: joint.origin.xyz,
+        rpy: joint.origin.rpy,
+        axis: joint.axis.xyz,
+        parent: joint.parent.link.clone(),
+        child: joint.child.link.clone(),
+        limit: (!absent).then_some(Limit {
+            lower: Some(limit.lower),
+            upper: Some(limit.upper),
+            effort: Some(limit.effort),
+            velocity: Some(limit.velocity),
+        }),
+        mimic: joint.mimic.as_ref().map(|mimic| Mimic {
+            joint: mimic.joint.clone(),
+            multiplier: mimic.multiplier.unwrap_or(1.0),
+            offset: mimic.offset.unwrap_or(0.0),
+        }),
+    }
+}

@@ -1,0 +1,84 @@
+//! The kinematic tree that a robot's joints form.
+
+use super::robot::Robot;
+
+/// A kinematic tree.
+#[derive(Debug, Clone)]
+pub struct Tree {
+    /// The link without a parent.
+    pub root: usize,
+    /// For each link, the joint that moves it.
+    pub parent_joint: Vec<Option<usize>>,
+    /// For each link, its parent link.
+    pub parent_link: Vec<Option<usize>>,
+    /// For each link, the joints that sit on it, ascending.
+    pub child_joints: Vec<Vec<usize>>,
+    /// For each joint, its parent and child link.
+    pub joint_links: Vec<(usize, usize)>,
+    /// For each link, its distance from the root in joints.
+    pub depth: Vec<usize>,
+    /// The links from the root downwards: parents before their children, depth by depth, ascending.
+    pub order: Vec<usize>,
+}
+
+impl Tree {
+    /// The tree of a robot; `None` where a joint names an unknown link, a link has two parents, or
+    /// not all links hang on one root.
+    pub fn new(robot: &Robot) -> Option<Tree> {
+        let links = robot.links.len();
+        let mut tree = Tree {
+            root: 0,
+            parent_joint: vec![None; links],
+            parent_link: vec![None; links],
+            child_joints: vec![Vec::new(); links],
+            joint_links: Vec::with_capacity(robot.joints.len()),
+            depth: vec![0; links],
+            order: Vec::with_capacity(links),
+        };
+        for (index, joint) in robot.joints.iter().enumerate() {
+            let (parent, child) = (robot.link(&joint.parent)?, robot.link(&joint.child)?);
+            if tree.parent_joint[child].replace(index).is_some() {
+                return None;
+            }
+            tree.parent_link[child] = Some(parent);
+            tree.child_joints[parent].push(index);
+            tree.joint_links.push((parent, child));
+        }
+        tree.root = (0..links).find(|link| tree.parent_joint[*link].is_none())?;
+        let mut level = vec![tree.root];
+        while !level.is_empty() {
+            level.sort_unstable();
+            let mut next = Vec::new();
+            for &link in &level {
+                for &joint in &tree.child_joints[link] {
+                    let child = tree.joint_links[joint].1;
+                    tree.depth[child] = tree.depth[link] + 1;
+                    next.push(child);
+                }
+            }
+            tree.order.append(&mut level);
+            level = next;
+        }
+        (tree.order.len() == links).then_some(tree)
+    }
+
+    /// The links of each depth, ascending.
+    pub fn levels(&self) -> Vec<Vec<usize>> {
+        let mut levels: Vec<Vec<usize>> = Vec::new();
+        for &link in &self.order {
+            match levels.get_mut(self.depth[link]) {
+                Some(level) => level.push(link),
+                None => levels.push(vec![link]),
+            }
+        }
+        levels
+    }
+
+    /// The links from the root to a link, both included.
+    pub fn path(&self, link: usize) -> Vec<usize> {
+        let mut path: Vec<usize> =
+            std::iter::successors(Some(link), |link| self.parent_link[*link]).collect();
+        path.reverse();
+        path
+    }
+}
