@@ -12,6 +12,7 @@ pub mod rule;
 pub mod rules;
 pub mod schema_check;
 pub mod settings;
+pub mod tolerance;
 pub mod views;
 
 use std::path::Path;

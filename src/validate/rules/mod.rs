@@ -1,13 +1,43 @@
 //! Every rule, one file each, in folders by family.
 
 pub mod bounds;
+pub mod chain;
+pub mod connections;
+pub mod directory;
+pub mod dof;
+pub mod extensions;
+pub mod json;
+pub mod kinematics;
+pub mod legacy;
+pub mod meshes;
+pub mod schema;
+pub mod shapes;
+pub mod source;
 pub mod testing;
+pub mod urdf;
+pub mod yaml;
 
 use super::rule::Rule;
 
 /// Every rule, in the order of their codes.
 pub fn all() -> Vec<&'static Rule> {
-    let families: &[&[&Rule]] = &[bounds::RULES];
+    let families: &[&[&Rule]] = &[
+        directory::RULES,
+        json::RULES,
+        yaml::RULES,
+        schema::RULES,
+        extensions::RULES,
+        urdf::RULES,
+        source::RULES,
+        dof::RULES,
+        chain::RULES,
+        connections::RULES,
+        bounds::RULES,
+        meshes::RULES,
+        shapes::RULES,
+        kinematics::RULES,
+        legacy::RULES,
+    ];
     families
         .iter()
         .flat_map(|rules| rules.iter().copied())

@@ -1,0 +1,6 @@
+//! CHN: `chain_module`.
+
+use crate::validate::rule::Rule;
+
+/// The rules of this family.
+pub const RULES: &[&Rule] = &[];

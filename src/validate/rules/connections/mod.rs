@@ -1,0 +1,6 @@
+//! CON: `connections_module`.
+
+use crate::validate::rule::Rule;
+
+/// The rules of this family.
+pub const RULES: &[&Rule] = &[];

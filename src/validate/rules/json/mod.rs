@@ -1,0 +1,6 @@
+//! JSN: JSON as text.
+
+use crate::validate::rule::Rule;
+
+/// The rules of this family.
+pub const RULES: &[&Rule] = &[];

@@ -1,0 +1,6 @@
+//! SCH: documents against their schemas.
+
+use crate::validate::rule::Rule;
+
+/// The rules of this family.
+pub const RULES: &[&Rule] = &[];

@@ -1,0 +1,6 @@
+//! SHP: the link shape modules.
+
+use crate::validate::rule::Rule;
+
+/// The rules of this family.
+pub const RULES: &[&Rule] = &[];

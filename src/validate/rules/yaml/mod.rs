@@ -1,0 +1,6 @@
+//! YML: the YAML mirrors.
+
+use crate::validate::rule::Rule;
+
+/// The rules of this family.
+pub const RULES: &[&Rule] = &[];

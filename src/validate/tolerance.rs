@@ -1,0 +1,64 @@
+//! When two numbers agree (SPEC 5.6). Every tolerance has a name here, and its derivation.
+
+use nalgebra::Matrix3;
+
+use super::views::robot::Robot;
+use super::views::tree::Tree;
+use crate::format::urdf::JointType;
+
+/// Positions agree within this part of the robot's reach. Two ways to compute a pose through
+/// 2,000 joints in binary64 differ by some 1e-13 of the reach; a digit that was lost in the
+/// seventh place, as by binary32, shows.
+pub const POSITION_OF_REACH: f64 = 1e-9;
+
+/// Rotations agree within this Frobenius norm of R - R' over sqrt 2, which for small angles is the
+/// angle between them in rad. As for positions.
+pub const ROTATION: f64 = 1e-9;
+
+/// Numbers that are copied agree within this part of the larger absolute value: a copy written
+/// with ten digits or more.
+pub const NUMBER_RELATIVE: f64 = 1e-9;
+
+/// Numbers that are copied agree within this, so that a zero may be written as 1e-17.
+pub const NUMBER_ABSOLUTE: f64 = 1e-12;
+
+/// Unit quaternions and unit vectors have a norm within this of 1.
+pub const UNIT_NORM: f64 = 1e-9;
+
+/// Reach of a robot that has none, m, so that tolerances stay above rounding.
+pub const LEAST_REACH: f64 = 1e-3;
+
+/// Whether two numbers that should be copies of each other agree.
+pub fn numbers_agree(a: f64, b: f64) -> bool {
+    a == b || (a - b).abs() <= number_tolerance(a, b)
+}
+
+/// How far two numbers that should be copies of each other may be apart.
+pub fn number_tolerance(a: f64, b: f64) -> f64 {
+    (NUMBER_RELATIVE * a.abs().max(b.abs())).max(NUMBER_ABSOLUTE)
+}
+
+/// How far two rotations are apart: the Frobenius norm of the difference over sqrt 2.
+pub fn rotation_distance(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {
+    (a - b).norm() / std::f64::consts::SQRT_2
+}
+
+/// The robot's reach, m: the largest sum of joint offsets along a root path, with the largest
+/// travel of the prismatic joints on it, and at least [`LEAST_REACH`].
+pub fn reach(robot: &Robot, tree: &Tree) -> f64 {
+    let mut reach = vec![0.0_f64; robot.links.len()];
+    for &link in &tree.order {
+        let (Some(joint), Some(parent)) = (tree.parent_joint[link], tree.parent_link[link]) else {
+            continue;
+        };
+        let joint = &robot.joints[joint];
+        let travel = match (joint.joint_type, joint.position_limits()) {
+            (JointType::Prismatic, Some((lower, upper))) => lower.abs().max(upper.abs()),
+            (JointType::Prismatic | JointType::Planar | JointType::Floating, _) => 1.0,
+            _ => 0.0,
+        };
+        let offset = joint.xyz.iter().map(|x| x * x).sum::<f64>().sqrt();
+        reach[link] = reach[parent] + offset + travel;
+    }
+    reach.into_iter().fold(LEAST_REACH, f64::max)
+}
