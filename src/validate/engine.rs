@@ -9,7 +9,7 @@ use super::context::Context;
 use super::finding::{Finding, Findings};
 use super::rule::{Need, Rule, Severity};
 use crate::directory::position;
-use crate::format::registry::Profile;
+use crate::format::registry::{ModuleKind, Profile};
 
 /// What became of a rule on one URDD.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -61,7 +61,9 @@ pub fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
         let mut later = Vec::new();
         for rule in waiting {
             let waits = rule.needs.iter().any(|need| match need {
-                Need::Passed(code) => !outcomes.contains_key(code) && codes.contains(code),
+                Need::Passed(code) | Need::NotFailed(code) => {
+                    !outcomes.contains_key(code) && codes.contains(code)
+                }
                 _ => false,
             });
             if waits {
@@ -122,6 +124,13 @@ fn unmet(context: &Context, need: Need, outcomes: &HashMap<Code, Outcome>) -> Op
             None => Some(format!("there is no {}", kind.name())),
             Some(module) => module.unusable(),
         },
+        Need::AnyModule(kinds) => {
+            let usable = |kind: &ModuleKind| context.document(*kind).is_some();
+            (!kinds.iter().any(usable)).then(|| {
+                let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
+                format!("there is no usable {}", names.join(" or "))
+            })
+        }
         Need::RootMetadata => match context.metadata() {
             Some(_) => None,
             None => Some("there is no usable urdd.json".to_owned()),
@@ -133,6 +142,11 @@ fn unmet(context: &Context, need: Need, outcomes: &HashMap<Code, Outcome>) -> Op
             Some(Outcome::Skipped(reason)) => Some(reason.clone()),
             Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
             None => Some(format!("{code} did not run")),
+        },
+        Need::NotFailed(code) => match outcomes.get(&code) {
+            Some(Outcome::Failed) => Some(format!("{code} found a fault")),
+            Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
+            Some(Outcome::Passed | Outcome::Skipped(_)) | None => None,
         },
         Need::Version1 => {
             (context.profile() != Profile::V1).then(|| "this is a legacy URDD".to_owned())

@@ -47,12 +47,16 @@ pub enum Phase {
 pub enum Need {
     /// The module is there, and its document fits its schema.
     Module(ModuleKind),
+    /// At least one of the modules is there, and its document fits its schema.
+    AnyModule(&'static [ModuleKind]),
     /// `urdd.json` is there and fits its schema.
     RootMetadata,
     /// The source URDF is carried, and is well-formed.
     CarriedUrdf,
     /// The other rule ran and found nothing.
     Passed(Code),
+    /// The other rule found nothing, or had nothing to look at.
+    NotFailed(Code),
     /// The URDD is of version 1.
     Version1,
     /// The URDD was published before there was a version 1.

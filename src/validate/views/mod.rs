@@ -4,10 +4,16 @@
 pub mod bounds;
 pub mod chain;
 pub mod dofs;
+pub mod mesh_files;
+pub mod meshes;
 pub mod mimics;
 pub mod robot;
+pub mod shape_matrices;
+pub mod shapes;
 pub mod tree;
+pub mod usable_geometry;
 
 pub use bounds::Bounds;
 pub use chain::Chain;
 pub use dofs::Dofs;
+pub use meshes::Meshes;
