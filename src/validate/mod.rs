@@ -7,6 +7,7 @@ pub mod code;
 pub mod context;
 pub mod engine;
 pub mod finding;
+pub mod fold;
 pub mod load;
 pub mod rule;
 pub mod rules;

@@ -9,6 +9,7 @@ pub mod meshes;
 pub mod mimics;
 pub mod robot;
 pub mod shape_matrices;
+pub mod shape_pair;
 pub mod shapes;
 pub mod tree;
 pub mod usable_geometry;

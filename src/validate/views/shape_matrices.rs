@@ -223,6 +223,16 @@ pub enum Elements<'a> {
 }
 
 impl Elements<'_> {
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        match self {
+            Elements::Distances(rows) => rows.len(),
+            Elements::Skips(rows) => rows.len(),
+            Elements::Reasons(rows) => rows.len(),
+            Elements::Models(rows) => rows.len(),
+        }
+    }
+
     /// Number of elements of each row.
     pub fn row_lengths(&self) -> Vec<usize> {
         fn lengths<T>(rows: &[Vec<T>]) -> Vec<usize> {
