@@ -1,1 +1,3 @@
+//! Folders on disk.
 
+pub mod schema_files;
