@@ -1,14 +1,14 @@
 //! `urdd schema`.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 
 use crate::directory::schema_files::{self, SchemaFault};
 use crate::format::registry::Profile;
-use crate::format::schema::{Subject, Variant};
+use crate::format::schema::{self, Subject, Variant};
 
 /// Arguments of `urdd schema`.
 #[derive(Args)]
@@ -69,13 +69,13 @@ pub fn run(arguments: &SchemaArguments) -> ExitCode {
         Command::List => print(&table()),
         Command::Show { id, open } => match Subject::find(id) {
             Ok(subject) => print(&subject.text(open.variant())),
-            Err(error) => fail(&format!("{error} `urdd schema list` names them all.")),
+            Err(error) => fail(&format!("{error}\nhelp: `urdd schema list` names them all")),
         },
         Command::Export { folder, open } => match schema_files::export(folder, open.variant()) {
             Ok(written) => print(&format!(
                 "{}: {written} written, {} unchanged\n",
                 folder.display(),
-                crate::format::schema::files(open.variant()).len() - written
+                schema::files(open.variant()).len() - written
             )),
             Err(error) => fail(&error.to_string()),
         },
@@ -113,7 +113,7 @@ fn table() -> String {
     text
 }
 
-fn report(faults: &[SchemaFault], folder: &std::path::Path) -> String {
+fn report(faults: &[SchemaFault], folder: &Path) -> String {
     let mut text = String::new();
     for fault in faults {
         text.push_str(&format!("{fault}\n"));

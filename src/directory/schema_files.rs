@@ -59,7 +59,7 @@ pub enum SchemaFault {
 }
 
 impl SchemaFault {
-    /// How to mend it, where a command does; else the message says it.
+    /// Whether `urdd schema export` mends it; where it does not, the message says what does.
     pub fn is_mended_by_export(&self) -> bool {
         matches!(
             self,

@@ -174,7 +174,7 @@ pub fn files(variant: Variant) -> Vec<SchemaFile> {
 /// The part of a schema that decides what is valid: without annotations, lists that are sets in
 /// order. Two schemas with equal validating parts accept the same documents.
 pub fn validating_part(schema: &Value) -> Value {
-    each_schema(schema, &|object| {
+    let mut part = each_schema(schema, &|object| {
         for annotation in ["title", "description", "$id", "$comment", "examples"] {
             object.shift_remove(annotation);
         }
@@ -183,8 +183,9 @@ pub fn validating_part(schema: &Value) -> Value {
                 items.sort_by_key(Value::to_string);
             }
         }
-        object.sort_keys();
-    })
+    });
+    part.sort_all_objects();
+    part
 }
 
 /// SHA-256 of a schema's validating part as JSON without white space and with sorted keys: 64
