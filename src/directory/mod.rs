@@ -1,4 +1,5 @@
-//! A URDD on disk: finding it, listing it, reading from it safely; and JSON and YAML as text.
+//! A URDD on disk: finding it, listing it, reading from it safely; JSON and YAML as text; and the
+//! folder of published schemas.
 
 pub mod canonical;
 pub mod discover;
@@ -9,6 +10,7 @@ pub mod number_text;
 pub mod path;
 pub mod position;
 pub mod root;
+pub mod schema_files;
 pub mod text_fault;
 pub mod yaml;
 mod yaml_compare;

@@ -25,6 +25,7 @@ pub mod plain_meshes;
 pub mod pose;
 pub mod registry;
 pub mod root_metadata;
+pub mod schema;
 pub mod shapes;
 pub mod tagged;
 pub mod urdf;
