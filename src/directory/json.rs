@@ -1,0 +1,277 @@
+//! Reading JSON from anybody, with every fault of the text named and placed.
+
+use std::cell::Cell;
+use std::fmt;
+
+use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde_json::{Map, Number, Value};
+
+use super::json_fault::{EncodingKinds, decode, explain, report_repeated_keys};
+use super::text_fault::{TextFault, TextFaultKind, TextFaults, UnreadableText};
+
+/// How many containers may stand in one another, in JSON and in YAML.
+pub const DEPTH_LIMIT: usize = 100;
+
+/// A JSON file that has a value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JsonDocument {
+    /// The text, without a byte order mark.
+    pub text: String,
+    /// What it says. Of a member that is named twice, the last is kept, in the place of the first.
+    pub value: Value,
+    /// Faults that leave the value readable: a byte order mark, members named twice.
+    pub faults: TextFaults,
+}
+
+/// Reads one JSON document.
+///
+/// # Errors
+/// When there is no value to go on with: not UTF-8, not JSON, a number that is not finite, or
+/// nesting beyond [`DEPTH_LIMIT`].
+pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
+    let mut faults = TextFaults::default();
+    let text = match decode(bytes, &JSON_KINDS, &mut faults) {
+        Ok(text) => text.to_owned(),
+        Err(fault) => return Err(unreadable(faults, fault)),
+    };
+    let state = State::default();
+    let mut deserializer = serde_json::Deserializer::from_str(&text);
+    let parsed = Seed {
+        state: &state,
+        depth: 0,
+    }
+    .deserialize(&mut deserializer)
+    .and_then(|value| deserializer.end().map(|()| value));
+    let value = match parsed {
+        Ok(value) => value,
+        Err(error) => {
+            return Err(unreadable(
+                faults,
+                explain(&text, &error, state.too_deep.get()),
+            ));
+        }
+    };
+    if state.repeated_key.get() {
+        report_repeated_keys(&text, &mut faults);
+    }
+    Ok(JsonDocument {
+        text,
+        value,
+        faults,
+    })
+}
+
+const JSON_KINDS: EncodingKinds = EncodingKinds {
+    not_utf8: TextFaultKind::NotUtf8,
+    byte_order_mark: TextFaultKind::ByteOrderMark,
+};
+
+fn unreadable(mut faults: TextFaults, fault: TextFault) -> UnreadableText {
+    faults.push(fault);
+    UnreadableText { faults }
+}
+
+/// What the reader notes on its way. Places are found by a second walk, when there is a need.
+#[derive(Default)]
+struct State {
+    repeated_key: Cell<bool>,
+    too_deep: Cell<bool>,
+}
+
+/// Builds a [`Value`] as serde_json does, and notes what serde_json lets pass.
+#[derive(Clone, Copy)]
+struct Seed<'s> {
+    state: &'s State,
+    depth: usize,
+}
+
+impl Seed<'_> {
+    fn inner<E: serde::de::Error>(self) -> Result<Self, E> {
+        if self.depth >= DEPTH_LIMIT {
+            self.state.too_deep.set(true);
+            return Err(E::custom("too deep"));
+        }
+        Ok(Self {
+            depth: self.depth + 1,
+            ..self
+        })
+    }
+}
+
+impl<'de> DeserializeSeed<'de> for Seed<'_> {
+    type Value = Value;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Value, D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Seed<'_> {
+    type Value = Value;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a JSON value")
+    }
+
+    fn visit_unit<E>(self) -> Result<Value, E> {
+        Ok(Value::Null)
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Value, E> {
+        Ok(Value::Bool(value))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Value, E> {
+        Ok(Value::Number(value.into()))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Value, E> {
+        Ok(Value::Number(value.into()))
+    }
+
+    fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<Value, E> {
+        Number::from_f64(value)
+            .map(Value::Number)
+            .ok_or_else(|| E::custom("number out of range"))
+    }
+
+    fn visit_str<E>(self, value: &str) -> Result<Value, E> {
+        Ok(Value::String(value.to_owned()))
+    }
+
+    fn visit_string<E>(self, value: String) -> Result<Value, E> {
+        Ok(Value::String(value))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<Value, A::Error> {
+        let inner = self.inner()?;
+        let mut list = Vec::new();
+        while let Some(element) = access.next_element_seed(inner)? {
+            list.push(element);
+        }
+        Ok(Value::Array(list))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<Value, A::Error> {
+        let inner = self.inner::<A::Error>()?;
+        let mut map = Map::new();
+        while let Some(key) = access.next_key::<String>()? {
+            let value = access.next_value_seed(inner)?;
+            if map.insert(key, value).is_some() {
+                self.state.repeated_key.set(true);
+            }
+        }
+        Ok(Value::Object(map))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn only_fault(bytes: &[u8]) -> TextFault {
+        let error = read(bytes).expect_err("unreadable");
+        assert_eq!(error.faults.iter().count(), 1, "{error}");
+        error.faults.iter().next().unwrap().clone()
+    }
+
+    fn place(fault: &TextFault) -> (u32, u32) {
+        let position = fault.position.expect("a position");
+        (position.line, position.column)
+    }
+
+    #[test]
+    fn reads_what_serde_json_reads() {
+        let text = r#"{"a": [1, -2, 1.5e-7, -0.0, 18446744073709551615, null, true], "b": {"é": "\ud83e\udd16"}}"#;
+        let document = read(text.as_bytes()).unwrap();
+        assert_eq!(document.value, serde_json::from_str::<Value>(text).unwrap());
+        assert_eq!(document.text, text);
+        assert!(document.faults.is_empty());
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_a_fault_and_reading_goes_on() {
+        let document = read(b"\xEF\xBB\xBF{\"a\": 1}").unwrap();
+        assert_eq!(document.faults.total(TextFaultKind::ByteOrderMark), 1);
+        assert_eq!(document.value["a"], 1);
+        assert_eq!(document.text, "{\"a\": 1}");
+    }
+
+    #[test]
+    fn repeated_keys_are_placed_and_the_last_is_kept() {
+        let document = read(b"{\"a\": [{\"x\": 1,\n \"x\": 2}]}").unwrap();
+        let fault = document.faults.iter().next().unwrap();
+        assert_eq!(fault.kind, TextFaultKind::DuplicateKey);
+        assert_eq!(fault.pointer.as_deref(), Some("/a/0/x"));
+        assert_eq!(place(fault), (2, 2));
+        assert_eq!(document.value["a"][0]["x"], 2);
+    }
+
+    #[test]
+    fn what_is_not_json_says_where() {
+        type Case<'a> = (&'a [u8], (u32, u32), &'a str, &'a str);
+        let cases: [Case<'_>; 8] = [
+            (b"{\"a\":\n [1, x]}", (2, 6), "/a/1", "expected value"),
+            (b"{\"a\": 1} 2", (1, 10), "", "trailing"),
+            (b"[\"\\ud800\"]", (1, 9), "/0", "surrogate"),
+            (b"[1,]", (1, 4), "/1", "trailing comma"),
+            ("[\"é\", x]".as_bytes(), (1, 7), "/1", "expected value"),
+            (b"{\"a\": [1,", (1, 10), "/a/1", "ends early"),
+            (b"", (1, 1), "", "empty"),
+            (b" \n", (2, 1), "", "empty"),
+        ];
+        for (bytes, expected, pointer, part) in cases {
+            let fault = only_fault(bytes);
+            let shown = String::from_utf8_lossy(bytes);
+            assert_eq!(fault.kind, TextFaultKind::Syntax, "{shown}");
+            assert!(fault.message.contains(part), "{shown}: {}", fault.message);
+            assert_eq!(place(&fault), expected, "{shown}: {}", fault.message);
+            assert_eq!(fault.pointer.as_deref(), Some(pointer), "{shown}");
+        }
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_have_their_own_kind() {
+        for word in [
+            "NaN",
+            "Infinity",
+            "-Infinity",
+            "1e999",
+            "-1E+999",
+            "nan",
+            "-inf",
+        ] {
+            let text = format!("{{\"a\": [0.5,\n  {word}, 2]}}");
+            let fault = only_fault(text.as_bytes());
+            assert_eq!(fault.kind, TextFaultKind::NonFiniteNumber, "{word}");
+            assert_eq!(place(&fault), (2, 3), "{word}");
+            assert_eq!(fault.pointer.as_deref(), Some("/a/1"), "{word}");
+            assert_eq!(fault.found.as_deref(), Some(word));
+        }
+    }
+
+    #[test]
+    fn depth_is_bounded() {
+        let nested = |open: &str, close: &str, n: usize| open.repeat(n) + "1" + &close.repeat(n);
+        assert!(read(nested("[", "]", DEPTH_LIMIT).as_bytes()).is_ok());
+        assert!(read(nested("{\"a\":", "}", DEPTH_LIMIT).as_bytes()).is_ok());
+        for n in [DEPTH_LIMIT + 1, 10_000] {
+            for text in [
+                nested("[", "]", n),
+                nested("{\"a\":", "}", n),
+                "[".repeat(n),
+            ] {
+                assert_eq!(only_fault(text.as_bytes()).kind, TextFaultKind::TooDeep);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_utf8_says_which_byte() {
+        let fault = only_fault(b"{\n\"\xC3\xA9\xFF\": 1}");
+        assert_eq!(fault.kind, TextFaultKind::NotUtf8);
+        assert!(fault.message.contains("byte 5"), "{}", fault.message);
+        assert_eq!(place(&fault), (2, 3));
+        assert!(only_fault(b"\xFF\xFE{\0").message.contains("UTF-16"));
+    }
+}

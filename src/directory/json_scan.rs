@@ -1,0 +1,373 @@
+//! A lexical walk over JSON text: places without a tree, without recursion.
+//!
+//! It is used only when something is to be reported, on text that a parser has already accepted
+//! (or has accepted up to the place in question). On other text it ends early, and never panics.
+
+use std::borrow::Cow;
+use std::collections::HashSet;
+
+/// A key that its object has already.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RepeatedKey {
+    /// Byte offset of the second (or later) appearance of the key.
+    pub offset: usize,
+    /// RFC 6901 pointer to the member.
+    pub pointer: String,
+}
+
+/// Byte offset of the value at `pointer`; of a key that appears twice the last counts.
+pub fn find_value(text: &str, pointer: &str) -> Option<usize> {
+    let mut scan = Scan::new(text);
+    scan.skip_space();
+    for segment in segments(pointer)? {
+        scan.enter(&segment?, None)?;
+        scan.skip_space();
+    }
+    (scan.at < text.len()).then_some(scan.at)
+}
+
+/// Byte offset of the `occurrence`-th (from 0) appearance of the key that `pointer` ends with.
+pub fn find_key(text: &str, pointer: &str, occurrence: usize) -> Option<usize> {
+    let (parent, key) = pointer.rsplit_once('/')?;
+    let at = find_value(text, parent)?;
+    let mut scan = Scan { text, at };
+    scan.enter(&unescape(key)?, Some(occurrence))
+}
+
+/// Calls `found` for every key that appears again in its object.
+pub fn repeated_keys(text: &str, mut found: impl FnMut(&dyn Fn() -> RepeatedKey)) {
+    let mut walk = Walk::new(text, true);
+    while let Some(token) = walk.next() {
+        if token.repeats {
+            found(&|| RepeatedKey {
+                offset: token.offset,
+                pointer: walk.pointer(),
+            });
+        }
+    }
+}
+
+/// RFC 6901 pointer to the value in which `offset` lies.
+pub fn pointer_at(text: &str, offset: usize) -> String {
+    let mut walk = Walk::new(text, false);
+    while walk.scan.at < offset {
+        let at = walk.scan.at;
+        if walk.next().is_none() || walk.scan.at == at {
+            break;
+        }
+    }
+    walk.pointer()
+}
+
+/// Appends one segment to a pointer.
+pub fn push_segment(pointer: &mut String, segment: &str) {
+    pointer.push('/');
+    for c in segment.chars() {
+        match c {
+            '~' => pointer.push_str("~0"),
+            '/' => pointer.push_str("~1"),
+            c => pointer.push(c),
+        }
+    }
+}
+
+/// The unescaped segments of a pointer; an element is `None` where an escape is wrong.
+fn segments(pointer: &str) -> Option<impl Iterator<Item = Option<Cow<'_, str>>>> {
+    let mut parts = pointer.split('/');
+    // A pointer is empty or begins with a slash.
+    parts.next().filter(|before| before.is_empty())?;
+    Some(parts.map(unescape))
+}
+
+fn unescape(segment: &str) -> Option<Cow<'_, str>> {
+    if !segment.contains('~') {
+        return Some(Cow::Borrowed(segment));
+    }
+    let plain = segment.replace("~1", "").replace("~0", "");
+    (!plain.contains('~')).then(|| Cow::Owned(segment.replace("~1", "/").replace("~0", "~")))
+}
+
+struct Scan<'a> {
+    text: &'a str,
+    at: usize,
+}
+
+impl<'a> Scan<'a> {
+    fn new(text: &'a str) -> Self {
+        Self { text, at: 0 }
+    }
+
+    fn peek(&self) -> Option<u8> {
+        self.text.as_bytes().get(self.at).copied()
+    }
+
+    fn skip_space(&mut self) {
+        while matches!(self.peek(), Some(b' ' | b'\t' | b'\n' | b'\r')) {
+            self.at += 1;
+        }
+    }
+
+    /// Moves past `byte`, if it is what comes next.
+    fn eat(&mut self, byte: u8) -> Option<()> {
+        self.skip_space();
+        (self.peek() == Some(byte)).then(|| self.at += 1)
+    }
+
+    /// Moves past the string that begins here; gives it with its quotes.
+    fn string(&mut self) -> Option<&'a str> {
+        let start = self.at;
+        let bytes = self.text.as_bytes();
+        if self.peek() != Some(b'"') {
+            return None;
+        }
+        self.at += 1;
+        while let Some(&byte) = bytes.get(self.at) {
+            self.at += 1;
+            match byte {
+                b'"' => return self.text.get(start..self.at),
+                b'\\' => self.at += 1,
+                _ => {}
+            }
+        }
+        None
+    }
+
+    fn key(&mut self) -> Option<Cow<'a, str>> {
+        let quoted = self.string()?;
+        let inner = quoted.get(1..quoted.len() - 1)?;
+        if inner.contains('\\') {
+            serde_json::from_str(quoted).ok().map(Cow::Owned)
+        } else {
+            Some(Cow::Borrowed(inner))
+        }
+    }
+
+    fn word(&mut self) {
+        while !matches!(
+            self.peek(),
+            None | Some(b',' | b']' | b'}' | b':' | b' ' | b'\t' | b'\n' | b'\r')
+        ) {
+            self.at += 1;
+        }
+    }
+
+    /// Moves past one whole value.
+    fn skip_value(&mut self) -> Option<()> {
+        let mut depth = 0_usize;
+        loop {
+            self.skip_space();
+            match self.peek()? {
+                b'"' => {
+                    self.string()?;
+                }
+                b'{' | b'[' => {
+                    depth += 1;
+                    self.at += 1;
+                    continue;
+                }
+                b'}' | b']' => {
+                    depth = depth.checked_sub(1)?;
+                    self.at += 1;
+                }
+                b',' | b':' if depth > 0 => {
+                    self.at += 1;
+                    continue;
+                }
+                _ => {
+                    let start = self.at;
+                    self.word();
+                    (self.at > start).then_some(())?;
+                }
+            }
+            if depth == 0 {
+                return Some(());
+            }
+        }
+    }
+
+    /// From the start of a container, moves to the start of one of its children. With an
+    /// `occurrence`, gives the offset of that appearance of the key; else that of the child.
+    fn enter(&mut self, segment: &str, occurrence: Option<usize>) -> Option<usize> {
+        if self.eat(b'[').is_some() {
+            return self.enter_list(segment).filter(|_| occurrence.is_none());
+        }
+        self.eat(b'{')?;
+        let mut seen = 0;
+        let mut last = None;
+        loop {
+            self.skip_space();
+            let at = self.at;
+            let Some(key) = self.key() else { break };
+            self.eat(b':')?;
+            self.skip_space();
+            if key == segment {
+                if occurrence == Some(seen) {
+                    return Some(at);
+                }
+                seen += 1;
+                last = Some(self.at);
+            }
+            self.skip_value()?;
+            if self.eat(b',').is_none() {
+                break;
+            }
+        }
+        self.at = last.filter(|_| occurrence.is_none())?;
+        Some(self.at)
+    }
+
+    fn enter_list(&mut self, segment: &str) -> Option<usize> {
+        let wanted: usize = segment.parse().ok()?;
+        // "01" and "+1" are no indices.
+        if wanted.to_string() != segment {
+            return None;
+        }
+        for _ in 0..wanted {
+            self.skip_value()?;
+            self.eat(b',')?;
+        }
+        self.skip_space();
+        (!matches!(self.peek(), None | Some(b']'))).then_some(self.at)
+    }
+}
+
+/// One open container of a [`Walk`].
+enum Open<'a> {
+    List(usize),
+    Object {
+        key: Option<Cow<'a, str>>,
+        keys: HashSet<Cow<'a, str>>,
+        at_value: bool,
+    },
+}
+
+struct Token {
+    offset: usize,
+    repeats: bool,
+}
+
+/// A walk over all tokens that knows where in the document it is.
+struct Walk<'a> {
+    scan: Scan<'a>,
+    open: Vec<Open<'a>>,
+    with_keys: bool,
+}
+
+impl<'a> Walk<'a> {
+    fn new(text: &'a str, with_keys: bool) -> Self {
+        Self {
+            scan: Scan::new(text),
+            open: Vec::new(),
+            with_keys,
+        }
+    }
+
+    fn next(&mut self) -> Option<Token> {
+        self.scan.skip_space();
+        let offset = self.scan.at;
+        let mut token = Token {
+            offset,
+            repeats: false,
+        };
+        match self.scan.peek()? {
+            b'{' => self.open.push(Open::Object {
+                key: None,
+                keys: HashSet::new(),
+                at_value: false,
+            }),
+            b'[' => self.open.push(Open::List(0)),
+            b'}' | b']' => {
+                self.open.pop();
+            }
+            b',' => match self.open.last_mut() {
+                Some(Open::List(index)) => *index += 1,
+                Some(Open::Object { at_value, .. }) => *at_value = false,
+                None => {}
+            },
+            b':' => {
+                if let Some(Open::Object { at_value, .. }) = self.open.last_mut() {
+                    *at_value = true;
+                }
+            }
+            b'"' => {
+                if let Some(Open::Object {
+                    key,
+                    keys,
+                    at_value: false,
+                }) = self.open.last_mut()
+                {
+                    let name = self.scan.key()?;
+                    if self.with_keys {
+                        token.repeats = !keys.insert(name.clone());
+                    }
+                    *key = Some(name);
+                } else {
+                    self.scan.string()?;
+                }
+                return Some(token);
+            }
+            _ => {
+                self.scan.word();
+                return (self.scan.at > offset).then_some(token);
+            }
+        }
+        self.scan.at += 1;
+        Some(token)
+    }
+
+    fn pointer(&self) -> String {
+        let mut pointer = String::new();
+        for open in &self.open {
+            match open {
+                Open::List(index) => push_segment(&mut pointer, &index.to_string()),
+                Open::Object { key: Some(key), .. } => push_segment(&mut pointer, key),
+                Open::Object { key: None, .. } => {}
+            }
+        }
+        pointer
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_repeated_keys_however_they_are_spelled() {
+        let text = r#"{"a": [{"x": 1, "\u0078": 2, "y": {"x": 0}}], "a": "a", "b": "a"}"#;
+        let mut found = Vec::new();
+        repeated_keys(text, |key| found.push(key()));
+        let pointers: Vec<_> = found.iter().map(|key| key.pointer.as_str()).collect();
+        assert_eq!(pointers, ["/a/0/x", "/a"]);
+        assert_eq!(&text[found[0].offset..][..8], r#""\u0078""#);
+    }
+
+    #[test]
+    fn says_where_an_offset_lies() {
+        let text = r#"{"a/b": [0, {"c": NaN}], "d": 1}"#;
+        let at = |what: &str| pointer_at(text, text.find(what).unwrap() + 1);
+        assert_eq!(at("NaN"), "/a~1b/1/c");
+        assert_eq!(at("1}"), "/d");
+        assert_eq!(pointer_at(text, 0), "");
+    }
+
+    #[test]
+    fn broken_text_ends_the_walk() {
+        for text in [
+            "",
+            "\"",
+            "{\"a",
+            "{\"a\\",
+            "[1,,",
+            "}}",
+            "{\"é\\ud800\":1}",
+            "[\\",
+            ":",
+        ] {
+            repeated_keys(text, |_| {});
+            pointer_at(text, usize::MAX);
+            find_value(text, "/a/0");
+            find_key(text, "/a", 3);
+        }
+    }
+}

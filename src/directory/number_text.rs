@@ -1,0 +1,96 @@
+//! The one way to write a number, for JSON and YAML alike.
+
+use std::fmt::{self, Write};
+
+use serde_json::Number;
+
+/// Below this magnitude, numbers are written with an exponent. The same bound as Python's `repr`.
+const SMALLEST_WITHOUT_EXPONENT: f64 = 1e-4;
+/// From this magnitude on, numbers are written with an exponent. The same bound as Python's `repr`.
+const LARGEST_WITHOUT_EXPONENT: f64 = 1e16;
+
+/// Writes a number so that JSON, YAML 1.1 and YAML 1.2 all read the same one.
+///
+/// Integers are decimal digits. A float is the shortest decimal that reads back as the same
+/// 64-bit float. Zero, of either sign, is `0.0`. With a magnitude of at least 10^-4 and below
+/// 10^16 it has no exponent and at least one digit on each side of the point (`0.0001`, `3.0`);
+/// otherwise it has one digit before the point, at least one after it, `e`, a sign, and the
+/// exponent without leading zeros (`1.0e-5`, `1.25e+22`).
+pub fn write(number: &Number, out: &mut impl Write) -> fmt::Result {
+    if let Some(n) = number.as_u64() {
+        write!(out, "{n}")
+    } else if let Some(n) = number.as_i64() {
+        write!(out, "{n}")
+    } else if let Some(x) = number.as_f64() {
+        write_float(x, out)
+    } else {
+        // Only with serde_json's arbitrary_precision, which we do not enable.
+        write!(out, "{number}")
+    }
+}
+
+/// Writes a float as [`write`] does; the caller vouches that it is finite.
+pub fn write_float(x: f64, out: &mut impl Write) -> fmt::Result {
+    let magnitude = x.abs();
+    if magnitude == 0.0 {
+        return out.write_str("0.0");
+    }
+    if (SMALLEST_WITHOUT_EXPONENT..LARGEST_WITHOUT_EXPONENT).contains(&magnitude) {
+        // serde_json prints floats several times faster than the standard library.
+        let mut buffer = [0_u8; 40];
+        let mut free = &mut buffer[..];
+        let written = serde_json::to_writer(&mut free, &x).is_ok();
+        let length = 40 - free.len();
+        return match std::str::from_utf8(&buffer[..length]) {
+            Ok(text) if written && text.contains('.') && !text.contains('e') => out.write_str(text),
+            _ => write!(out, "{x:?}"),
+        };
+    }
+    let text = format!("{x:e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let point = if mantissa.contains('.') { "" } else { ".0" };
+    let sign = if exponent.starts_with('-') { "" } else { "+" };
+    write!(out, "{mantissa}{point}e{sign}{exponent}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn floats_have_one_spelling() {
+        let cases = [
+            (0.0, "0.0"),
+            (-0.0, "0.0"),
+            (1.0, "1.0"),
+            (-2.5, "-2.5"),
+            (0.1, "0.1"),
+            (1e-4, "0.0001"),
+            (1.234e-4, "0.0001234"),
+            (9.999_999e-5, "9.999999e-5"),
+            (1e-7, "1.0e-7"),
+            (-1.5e-300, "-1.5e-300"),
+            (1e15, "1000000000000000.0"),
+            (9_999_999_999_999_998.0, "9999999999999998.0"),
+            (1e16, "1.0e+16"),
+            (1.25e22, "1.25e+22"),
+            (f64::MAX, "1.7976931348623157e+308"),
+            (5e-324, "5.0e-324"),
+        ];
+        for (x, expected) in cases {
+            let mut text = String::new();
+            write_float(x, &mut text).unwrap();
+            assert_eq!(text, expected);
+        }
+    }
+
+    #[test]
+    fn integers_stay_integers() {
+        for n in ["0", "-1", "18446744073709551615", "-9223372036854775808"] {
+            let number: Number = n.parse().unwrap();
+            let mut text = String::new();
+            write(&number, &mut text).unwrap();
+            assert_eq!(text, n);
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Places in a text, as a person counts them.
+
+use std::fmt;
+
+use super::json_scan;
+
+/// A place in a text: 1-based line and 1-based column, the column counted in Unicode scalar values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Position {
+    /// The line, from 1.
+    pub line: u32,
+    /// The column, from 1.
+    pub column: u32,
+}
+
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.line, self.column)
+    }
+}
+
+/// Where the lines of a text begin; made once, it finds any number of positions quickly.
+#[derive(Debug, Clone)]
+pub struct LineIndex<'a> {
+    text: &'a str,
+    starts: Vec<usize>,
+}
+
+impl<'a> LineIndex<'a> {
+    /// Finds the lines of `text`. A line ends with `\n`, with `\r\n`, or with a `\r` alone.
+    pub fn new(text: &'a str) -> Self {
+        let bytes = text.as_bytes();
+        let mut starts = vec![0];
+        for (at, &byte) in bytes.iter().enumerate() {
+            if byte == b'\n' || (byte == b'\r' && bytes.get(at + 1) != Some(&b'\n')) {
+                starts.push(at + 1);
+            }
+        }
+        Self { text, starts }
+    }
+
+    /// The position of a byte offset; an offset beyond the text is the text's end.
+    pub fn position(&self, offset: usize) -> Position {
+        let offset = offset.min(self.text.len());
+        let line = self.starts.partition_point(|&start| start <= offset);
+        let start = self.starts[line - 1];
+        Position {
+            line: count(line),
+            column: count(scalars(&self.text.as_bytes()[start..offset]) + 1),
+        }
+    }
+
+    /// The byte offset at which a 1-based line begins.
+    pub fn line_start(&self, line: usize) -> Option<usize> {
+        self.starts.get(line.checked_sub(1)?).copied()
+    }
+}
+
+/// The position of one byte offset in `text`.
+pub fn position(text: &str, offset: usize) -> Position {
+    LineIndex::new(text).position(offset)
+}
+
+/// The position of the value at an RFC 6901 pointer, in text that is valid JSON.
+///
+/// Where an object has a key twice, the last is the one that counts, as in the value that
+/// [`super::json::read`] gives.
+pub fn locate(text: &str, pointer: &str) -> Option<Position> {
+    json_scan::find_value(text, pointer).map(|offset| position(text, offset))
+}
+
+/// The position of the `occurrence`-th (from 0) appearance of the key that a pointer ends with.
+pub fn locate_key(text: &str, pointer: &str, occurrence: usize) -> Option<Position> {
+    json_scan::find_key(text, pointer, occurrence).map(|offset| position(text, offset))
+}
+
+fn count(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}
+
+/// Counts the scalar values in UTF-8: every byte but the continuation bytes.
+fn scalars(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn at(line: u32, column: u32) -> Position {
+        Position { line, column }
+    }
+
+    #[test]
+    fn columns_count_characters_not_bytes() {
+        let text = "é\u{1F916}x\r\ny\rz\n";
+        let index = LineIndex::new(text);
+        assert_eq!(index.position(0), at(1, 1));
+        assert_eq!(index.position(text.find('x').unwrap()), at(1, 3));
+        assert_eq!(index.position(text.find('y').unwrap()), at(2, 1));
+        assert_eq!(index.position(text.find('z').unwrap()), at(3, 1));
+        assert_eq!(index.position(usize::MAX), at(4, 1));
+    }
+
+    #[test]
+    fn finds_values_by_pointer() {
+        let text = "{\n  \"a/b\": [1, {\"~\": \"]}\\\"\", \"\\u00e9\": [ 7 ]}],\n  \"\": null\n}";
+        assert_eq!(locate(text, ""), Some(at(1, 1)));
+        assert_eq!(locate(text, "/a~1b"), Some(at(2, 10)));
+        assert_eq!(locate(text, "/a~1b/0"), Some(at(2, 11)));
+        assert_eq!(locate(text, "/a~1b/1/~0"), Some(at(2, 20)));
+        assert_eq!(locate(text, "/a~1b/1/é/0"), Some(at(2, 40)));
+        assert_eq!(locate(text, "/"), Some(at(3, 7)));
+        for absent in [
+            "/b",
+            "/a~1b/2",
+            "/a~1b/01",
+            "/a~1b/-",
+            "/a~1b/0/x",
+            "a",
+            "/~2",
+        ] {
+            assert_eq!(locate(text, absent), None, "{absent}");
+        }
+    }
+
+    #[test]
+    fn finds_each_occurrence_of_a_key() {
+        let text = r#"{"a": {"b": 1}, "c": 2, "a": {"b": 3, "b": 4}}"#;
+        assert_eq!(locate_key(text, "/a", 0), Some(at(1, 2)));
+        assert_eq!(locate_key(text, "/a", 1), Some(at(1, 25)));
+        assert_eq!(locate_key(text, "/a", 2), None);
+        assert_eq!(locate_key(text, "/a/b", 1), Some(at(1, 39)));
+        assert_eq!(locate(text, "/a/b"), Some(at(1, 44)));
+    }
+}

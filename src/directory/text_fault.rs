@@ -1,0 +1,204 @@
+//! What can be wrong with the text of a JSON or YAML file, whatever it describes.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use super::position::Position;
+
+/// How many faults of one kind are kept with their place; the rest are only counted.
+pub const KEPT_PER_KIND: usize = 5;
+
+/// The kinds of fault that text can have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum TextFaultKind {
+    /// The file is not JSON.
+    Syntax,
+    /// The JSON file is not UTF-8.
+    NotUtf8,
+    /// The JSON file begins with a byte order mark.
+    ByteOrderMark,
+    /// A JSON object names a member twice.
+    DuplicateKey,
+    /// `NaN`, `Infinity`, or a number too large for a 64-bit float.
+    NonFiniteNumber,
+    /// The JSON is nested more deeply than any reader should have to follow.
+    TooDeep,
+    /// The file is not YAML.
+    YamlSyntax,
+    /// The YAML file is not UTF-8.
+    YamlNotUtf8,
+    /// The YAML file begins with a byte order mark.
+    YamlByteOrderMark,
+    /// A node carries a tag, such as `!Mesh`.
+    YamlTag,
+    /// An anchor (`&a`) or an alias (`*a`).
+    YamlAnchorOrAlias,
+    /// A merge key (`<<`).
+    YamlMergeKey,
+    /// A YAML mapping names a key twice.
+    YamlDuplicateKey,
+    /// Something that YAML 1.1 and YAML 1.2 read differently.
+    YamlAmbiguousScalar,
+    /// The YAML does not say what the JSON says.
+    YamlDiffers,
+    /// The YAML is nested more deeply than any reader should have to follow.
+    YamlTooDeep,
+    /// More than one document in the file.
+    YamlSeveralDocuments,
+    /// A directive, such as `%YAML 1.1`.
+    YamlDirective,
+    /// A mapping key that is not a string.
+    YamlNonStringKey,
+}
+
+/// One fault, with the place where it stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TextFault {
+    /// What is wrong.
+    pub kind: TextFaultKind,
+    /// RFC 6901 pointer to the value, where the fault has one.
+    pub pointer: Option<String>,
+    /// Where in the file, where the fault has a place.
+    pub position: Option<Position>,
+    /// What is wrong and what to do about it, for a person.
+    pub message: String,
+    /// What was expected, where something definite was.
+    pub expected: Option<String>,
+    /// What stands there.
+    pub found: Option<String>,
+}
+
+impl TextFault {
+    /// A fault that has neither place nor comparison yet.
+    pub fn new(kind: TextFaultKind, message: impl Into<String>) -> Self {
+        Self {
+            kind,
+            pointer: None,
+            position: None,
+            message: message.into(),
+            expected: None,
+            found: None,
+        }
+    }
+
+    /// The same fault, standing at `position`.
+    #[must_use]
+    pub fn at(mut self, position: Position) -> Self {
+        self.position = Some(position);
+        self
+    }
+
+    /// The same fault, of the value at `pointer`.
+    #[must_use]
+    pub fn of(mut self, pointer: String) -> Self {
+        self.pointer = Some(pointer);
+        self
+    }
+}
+
+impl fmt::Display for TextFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(position) = self.position {
+            write!(f, "{position}: ")?;
+        }
+        f.write_str(&self.message)
+    }
+}
+
+/// The faults of one file: the first few of each kind, and how many of each there were.
+///
+/// A generated file repeats its mistake a hundred thousand times; five examples and a count say
+/// the same.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct TextFaults {
+    kept: Vec<TextFault>,
+    totals: BTreeMap<TextFaultKind, usize>,
+}
+
+impl TextFaults {
+    /// Counts a fault of `kind`; `fault` is called only when it is one of the first of its kind.
+    pub fn add(&mut self, kind: TextFaultKind, fault: impl FnOnce() -> TextFault) {
+        let total = self.totals.entry(kind).or_insert(0);
+        *total += 1;
+        if *total <= KEPT_PER_KIND {
+            let fault = fault();
+            debug_assert_eq!(fault.kind, kind);
+            self.kept.push(fault);
+        }
+    }
+
+    /// Counts a fault that is already at hand.
+    pub fn push(&mut self, fault: TextFault) {
+        self.add(fault.kind, || fault);
+    }
+
+    /// Whether nothing is wrong.
+    pub fn is_empty(&self) -> bool {
+        self.totals.is_empty()
+    }
+
+    /// How many faults of this kind there were, kept or not.
+    pub fn total(&self, kind: TextFaultKind) -> usize {
+        self.totals.get(&kind).copied().unwrap_or(0)
+    }
+
+    /// Every kind that occurred, with its number of faults.
+    pub fn totals(&self) -> impl Iterator<Item = (TextFaultKind, usize)> + '_ {
+        self.totals.iter().map(|(&kind, &total)| (kind, total))
+    }
+
+    /// The faults that were kept, in the order in which they were found.
+    pub fn iter(&self) -> std::slice::Iter<'_, TextFault> {
+        self.kept.iter()
+    }
+}
+
+impl<'a> IntoIterator for &'a TextFaults {
+    type Item = &'a TextFault;
+    type IntoIter = std::slice::Iter<'a, TextFault>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl fmt::Display for TextFaults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let all: usize = self.totals.values().sum();
+        match self.kept.first() {
+            None => f.write_str("no fault"),
+            Some(first) if all == 1 => write!(f, "{first}"),
+            Some(first) => write!(f, "{first} (and {} more)", all - 1),
+        }
+    }
+}
+
+/// The text has no value to go on with; the faults say why.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{faults}")]
+pub struct UnreadableText {
+    /// What is wrong; never empty.
+    pub faults: TextFaults,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keeps_the_first_of_each_kind_and_counts_all() {
+        let mut faults = TextFaults::default();
+        let mut built = 0;
+        for _ in 0..100_000 {
+            faults.add(TextFaultKind::YamlTag, || {
+                built += 1;
+                TextFault::new(TextFaultKind::YamlTag, "a tag")
+            });
+        }
+        faults.push(TextFault::new(TextFaultKind::YamlDiffers, "differs"));
+        assert_eq!(built, KEPT_PER_KIND);
+        assert_eq!(faults.iter().count(), KEPT_PER_KIND + 1);
+        assert_eq!(faults.total(TextFaultKind::YamlTag), 100_000);
+        assert_eq!(faults.to_string(), "a tag (and 100000 more)");
+    }
+}

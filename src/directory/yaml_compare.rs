@@ -1,0 +1,382 @@
+//! The events of a YAML file in step with a JSON value.
+
+use std::borrow::Cow;
+use std::ops::ControlFlow;
+
+use saphyr_parser::{Event, Marker, Parser, ScalarStyle, ScanError, Span, Tag};
+use serde_json::Value;
+
+use super::json::DEPTH_LIMIT;
+use super::json_scan::push_segment;
+use super::position::Position;
+use super::text_fault::{TextFault, TextFaultKind, TextFaults};
+use super::yaml_message as message;
+use super::yaml_open::{Mapping, Member, Open, Shape, pointer};
+use super::yaml_scalar::{self, Reading};
+use super::yaml_tabs::Tabs;
+use super::yaml_tag::{self, Forced, Node, Target};
+
+/// Reports how the YAML in `text` differs from `json`, and what is in it that JSON has not.
+pub fn compare(text: &str, json: &Value, faults: &mut TextFaults) {
+    let mut comparison = Comparison {
+        root: json,
+        open: Vec::new(),
+        documents: 0,
+        tabs: Tabs::find(text),
+        faults,
+    };
+    let mut parser = Parser::new_from_str(text);
+    while let Some(next) = parser.next_event() {
+        match next {
+            Ok((event, span)) => {
+                if comparison.event(event, span).is_break() {
+                    return;
+                }
+            }
+            Err(error) => return comparison.stop(text, &error),
+        }
+    }
+}
+
+struct Comparison<'j, 'y, 'f> {
+    root: &'j Value,
+    open: Vec<Open<'j, 'y>>,
+    documents: usize,
+    tabs: Tabs<'y>,
+    faults: &'f mut TextFaults,
+}
+
+/// What the next node is.
+enum Slot<'j> {
+    Key,
+    /// A value, and what the JSON has there, if that is known.
+    Value(Option<&'j Value>),
+}
+
+impl<'j, 'y> Comparison<'j, 'y, '_> {
+    fn event(&mut self, event: Event<'y>, span: Span) -> ControlFlow<()> {
+        let (at, kind) = (place(span.start), scalar_kind(&event));
+        self.tabs.pass(span, kind, self.faults);
+        match event {
+            Event::StreamEnd if self.documents == 0 => {
+                let json = self.root;
+                self.differs(at, || message::differs("nothing", json));
+            }
+            Event::DocumentStart(_) => {
+                self.documents += 1;
+                if self.documents > 1 {
+                    let text = "a second document begins here: keep one document in a file";
+                    let fault = TextFault::new(TextFaultKind::YamlSeveralDocuments, text);
+                    self.faults.push(fault.at(at));
+                    return ControlFlow::Break(());
+                }
+            }
+            Event::Alias(_) => self.alias(at),
+            Event::Scalar(text, style, anchor, tag) => match self.slot() {
+                Slot::Key => {
+                    self.target(tag.as_deref(), anchor, None, Node::Scalar, at);
+                    self.key(text, style, at);
+                }
+                Slot::Value(json) => {
+                    let is_empty = text.is_empty() && style == ScalarStyle::Plain;
+                    let node = if is_empty { Node::Empty } else { Node::Scalar };
+                    let target = self.target(tag.as_deref(), anchor, json, node, at);
+                    self.scalar(&text, style, &target, tag.is_some(), at);
+                }
+            },
+            Event::SequenceStart(anchor, tag) => {
+                return self.begin(Node::List, anchor, tag.as_deref(), span);
+            }
+            Event::MappingStart(anchor, tag) => {
+                return self.begin(Node::Mapping, anchor, tag.as_deref(), span);
+            }
+            Event::SequenceEnd | Event::MappingEnd => self.end(),
+            Event::Nothing | Event::StreamStart | Event::StreamEnd | Event::DocumentEnd => {}
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn slot(&mut self) -> Slot<'j> {
+        match self.open.last_mut().map(|open| &mut open.shape) {
+            None => Slot::Value(Some(self.root)),
+            Some(Shape::List { json, begun }) => {
+                *begun += 1;
+                Slot::Value(json.and_then(|list| list.get(*begun - 1)))
+            }
+            Some(Shape::Mapping(mapping)) => match mapping.due.take() {
+                Some(json) => Slot::Value(json),
+                None => Slot::Key,
+            },
+        }
+    }
+
+    fn alias(&mut self, at: Position) {
+        if let Slot::Key = self.slot()
+            && let Some(Shape::Mapping(mapping)) = self.open.last_mut().map(|open| &mut open.shape)
+        {
+            mapping.key = None;
+            mapping.due = Some(None);
+            mapping.incomplete = true;
+        } else if let Some(Shape::Mapping(Mapping { merging: true, .. })) =
+            self.open.last().map(|open| &open.shape)
+        {
+            // The merge key has been reported.
+            return;
+        }
+        let text = "an alias stands for a value written elsewhere: write the value itself";
+        self.report(at, TextFaultKind::YamlAnchorOrAlias, text);
+    }
+
+    fn key(&mut self, text: Cow<'y, str>, style: ScalarStyle, at: Position) {
+        let Some(open) = self.open.last_mut() else {
+            return;
+        };
+        let flow = open.flow;
+        let Shape::Mapping(mapping) = &mut open.shape else {
+            return;
+        };
+        let plain = style == ScalarStyle::Plain;
+        mapping.merging = plain && text == "<<";
+        if mapping.merging {
+            mapping.key = Some(text);
+            mapping.due = Some(None);
+            mapping.incomplete = true;
+            let text =
+                "a merge key takes members from elsewhere: write them here (or quote the key)";
+            return self.report(at, TextFaultKind::YamlMergeKey, text);
+        }
+        let member = mapping.find(&text);
+        mapping.due = Some(match member {
+            Member::Expected(value) => Some(value),
+            Member::Unknown | Member::Extra | Member::Repeated => None,
+        });
+        mapping.key = Some(text.clone());
+        if plain {
+            self.plain_key(&text, flow, at);
+        }
+        match member {
+            Member::Extra => self.differs(at, || message::extra_key(&text)),
+            Member::Repeated => {
+                let kind = TextFaultKind::YamlDuplicateKey;
+                self.add(at, kind, || message::repeated_key(&text));
+            }
+            Member::Expected(_) | Member::Unknown => {}
+        }
+    }
+
+    /// Reports what is wrong with how a key is written.
+    fn plain_key(&mut self, text: &str, flow: bool, at: Position) {
+        let readings = yaml_scalar::classify(text);
+        let kind = TextFaultKind::YamlAmbiguousScalar;
+        if readings.ambiguous {
+            self.add(at, kind, || message::ambiguous(text, readings, None));
+        } else if readings.yaml12 != Reading::Text {
+            let kind = TextFaultKind::YamlNonStringKey;
+            self.add(at, kind, || message::not_a_string(text, readings.yaml12));
+        } else if flow && text.contains('?') {
+            self.add(at, kind, || message::question_mark(text));
+        }
+    }
+
+    fn scalar(
+        &mut self,
+        text: &str,
+        style: ScalarStyle,
+        target: &Target<'j>,
+        tagged: bool,
+        at: Position,
+    ) {
+        let plain = style == ScalarStyle::Plain;
+        let reading = match target.forced {
+            Some(Forced::Text) => Reading::Text,
+            None if !plain => Reading::Text,
+            _ => {
+                let readings = yaml_scalar::classify(text);
+                if readings.ambiguous && plain && !tagged {
+                    let fault = || message::ambiguous(text, readings, target.json);
+                    self.add(at, TextFaultKind::YamlAmbiguousScalar, fault);
+                }
+                readings.yaml12
+            }
+        };
+        if plain
+            && reading == Reading::Text
+            && self.open.last().is_some_and(|open| open.flow)
+            && text.contains('?')
+        {
+            self.add(at, TextFaultKind::YamlAmbiguousScalar, || {
+                message::question_mark(text)
+            });
+        }
+        if let Some(json) = target.json
+            && !yaml_scalar::agrees(reading, text, json)
+        {
+            self.differs(at, || {
+                message::differs(&message::found(text, reading), json)
+            });
+        }
+    }
+
+    fn begin(
+        &mut self,
+        node: Node,
+        anchor: usize,
+        tag: Option<&Tag>,
+        span: Span,
+    ) -> ControlFlow<()> {
+        let at = place(span.start);
+        let json = match self.slot() {
+            Slot::Value(json) => json,
+            Slot::Key => {
+                let text = "a list or mapping as a key: keys are strings";
+                self.report(at, TextFaultKind::YamlNonStringKey, text);
+                if let Some(Shape::Mapping(mapping)) =
+                    self.open.last_mut().map(|open| &mut open.shape)
+                {
+                    mapping.key = None;
+                    mapping.due = Some(None);
+                }
+                None
+            }
+        };
+        let Target { json, variant, .. } = self.target(tag, anchor, json, node, at);
+        if self.open.len() >= DEPTH_LIMIT {
+            self.too_deep(at);
+            return ControlFlow::Break(());
+        }
+        let fits = |json: &Value| match node {
+            Node::List => json.is_array(),
+            _ => json.is_object(),
+        };
+        if let Some(json) = json.filter(|json| !fits(json)) {
+            let found = if node == Node::List {
+                "a list"
+            } else {
+                "a mapping"
+            };
+            self.differs(at, || message::differs(found, json));
+        }
+        let shape = match node {
+            Node::List => Shape::List {
+                json: json.and_then(Value::as_array).map(Vec::as_slice),
+                begun: 0,
+            },
+            _ => Shape::Mapping(Mapping::new(json.and_then(Value::as_object))),
+        };
+        // In block style nothing is read at the start of a list or mapping.
+        let flow = self.open.last().is_some_and(|open| open.flow)
+            || (tag.is_none() && anchor == 0 && !span.is_empty());
+        self.open.push(Open {
+            start: at,
+            flow,
+            variant,
+            shape,
+        });
+        ControlFlow::Continue(())
+    }
+
+    fn end(&mut self) {
+        let Some(open) = self.open.pop() else {
+            return;
+        };
+        let with_variant = |mut pointer: String| {
+            if let Some(variant) = &open.variant {
+                push_segment(&mut pointer, variant);
+            }
+            pointer
+        };
+        match &open.shape {
+            Shape::List { json, begun } => {
+                let Some(expected) = json.map(<[Value]>::len).filter(|n| n != begun) else {
+                    return;
+                };
+                self.faults.add(TextFaultKind::YamlDiffers, || {
+                    message::length(*begun, expected)
+                        .at(open.start)
+                        .of(with_variant(pointer(&self.open)))
+                });
+            }
+            Shape::Mapping(mapping) => {
+                for (key, value) in mapping.missing() {
+                    self.faults.add(TextFaultKind::YamlDiffers, || {
+                        let mut pointer = with_variant(pointer(&self.open));
+                        push_segment(&mut pointer, key);
+                        message::missing_key(key, value).at(open.start).of(pointer)
+                    });
+                }
+            }
+        }
+    }
+
+    /// Reports what stands before a node, and finds out what the node is to be compared with.
+    fn target(
+        &mut self,
+        tag: Option<&Tag>,
+        anchor: usize,
+        json: Option<&'j Value>,
+        node: Node,
+        at: Position,
+    ) -> Target<'j> {
+        if anchor > 0 {
+            let text = "an anchor names a value for use elsewhere: remove it";
+            self.report(at, TextFaultKind::YamlAnchorOrAlias, text);
+        }
+        let mut target = Target {
+            json,
+            variant: None,
+            forced: None,
+        };
+        let Some(tag) = tag else {
+            return target;
+        };
+        let variant = yaml_tag::apply(tag, node, &mut target);
+        self.add(at, TextFaultKind::YamlTag, || yaml_tag::fault(tag, variant));
+        target
+    }
+
+    fn stop(&mut self, text: &str, error: &ScanError) {
+        let at = place(*error.marker());
+        // The scanner looks ahead in brackets, and has a limit of its own there.
+        if error.info() == "recursion limit exceeded" {
+            return self.too_deep(at);
+        }
+        let message = message::unparsed(text, error);
+        self.report(at, TextFaultKind::YamlSyntax, &message);
+    }
+
+    fn too_deep(&mut self, at: Position) {
+        let message = format!("the nesting is deeper than {DEPTH_LIMIT} levels: flatten it");
+        // A pointer of a hundred segments helps nobody.
+        self.faults
+            .push(TextFault::new(TextFaultKind::YamlTooDeep, message).at(at));
+    }
+
+    fn report(&mut self, at: Position, kind: TextFaultKind, message: &str) {
+        self.add(at, kind, || TextFault::new(kind, message));
+    }
+
+    fn differs(&mut self, at: Position, fault: impl FnOnce() -> TextFault) {
+        self.add(at, TextFaultKind::YamlDiffers, fault);
+    }
+
+    /// Adds a fault of the node that is being read.
+    fn add(&mut self, at: Position, kind: TextFaultKind, fault: impl FnOnce() -> TextFault) {
+        let open = &self.open;
+        self.faults.add(kind, || fault().at(at).of(pointer(open)));
+    }
+}
+
+fn scalar_kind(event: &Event<'_>) -> Option<ScalarStyle> {
+    match event {
+        Event::Scalar(_, style, ..) => Some(*style),
+        _ => None,
+    }
+}
+
+fn place(marker: Marker) -> Position {
+    let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    Position {
+        line: count(marker.line()),
+        column: count(marker.col() + 1),
+    }
+}
