@@ -15,6 +15,7 @@ use proptest::test_runner::{Config, TestCaseError, TestRunner};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use urdd::format::registry::ModuleDocument;
+use urdd::format::report::Report;
 use urdd::format::root_metadata::RootMetadata;
 use urdd::format::schema::{Subject, Variant};
 
@@ -29,6 +30,7 @@ const ENOUGH: usize = 500;
 enum Document {
     Root(Box<RootMetadata>),
     Module(ModuleDocument),
+    Report(Box<Report>),
 }
 
 fn read(subject: Subject, value: &Value) -> Result<Document, serde_json::Error> {
@@ -37,6 +39,7 @@ fn read(subject: Subject, value: &Value) -> Result<Document, serde_json::Error> 
             RootMetadata::deserialize(value).map(|m| Document::Root(Box::new(m)))
         }
         Subject::Module(spec) => spec.read(value).map(Document::Module),
+        Subject::Report => Report::deserialize(value).map(|r| Document::Report(Box::new(r))),
     }
 }
 

@@ -24,6 +24,7 @@ pub mod original_meshes;
 pub mod plain_meshes;
 pub mod pose;
 pub mod registry;
+pub mod report;
 pub mod root_metadata;
 pub mod schema;
 pub mod shapes;

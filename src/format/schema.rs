@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
 use super::registry::{MODULES, ModuleSpec};
+use super::report::{REPORT_VERSION, Report};
 use super::root_metadata::RootMetadata;
 
 /// A document that has a published schema.
@@ -16,7 +17,8 @@ pub enum Subject {
     RootMetadata,
     /// The document of a module.
     Module(&'static ModuleSpec),
-    // The validator's report joins here.
+    /// What `urdd validate --format json` writes.
+    Report,
 }
 
 /// Whom a schema is for.
@@ -86,9 +88,12 @@ pub fn released() -> Result<Vec<Release>, SchemaError> {
 }
 
 impl Subject {
-    /// Everything that has a published schema: the root metadata, then the registry in its order.
+    /// Everything that has a published schema: the root metadata, the registry in its order, and the
+    /// report.
     pub fn all() -> impl Iterator<Item = Subject> {
-        std::iter::once(Subject::RootMetadata).chain(MODULES.iter().map(Subject::Module))
+        std::iter::once(Subject::RootMetadata)
+            .chain(MODULES.iter().map(Subject::Module))
+            .chain(std::iter::once(Subject::Report))
     }
 
     /// The subject of an id such as `dof_module@1.0.0`.
@@ -113,6 +118,7 @@ impl Subject {
     pub fn name(self) -> &'static str {
         match self {
             Subject::RootMetadata => "root_metadata",
+            Subject::Report => "report",
             Subject::Module(spec) => spec.kind.name(),
         }
     }
@@ -121,6 +127,7 @@ impl Subject {
     pub fn version(self) -> &'static str {
         match self {
             Subject::RootMetadata => "1.0.0",
+            Subject::Report => REPORT_VERSION,
             Subject::Module(spec) if spec.version.is_empty() => "unversioned",
             Subject::Module(spec) => spec.version,
         }
@@ -135,6 +142,7 @@ impl Subject {
     pub fn schema(self, variant: Variant) -> Value {
         let schema = match self {
             Subject::RootMetadata => schemars::schema_for!(RootMetadata),
+            Subject::Report => schemars::schema_for!(Report),
             Subject::Module(spec) => spec.schema(),
         };
         let suffix = match variant {
