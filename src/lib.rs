@@ -5,3 +5,4 @@
 pub mod cli;
 pub mod directory;
 pub mod format;
+pub mod kinematics;
