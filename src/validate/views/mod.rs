@@ -3,6 +3,7 @@
 
 pub mod bounds;
 pub mod chain;
+pub mod consumer;
 pub mod dofs;
 pub mod mesh_files;
 pub mod meshes;
