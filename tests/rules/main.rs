@@ -15,6 +15,7 @@ mod extensions;
 mod json;
 mod kinematics;
 mod legacy;
+mod legacy_robot;
 mod meshes;
 mod schema;
 mod shapes;

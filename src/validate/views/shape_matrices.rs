@@ -165,9 +165,12 @@ pub fn reasons(document: &ModuleDocument) -> Option<[Rows<'_, SkipReason>; 6]> {
     }
 }
 
+/// What follows the name of a kind in the key of a matrix of models, and the matrices of the six kinds.
+type Models<'a> = (&'static str, [&'a [Vec<ErrorBounds>]; 6]);
+
 /// The twelve matrices of `link_shapes_lie_alg_error_models_module`: the standard models, then the
 /// pseudo models.
-fn models(document: &ModuleDocument) -> Option<[(&'static str, [&[Vec<ErrorBounds>]; 6]); 2]> {
+fn models(document: &ModuleDocument) -> Option<[Models<'_>; 2]> {
     let ModuleDocument::LegacyLinkShapesLieAlgErrorModels(m) = document else {
         return None;
     };
