@@ -149,8 +149,10 @@ impl Module {
 pub struct CarriedUrdf {
     /// Path relative to the root.
     pub path: String,
-    /// Its text.
+    /// Its text; what is not UTF-8 is replaced.
     pub text: String,
+    /// The first byte that is not UTF-8, where there is one.
+    pub not_utf8_at: Option<usize>,
 }
 
 /// A URDD, read.
@@ -391,12 +393,15 @@ fn read_urdf(
     let bytes = root
         .read(&path, MAX_URDF_BYTES)
         .map_err(|error| format!("{path}: {error}"))?;
-    let text = String::from_utf8(bytes).map_err(|_| format!("{path} is not UTF-8"))?;
-    let text = text
-        .strip_prefix('\u{feff}')
-        .map(str::to_owned)
-        .unwrap_or(text);
-    Ok(CarriedUrdf { path, text })
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    let not_utf8_at = std::str::from_utf8(bytes)
+        .err()
+        .map(|error| error.valid_up_to());
+    Ok(CarriedUrdf {
+        path,
+        text: String::from_utf8_lossy(bytes).into_owned(),
+        not_utf8_at,
+    })
 }
 
 /// Without root metadata: the one `.urdf` in the root, or the one that is named as the folder is.

@@ -13,6 +13,7 @@ pub mod rules;
 pub mod schema_check;
 pub mod settings;
 pub mod tolerance;
+pub mod urdf_text;
 pub mod views;
 
 use std::path::Path;
