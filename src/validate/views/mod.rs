@@ -3,6 +3,7 @@
 
 pub mod bounds;
 pub mod chain;
+pub mod consumer;
 pub mod dofs;
 pub mod mimics;
 pub mod rigid_groups;
