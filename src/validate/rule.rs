@@ -53,7 +53,7 @@ pub enum Need {
     CarriedUrdf,
     /// The other rule ran and found nothing.
     Passed(Code),
-    /// The other rule found no fault: it ran and found nothing, or had nothing to look at.
+    /// The other rule found nothing, or had nothing to look at.
     NotFailed(Code),
     /// The URDD is of version 1.
     Version1,

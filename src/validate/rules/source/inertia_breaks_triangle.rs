@@ -16,7 +16,7 @@ declare_rule! {
     ///
     /// Compute the tensor again, correct the URDF, and write the URDD again.
     SRC005 "inertia-breaks-the-triangle-inequality", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), NotFailed(URD001)],
+    phase References, needs [Module(Kind::Urdf), NotFailed(URD013)],
     check check,
 }
 

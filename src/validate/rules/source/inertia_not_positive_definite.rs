@@ -23,7 +23,7 @@ declare_rule! {
     /// correct the URDF, and write the URDD again.
     SRC004 "inertia-not-positive-definite", Warning, clause "6.1.7", since "0.1.0",
     phase References, needs [
-        Module(Kind::Urdf), NotFailed(URD001), Passed(URD004), Passed(URD006),
+        Module(Kind::Urdf), NotFailed(URD001), NotFailed(URD013), Passed(URD004), Passed(URD006),
     ],
     check check,
 }

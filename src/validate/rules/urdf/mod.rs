@@ -3,10 +3,12 @@
 pub mod cycle;
 pub mod duplicate_joint_name;
 pub mod duplicate_link_name;
+pub mod joints_not_the_urdfs;
+pub mod links_not_the_urdfs;
 pub mod mimic_circle;
 pub mod mimic_of_many_dofs;
 pub mod not_one_root;
-pub mod not_what_the_urdf_says;
+mod source_differences;
 pub mod two_parents;
 pub mod unknown_link;
 pub mod unknown_mimic_driver;
@@ -17,7 +19,7 @@ use crate::validate::rule::Rule;
 
 /// The rules of this family.
 pub const RULES: &[&Rule] = &[
-    &not_what_the_urdf_says::RULE,
+    &joints_not_the_urdfs::RULE,
     &duplicate_link_name::RULE,
     &duplicate_joint_name::RULE,
     &not_one_root::RULE,
@@ -29,4 +31,5 @@ pub const RULES: &[&Rule] = &[
     &zero_axis::RULE,
     &unreadable_urdf::RULE,
     &mimic_of_many_dofs::RULE,
+    &links_not_the_urdfs::RULE,
 ];

@@ -1,38 +1,31 @@
+//! What URD001 and URD013 share: `urdf_module` against the carried URDF.
+
 use serde_json::Value;
 
 use crate::directory::position::LineIndex;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::rule::declare_rule;
 use crate::validate::schema_check::excerpt;
 use crate::validate::urdf_text::as_legacy;
 use crate::validate::urdf_text::compare::{Difference, differences};
 
-declare_rule! {
-    /// A value of `urdf_module` is not what the carried URDF says.
-    ///
-    /// All other modules are derived from this one, and a consumer that trusts it never opens the
-    /// URDF. Links, joints and materials must be those of the file, in its order; every number,
-    /// name and file name too; and what the URDF leaves out must be null, never a default: a
-    /// missing limit is not a limit of 0. Elements that URDF does not define are kept as their own
-    /// text. Numbers may differ by rounding in the tenth digit.
-    ///
-    /// Modules of legacy versions are held to the conventions of their time: there, what is absent
-    /// is written as zeros, and elements that URDF does not define are lost.
-    ///
-    /// Write `urdf_module`, and what is derived from it, again from the URDF that is carried; or
-    /// carry the URDF from which the module was written.
-    URD001 "not-what-the-urdf-says", Error, clause "6.1.2", since "0.1.0",
-    phase References, needs [
-        Module(Kind::Urdf), CarriedUrdf, Passed(URD011), Passed(URD002), Passed(URD003),
-        Passed(URD004), Passed(URD005), Passed(URD006), Passed(URD007), Passed(URD008),
-        Passed(URD009), Passed(URD010), Passed(URD012),
-    ],
-    check check,
+/// Whether kinematics depend on the value at a JSON Pointer of `urdf_module`.
+pub(super) fn is_kinematic(pointer: &str) -> bool {
+    let mut parts = pointer.split('/').skip(1);
+    match (parts.next(), parts.next(), parts.next()) {
+        (Some("links" | "joints"), None, _) => true,
+        (Some("links" | "joints"), Some(_), Some("name")) => true,
+        (Some("joints"), Some(_), Some(key)) => matches!(
+            key,
+            "joint_type" | "origin" | "parent" | "child" | "axis" | "limit" | "mimic"
+        ),
+        _ => false,
+    }
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+/// Reports where the module differs from the URDF, at the pointers that are asked for.
+pub(super) fn report(context: &Context, findings: &mut Findings, asked: impl Fn(&str) -> bool) {
     let (Some(module), Ok(carried), Some(reading)) = (
         context.module(ModuleKind::Urdf),
         context.urdf(),
@@ -53,7 +46,8 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     let Some(expected) = expected else { return };
     let lines = LineIndex::new(&carried.text);
-    for difference in differences(&expected, actual) {
+    let found = differences(&expected, actual);
+    for difference in found.iter().filter(|found| asked(&found.pointer)) {
         let line = reading
             .position(&lines, &difference.source)
             .map_or(String::new(), |place| {
@@ -62,7 +56,7 @@ fn check(context: &Context, findings: &mut Findings) {
         let mut finding = Finding::at(
             module.file("module.json"),
             difference.pointer.clone(),
-            message(&difference),
+            message(difference),
         )
         .expected(format!("{}{line}", excerpt(&difference.expected)))
         .actual(excerpt(&difference.actual));
@@ -85,5 +79,31 @@ fn message(difference: &Difference) -> String {
         (_, Value::Null, _) => "the URDF has no value here: write null, not a default".to_owned(),
         (_, _, Value::Null) => "the URDF has a value here: write it, not null".to_owned(),
         _ => "this is not what the URDF says; write the module again from the URDF".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_kinematic;
+
+    #[test]
+    fn tells_kinematics_from_the_rest() {
+        for pointer in [
+            "/links",
+            "/joints",
+            "/links/3/name",
+            "/joints/1/mimic/offset",
+        ] {
+            assert!(is_kinematic(pointer), "{pointer}");
+        }
+        for pointer in [
+            "/name",
+            "/links/3/visual/0/name",
+            "/joints/1/dynamics",
+            "/materials",
+            "",
+        ] {
+            assert!(!is_kinematic(pointer), "{pointer}");
+        }
     }
 }
