@@ -2,6 +2,7 @@
 
 use super::problem::Fault;
 use super::reader::{Element, Reader};
+use super::xml;
 use crate::format::urdf as v1;
 
 const JOINT_ELEMENTS: &[&str] = &[
@@ -85,7 +86,7 @@ impl Reader {
             .iter()
             .copied()
             .find(|kind| kind.as_str().to_ascii_lowercase() == word);
-        let attribute = joint.attribute_node("type")?.range().start;
+        let attribute = xml::attribute(joint, "type")?.range().start;
         self.place(&format!("{at}/joint_type"), attribute);
         if found.is_none() {
             self.problem(attribute, Fault::UnknownJointType, Some(&word));
@@ -109,7 +110,11 @@ impl Reader {
                     element: name,
                     parent: "joint",
                 };
-                self.problem(joint.range().start, fault, joint.attribute("name"));
+                self.problem(
+                    joint.range().start,
+                    fault,
+                    xml::attribute(joint, "name").map(|name| name.value()),
+                );
                 None
             }
         }

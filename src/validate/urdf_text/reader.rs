@@ -68,7 +68,7 @@ impl Reader {
         attribute: &str,
         at: &str,
     ) -> Option<String> {
-        let found = element.attribute_node(attribute)?;
+        let found = xml::attribute(element, attribute)?;
         self.place(&format!("{at}/{attribute}"), found.range().start);
         Some(found.value().to_owned())
     }
@@ -104,8 +104,7 @@ impl Reader {
         match numbers::read(&text) {
             Some(vector) => vector.iter().all(|x| x.is_finite()).then_some(vector),
             None => {
-                let offset = element
-                    .attribute_node(attribute)
+                let offset = xml::attribute(element, attribute)
                     .map_or(element.range().start, |found| found.range().start);
                 let fault = Fault::NotNumbers {
                     element: name,
@@ -140,7 +139,8 @@ impl Reader {
         let problems = self.reading.problems.len();
         let vector = self.vector(element, name, attribute, at);
         if vector.is_none() && self.reading.problems.len() == problems {
-            let (fault, text) = match element.attribute(attribute) {
+            let (fault, text) = match xml::attribute(element, attribute).map(|found| found.value())
+            {
                 Some(text) => (
                     Fault::NotFinite {
                         element: name,

@@ -1,6 +1,6 @@
 //! Elements of the XML tree, by the names that are written.
 
-use roxmltree::Node;
+use roxmltree::{Attribute, Node};
 
 /// The name of an element as it is written. A name with a prefix (`xacro:link`) is no URDF name,
 /// whatever the prefix stands for; a default namespace changes no name.
@@ -22,4 +22,11 @@ pub(super) fn elements<'a>(parent: Node<'a, 'a>) -> impl Iterator<Item = Node<'a
 pub(super) fn verbatim(element: Node<'_, '_>) -> String {
     let text = element.document().input_text();
     text.get(element.range()).unwrap_or_default().to_owned()
+}
+
+/// An attribute, by its name without a prefix. (`roxmltree` takes any prefix for none.)
+pub(super) fn attribute<'a>(element: Node<'a, 'a>, name: &str) -> Option<Attribute<'a, 'a>> {
+    element
+        .attributes()
+        .find(|attribute| attribute.namespace().is_none() && attribute.name() == name)
 }

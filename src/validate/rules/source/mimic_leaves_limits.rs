@@ -1,4 +1,5 @@
 use crate::format::registry::ModuleKind;
+use crate::format::urdf::JointType;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -33,8 +34,12 @@ fn check(context: &Context, findings: &mut Findings) {
         let Some(driver) = resolved.and_then(|resolved| robot.joints.get(resolved.driver)) else {
             continue;
         };
-        let (Some(resolved), Some(own), Some(limits)) =
-            (resolved, joint.position_limits(), driver.position_limits())
+        // A fixed driver stands at 0.
+        let driven = match driver.joint_type {
+            JointType::Fixed => Some((0.0, 0.0)),
+            _ => driver.position_limits(),
+        };
+        let (Some(resolved), Some(own), Some(limits)) = (resolved, joint.position_limits(), driven)
         else {
             continue;
         };
