@@ -49,7 +49,7 @@ pub enum Need {
     Module(ModuleKind),
     /// `urdd.json` is there and fits its schema.
     RootMetadata,
-    /// The source URDF is carried, and is well-formed.
+    /// The source URDF is carried. (Whether it can be read as one: URD011.)
     CarriedUrdf,
     /// The other rule ran and found nothing.
     Passed(Code),
