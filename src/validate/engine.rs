@@ -61,7 +61,7 @@ pub fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
         let mut later = Vec::new();
         for rule in waiting {
             let waits = rule.needs.iter().any(|need| match need {
-                Need::Passed(code) | Need::NotFailed(code) => {
+                Need::Passed(code) | Need::NotFailed(code) | Need::NotFailedInV1(code) => {
                     !outcomes.contains_key(code) && codes.contains(code)
                 }
                 _ => false,
@@ -143,7 +143,8 @@ fn unmet(context: &Context, need: Need, outcomes: &HashMap<Code, Outcome>) -> Op
             Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
             None => Some(format!("{code} did not run")),
         },
-        Need::NotFailed(code) => match outcomes.get(&code) {
+        Need::NotFailedInV1(_) if context.profile() != Profile::V1 => None,
+        Need::NotFailed(code) | Need::NotFailedInV1(code) => match outcomes.get(&code) {
             Some(Outcome::Failed) => Some(format!("{code} found a fault")),
             Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
             Some(Outcome::Passed | Outcome::Skipped(_)) | None => None,

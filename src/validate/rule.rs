@@ -51,12 +51,15 @@ pub enum Need {
     AnyModule(&'static [ModuleKind]),
     /// `urdd.json` is there and fits its schema.
     RootMetadata,
-    /// The source URDF is carried, and is well-formed.
+    /// The source URDF is carried. (Whether it can be read as one: URD011.)
     CarriedUrdf,
     /// The other rule ran and found nothing.
     Passed(Code),
     /// The other rule found nothing, or had nothing to look at.
     NotFailed(Code),
+    /// The same, but in a URDD of version 1 only: what the other rule finds in legacy ones is often
+    /// a convention, and no obstacle.
+    NotFailedInV1(Code),
     /// The URDD is of version 1.
     Version1,
     /// The URDD was published before there was a version 1.

@@ -8,6 +8,7 @@ pub mod dofs;
 pub mod mesh_files;
 pub mod meshes;
 pub mod mimics;
+pub mod rigid_groups;
 pub mod robot;
 pub mod shape_matrices;
 pub mod shape_pair;

@@ -16,7 +16,7 @@ declare_rule! {
     /// Give each reference the path of the file that was carried for it, the same for the same file
     /// name of the URDF, and list each of these files once, sorted byte by byte; side files too.
     MSH012 "carried-files-mismatch", Error, clause "7.5", since "0.1.0",
-    phase References, needs [Version1, Module(Kind::OriginalMeshes), NotFailed(MSH009)],
+    phase References, needs [Version1, Module(Kind::OriginalMeshes), NotFailed(DIR015), NotFailed(MSH009)],
     check check,
 }
 

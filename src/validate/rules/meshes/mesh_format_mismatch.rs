@@ -17,6 +17,7 @@ declare_rule! {
     MSH003 "mesh-format-mismatch", Error, clause "7.1", since "0.1.0",
     phase References, needs [
         AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
+        NotFailed(DIR015),
         NotFailed(MSH001),
     ],
     check check,

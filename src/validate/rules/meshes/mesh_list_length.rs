@@ -21,6 +21,9 @@ declare_rule! {
             Kind::ConvexHullMeshes,
             Kind::ConvexDecompositionMeshes,
         ]),
+        NotFailed(URD001),
+        NotFailed(URD004),
+        NotFailed(URD007),
     ],
     check check,
 }

@@ -24,6 +24,8 @@ declare_rule! {
         Module(Kind::Urdf),
         Module(Kind::OriginalMeshes),
         NotFailed(URD001),
+        NotFailed(URD004),
+        NotFailedInV1(URD013),
         NotFailed(MSH001),
     ],
     check check,

@@ -20,6 +20,8 @@ declare_rule! {
         Module(Kind::Urdf),
         Module(Kind::PlainMeshes),
         NotFailed(URD001),
+        NotFailed(URD004),
+        NotFailed(URD013),
         NotFailed(MSH001),
         NotFailed(MSH009),
         NotFailed(MSH012),

@@ -16,6 +16,9 @@ declare_rule! {
     phase References, needs [
         Module(Kind::Urdf),
         AnyModule(&[Kind::LinkShapesApproximations, Kind::LinkShapesMaxDistanceFromOrigin]),
+        NotFailed(URD001),
+        NotFailed(URD004),
+        NotFailed(URD007),
     ],
     check check,
 }

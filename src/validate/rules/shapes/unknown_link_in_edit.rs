@@ -16,6 +16,8 @@ declare_rule! {
         Module(Kind::Urdf),
         Module(Kind::LinkShapesSkips),
         NotFailed(URD001),
+        NotFailed(URD004),
+        NotFailed(URD007),
         NotFailed(CHN001),
     ],
     check check,
