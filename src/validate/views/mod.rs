@@ -5,6 +5,7 @@ pub mod bounds;
 pub mod chain;
 pub mod dofs;
 pub mod mimics;
+pub mod paths;
 pub mod robot;
 pub mod tree;
 
