@@ -4,6 +4,8 @@
 pub mod bounds;
 pub mod chain;
 pub mod dofs;
+pub mod digest;
+pub mod entries;
 pub mod mimics;
 pub mod paths;
 pub mod robot;
