@@ -5,5 +5,6 @@
 pub mod cli;
 pub mod directory;
 pub mod format;
+mod generate;
 pub mod report;
 pub mod validate;

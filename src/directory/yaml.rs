@@ -5,7 +5,7 @@ use std::fmt;
 use serde_json::Value;
 
 use super::canonical;
-use super::json::{EncodingKinds, decode};
+use super::json_fault::{EncodingKinds, decode};
 use super::position::LineIndex;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults};
 use super::yaml_compare;
