@@ -3,12 +3,14 @@
 
 pub mod bounds;
 pub mod chain;
-pub mod dofs;
 pub mod digest;
+pub mod dofs;
 pub mod entries;
+pub mod extension_schema;
 pub mod mimics;
 pub mod paths;
 pub mod robot;
+pub mod text_faults;
 pub mod tree;
 
 pub use bounds::Bounds;

@@ -32,7 +32,11 @@ fn check(context: &Context, findings: &mut Findings) {
     }
     let message = format!(
         "the class {class} asks for {} that {} not there: {}",
-        if missing.len() == 1 { "a module" } else { "modules" },
+        if missing.len() == 1 {
+            "a module"
+        } else {
+            "modules"
+        },
         if missing.len() == 1 { "is" } else { "are" },
         missing.join(", ")
     );

@@ -120,10 +120,14 @@ fn listed(context: &Context) -> Vec<Listed<'_>> {
         _ => None,
     };
     let modules = metadata.modules.iter().enumerate().flat_map(|(m, module)| {
-        module.files.iter().enumerate().map(move |(f, file)| Listed {
-            pointer: format!("/modules/{m}/files/{f}"),
-            file,
-        })
+        module
+            .files
+            .iter()
+            .enumerate()
+            .map(move |(f, file)| Listed {
+                pointer: format!("/modules/{m}/files/{f}"),
+                file,
+            })
     });
     let mut times: HashMap<&str, usize> = HashMap::new();
     for path in paths::of_metadata(metadata) {

@@ -81,12 +81,12 @@ fn unlisted(context: &Context, entry: &Entry<'_>) -> Vec<String> {
         .into_iter()
         .chain(schema)
         .map(|name| module.file(name));
-    let named = paths::of_module(module).into_iter().filter_map(|path| {
-        match path.place(context) {
+    let named = paths::of_module(module)
+        .into_iter()
+        .filter_map(|path| match path.place(context) {
             Place::Here(path) if entry.holds(path) => Some(path.to_owned()),
             _ => None,
-        }
-    });
+        });
     let mut unlisted: Vec<String> = own
         .chain(named)
         .filter(|path| !listed.contains(path.as_str()) && context.listing().has_file(path))

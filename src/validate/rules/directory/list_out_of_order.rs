@@ -44,9 +44,9 @@ fn check(context: &Context, findings: &mut Findings) {
         };
         let (before, path) = (&files[place - 1].path, &files[place].path);
         // A file that has a fault of its own stands in the wrong place for that reason.
-        let other_fault = files.iter().any(|file| {
-            !entry.holds(&file.path) || entries::look(context, &file.path).is_err()
-        });
+        let other_fault = files
+            .iter()
+            .any(|file| !entry.holds(&file.path) || entries::look(context, &file.path).is_err());
         if other_fault {
             continue;
         }

@@ -30,12 +30,16 @@ fn check(context: &Context, findings: &mut Findings) {
         }
         let twice = !names.insert(name) || !paths.insert(path);
         let (key, message, expected) = match entry.kind {
-            Some(kind) if kind.name() != name => {
-                ("name", "this is not the name of the module in this folder", kind.name())
-            }
-            Some(kind) if kind.folder() != path => {
-                ("path", "this is not the folder that the module has", kind.folder())
-            }
+            Some(kind) if kind.name() != name => (
+                "name",
+                "this is not the name of the module in this folder",
+                kind.name(),
+            ),
+            Some(kind) if kind.folder() != path => (
+                "path",
+                "this is not the folder that the module has",
+                kind.folder(),
+            ),
             _ if path.rsplit('/').next() != Some(name) => (
                 "name",
                 "the name is not the last part of the path",

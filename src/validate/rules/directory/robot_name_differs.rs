@@ -26,10 +26,7 @@ fn check(context: &Context, findings: &mut Findings) {
     // its family tells.
     let carried = context.urdf().ok().and_then(|urdf| {
         let document = roxmltree::Document::parse(&urdf.text).ok()?;
-        document
-            .root_element()
-            .attribute("name")
-            .map(str::to_owned)
+        document.root_element().attribute("name").map(str::to_owned)
     });
     if carried.as_deref() == Some(metadata.robot_name.as_str()) {
         return;

@@ -50,7 +50,10 @@ fn check(context: &Context, findings: &mut Findings) {
         };
         let others = match stray.len() {
             1 => String::new(),
-            n => format!(" (and neither does it name {} more below this folder)", n - 1),
+            n => format!(
+                " (and neither does it name {} more below this folder)",
+                n - 1
+            ),
         };
         findings.report(
             Finding::in_file(

@@ -77,8 +77,5 @@ fn listed_files(context: &Context) -> Vec<&str> {
         _ => None,
     };
     let files = metadata.modules.iter().flat_map(|module| &module.files);
-    files
-        .chain(source)
-        .map(|file| file.path.as_str())
-        .collect()
+    files.chain(source).map(|file| file.path.as_str()).collect()
 }

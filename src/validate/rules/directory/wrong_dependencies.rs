@@ -23,12 +23,9 @@ fn check(context: &Context, findings: &mut Findings) {
     for entry in entries::all(context) {
         let stated: BTreeSet<&str> = entry.entry.depends_on.iter().map(String::as_str).collect();
         let twice = stated.len() < entry.entry.depends_on.len();
-        let right: Option<BTreeSet<&str>> = entry.kind.map(|kind| {
-            kind.depends_on()
-                .iter()
-                .map(|kind| kind.name())
-                .collect()
-        });
+        let right: Option<BTreeSet<&str>> = entry
+            .kind
+            .map(|kind| kind.depends_on().iter().map(|kind| kind.name()).collect());
         if !twice && right.as_ref().is_none_or(|right| *right == stated) {
             continue;
         }
