@@ -6,5 +6,6 @@ pub mod cli;
 pub mod directory;
 pub mod format;
 mod generate;
+pub mod kinematics;
 pub mod report;
 pub mod validate;

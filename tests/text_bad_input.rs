@@ -48,6 +48,9 @@ fn bad_files_have_a_kind_each() {
     assert!(first(b"").message.contains("nothing"));
     assert!(first(b"# only a comment\n").message.contains("nothing"));
     assert!(first(b"a: [1]\0\n").message.contains("U+0000"));
+    // The parser takes NUL for the end of the file, so nothing may be made of what it would read.
+    let faults = check_mirror(b"a: [2]\0, b: 1", &json());
+    assert_eq!(faults.totals().collect::<Vec<_>>(), [(Kind::YamlSyntax, 1)]);
     let cases: [(&[u8], Kind); 9] = [
         (b"a: [1]\0\n", Kind::YamlSyntax),
         (b"a: [1]]\n", Kind::YamlSyntax),

@@ -42,7 +42,7 @@ struct Comparison<'j, 'y, 'f> {
     root: &'j Value,
     open: Vec<Open<'j, 'y>>,
     documents: usize,
-    tabs: Tabs<'y>,
+    tabs: Tabs,
     faults: &'f mut TextFaults,
 }
 

@@ -3,6 +3,7 @@
 
 pub mod bounds;
 pub mod chain;
+pub mod consumer;
 pub mod digest;
 pub mod dofs;
 pub mod entries;
