@@ -8,6 +8,7 @@ pub mod context;
 pub mod engine;
 pub mod finding;
 pub mod load;
+pub mod load_urdf;
 pub mod reference;
 pub mod rule;
 pub mod rules;

@@ -11,6 +11,7 @@ pub mod extension_schema;
 pub mod mimics;
 pub mod paths;
 pub mod robot;
+pub mod schema_work;
 pub mod text_faults;
 pub mod tree;
 

@@ -22,8 +22,20 @@ pub fn report_json(context: &Context, kinds: &[TextFaultKind], findings: &mut Fi
 
 /// As [`report_json`], of every `module.yaml`.
 pub fn report_yaml(context: &Context, kinds: &[TextFaultKind], findings: &mut Findings) {
+    report_yaml_unless(context, kinds, &[], findings);
+}
+
+/// As [`report_yaml`], but for files that have a fault of one of the other kinds.
+pub fn report_yaml_unless(
+    context: &Context,
+    kinds: &[TextFaultKind],
+    unless: &[TextFaultKind],
+    findings: &mut Findings,
+) {
     for module in entries::known_modules(context) {
-        if let Mirror::Compared(faults) = &module.mirror {
+        if let Mirror::Compared(faults) = &module.mirror
+            && unless.iter().all(|kind| faults.total(*kind) == 0)
+        {
             report(&module.file("module.yaml"), faults, kinds, findings);
         }
     }

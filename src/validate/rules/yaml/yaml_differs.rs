@@ -17,8 +17,13 @@ declare_rule! {
     check check,
 }
 
-const KINDS: &[TextFaultKind] = &[TextFaultKind::YamlDiffers];
+/// Faults that end the reading: what the YAML then lacks follows from them.
+const UNREAD: &[TextFaultKind] = &[
+    TextFaultKind::YamlSyntax,
+    TextFaultKind::YamlNotUtf8,
+    TextFaultKind::YamlTooDeep,
+];
 
 fn check(context: &Context, findings: &mut Findings) {
-    text_faults::report_yaml(context, KINDS, findings);
+    text_faults::report_yaml_unless(context, &[TextFaultKind::YamlDiffers], UNREAD, findings);
 }
