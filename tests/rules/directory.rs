@@ -219,6 +219,14 @@ pub fn cases() -> Vec<Case> {
                 f.put_file(path, bytes);
             }
         }),
+        invalid(DIR014, "git-lfs-pointer", |f| {
+            let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
+            f.put_file("dof_module/notes.bin", *b"the notes");
+            f.list("dof_module/notes.bin");
+            f.seal();
+            f.keep_hashes();
+            f.put_file("dof_module/notes.bin", pointer);
+        }),
         near_miss(DIR014, "crlf-that-is-described", |f| {
             f.seal();
             let bytes = to_crlf(f.file(YAML));

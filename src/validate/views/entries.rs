@@ -58,6 +58,11 @@ pub fn all(context: &Context) -> Vec<Entry<'_>> {
         .iter()
         .map(|module| (module.folder.as_str(), module))
         .collect();
+    let by_name: HashMap<&str, ModuleKind> =
+        version_1_kinds().map(|kind| (kind.name(), kind)).collect();
+    let by_folder: HashMap<&str, ModuleKind> = version_1_kinds()
+        .map(|kind| (kind.folder(), kind))
+        .collect();
     metadata
         .modules
         .iter()
@@ -65,9 +70,10 @@ pub fn all(context: &Context) -> Vec<Entry<'_>> {
         .map(|(index, entry)| Entry {
             index,
             entry,
-            kind: version_1_kinds()
-                .find(|kind| kind.name() == entry.name)
-                .or_else(|| version_1_kinds().find(|kind| kind.folder() == entry.path)),
+            kind: by_name
+                .get(entry.name.as_str())
+                .or_else(|| by_folder.get(entry.path.as_str()))
+                .copied(),
             module: modules.get(entry.path.as_str()).copied(),
         })
         .collect()
@@ -104,22 +110,31 @@ pub fn known_modules(context: &Context) -> impl Iterator<Item = &Module> {
         .filter(|module| is_known(context, module))
 }
 
-/// Whether a module is in the URDD, as a folder or at least by the word of `urdd.json` (where the
-/// other is missing, DIR002 and DIR003 tell).
-pub fn carries(context: &Context, kind: ModuleKind) -> bool {
-    context.module(kind).is_some() || all(context).iter().any(|entry| entry.kind == Some(kind))
-}
-
 /// Whether there is a regular file at a path, and how long it is. What cannot be opened is judged
 /// by its place alone.
 ///
 /// # Errors
 /// Why there is none.
 pub fn look(context: &Context, path: &str) -> Result<u64, ReadError> {
-    match context.listing().get(path) {
-        Some(entry) if entry.kind == EntryKind::File => Ok(entry.size),
-        Some(entry) if entry.kind == EntryKind::LinkOut => Err(ReadError::LeavesRoot),
-        // Below a link to a folder, which the listing does not enter.
-        _ => context.root().open_file(path).map(|(_, size)| size),
+    path::check(path)?;
+    let listing = context.listing();
+    if let Some(entry) = listing.get(path) {
+        return match entry.kind {
+            EntryKind::File => Ok(entry.size),
+            EntryKind::LinkOut => Err(ReadError::LeavesRoot),
+            EntryKind::Folder | EntryKind::Other => Err(ReadError::NotAFile),
+            EntryKind::Link => context.root().open_file(path).map(|(_, size)| size),
+        };
     }
+    // Not listed, but below a link to a folder, or beyond where the listing stopped, it may be there.
+    let mut above = std::iter::successors(Some(path), |path| {
+        path.rsplit_once('/').map(|(parent, _)| parent)
+    });
+    let nearest = above.find_map(|folder| listing.get(folder));
+    let below_link =
+        nearest.is_some_and(|entry| matches!(entry.kind, EntryKind::Link | EntryKind::LinkOut));
+    if below_link || listing.cut || !listing.unreadable.is_empty() {
+        return context.root().open_file(path).map(|(_, size)| size);
+    }
+    Err(ReadError::Missing)
 }

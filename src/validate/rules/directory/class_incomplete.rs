@@ -1,5 +1,7 @@
+use std::collections::HashSet;
+
 use crate::directory::discover::ROOT_METADATA;
-use crate::format::registry::Profile;
+use crate::format::registry::{ModuleKind, Profile};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -22,9 +24,15 @@ fn check(context: &Context, findings: &mut Findings) {
     let Some(class) = context.class() else {
         return;
     };
+    // A module may be there as a folder or by the word of urdd.json; where one of the two is missing,
+    // DIR002 and DIR003 tell.
+    let listed: HashSet<ModuleKind> = entries::all(context)
+        .iter()
+        .filter_map(|entry| entry.kind)
+        .collect();
     let missing: Vec<&str> = entries::version_1_kinds()
         .filter(|kind| kind.class().is_some_and(|asked| asked <= class))
-        .filter(|kind| !entries::carries(context, *kind))
+        .filter(|kind| context.module(*kind).is_none() && !listed.contains(kind))
         .map(|kind| kind.name())
         .collect();
     if missing.is_empty() {

@@ -2,7 +2,6 @@ use std::collections::BTreeMap;
 
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
-use crate::directory::path;
 use crate::directory::root::ReadError;
 use crate::format::root_metadata::Source;
 use crate::validate::context::Context;
@@ -46,10 +45,13 @@ fn check(context: &Context, findings: &mut Findings) {
         }
     }
     for listed in listed_files(context) {
-        if path::check(listed).is_ok()
-            && let Err(error) = context.root().open_file(listed)
-        {
-            unreadable.entry(listed.to_owned()).or_insert(error);
+        let opened = entries::look(context, listed).and_then(|_| context.root().open_file(listed));
+        match opened {
+            // A path that may not be is DIR015's.
+            Ok(_) | Err(ReadError::Path(_)) => {}
+            Err(error) => {
+                unreadable.entry(listed.to_owned()).or_insert(error);
+            }
         }
     }
     for (folder, error) in &context.listing().unreadable {
