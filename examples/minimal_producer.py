@@ -100,7 +100,8 @@ def read_geometry(geometry):
             value = {"filename": shape.get("filename"), "scale": vector(shape, "scale", 3)}
             return {"Mesh": value} if value["filename"] is not None else None
         if shape.tag == "box":
-            return complete({"size": vector(shape, "size", 3)}) and {"Box": {"size": vector(shape, "size", 3)}}
+            size = vector(shape, "size", 3)
+            return size and {"Box": {"size": size}}
         if shape.tag in ("cylinder", "capsule", "sphere"):
             value = complete(numbers(shape, "radius" if shape.tag == "sphere" else "radius length"))
             return value and {shape.tag.capitalize(): value}
@@ -391,12 +392,11 @@ def kinematics_samples_module(dof, chain, bounds):
 
 def to_text(value, indent="\n"):
     """JSON that is YAML too: the same bytes serve as module.json and as module.yaml."""
-    if isinstance(value, (dict, list)) and any(isinstance(v, (dict, list)) for v in (
-            value.values() if isinstance(value, dict) else value)) or isinstance(value, dict) and value:
-        deeper = indent + " "
-        if isinstance(value, dict):
-            return "{" + ",".join(f'{deeper}"{key}": {to_text(v, deeper)}' for key, v in value.items()) + indent + "}"
-        return "[" + ",".join(deeper + to_text(v, deeper) for v in value) + indent + "]"
+    deeper = indent + " "
+    if isinstance(value, dict) and value:
+        return "{" + ",".join(f'{deeper}"{key}": {to_text(v, deeper)}' for key, v in value.items()) + indent + "}"
+    if isinstance(value, list) and any(isinstance(element, (dict, list)) for element in value):
+        return "[" + ",".join(deeper + to_text(element, deeper) for element in value) + indent + "]"
     if isinstance(value, list):  # innermost lists on one line
         return "[" + ", ".join(map(to_text, value)) + "]"
     if isinstance(value, float):

@@ -10,8 +10,11 @@ use serde_json::{Value, json};
 use urdd::format::registry::{ModuleKind, find};
 use urdd::format::root_metadata::RootMetadata;
 
+use support::core::{apply, norm, rotation_of_rpy, transform};
 use support::fixture::{Fixture, ROOT, URDF};
+use support::meshes::{Point, dot, minus};
 use support::robot::{arbitrary_box_robot, arbitrary_robot};
+use support::shapes::box_distance;
 
 #[test]
 fn toy_is_accepted() {
@@ -95,6 +98,61 @@ proptest! {
     fn arbitrary_box_robots_are_accepted(robot in arbitrary_box_robot()) {
         check(&Fixture::full(&robot));
     }
+
+    #[test]
+    fn box_distances_lie_between_bounds(a in any_box(), b in any_box()) {
+        let distance = box_distance(&a, &b);
+        let (least, most) = distance_bounds(&a, &b);
+        prop_assert!(least - 1e-9 <= distance && distance <= most + 1e-9, "{least} {distance} {most}");
+        prop_assert!(most - least < 0.1 || distance == 0.0, "the bounds say something");
+    }
+}
+
+fn any_box() -> impl Strategy<Value = [Point; 8]> {
+    let turn = prop_oneof![Just([0.0; 3]), prop::array::uniform3(-3.0..3.0)];
+    let place = prop_oneof![
+        prop::array::uniform3(-1.0..1.0),
+        prop::array::uniform3(prop::sample::select(vec![-1.0, 0.0, 1.0])),
+    ];
+    (prop::array::uniform3(0.05..1.0f64), turn, place).prop_map(|(sides, turn, place)| {
+        let place = transform(rotation_of_rpy(turn), place);
+        std::array::from_fn(|number| {
+            let side = |bit: usize| {
+                if number >> bit & 1 == 0 {
+                    -sides[bit]
+                } else {
+                    sides[bit]
+                }
+            };
+            apply(&place, [side(0), side(1), side(2)].map(|s| s / 2.0))
+        })
+    })
+}
+
+/// Bounds of the distance of two convex hulls, by another way: Frank and Wolfe's descent to the point
+/// of the difference of the two that is nearest to 0, and the plane behind that point.
+fn distance_bounds(a: &[Point; 8], b: &[Point; 8]) -> (f64, f64) {
+    let corners: Vec<Point> = a
+        .iter()
+        .flat_map(|p| b.iter().map(|q| minus(*p, *q)))
+        .collect();
+    let mut at = corners[0];
+    let (mut least, mut most) = (0.0f64, norm(at));
+    for _ in 0..2000 {
+        let nearer = |x: &&Point, y: &&Point| dot(at, **x).total_cmp(&dot(at, **y));
+        let corner = *corners.iter().min_by(nearer).expect("64");
+        if norm(at) > 0.0 {
+            least = least.max(dot(at, corner) / norm(at));
+        }
+        let step = minus(corner, at);
+        if dot(step, step) == 0.0 {
+            break;
+        }
+        let length = (-dot(at, step) / dot(step, step)).clamp(0.0, 1.0);
+        at = [0, 1, 2].map(|i| at[i] + length * step[i]);
+        most = most.min(norm(at));
+    }
+    (least, most)
 }
 
 /// Every document is read by its type and written back the same; both texts read back to it; every

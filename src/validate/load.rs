@@ -5,7 +5,8 @@ use std::collections::{HashMap, HashSet};
 use rayon::prelude::*;
 use serde::Deserialize;
 
-use super::load_urdf;
+use super::carried_urdf;
+pub use super::carried_urdf::CarriedUrdf;
 use super::schema_check::{self, SchemaViolation};
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::json::{self, JsonDocument};
@@ -145,14 +146,6 @@ impl Module {
     }
 }
 
-/// The source URDF that a URDD carries.
-pub struct CarriedUrdf {
-    /// Path relative to the root.
-    pub path: String,
-    /// Its text.
-    pub text: String,
-}
-
 /// A URDD, read.
 pub struct Loaded {
     /// Its root folder.
@@ -204,7 +197,7 @@ impl Loaded {
         } else {
             Profile::Legacy
         };
-        let urdf = load_urdf::read(&root, &listing, &metadata);
+        let urdf = carried_urdf::read(&root, &listing, &metadata);
         Ok(Loaded {
             root,
             listing,

@@ -473,10 +473,10 @@ pub fn toy_robot() -> Robot {
             "package://toy_description/meshes/turret.stl".to_owned(),
             [0.2, 0.2, 0.1],
         ),
-        ("meshes/päckchen 1.obj".to_owned(), [100.0, 60.0, 40.0]),
+        ("meshes/päckchen_1.obj".to_owned(), [100.0, 60.0, 40.0]),
     ]);
     let turret = mesh("package://toy_description/meshes/turret.stl", None);
-    let tool = mesh("meshes/päckchen 1.obj", Some([0.001; 3]));
+    let tool = mesh("meshes/päckchen_1.obj", Some([0.001; 3]));
     let red = Material {
         name: Some("red".to_owned()),
         color: Some(Color {

@@ -10,6 +10,7 @@ pub mod entries;
 pub mod extension_schema;
 pub mod mimics;
 pub mod paths;
+pub mod rigid_groups;
 pub mod robot;
 pub mod schema_work;
 pub mod text_faults;

@@ -11,7 +11,7 @@ declare_rule! {
     /// what it was made from, and what belongs to it. Without it a reader can only guess, and nobody
     /// can tell whether a file was changed or left out.
     ///
-    /// Write `urdd.json` into the root folder; `urdd schema show urdd@1.0.0` shows its schema. Where
+    /// Write `urdd.json` into the root folder; `urdd schema show root_metadata@1.0.0` shows its schema. Where
     /// the URDD is from before version 1, none of its modules may be of version 1.
     DIR001 "root-metadata-missing", Error, clause "2.2", since "0.1.0",
     phase Files, needs [Version1],

@@ -1,6 +1,6 @@
 //! Finding and reading the source URDF that a URDD carries.
 
-use super::load::{CarriedUrdf, JsonFile, MetadataFile};
+use super::load::{JsonFile, MetadataFile};
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::root::{EntryKind, Listing, Root};
 use crate::format::root_metadata::Source;
@@ -8,8 +8,21 @@ use crate::format::root_metadata::Source;
 /// Longest source URDF that is read, bytes.
 const MAX_URDF_BYTES: u64 = 64 << 20;
 
-/// The source URDF, or why there is none to look at.
-pub fn read(
+/// The source URDF that a URDD carries.
+pub struct CarriedUrdf {
+    /// Path relative to the root.
+    pub path: String,
+    /// Its text; what is not UTF-8 is replaced.
+    pub text: String,
+    /// The first byte that is not UTF-8, where there is one.
+    pub not_utf8_at: Option<usize>,
+}
+
+/// Reads the source URDF.
+///
+/// # Errors
+/// Where none is carried, or it cannot be read: why.
+pub(super) fn read(
     root: &Root,
     listing: &Listing,
     metadata: &MetadataFile,
@@ -32,12 +45,15 @@ pub fn read(
     let bytes = root
         .read(&path, MAX_URDF_BYTES)
         .map_err(|error| format!("{path}: {error}"))?;
-    let text = String::from_utf8(bytes).map_err(|_| format!("{path} is not UTF-8"))?;
-    let text = text
-        .strip_prefix('\u{feff}')
-        .map(str::to_owned)
-        .unwrap_or(text);
-    Ok(CarriedUrdf { path, text })
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    let not_utf8_at = std::str::from_utf8(bytes)
+        .err()
+        .map(|error| error.valid_up_to());
+    Ok(CarriedUrdf {
+        path,
+        text: String::from_utf8_lossy(bytes).into_owned(),
+        not_utf8_at,
+    })
 }
 
 /// Without root metadata: the one `.urdf` in the root, or the one that is named as the folder is.
