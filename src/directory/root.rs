@@ -110,12 +110,18 @@ impl Listing {
 
     /// The entries below a folder, at any depth.
     pub fn below<'a>(&'a self, folder: &'a str) -> impl Iterator<Item = &'a Entry> {
-        self.entries.iter().filter(move |entry| {
+        let is_below = move |entry: &&Entry| {
             entry
                 .path
                 .strip_prefix(folder)
                 .is_some_and(|rest| rest.starts_with('/'))
-        })
+        };
+        // In order of path, what is below a folder stands together.
+        let prefix = format!("{folder}/");
+        let first = self
+            .entries
+            .partition_point(|entry| entry.path.as_str() < prefix.as_str());
+        self.entries.iter().skip(first).take_while(is_below)
     }
 }
 

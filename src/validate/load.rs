@@ -1,5 +1,7 @@
 //! Reading a URDD into memory, once, for all rules.
 
+use std::collections::{HashMap, HashSet};
+
 use rayon::prelude::*;
 use serde::Deserialize;
 
@@ -13,7 +15,7 @@ use crate::directory::root::{EntryKind, Listing, ReadError, Root};
 use crate::directory::text_fault::TextFaults;
 use crate::directory::yaml;
 use crate::format::registry::{self, ModuleDocument, ModuleKind, ModuleSpec, Profile};
-use crate::format::root_metadata::RootMetadata;
+use crate::format::root_metadata::{RootMetadata, Version};
 
 /// Longest `VERSION` file that is read, bytes.
 const MAX_VERSION_BYTES: u64 = 1024;
@@ -170,10 +172,15 @@ impl Loaded {
         let listing = root.list()?;
         let metadata = read_metadata(&root);
         let folders = module_folders(&listing);
+        let mut listed: HashMap<&str, &Version> = HashMap::new();
+        for entry in metadata.metadata.iter().flat_map(|m| &m.modules) {
+            listed.entry(&entry.path).or_insert(&entry.version);
+        }
         let modules: Vec<Module> = folders
             .into_par_iter()
             .map(|(folder, kind)| {
-                read_module(&root, &listing, folder, kind, metadata.metadata.as_ref())
+                let listed = listed.get(folder.as_str()).copied();
+                read_module(&root, &listing, folder, kind, listed)
             })
             .collect();
         let versioned = modules
@@ -229,20 +236,26 @@ fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
         .map(|kind| (kind.folder().to_owned(), Some(*kind)))
         .collect();
     let known = folders.len();
+    let mut inside: HashSet<String> = folders.iter().map(|(folder, _)| folder.clone()).collect();
+    // Sorted by path, so that a folder comes before what is in it.
     for entry in listing
         .entries
         .iter()
         .filter(|entry| entry.kind == EntryKind::Folder)
     {
         let path = &entry.path;
-        let inside = |(folder, _): &(String, _)| {
-            path.strip_prefix(folder.as_str())
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-        };
+        let in_a_module = path
+            .rsplit_once('/')
+            .is_some_and(|(parent, _)| inside.contains(parent));
+        if in_a_module || inside.contains(path) {
+            inside.insert(path.clone());
+            continue;
+        }
         let like_a_module = path.ends_with("_module")
             && (listing.has_file(&format!("{path}/VERSION"))
                 || listing.has_file(&format!("{path}/module.json")));
-        if !folders.iter().any(inside) && (like_a_module || is_extension(path)) {
+        if like_a_module || is_extension(path) {
+            inside.insert(path.clone());
             folders.push((path.clone(), None));
         }
     }
@@ -270,7 +283,7 @@ fn read_module(
     listing: &Listing,
     folder: String,
     kind: Option<ModuleKind>,
-    metadata: Option<&RootMetadata>,
+    listed: Option<&Version>,
 ) -> Module {
     let file = |name: &str| format!("{folder}/{name}");
     let version_file = match root.read(&file("VERSION"), MAX_VERSION_BYTES) {
@@ -283,17 +296,10 @@ fn read_module(
         }
     };
     let stated = match &version_file {
-        VersionFile::Text(text) if semver::Version::parse(text).is_ok() => Some(text.clone()),
+        VersionFile::Text(text) => Version::new(text.as_str()),
         _ => None,
     };
-    let listed = || {
-        let entry = metadata?
-            .modules
-            .iter()
-            .find(|entry| entry.path == folder)?;
-        Some(entry.version.as_str().to_owned())
-    };
-    let version = stated.or_else(listed);
+    let version = choose_version(kind, [stated.as_ref(), listed]);
     let (spec, newer) = match kind {
         Some(kind) => find_spec(kind, version.as_deref()),
         None => (None, false),
@@ -333,6 +339,20 @@ fn read_module(
         module.violations = violations;
     }
     module
+}
+
+/// The version by which a module is read: that of its `VERSION` file, unless only the one in the root
+/// metadata is of the specification. Where the two differ, DIR007 tells.
+fn choose_version(kind: Option<ModuleKind>, versions: [Option<&Version>; 2]) -> Option<String> {
+    let of_version_1 = |version: &&Version| {
+        let spec = kind.and_then(|kind| find_spec(kind, Some(version.as_str())).0);
+        spec.is_some_and(|spec| spec.profile == Profile::V1)
+    };
+    let versions = || versions.into_iter().flatten();
+    versions()
+        .find(of_version_1)
+        .or_else(|| versions().next())
+        .map(|version| version.as_str().to_owned())
 }
 
 /// The registry's entry for a version; for a newer minor or patch number than any that is known,

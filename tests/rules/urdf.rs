@@ -391,6 +391,8 @@ fn legacy_urdd(root: &Path, inertial_of_a: &Value, axis: &Value) {
     std::fs::write(root.join("robot.urdf"), urdf).expect("the URDF");
     std::fs::write(folder.join("VERSION"), "0.0.3").expect("VERSION");
     std::fs::write(folder.join("module.json"), document.to_string()).expect("the document");
+    let yaml = crate::support::emit::yaml(&document);
+    std::fs::write(folder.join("module.yaml"), yaml).expect("its mirror");
 }
 
 fn inertial(size: f64) -> Value {

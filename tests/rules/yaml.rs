@@ -1,5 +1,107 @@
-use crate::Case;
+use serde_json::json;
+use urdd::validate::code::Code::{self, *};
+
+use crate::json::{edit_text, replaced};
+use crate::{Case, in_folder, invalid, legacy, near_miss};
+
+const FILE: &str = "dof_module/module.yaml";
+
+fn replace(code: Code, name: &'static str, from: &'static str, to: &'static str) -> Case {
+    invalid(code, name, move |f| {
+        edit_text(f, FILE, |bytes| replaced(bytes, from, to));
+    })
+}
+
+fn same(code: Code, name: &'static str, from: &'static str, to: &'static str) -> Case {
+    near_miss(code, name, move |f| {
+        edit_text(f, FILE, |bytes| replaced(bytes, from, to));
+    })
+}
 
 pub fn cases() -> Vec<Case> {
-    Vec::new()
+    vec![
+        replace(YML001, "unclosed", "num_dofs: ", "num_dofs: ["),
+        invalid(YML001, "several-documents", |f| {
+            edit_text(f, FILE, |bytes| [bytes, b"---\n{}\n".to_vec()].concat());
+        }),
+        invalid(YML001, "directive", |f| {
+            edit_text(f, FILE, |bytes| {
+                [b"%YAML 1.1\n---\n".to_vec(), bytes].concat()
+            });
+        }),
+        invalid(YML001, "byte-order-mark", |f| {
+            edit_text(f, FILE, |bytes| [b"\xEF\xBB\xBF".to_vec(), bytes].concat());
+        }),
+        near_miss(YML001, "comments", |f| {
+            edit_text(f, FILE, |bytes| {
+                [b"# toy\n".to_vec(), bytes, b"# end\n".to_vec()].concat()
+            });
+        }),
+        replace(YML002, "integer-tag", "num_dofs: ", "num_dofs: !!int "),
+        same(
+            YML002,
+            "exclamation-mark-in-a-comment",
+            "num_dofs: ",
+            "# !a\nnum_dofs: ",
+        ),
+        replace(YML003, "anchor", "num_dofs: ", "num_dofs: &n "),
+        same(
+            YML003,
+            "ampersand-in-a-comment",
+            "num_dofs: ",
+            "# &a *a\nnum_dofs: ",
+        ),
+        replace(YML004, "merge", "num_dofs: ", "<<: {}\nnum_dofs: "),
+        near_miss(YML004, "quoted", |f| {
+            f.set("dof_module", "/x_a", json!({"<<": 1}));
+        }),
+        replace(
+            YML005,
+            "same-value",
+            "num_dofs: 18\n",
+            "num_dofs: 18\nnum_dofs: 18\n",
+        ),
+        near_miss(YML005, "same-key-in-another-mapping", |f| {
+            f.set("dof_module", "/x_a", json!({"num_dofs": 1}));
+        }),
+        invalid(YML006, "exponent-without-sign", |f| {
+            f.set("dof_module", "/x_a", json!(1e-7));
+            edit_text(f, FILE, |bytes| replaced(bytes, "1.0e-7", "1e-7"));
+        }),
+        near_miss(YML006, "quoted", |f| {
+            f.set(
+                "dof_module",
+                "/x_a",
+                json!(["no", "1:30", "0x1", "1e-7", "2024-01-01", "~", "="]),
+            );
+        }),
+        replace(YML007, "stale", "num_dofs: ", "num_dofs: 1"),
+        invalid(YML007, "key-missing", |f| {
+            f.set("dof_module", "/x_a", json!(1));
+            edit_text(f, FILE, |bytes| replaced(bytes, "x_a: 1\n", ""));
+        }),
+        near_miss(YML007, "another-layout", |f| {
+            f.set("dof_module", "/x_a", json!(1.5e22));
+            edit_text(f, FILE, |bytes| {
+                replaced(bytes, "1.5e+22", "+15000000000000000000000.00")
+            });
+        }),
+        in_folder(YML007, "legacy", true, |root| {
+            legacy::write_legacy(root);
+            let file = root.join(FILE);
+            let text = std::fs::read(&file).expect("read");
+            std::fs::write(&file, replaced(text, "num_dofs: 1", "num_dofs: 2")).expect("written");
+        }),
+        invalid(YML008, "two-hundred", |f| {
+            let deep = format!("x_a: {}{}\nnum_dofs: ", "[".repeat(200), "]".repeat(200));
+            edit_text(f, FILE, |bytes| replaced(bytes, "num_dofs: ", &deep));
+        }),
+        near_miss(YML008, "ninety", |f| {
+            let mut deep = json!(1);
+            for _ in 0..90 {
+                deep = json!([deep]);
+            }
+            f.set("dof_module", "/x_a", deep);
+        }),
+    ]
 }

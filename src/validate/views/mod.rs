@@ -4,15 +4,21 @@
 pub mod bounds;
 pub mod chain;
 pub mod consumer;
+pub mod digest;
 pub mod dofs;
+pub mod entries;
+pub mod extension_schema;
 pub mod mesh_files;
 pub mod meshes;
 pub mod mimics;
+pub mod paths;
 pub mod rigid_groups;
 pub mod robot;
+pub mod schema_work;
 pub mod shape_matrices;
 pub mod shape_pair;
 pub mod shapes;
+pub mod text_faults;
 pub mod tree;
 pub mod usable_geometry;
 

@@ -1,6 +1,14 @@
 //! LEG: conventions of URDDs that were published before version 1.
 
+pub mod folder_name_differs;
+pub mod parent_relative_paths;
+pub mod without_root_metadata;
+
 use crate::validate::rule::Rule;
 
 /// The rules of this family.
-pub const RULES: &[&Rule] = &[];
+pub const RULES: &[&Rule] = &[
+    &without_root_metadata::RULE,
+    &parent_relative_paths::RULE,
+    &folder_name_differs::RULE,
+];

@@ -1,6 +1,8 @@
 //! SCH: documents against their schemas.
 
+pub mod breaks_schema;
+
 use crate::validate::rule::Rule;
 
 /// The rules of this family.
-pub const RULES: &[&Rule] = &[];
+pub const RULES: &[&Rule] = &[&breaks_schema::RULE];

@@ -1,0 +1,41 @@
+use crate::directory::root::ReadError;
+use crate::format::root_metadata::Version;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::load::VersionFile;
+use crate::validate::rule::declare_rule;
+use crate::validate::views::entries;
+
+declare_rule! {
+    /// A `VERSION` file does not hold a version.
+    ///
+    /// It must be three numbers joined by dots and nothing else, but for one newline at the end:
+    /// programs compare the text with the versions that they know, and neither trim it nor guess.
+    ///
+    /// Write the version of the module's format, such as `1.0.0`: no `v` before it, no blanks, no
+    /// leading zeros, nothing like `-beta` after it.
+    DIR006 "version-malformed", Error, clause "2.5", since "0.1.0",
+    phase Files, needs [],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    for module in entries::known_modules(context) {
+        let actual = match &module.version_file {
+            VersionFile::Text(text) if Version::new(text.as_str()).is_none() => {
+                let shown: String = text.chars().take(40).collect();
+                format!("{shown:?}")
+            }
+            VersionFile::Unreadable(ReadError::TooLarge { size, .. }) => format!("{size} bytes"),
+            _ => continue,
+        };
+        findings.report(
+            Finding::in_file(
+                module.file("VERSION"),
+                "this is no version: write three numbers joined by dots, and at most one newline after them",
+            )
+            .expected("a version such as 1.0.0")
+            .actual(actual),
+        );
+    }
+}

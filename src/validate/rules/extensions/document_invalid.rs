@@ -1,0 +1,46 @@
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::load::is_extension;
+use crate::validate::rule::declare_rule;
+use crate::validate::schema_check;
+use crate::validate::views::extension_schema::{self, SchemaFile};
+
+declare_rule! {
+    /// The document of an extension is not valid under the extension's own schema.
+    ///
+    /// Programs that know the extension by its schema will refuse the document, or read what is not
+    /// there.
+    ///
+    /// Correct `module.json`, or `schema.json` where that is out of date.
+    EXT002 "extension-breaks-schema", Error, clause "11.1", since "0.1.0",
+    phase Schema, needs [],
+    check check,
+}
+
+/// Most places of one document that are told.
+const MOST: usize = 1000;
+
+fn check(context: &Context, findings: &mut Findings) {
+    for module in context.modules() {
+        let (true, Some(document)) = (
+            module.kind.is_none() && is_extension(&module.folder),
+            module.json.document(),
+        ) else {
+            continue;
+        };
+        let SchemaFile::Read(schema) = extension_schema::read(context, module) else {
+            continue;
+        };
+        // Of a schema that cannot be used, EXT001 tells.
+        if !extension_schema::faults(&schema, Some(&document.value)).is_empty() {
+            continue;
+        }
+        for (pointer, message) in extension_schema::violations(&schema, &document.value, MOST) {
+            let actual = document.value.pointer(&pointer).map(schema_check::excerpt);
+            let message = format!("the value does not fit schema.json: {message}");
+            let mut finding = Finding::at(module.file("module.json"), pointer, message);
+            finding.actual = actual;
+            findings.report(finding);
+        }
+    }
+}

@@ -1,0 +1,51 @@
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::load::is_extension;
+use crate::validate::rule::declare_rule;
+use crate::validate::views::extension_schema::{self, SchemaFile};
+
+declare_rule! {
+    /// An extension has no `schema.json` that can be used.
+    ///
+    /// The schema is what tells a stranger what the extension's fields are, and what its documents
+    /// are checked by. It must be a JSON Schema (draft 2020-12) that stands for itself: nothing
+    /// outside of it is opened, so every `$ref` begins with `#`, and only the schema itself may have an
+    /// `$id`. One that takes endless work to evaluate is refused.
+    ///
+    /// Put a `schema.json` beside the extension's `module.json`. A schema that allows everything is
+    /// `true`.
+    EXT001 "extension-schema-unusable", Error, clause "11.1", since "0.1.0",
+    phase Schema, needs [],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    for module in context.modules() {
+        if module.kind.is_some() || !is_extension(&module.folder) {
+            continue;
+        }
+        let file = module.file("schema.json");
+        let schema = match extension_schema::read(context, module) {
+            SchemaFile::Read(schema) => schema,
+            SchemaFile::Missing => {
+                findings.report(Finding::in_file(
+                    file,
+                    "the extension has no schema.json: put its JSON Schema there",
+                ));
+                continue;
+            }
+            SchemaFile::Unreadable(error) => {
+                findings.report(Finding::in_file(file, error.to_string()));
+                continue;
+            }
+            SchemaFile::NotJson(message) => {
+                findings.report(Finding::in_file(file, format!("not JSON: {message}")));
+                continue;
+            }
+        };
+        let document = module.json.document().map(|document| &document.value);
+        for fault in extension_schema::faults(&schema, document) {
+            findings.report(Finding::at(&file, fault.pointer, fault.message));
+        }
+    }
+}

@@ -1,0 +1,23 @@
+use crate::directory::text_fault::TextFaultKind;
+use crate::validate::context::Context;
+use crate::validate::finding::Findings;
+use crate::validate::rule::declare_rule;
+use crate::validate::views::text_faults;
+
+declare_rule! {
+    /// A JSON file is nested more than 100 deep.
+    ///
+    /// No document of this format comes near that, and readers that follow the nesting run out of stack: a
+    /// file like this is broken, or meant to break its readers.
+    ///
+    /// Write the document again.
+    JSN006 "json-too-deep", Error, clause "3.1.1", since "0.1.0",
+    phase Syntax, needs [],
+    check check,
+}
+
+const KINDS: &[TextFaultKind] = &[TextFaultKind::TooDeep];
+
+fn check(context: &Context, findings: &mut Findings) {
+    text_faults::report_json(context, KINDS, findings);
+}

@@ -1,0 +1,23 @@
+use crate::directory::text_fault::TextFaultKind;
+use crate::validate::context::Context;
+use crate::validate::finding::Findings;
+use crate::validate::rule::declare_rule;
+use crate::validate::views::text_faults;
+
+declare_rule! {
+    /// A JSON object holds a key twice.
+    ///
+    /// Some readers keep the first value, some the last, and some refuse the file: each may see another
+    /// robot.
+    ///
+    /// Remove one of the two.
+    JSN002 "repeated-key", Error, clause "3.1.1", since "0.1.0",
+    phase Syntax, needs [],
+    check check,
+}
+
+const KINDS: &[TextFaultKind] = &[TextFaultKind::DuplicateKey];
+
+fn check(context: &Context, findings: &mut Findings) {
+    text_faults::report_json(context, KINDS, findings);
+}

@@ -1,0 +1,36 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+
+declare_rule! {
+    /// The folder of a URDD from before version 1 is not named as its robot is.
+    ///
+    /// The programs of that time know a robot by its folder's name, and mesh paths begin with it; a
+    /// program that goes by the name in the URDF looks in the wrong place. Many published URDDs are
+    /// like that.
+    ///
+    /// Go by the folder's name, not by the robot's. In version 1 the folder may have any name, and
+    /// `robot_name` of `urdd.json` says the robot's.
+    LEG003 "folder-name-differs", Info, clause "10.2", since "0.1.0",
+    phase References, needs [Legacy, Module(Kind::Urdf)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+        return;
+    };
+    let folder = context.root().folder_name();
+    if folder != robot.name {
+        findings.report(
+            Finding::at(
+                module.file("module.json"),
+                "/name",
+                "the robot has another name than its folder, which is what mesh paths go by",
+            )
+            .expected(format!("{folder:?} (the folder)"))
+            .actual(format!("{:?}", robot.name)),
+        );
+    }
+}

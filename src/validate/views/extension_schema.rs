@@ -1,0 +1,255 @@
+//! The schema that an extension brings: used without opening anything, and only where that takes
+//! little work. It is as untrusted as all else.
+
+use serde_json::Value;
+
+use super::super::context::Context;
+use super::super::load::Module;
+use super::schema_work::{is_affordable, schemas_in};
+use crate::directory::json;
+use crate::directory::root::ReadError;
+
+/// Longest `schema.json` that is read, bytes.
+pub const MAX_SCHEMA_BYTES: u64 = 1 << 20;
+
+/// How often a pattern may go back. Simple patterns never do.
+const BACKTRACKS: usize = 10_000;
+
+/// Compiling and evaluating follow references by recursion.
+const STACK_BYTES: usize = 256 << 20;
+
+/// A `schema.json`, as far as it can be used.
+pub enum SchemaFile {
+    /// There is none.
+    Missing,
+    /// It cannot be read, for a reason of which DIR016 or DIR023 would tell for other files.
+    Unreadable(ReadError),
+    /// It is not JSON.
+    NotJson(String),
+    /// It is JSON.
+    Read(Value),
+}
+
+/// Reads the schema of an extension.
+pub fn read(context: &Context, module: &Module) -> SchemaFile {
+    match context
+        .root()
+        .read(&module.file("schema.json"), MAX_SCHEMA_BYTES)
+    {
+        Err(ReadError::Missing) => SchemaFile::Missing,
+        Err(error) => SchemaFile::Unreadable(error),
+        Ok(bytes) => match json::read(&bytes) {
+            Err(error) => SchemaFile::NotJson(error.to_string()),
+            Ok(document) => SchemaFile::Read(document.value),
+        },
+    }
+}
+
+/// A fault of a schema.
+pub struct SchemaFault {
+    /// JSON Pointer into the schema.
+    pub pointer: String,
+    /// What is wrong.
+    pub message: String,
+}
+
+/// What keeps a value from being a schema that can be used for a document.
+pub fn faults(schema: &Value, document: Option<&Value>) -> Vec<SchemaFault> {
+    let mut faults = foreign_references(schema);
+    if faults.is_empty()
+        && let Err(fault) = on_a_large_stack(|| compile(schema).map(|_| ()))
+    {
+        faults.push(fault);
+    }
+    if let (true, Some(document)) = (faults.is_empty(), document)
+        && !on_a_large_stack(|| is_affordable(schema, document))
+    {
+        faults.push(SchemaFault {
+            pointer: String::new(),
+            message: "checking module.json against this schema takes too much work: its choices multiply; let each be told by one key, or take some out".to_owned(),
+        });
+    }
+    faults
+}
+
+/// Where a document breaks a schema that has no [`faults`]: pointers and messages, at most `limit`.
+pub fn violations(schema: &Value, document: &Value, limit: usize) -> Vec<(String, String)> {
+    on_a_large_stack(|| {
+        let Ok(validator) = compile(schema) else {
+            return Vec::new();
+        };
+        if validator.is_valid(document) {
+            return Vec::new();
+        }
+        let tell = |error: jsonschema::ValidationError<'_>| {
+            let message: String = error.masked().to_string().chars().take(200).collect();
+            (error.instance_path().to_string(), message)
+        };
+        validator
+            .iter_errors(document)
+            .take(limit)
+            .map(tell)
+            .collect()
+    })
+}
+
+fn compile(schema: &Value) -> Result<jsonschema::Validator, SchemaFault> {
+    // No retriever is compiled in, so that a reference to elsewhere fails and opens nothing.
+    jsonschema::draft202012::options()
+        .with_pattern_options(
+            jsonschema::PatternOptions::fancy_regex()
+                .backtrack_limit(BACKTRACKS)
+                .size_limit(1 << 20),
+        )
+        .build(schema)
+        .map_err(|error| SchemaFault {
+            pointer: error.instance_path().to_string(),
+            message: error.to_string().chars().take(300).collect(),
+        })
+}
+
+fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    std::thread::scope(|scope| {
+        let spawned = std::thread::Builder::new()
+            .stack_size(STACK_BYTES)
+            .spawn_scoped(scope, work);
+        match spawned.map(|thread| thread.join()) {
+            Ok(Ok(result)) => result,
+            // The engine reports a rule that panics as crashed.
+            Ok(Err(panic)) => std::panic::resume_unwind(panic),
+            Err(error) => std::panic::resume_unwind(Box::new(error.to_string())),
+        }
+    })
+}
+
+/// References that do not stay within the schema's own file, and what would make them ambiguous.
+fn foreign_references(schema: &Value) -> Vec<SchemaFault> {
+    let mut faults = Vec::new();
+    let mut open = vec![(String::new(), schema)];
+    while let Some((pointer, schema)) = open.pop() {
+        for key in ["$ref", "$dynamicRef"] {
+            if let Some(target) = schema.get(key).and_then(Value::as_str)
+                && !target.starts_with('#')
+            {
+                let shown: String = target.chars().take(80).collect();
+                faults.push(SchemaFault {
+                    pointer: format!("{pointer}/{key}"),
+                    message: format!(
+                        "`{shown}` leads out of this file, and nothing else is opened: put what it names into `$defs`, and refer to it by `#/$defs/...`"
+                    ),
+                });
+            }
+        }
+        if !pointer.is_empty() && schema.get("$id").is_some() {
+            faults.push(SchemaFault {
+                pointer: format!("{pointer}/$id"),
+                message: "only the schema itself may have an `$id`: take this one out, and refer to the part by `#/$defs/...`".to_owned(),
+            });
+        }
+        open.extend(
+            schemas_in(schema).map(|(inner, schema, _)| (pointer.clone() + &inner, schema)),
+        );
+        let definitions = schema.get("$defs").and_then(Value::as_object);
+        for (name, schema) in definitions.into_iter().flatten() {
+            let name = name.replace('~', "~0").replace('/', "~1");
+            open.push((format!("{pointer}/$defs/{name}"), schema));
+        }
+    }
+    faults.sort_by(|a, b| a.pointer.cmp(&b.pointer));
+    faults
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn message(schema: &Value, document: &Value) -> Option<String> {
+        faults(schema, Some(document))
+            .into_iter()
+            .next()
+            .map(|fault| fault.message)
+    }
+
+    #[test]
+    fn nothing_outside_is_referred_to() {
+        for target in [
+            "other.json",
+            "file:///etc/passwd",
+            "http://localhost/x",
+            "/a",
+        ] {
+            let schema = json!({"properties": {"a": {"$ref": target}}});
+            let faults = faults(&schema, None);
+            assert_eq!(faults.len(), 1);
+            assert_eq!(faults[0].pointer, "/properties/a/$ref");
+        }
+        // What only looks like a reference.
+        let schema = json!({"const": {"$ref": "other.json"}, "properties": {"$ref": true}});
+        assert_eq!(message(&schema, &json!({})), None);
+    }
+
+    #[test]
+    fn what_is_no_schema_is_refused() {
+        for schema in [
+            json!(3),
+            json!({"type": "strin"}),
+            json!({"pattern": "("}),
+            json!({"pattern": "((((a{100}){100}){100}){100})"}),
+            json!({"$ref": "#/$defs/nowhere"}),
+        ] {
+            assert!(message(&schema, &json!(1)).is_some(), "{schema}");
+        }
+    }
+
+    #[test]
+    fn recursion_is_fine_and_explosion_is_not() {
+        let tree = json!({"type": "array", "items": {"$ref": "#"}});
+        assert_eq!(message(&tree, &json!([[], [[]]])), None);
+        assert_eq!(message(&json!({"$ref": "#"}), &json!(1)), None);
+
+        let mut definitions = serde_json::Map::new();
+        for i in 0..60 {
+            let next = json!({"$ref": format!("#/$defs/a{}", i + 1)});
+            definitions.insert(format!("a{i}"), json!({"anyOf": [next, next]}));
+        }
+        definitions.insert("a60".to_owned(), json!(false));
+        let laughs = json!({"$defs": definitions, "$ref": "#/$defs/a0"});
+        assert!(message(&laughs, &json!(1)).is_some());
+
+        let twice = json!({"anyOf": [{"items": {"$ref": "#"}}, {"items": {"$ref": "#"}}]});
+        let mut deep = json!(1);
+        for _ in 0..60 {
+            deep = json!([deep]);
+        }
+        assert!(message(&twice, &deep).is_some());
+    }
+
+    #[test]
+    fn long_chains_of_references_do_not_overflow() {
+        let mut definitions = serde_json::Map::new();
+        for i in 0..20_000 {
+            definitions.insert(
+                format!("a{i}"),
+                json!({"$ref": format!("#/$defs/a{}", i + 1)}),
+            );
+        }
+        definitions.insert("a20000".to_owned(), json!(true));
+        let chain = json!({"$defs": definitions, "$ref": "#/$defs/a0"});
+        assert!(message(&chain, &json!(1)).is_some());
+    }
+
+    #[test]
+    fn large_documents_are_checked() {
+        let schema = json!({"items": {"type": "array", "items": {"type": "number"}}});
+        let mut document = json!(vec![vec![0.5; 100]; 3000]);
+        assert_eq!(message(&schema, &document), None);
+        assert!(violations(&schema, &document, 10).is_empty());
+        document[7][8] = json!("x");
+        assert_eq!(violations(&schema, &document, 10)[0].0, "/7/8");
+        let backtracks = json!({"pattern": "^(?=a)(a+)+$"});
+        let hostile = json!("a".repeat(5000) + "!");
+        assert_eq!(message(&backtracks, &hostile), None);
+        assert_eq!(violations(&backtracks, &hostile, 10).len(), 1);
+    }
+}

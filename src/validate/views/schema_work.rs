@@ -1,0 +1,210 @@
+//! How much work a JSON Schema asks for, told before the work is done.
+
+use std::collections::HashMap;
+
+use serde_json::Value;
+
+/// How much work a schema may ask for, in comparisons: for any document this much, for a large one
+/// so much for each of its values.
+const WORK: u64 = 1_000_000;
+const WORK_PER_VALUE: u64 = 20;
+
+/// Deepest that references lead through references.
+const MAX_DEPTH: usize = 5_000;
+
+/// Keywords whose value is a schema for the same value or for the values in it.
+const ONE: &[(&str, bool)] = &[
+    ("not", false),
+    ("if", false),
+    ("then", false),
+    ("else", false),
+    ("items", true),
+    ("contains", true),
+    ("additionalProperties", true),
+    ("unevaluatedProperties", true),
+    ("unevaluatedItems", true),
+    ("propertyNames", true),
+];
+
+/// Keywords whose value is a list of schemas.
+const LISTS: &[(&str, bool)] = &[
+    ("allOf", false),
+    ("anyOf", false),
+    ("oneOf", false),
+    ("prefixItems", true),
+];
+
+/// Keywords whose value is an object of schemas.
+const MAPS: &[(&str, bool)] = &[
+    ("dependentSchemas", false),
+    ("properties", true),
+    ("patternProperties", true),
+];
+
+/// The schemas in a schema, each with its pointer from there, and whether it is for the values in
+/// the value.
+pub fn schemas_in(schema: &Value) -> impl Iterator<Item = (String, &Value, bool)> {
+    let object = schema.as_object();
+    let one = ONE
+        .iter()
+        .filter_map(move |(key, inner)| Some((format!("/{key}"), object?.get(*key)?, *inner)));
+    let lists = LISTS
+        .iter()
+        .filter_map(move |(key, inner)| Some((*key, object?.get(*key)?.as_array()?, *inner)));
+    let maps = MAPS
+        .iter()
+        .filter_map(move |(key, inner)| Some((*key, object?.get(*key)?.as_object()?, *inner)));
+    one.chain(lists.flat_map(|(key, list, inner)| {
+        list.iter()
+            .enumerate()
+            .map(move |(i, schema)| (format!("/{key}/{i}"), schema, inner))
+    }))
+    .chain(maps.flat_map(|(key, map, inner)| {
+        map.iter().map(move |(name, schema)| {
+            let name = name.replace('~', "~0").replace('/', "~1");
+            (format!("/{key}/{name}"), schema, inner)
+        })
+    }))
+}
+
+/// Whether checking a document takes no more work than is allowed. Choices within choices multiply,
+/// so that a page of schema can ask for more than any computer will ever do.
+pub fn is_affordable(schema: &Value, document: &Value) -> bool {
+    let allowed = WORK.max(WORK_PER_VALUE.saturating_mul(count_values(document)));
+    let mut estimate = Estimate {
+        root: schema,
+        anchors: anchors(schema),
+        known: HashMap::new(),
+        steps: 0,
+        allowed,
+    };
+    estimate
+        .work(schema, document, 0)
+        .is_some_and(|work| work <= allowed)
+}
+
+fn count_values(value: &Value) -> u64 {
+    match value {
+        Value::Array(items) => 1 + items.iter().map(count_values).sum::<u64>(),
+        Value::Object(map) => 1 + map.values().map(count_values).sum::<u64>(),
+        _ => 1,
+    }
+}
+
+fn anchors(schema: &Value) -> HashMap<&str, Vec<&Value>> {
+    let mut anchors: HashMap<&str, Vec<&Value>> = HashMap::new();
+    let mut open = vec![schema];
+    while let Some(schema) = open.pop() {
+        for key in ["$anchor", "$dynamicAnchor"] {
+            if let Some(name) = schema.get(key).and_then(Value::as_str) {
+                anchors.entry(name).or_default().push(schema);
+            }
+        }
+        open.extend(schemas_in(schema).map(|(_, schema, _)| schema));
+        let definitions = schema.get("$defs").and_then(Value::as_object);
+        open.extend(definitions.into_iter().flat_map(|map| map.values()));
+    }
+    anchors
+}
+
+struct Estimate<'a> {
+    root: &'a Value,
+    anchors: HashMap<&'a str, Vec<&'a Value>>,
+    /// Work of each schema on each value, by address.
+    known: HashMap<(*const Value, *const Value), u64>,
+    steps: u64,
+    allowed: u64,
+}
+
+impl<'a> Estimate<'a> {
+    /// The work of checking a value against a schema; `None` where finding out is too much itself.
+    fn work(&mut self, schema: &'a Value, value: &'a Value, depth: usize) -> Option<u64> {
+        self.steps += 1;
+        if depth > MAX_DEPTH || self.steps > self.allowed {
+            return None;
+        }
+        let Value::Object(keywords) = schema else {
+            return Some(1);
+        };
+        let key = (std::ptr::from_ref(schema), std::ptr::from_ref(value));
+        if let Some(work) = self.known.get(&key) {
+            return Some(*work);
+        }
+        // A reference that comes back to itself on the same value is passed over by the validator.
+        self.known.insert(key, 1);
+        let mut work = keywords.len() as u64;
+        if let (Some(Value::String(pattern)), Value::String(_)) = (keywords.get("pattern"), value) {
+            let may_backtrack = pattern.contains("(?") || pattern.contains('\\');
+            work += if may_backtrack { 100 } else { 5 };
+        }
+        for key in ["$ref", "$dynamicRef"] {
+            if let Some(Value::String(target)) = keywords.get(key) {
+                for target in self.targets(target) {
+                    work = work.saturating_add(self.work(target, value, depth + 1)?);
+                }
+            }
+        }
+        let properties = keywords.get("properties").and_then(Value::as_object);
+        for (pointer, inner, of_values) in schemas_in(schema) {
+            if !of_values {
+                work = work.saturating_add(self.work(inner, value, depth + 1)?);
+                continue;
+            }
+            // Of `properties` each schema is for one value; others may be for all of them.
+            if pointer.starts_with("/properties/") {
+                continue;
+            }
+            let values: Box<dyn Iterator<Item = &'a Value>> = match value {
+                Value::Array(items) => Box::new(items.iter()),
+                Value::Object(map) => Box::new(map.values()),
+                _ => Box::new(std::iter::empty()),
+            };
+            for value in values {
+                work = work.saturating_add(self.work(inner, value, depth + 1)?);
+            }
+        }
+        if let (Some(properties), Value::Object(map)) = (properties, value) {
+            for (name, inner) in properties {
+                if let Some(value) = map.get(name) {
+                    work = work.saturating_add(self.work(inner, value, depth + 1)?);
+                }
+            }
+        }
+        self.known.insert(key, work);
+        Some(work)
+    }
+
+    fn targets(&self, reference: &str) -> Vec<&'a Value> {
+        let Some(fragment) = reference.strip_prefix('#') else {
+            return Vec::new();
+        };
+        if fragment.is_empty() || fragment.starts_with('/') {
+            // A name with an escape (%25) is hardly ever seen; not found, it costs nothing here, and
+            // everywhere else it does, so it is looked for in both ways.
+            return self
+                .root
+                .pointer(fragment)
+                .or_else(|| self.root.pointer(&percent_decoded(fragment)))
+                .into_iter()
+                .collect();
+        }
+        self.anchors.get(fragment).cloned().unwrap_or_default()
+    }
+}
+
+fn percent_decoded(text: &str) -> String {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.bytes();
+    while let Some(byte) = rest.next() {
+        let mut escape = rest.clone();
+        let digit = |byte: Option<u8>| char::from(byte?).to_digit(16);
+        match (byte, digit(escape.next()), digit(escape.next())) {
+            (b'%', Some(high), Some(low)) => {
+                bytes.push((high * 16 + low) as u8);
+                rest = escape;
+            }
+            _ => bytes.push(byte),
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
