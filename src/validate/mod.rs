@@ -8,6 +8,7 @@ pub mod context;
 pub mod engine;
 pub mod finding;
 pub mod load;
+pub mod pose;
 pub mod rule;
 pub mod rules;
 pub mod schema_check;

@@ -3,11 +3,14 @@
 
 pub mod bounds;
 pub mod chain;
+pub mod connections;
 pub mod dofs;
+pub mod freedom;
 pub mod mimics;
 pub mod robot;
 pub mod tree;
 
 pub use bounds::Bounds;
 pub use chain::Chain;
+pub use connections::Connections;
 pub use dofs::Dofs;
