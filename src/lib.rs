@@ -5,5 +5,4 @@
 pub mod cli;
 pub mod directory;
 pub mod format;
-pub mod report;
-pub mod validate;
+pub mod kinematics;

@@ -1,6 +1,7 @@
 //! The command line: arguments in, text out. Everything else is in the library.
 
 mod explain;
+mod info;
 mod output;
 mod schema;
 mod validate;
@@ -23,6 +24,8 @@ enum Command {
     Validate(validate::ValidateArguments),
     /// Tell about a rule, or list them all.
     Explain(explain::ExplainArguments),
+    /// Tell what a URDD holds, without judging it.
+    Info(info::InfoArguments),
     /// Show, export or check the published JSON Schemas.
     Schema(schema::SchemaArguments),
 }
@@ -32,6 +35,7 @@ pub fn run() -> ExitCode {
     match Arguments::parse().command {
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     }
 }

@@ -1,14 +1,143 @@
 //! `urdd schema`.
 
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::Args;
+use clap::{Args, Subcommand};
+
+use crate::directory::schema_files::{self, SchemaFault};
+use crate::format::registry::Profile;
+use crate::format::schema::{self, Subject, Variant};
 
 /// Arguments of `urdd schema`.
 #[derive(Args)]
-pub struct SchemaArguments {}
+pub struct SchemaArguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// List every schema: id, profile, conformance class, folder in a URDD.
+    List,
+    /// Print a schema.
+    Show {
+        /// Which one, such as `dof_module@1.0.0`.
+        id: String,
+        #[command(flatten)]
+        open: Open,
+    },
+    /// Write every schema into a folder.
+    Export {
+        /// The folder; created where it does not exist.
+        folder: PathBuf,
+        #[command(flatten)]
+        open: Open,
+    },
+    /// Compare a folder of schemas with what this program writes.
+    Check {
+        /// The folder.
+        #[arg(default_value = "schema")]
+        folder: PathBuf,
+    },
+}
+
+#[derive(Args)]
+struct Open {
+    /// Let unknown keys pass: for code generators, so that a later minor version is read too.
+    #[arg(long)]
+    open: bool,
+}
+
+impl Open {
+    fn variant(&self) -> Variant {
+        if self.open {
+            Variant::Open
+        } else {
+            Variant::Strict
+        }
+    }
+}
+
+/// Exit status where the arguments are wrong, or nothing could be examined.
+const USAGE: u8 = 2;
 
 /// Runs `urdd schema`.
-pub fn run(_arguments: &SchemaArguments) -> ExitCode {
-    ExitCode::SUCCESS
+pub fn run(arguments: &SchemaArguments) -> ExitCode {
+    match &arguments.command {
+        Command::List => print(&table()),
+        Command::Show { id, open } => match Subject::find(id) {
+            Ok(subject) => print(&subject.text(open.variant())),
+            Err(error) => fail(&format!("{error}\nhelp: `urdd schema list` names them all")),
+        },
+        Command::Export { folder, open } => match schema_files::export(folder, open.variant()) {
+            Ok(written) => print(&format!(
+                "{}: {written} written, {} unchanged\n",
+                folder.display(),
+                schema::files(open.variant()).len() - written
+            )),
+            Err(error) => fail(&error.to_string()),
+        },
+        Command::Check { folder } => match schema_files::check(folder) {
+            Ok(faults) if faults.is_empty() => print("every schema is as this program writes it\n"),
+            Ok(faults) => {
+                let _ = print(&report(&faults, folder));
+                ExitCode::FAILURE
+            }
+            Err(error) => fail(&error.to_string()),
+        },
+    }
+}
+
+fn table() -> String {
+    let mut rows = vec![["id", "profile", "class", "folder"].map(str::to_owned)];
+    rows.extend(Subject::all().map(|subject| {
+        let (profile, class, folder) = match subject {
+            Subject::Report => (Profile::V1, None, "-"),
+            Subject::RootMetadata => (Profile::V1, None, "."),
+            Subject::Module(spec) => (spec.profile, spec.kind.class(), spec.kind.folder()),
+        };
+        [
+            subject.id(),
+            profile.as_str().to_owned(),
+            class.map_or_else(|| "-".to_owned(), |class| class.to_string()),
+            folder.to_owned(),
+        ]
+    }));
+    let widths = [0, 1, 2].map(|i| rows.iter().map(|row| row[i].len()).max().unwrap_or(0));
+    let mut text = String::new();
+    for [id, profile, class, folder] in &rows {
+        let [a, b, c] = widths;
+        text.push_str(&format!("{id:a$}  {profile:b$}  {class:c$}  {folder}\n"));
+    }
+    text
+}
+
+fn report(faults: &[SchemaFault], folder: &Path) -> String {
+    let mut text = String::new();
+    for fault in faults {
+        text.push_str(&format!("{fault}\n"));
+    }
+    if faults.iter().any(SchemaFault::is_mended_by_export) {
+        text.push_str(&format!(
+            "repair: urdd schema export {}\n",
+            folder.display()
+        ));
+    }
+    text
+}
+
+/// Prints to standard output. A reader that closes it early has seen enough.
+fn print(text: &str) -> ExitCode {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => fail(&error.to_string()),
+        _ => ExitCode::SUCCESS,
+    }
+}
+
+fn fail(message: &str) -> ExitCode {
+    let _ = writeln!(io::stderr(), "error: {message}");
+    ExitCode::from(USAGE)
 }

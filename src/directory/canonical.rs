@@ -47,6 +47,7 @@ use std::fmt::{self, Write};
 use serde_json::{Map, Value};
 
 use super::number_text;
+use super::string_text::{Language, write_quoted, write_string};
 
 /// Beyond this many characters a YAML key needs the `? ` form.
 const LONGEST_SIMPLE_KEY: usize = 1000;
@@ -100,19 +101,6 @@ pub(super) fn yaml_inline(value: &Value) -> String {
     let mut text = String::new();
     let _ = inline(value, Language::Yaml, &mut text);
     text
-}
-
-/// A string in double quotes, as YAML reads it.
-pub(super) fn yaml_quoted(text: &str) -> String {
-    let mut quoted = String::new();
-    let _ = write_quoted(text, Language::Yaml, &mut quoted);
-    quoted
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Language {
-    Json,
-    Yaml,
 }
 
 fn is_inline(value: &Value) -> bool {
@@ -254,59 +242,6 @@ fn spaces(mut count: usize, out: &mut impl Write) -> fmt::Result {
     Ok(())
 }
 
-fn write_string(text: &str, language: Language, out: &mut impl Write) -> fmt::Result {
-    if language == Language::Yaml && is_plain(text) {
-        out.write_str(text)
-    } else {
-        write_quoted(text, language, out)
-    }
-}
-
-/// Whether a string may stand in YAML without quotes and be a string to everyone.
-fn is_plain(text: &str) -> bool {
-    const WORDS: [&str; 9] = ["y", "n", "yes", "no", "on", "off", "true", "false", "null"];
-    let mut bytes = text.bytes();
-    bytes
-        .next()
-        .is_some_and(|b| b.is_ascii_alphabetic() || b == b'_')
-        && bytes.all(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'-' | b'.' | b'/'))
-        && !(text.len() <= 5 && WORDS.iter().any(|word| text.eq_ignore_ascii_case(word)))
-}
-
-fn write_quoted(text: &str, language: Language, out: &mut impl Write) -> fmt::Result {
-    out.write_char('"')?;
-    let mut rest = text;
-    while let Some(at) = rest.find(|c| must_escape(c, language)) {
-        out.write_str(&rest[..at])?;
-        let mut after = rest[at..].chars();
-        match after.next() {
-            Some('"') => out.write_str("\\\"")?,
-            Some('\\') => out.write_str("\\\\")?,
-            Some('\u{8}') => out.write_str("\\b")?,
-            Some('\t') => out.write_str("\\t")?,
-            Some('\n') => out.write_str("\\n")?,
-            Some('\u{c}') => out.write_str("\\f")?,
-            Some('\r') => out.write_str("\\r")?,
-            Some(c) => write!(out, "\\u{:04x}", u32::from(c))?,
-            None => {}
-        }
-        rest = after.as_str();
-    }
-    out.write_str(rest)?;
-    out.write_char('"')
-}
-
-fn must_escape(c: char, language: Language) -> bool {
-    match c {
-        '"' | '\\' | '\0'..='\u{1f}' => true,
-        // Not printable to YAML, or a line break to YAML 1.1.
-        '\u{7f}'..='\u{9f}' | '\u{2028}' | '\u{2029}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}' => {
-            language == Language::Yaml
-        }
-        _ => false,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use serde_json::json;
@@ -382,17 +317,6 @@ deep:
     }
 
     #[test]
-    fn characters_that_yaml_cannot_hold_are_escaped() {
-        let text = "\0\u{7f}\u{85}\u{2028}\u{feff}\u{ffff}\u{1F916}é\"\\\n";
-        assert_eq!(
-            yaml_quoted(text),
-            r#""\u0000\u007f\u0085\u2028\ufeff\uffff🤖é\"\\\n""#
-        );
-        let json = json_string(&Value::from(text));
-        assert_eq!(json, serde_json::to_string(text).unwrap() + "\n");
-    }
-
-    #[test]
     fn a_key_too_long_for_readers_takes_two_lines() {
         let (short, long) = ("k".repeat(1000), "k".repeat(1001));
         let text = yaml_string(&json!({ "a": { short.clone(): 1, long.clone(): [[1]] } }));
@@ -400,24 +324,5 @@ deep:
             text,
             format!("a:\n  {short}: 1\n  ? {long}\n  :\n    - [1]\n")
         );
-    }
-
-    #[test]
-    fn words_that_mean_something_are_quoted() {
-        for word in [
-            "y", "N", "Yes", "nO", "On", "OFF", "True", "false", "NULL", "", "~", "-", "1",
-        ] {
-            assert!(!is_plain(word), "{word}");
-        }
-        for word in [
-            "x",
-            "yesterday",
-            "_1",
-            "base_link",
-            "meshes/0_base.stl",
-            "nan",
-        ] {
-            assert!(is_plain(word), "{word}");
-        }
     }
 }

@@ -6,14 +6,11 @@ use std::fmt;
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
 
-use super::json_scan;
-use super::position::LineIndex;
+use super::json_fault::{EncodingKinds, decode, explain, report_repeated_keys};
 use super::text_fault::{TextFault, TextFaultKind, TextFaults, UnreadableText};
 
 /// How many containers may stand in one another, in JSON and in YAML.
 pub const DEPTH_LIMIT: usize = 100;
-
-const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
 /// A JSON file that has a value.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +44,12 @@ pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
     .and_then(|value| deserializer.end().map(|()| value));
     let value = match parsed {
         Ok(value) => value,
-        Err(error) => return Err(unreadable(faults, explain(&text, &error, &state))),
+        Err(error) => {
+            return Err(unreadable(
+                faults,
+                explain(&text, &error, state.too_deep.get()),
+            ));
+        }
     };
     if state.repeated_key.get() {
         report_repeated_keys(&text, &mut faults);
@@ -59,48 +61,10 @@ pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
     })
 }
 
-/// The kinds under which one language reports faults of encoding.
-pub(super) struct EncodingKinds {
-    pub not_utf8: TextFaultKind,
-    pub byte_order_mark: TextFaultKind,
-}
-
 const JSON_KINDS: EncodingKinds = EncodingKinds {
     not_utf8: TextFaultKind::NotUtf8,
     byte_order_mark: TextFaultKind::ByteOrderMark,
 };
-
-/// The text without a byte order mark, which is reported; or why it is no text.
-pub(super) fn decode<'a>(
-    bytes: &'a [u8],
-    kinds: &EncodingKinds,
-    faults: &mut TextFaults,
-) -> Result<&'a str, TextFault> {
-    let rest = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
-    let start = bytes.len() - rest.len();
-    if start > 0 {
-        let fault = TextFault::new(
-            kinds.byte_order_mark,
-            "the file begins with a byte order mark, which many readers refuse: save it as UTF-8 without one",
-        );
-        faults.push(fault.at(super::position::position("", 0)));
-    }
-    std::str::from_utf8(rest).map_err(|error| {
-        let valid = error.valid_up_to();
-        let before = std::str::from_utf8(&rest[..valid]).unwrap_or_default();
-        let offset = start + valid;
-        let message = if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
-            "the file is UTF-16: save it as UTF-8".to_owned()
-        } else {
-            format!("byte {offset} is not UTF-8: save the file as UTF-8")
-        };
-        let found = rest[valid..].first().map(|byte| format!("0x{byte:02X}"));
-        TextFault {
-            found,
-            ..TextFault::new(kinds.not_utf8, message).at(super::position::position(before, valid))
-        }
-    })
-}
 
 fn unreadable(mut faults: TextFaults, fault: TextFault) -> UnreadableText {
     faults.push(fault);
@@ -112,109 +76,6 @@ fn unreadable(mut faults: TextFaults, fault: TextFault) -> UnreadableText {
 struct State {
     repeated_key: Cell<bool>,
     too_deep: Cell<bool>,
-}
-
-fn report_repeated_keys(text: &str, faults: &mut TextFaults) {
-    let lines = LineIndex::new(text);
-    json_scan::repeated_keys(text, |key| {
-        faults.add(TextFaultKind::DuplicateKey, || {
-            let key = key();
-            let name = key.pointer.rsplit('/').next().unwrap_or_default();
-            let message = format!(
-                "`{}` is named a second time in its object: readers differ in which they keep; remove one",
-                name.replace("~1", "/").replace("~0", "~")
-            );
-            TextFault::new(TextFaultKind::DuplicateKey, message)
-                .at(lines.position(key.offset))
-                .of(key.pointer)
-        });
-    });
-}
-
-/// Turns serde_json's error into a fault.
-fn explain(text: &str, error: &serde_json::Error, state: &State) -> TextFault {
-    let lines = LineIndex::new(text);
-    // serde_json counts lines by `\n` alone and columns in bytes, and names the last byte it read.
-    let offset = offset_of(text, error.line(), error.column());
-    let at = |offset: usize, kind, message: String| {
-        TextFault::new(kind, message)
-            .at(lines.position(offset))
-            .of(json_scan::pointer_at(text, offset))
-    };
-    if state.too_deep.get() {
-        let message = format!("the nesting is deeper than {DEPTH_LIMIT} levels: flatten it");
-        return TextFault::new(TextFaultKind::TooDeep, message).at(lines.position(offset));
-    }
-    let (start, word) = word_around(text, offset);
-    if is_non_finite(word) {
-        let message = format!("`{word}` is no number in JSON: write null or a finite number");
-        return TextFault {
-            found: Some(word.to_owned()),
-            ..at(start, TextFaultKind::NonFiniteNumber, message)
-        };
-    }
-    let message = if text.trim().is_empty() {
-        "the file is empty: a JSON value was expected".to_owned()
-    } else if error.is_eof() {
-        format!(
-            "the file ends early, before its JSON is complete: {}",
-            reason(error)
-        )
-    } else {
-        format!("not JSON: {}", reason(error))
-    };
-    at(offset, TextFaultKind::Syntax, message)
-}
-
-/// serde_json's message without the place, which the fault has in better units.
-fn reason(error: &serde_json::Error) -> String {
-    let whole = error.to_string();
-    match whole.rfind(" at line ") {
-        Some(end) => whole[..end].to_owned(),
-        None => whole,
-    }
-}
-
-fn offset_of(text: &str, line: usize, column: usize) -> usize {
-    let start = if line <= 1 {
-        0
-    } else {
-        text.bytes()
-            .enumerate()
-            .filter(|&(_, byte)| byte == b'\n')
-            .nth(line - 2)
-            .map_or(text.len(), |(at, _)| at + 1)
-    };
-    let mut offset = (start + column.saturating_sub(1)).min(text.len());
-    while !text.is_char_boundary(offset) {
-        offset -= 1;
-    }
-    offset
-}
-
-/// The run of number and word characters around an offset, and where it begins.
-fn word_around(text: &str, offset: usize) -> (usize, &str) {
-    let bytes = text.as_bytes();
-    let is_word = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'+' | b'-' | b'.');
-    let mut start = offset;
-    while start > 0 && is_word(bytes[start - 1]) {
-        start -= 1;
-    }
-    let end = bytes[start..]
-        .iter()
-        .position(|&byte| !is_word(byte))
-        .map_or(bytes.len(), |length| start + length);
-    (start, text.get(start..end).unwrap_or_default())
-}
-
-fn is_non_finite(word: &str) -> bool {
-    let bare = word.trim_start_matches(['+', '-']);
-    if bare.eq_ignore_ascii_case("nan") || bare.eq_ignore_ascii_case("inf") {
-        return true;
-    }
-    bare.eq_ignore_ascii_case("infinity")
-        || (bare.starts_with(|c: char| c.is_ascii_digit())
-            && word.parse::<f64>().is_ok_and(f64::is_infinite))
 }
 
 /// Builds a [`Value`] as serde_json does, and notes what serde_json lets pass.
@@ -348,7 +209,8 @@ mod tests {
 
     #[test]
     fn what_is_not_json_says_where() {
-        let cases: [(&[u8], (u32, u32), &str, &str); 8] = [
+        type Case<'a> = (&'a [u8], (u32, u32), &'a str, &'a str);
+        let cases: [Case<'_>; 8] = [
             (b"{\"a\":\n [1, x]}", (2, 6), "/a/1", "expected value"),
             (b"{\"a\": 1} 2", (1, 10), "", "trailing"),
             (b"[\"\\ud800\"]", (1, 9), "/0", "surrogate"),

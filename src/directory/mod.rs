@@ -1,17 +1,23 @@
-//! A URDD on disk: finding it, listing it, reading from it safely; and JSON and YAML as text.
+//! A URDD on disk: finding it, listing it, reading from it safely; JSON and YAML as text; and the
+//! folder of published schemas.
 
 pub mod canonical;
 pub mod discover;
 pub mod json;
+mod json_fault;
 pub mod json_scan;
 pub mod limits;
 pub mod number_text;
 pub mod path;
 pub mod position;
 pub mod root;
+pub mod schema_files;
+mod string_text;
 pub mod text_fault;
 pub mod yaml;
 mod yaml_compare;
 mod yaml_message;
+mod yaml_open;
 pub mod yaml_scalar;
 mod yaml_tabs;
+mod yaml_tag;

@@ -5,10 +5,11 @@ use std::fmt;
 use serde_json::Value;
 
 use super::canonical;
-use super::json::{EncodingKinds, decode};
+use super::json_fault::{EncodingKinds, decode};
 use super::position::LineIndex;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults};
 use super::yaml_compare;
+use super::yaml_message::excerpt;
 
 const YAML_KINDS: EncodingKinds = EncodingKinds {
     not_utf8: TextFaultKind::YamlNotUtf8,
@@ -96,12 +97,14 @@ fn check_directives(text: &str, faults: &mut TextFaults) {
     let mut offset = 0;
     for line in text.split_inclusive(['\n', '\r']) {
         if line.starts_with('%') {
-            let line = line.trim_end();
-            let message = format!(
-                "`{line}` is a directive, which readers treat differently: remove it and the `---` after it"
-            );
-            let fault = TextFault::new(TextFaultKind::YamlDirective, message);
-            faults.push(fault.at(super::position::position(text, offset)));
+            faults.add(TextFaultKind::YamlDirective, || {
+                let message = format!(
+                    "`{}` is a directive, which readers treat differently: remove it and the `---` after it",
+                    excerpt(line.trim_end())
+                );
+                TextFault::new(TextFaultKind::YamlDirective, message)
+                    .at(super::position::position(text, offset))
+            });
         } else if !line.trim().is_empty() && !line.trim_start().starts_with('#') {
             return;
         }

@@ -1,19 +1,20 @@
 //! The events of a YAML file in step with a JSON value.
 
 use std::borrow::Cow;
-use std::collections::HashSet;
 use std::ops::ControlFlow;
 
 use saphyr_parser::{Event, Marker, Parser, ScalarStyle, ScanError, Span, Tag};
-use serde_json::{Map, Value, map};
+use serde_json::Value;
 
 use super::json::DEPTH_LIMIT;
 use super::json_scan::push_segment;
 use super::position::Position;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults};
 use super::yaml_message as message;
+use super::yaml_open::{Mapping, Member, Open, Shape, pointer};
 use super::yaml_scalar::{self, Reading};
 use super::yaml_tabs::Tabs;
+use super::yaml_tag::{self, Forced, Node, Target};
 
 /// Reports how the YAML in `text` differs from `json`, and what is in it that JSON has not.
 pub fn compare(text: &str, json: &Value, faults: &mut TextFaults) {
@@ -41,111 +42,8 @@ struct Comparison<'j, 'y, 'f> {
     root: &'j Value,
     open: Vec<Open<'j, 'y>>,
     documents: usize,
-    tabs: Tabs<'y>,
+    tabs: Tabs,
     faults: &'f mut TextFaults,
-}
-
-/// A list or mapping that has begun and not ended.
-struct Open<'j, 'y> {
-    start: Position,
-    /// Whether it is written with brackets.
-    flow: bool,
-    /// The name of the tag that stands for a key which the JSON has.
-    variant: Option<String>,
-    shape: Shape<'j, 'y>,
-}
-
-enum Shape<'j, 'y> {
-    List {
-        json: Option<&'j [Value]>,
-        begun: usize,
-    },
-    Mapping(Mapping<'j, 'y>),
-}
-
-struct Mapping<'j, 'y> {
-    json: Option<&'j Map<String, Value>>,
-    /// The JSON's members that are still to come, as long as the keys come in the same order.
-    rest: Option<map::Iter<'j>>,
-    in_order: usize,
-    /// The keys so far, once they have left the JSON's order.
-    names: Option<HashSet<String>>,
-    key: Option<Cow<'y, str>>,
-    /// Set while a value is due: what it should be, if that is known.
-    due: Option<Option<&'j Value>>,
-    merging: bool,
-    /// Whether keys come from elsewhere (merge keys, aliases), so that absent ones mean nothing.
-    incomplete: bool,
-}
-
-/// What the JSON has to say of a key.
-enum Member<'j> {
-    Expected(&'j Value),
-    Unknown,
-    Extra,
-    Repeated,
-}
-
-impl<'j, 'y> Mapping<'j, 'y> {
-    fn new(json: Option<&'j Map<String, Value>>) -> Self {
-        Self {
-            json,
-            rest: json.map(Map::iter),
-            in_order: 0,
-            names: None,
-            key: None,
-            due: None,
-            merging: false,
-            incomplete: false,
-        }
-    }
-
-    fn find(&mut self, name: &str) -> Member<'j> {
-        if self.names.is_none()
-            && let Some(rest) = &mut self.rest
-        {
-            let mut ahead = rest.clone();
-            if let Some((key, value)) = ahead.next()
-                && key == name
-            {
-                *rest = ahead;
-                self.in_order += 1;
-                return Member::Expected(value);
-            }
-        }
-        let (json, in_order) = (self.json, self.in_order);
-        let names = self.names.get_or_insert_with(|| {
-            let before = json.into_iter().flat_map(Map::keys).take(in_order);
-            before.cloned().collect()
-        });
-        if !names.insert(name.to_owned()) {
-            return Member::Repeated;
-        }
-        match json.map(|map| map.get(name)) {
-            Some(Some(value)) => Member::Expected(value),
-            Some(None) => Member::Extra,
-            None => Member::Unknown,
-        }
-    }
-
-    fn missing(&self) -> impl Iterator<Item = (&'j str, &'j Value)> {
-        let json = self.json.filter(|_| !self.incomplete);
-        let skip = if self.names.is_none() {
-            self.in_order
-        } else {
-            0
-        };
-        json.into_iter()
-            .flat_map(Map::iter)
-            .skip(skip)
-            .filter(|(key, _)| {
-                !self
-                    .names
-                    .as_ref()
-                    .is_some_and(|names| names.contains(*key))
-            })
-            .map(|(key, value)| (key.as_str(), value))
-    }
 }
 
 /// What the next node is.
@@ -153,29 +51,6 @@ enum Slot<'j> {
     Key,
     /// A value, and what the JSON has there, if that is known.
     Value(Option<&'j Value>),
-}
-
-/// What a node is held against, once its tag is taken into account.
-struct Target<'j> {
-    json: Option<&'j Value>,
-    variant: Option<String>,
-    /// How a tag says that a scalar is to be read.
-    forced: Option<Forced>,
-}
-
-#[derive(Clone, Copy)]
-enum Forced {
-    Text,
-    Plain,
-}
-
-/// What kind of node a tag stands on.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Node {
-    Empty,
-    Scalar,
-    List,
-    Mapping,
 }
 
 impl<'j, 'y> Comparison<'j, 'y, '_> {
@@ -277,35 +152,29 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         });
         mapping.key = Some(text.clone());
         if plain {
-            let readings = yaml_scalar::classify(&text);
-            if readings.ambiguous {
-                let fault = || message::ambiguous(&text, readings, None);
-                self.add(at, TextFaultKind::YamlAmbiguousScalar, fault);
-            } else if readings.yaml12 != Reading::Text {
-                let fault = || message::not_a_string(&text, readings.yaml12);
-                self.add(at, TextFaultKind::YamlNonStringKey, fault);
-            } else if flow && text.contains('?') {
-                let fault = || message::question_mark(&text);
-                self.add(at, TextFaultKind::YamlAmbiguousScalar, fault);
-            }
+            self.plain_key(&text, flow, at);
         }
-        let name = || message::excerpt(&text);
         match member {
-            Member::Extra => self.differs(at, || TextFault {
-                found: Some(name()),
-                ..TextFault::new(
-                    TextFaultKind::YamlDiffers,
-                    format!("the YAML has a key `{}` that the JSON has not", name()),
-                )
-            }),
+            Member::Extra => self.differs(at, || message::extra_key(&text)),
             Member::Repeated => {
-                let message = format!(
-                    "`{}` is named a second time in its mapping: readers differ in which they keep; remove one",
-                    name()
-                );
-                self.report(at, TextFaultKind::YamlDuplicateKey, &message);
+                let kind = TextFaultKind::YamlDuplicateKey;
+                self.add(at, kind, || message::repeated_key(&text));
             }
             Member::Expected(_) | Member::Unknown => {}
+        }
+    }
+
+    /// Reports what is wrong with how a key is written.
+    fn plain_key(&mut self, text: &str, flow: bool, at: Position) {
+        let readings = yaml_scalar::classify(text);
+        let kind = TextFaultKind::YamlAmbiguousScalar;
+        if readings.ambiguous {
+            self.add(at, kind, || message::ambiguous(text, readings, None));
+        } else if readings.yaml12 != Reading::Text {
+            let kind = TextFaultKind::YamlNonStringKey;
+            self.add(at, kind, || message::not_a_string(text, readings.yaml12));
+        } else if flow && text.contains('?') {
+            self.add(at, kind, || message::question_mark(text));
         }
     }
 
@@ -421,17 +290,10 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
                 let Some(expected) = json.map(<[Value]>::len).filter(|n| n != begun) else {
                     return;
                 };
-                self.faults.add(TextFaultKind::YamlDiffers, || TextFault {
-                    expected: Some(expected.to_string()),
-                    found: Some(begun.to_string()),
-                    ..TextFault::new(
-                        TextFaultKind::YamlDiffers,
-                        format!(
-                            "the YAML has a list of {begun} where the JSON has a list of {expected}"
-                        ),
-                    )
-                    .at(open.start)
-                    .of(with_variant(pointer(&self.open)))
+                self.faults.add(TextFaultKind::YamlDiffers, || {
+                    message::length(*begun, expected)
+                        .at(open.start)
+                        .of(with_variant(pointer(&self.open)))
                 });
             }
             Shape::Mapping(mapping) => {
@@ -439,15 +301,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
                     self.faults.add(TextFaultKind::YamlDiffers, || {
                         let mut pointer = with_variant(pointer(&self.open));
                         push_segment(&mut pointer, key);
-                        TextFault {
-                            expected: Some(message::describe(value)),
-                            ..TextFault::new(
-                                TextFaultKind::YamlDiffers,
-                                format!("the YAML lacks the key `{}`", message::excerpt(key)),
-                            )
-                            .at(open.start)
-                            .of(pointer)
-                        }
+                        message::missing_key(key, value).at(open.start).of(pointer)
                     });
                 }
             }
@@ -475,41 +329,8 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         let Some(tag) = tag else {
             return target;
         };
-        let name = tag.suffix.as_str();
-        let inner = match json {
-            Some(Value::Object(map)) if map.len() == 1 => map.get(name),
-            _ => None,
-        };
-        let unit = node == Node::Empty && json.and_then(Value::as_str) == Some(name);
-        if tag.is_yaml_core_schema() {
-            target.forced = Some(if name == "str" {
-                Forced::Text
-            } else {
-                Forced::Plain
-            });
-        } else if inner.is_some() {
-            target.json = inner;
-            target.variant = Some(name.to_owned());
-        } else if name.is_empty() || name == "!" {
-            target.forced = Some(Forced::Text);
-        } else {
-            // The tag is the difference; one more message about it would not help.
-            target.json = json.filter(|json| match node {
-                Node::List => json.is_array(),
-                Node::Mapping => json.is_object(),
-                Node::Empty | Node::Scalar => false,
-            });
-        }
-        let variant = target.variant.is_some();
-        let written = || {
-            if tag.is_yaml_core_schema() {
-                format!("!!{name}")
-            } else {
-                format!("!{}", name.trim_start_matches('!'))
-            }
-        };
-        let fault = || message::tag(&written(), name, unit, variant);
-        self.add(at, TextFaultKind::YamlTag, fault);
+        let variant = yaml_tag::apply(tag, node, &mut target);
+        self.add(at, TextFaultKind::YamlTag, || yaml_tag::fault(tag, variant));
         target
     }
 
@@ -519,16 +340,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         if error.info() == "recursion limit exceeded" {
             return self.too_deep(at);
         }
-        let last = text.lines().count().max(1);
-        let message =
-            if error.marker().line() >= last && text.chars().count() <= error.marker().index() {
-                format!(
-                    "the file ends early, before its YAML is complete: {}",
-                    error.info()
-                )
-            } else {
-                format!("not YAML: {}", error.info())
-            };
+        let message = message::unparsed(text, error);
         self.report(at, TextFaultKind::YamlSyntax, &message);
     }
 
@@ -552,24 +364,6 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         let open = &self.open;
         self.faults.add(kind, || fault().at(at).of(pointer(open)));
     }
-}
-
-/// The pointer to the node that is being read, in terms of the JSON.
-fn pointer(open: &[Open<'_, '_>]) -> String {
-    let mut pointer = String::new();
-    for open in open {
-        if let Some(variant) = &open.variant {
-            push_segment(&mut pointer, variant);
-        }
-        match &open.shape {
-            Shape::List { begun, .. } => {
-                push_segment(&mut pointer, &begun.saturating_sub(1).to_string());
-            }
-            Shape::Mapping(Mapping { key: Some(key), .. }) => push_segment(&mut pointer, key),
-            Shape::Mapping(_) => {}
-        }
-    }
-    pointer
 }
 
 fn scalar_kind(event: &Event<'_>) -> Option<ScalarStyle> {

@@ -1,10 +1,13 @@
 //! The wording of what is wrong with a YAML mirror.
 
+use saphyr_parser::ScanError;
 use serde_json::Value;
 
 use super::canonical;
+use super::string_text::yaml_quoted;
 use super::text_fault::{TextFault, TextFaultKind};
 use super::yaml_scalar::{Reading, Readings};
+use super::yaml_tag::Instead;
 
 /// Longer excerpts are cut, so that a message stays a message.
 const LONGEST_EXCERPT: usize = 80;
@@ -41,7 +44,7 @@ pub fn differs(found: &str, json: &Value) -> TextFault {
 /// A plain scalar as a message shows it: strings in quotes, anything else as it stands.
 pub fn found(text: &str, reading: Reading) -> String {
     match reading {
-        Reading::Text => excerpt(&canonical::yaml_quoted(text)),
+        Reading::Text => excerpt(&yaml_quoted(text)),
         Reading::Null if text.is_empty() => "nothing".to_owned(),
         _ => excerpt(text),
     }
@@ -52,7 +55,7 @@ pub fn ambiguous(text: &str, readings: Readings, json: Option<&Value>) -> TextFa
     let shown = excerpt(text);
     let instead = match json {
         Some(json) if !json.is_array() && !json.is_object() => describe(json),
-        _ => excerpt(&canonical::yaml_quoted(text)),
+        _ => excerpt(&yaml_quoted(text)),
     };
     let (new, old) = (name(readings.yaml12), name(readings.yaml11));
     let how = if new == old {
@@ -75,7 +78,7 @@ pub fn question_mark(text: &str) -> TextFault {
     let shown = excerpt(text);
     let message = format!(
         "`{shown}` has a `?`, which YAML 1.1 readers such as PyYAML refuse between brackets: write `{}`",
-        excerpt(&canonical::yaml_quoted(text))
+        excerpt(&yaml_quoted(text))
     );
     TextFault::new(TextFaultKind::YamlAmbiguousScalar, message)
 }
@@ -99,19 +102,17 @@ pub fn not_a_string(text: &str, reading: Reading) -> TextFault {
         "the key {} is {}, and keys are strings: write `{}`",
         found(text, reading),
         name(reading),
-        excerpt(&canonical::yaml_quoted(text))
+        excerpt(&yaml_quoted(text))
     );
     TextFault::new(TextFaultKind::YamlNonStringKey, message)
 }
 
 /// A tag, with what to write instead.
-pub fn tag(tag: &str, name: &str, unit: bool, variant: bool) -> TextFault {
-    let instead = if unit {
-        format!("write `{name}` as a string")
-    } else if variant {
-        format!("write `{name}:` as a key, with the value below it")
-    } else {
-        "remove it".to_owned()
+pub fn tag(tag: &str, name: &str, instead: Instead) -> TextFault {
+    let instead = match instead {
+        Instead::String => format!("write `{name}` as a string"),
+        Instead::Key => format!("write `{name}:` as a key, with the value below it"),
+        Instead::Nothing => "remove it".to_owned(),
     };
     TextFault {
         found: Some(excerpt(tag)),
@@ -122,5 +123,53 @@ pub fn tag(tag: &str, name: &str, unit: bool, variant: bool) -> TextFault {
                 excerpt(tag)
             ),
         )
+    }
+}
+
+/// A key that the JSON has not.
+pub fn extra_key(key: &str) -> TextFault {
+    let key = excerpt(key);
+    let message = format!("the YAML has a key `{key}` that the JSON has not");
+    TextFault {
+        found: Some(key),
+        ..TextFault::new(TextFaultKind::YamlDiffers, message)
+    }
+}
+
+/// A key that only the JSON has.
+pub fn missing_key(key: &str, value: &Value) -> TextFault {
+    let message = format!("the YAML lacks the key `{}`", excerpt(key));
+    TextFault {
+        expected: Some(describe(value)),
+        ..TextFault::new(TextFaultKind::YamlDiffers, message)
+    }
+}
+
+/// A key that stands twice.
+pub fn repeated_key(key: &str) -> TextFault {
+    let message = format!(
+        "`{}` is named a second time in its mapping: readers differ in which they keep; remove one",
+        excerpt(key)
+    );
+    TextFault::new(TextFaultKind::YamlDuplicateKey, message)
+}
+
+/// A list of another length.
+pub fn length(found: usize, expected: usize) -> TextFault {
+    let message = format!("the YAML has a list of {found} where the JSON has a list of {expected}");
+    TextFault {
+        expected: Some(expected.to_string()),
+        found: Some(found.to_string()),
+        ..TextFault::new(TextFaultKind::YamlDiffers, message)
+    }
+}
+
+/// Why the parser stopped.
+pub fn unparsed(text: &str, error: &ScanError) -> String {
+    let reason = error.info();
+    if reason.contains("end of stream") || text.chars().count() <= error.marker().index() {
+        format!("the file ends early, before its YAML is complete: {reason}")
+    } else {
+        format!("not YAML: {reason}")
     }
 }

@@ -5,24 +5,40 @@ use saphyr_parser::{ScalarStyle, Span};
 use super::position::Position;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults};
 
+struct Tab {
+    /// From 1, as the parser counts.
+    line: usize,
+    /// From 0, as the parser counts.
+    column: usize,
+    /// The column of the last `#` before it on its line.
+    hash: Option<usize>,
+}
+
 /// The tabs of a text, taken from the front as the parser passes them.
-pub struct Tabs<'y> {
-    /// 1-based line, 0-based column, and the part of the line that stands before the tab.
-    ahead: std::iter::Peekable<std::vec::IntoIter<(usize, usize, &'y str)>>,
+pub struct Tabs {
+    ahead: std::iter::Peekable<std::vec::IntoIter<Tab>>,
     /// Line and column at which the token before ended.
     passed: (usize, usize),
 }
 
-impl<'y> Tabs<'y> {
+impl Tabs {
     /// Finds all tabs.
-    pub fn find(text: &'y str) -> Self {
+    pub fn find(text: &str) -> Self {
         let mut tabs = Vec::new();
         if text.contains('\t') {
             let text = text.strip_suffix('\n').unwrap_or(text);
             for (line, content) in text.split('\n').enumerate() {
-                for (at, _) in content.match_indices('\t') {
-                    let before = &content[..at];
-                    tabs.push((line + 1, before.chars().count(), before));
+                let mut hash = None;
+                for (column, c) in content.chars().enumerate() {
+                    match c {
+                        '#' => hash = Some(column),
+                        '\t' => tabs.push(Tab {
+                            line: line + 1,
+                            column,
+                            hash,
+                        }),
+                        _ => {}
+                    }
                 }
             }
         }
@@ -42,16 +58,16 @@ impl<'y> Tabs<'y> {
         let quoted = style.is_some_and(|style| style != ScalarStyle::Plain);
         // A bracket's span goes on over the spaces and the comment behind it.
         let bounds = if style.is_some() { start } else { end };
-        while let Some((line, column, before)) =
-            self.ahead.next_if(|tab| (tab.0, tab.1) < end.max(start))
-        {
+        let last = end.max(start);
+        while let Some(tab) = self.ahead.next_if(|tab| (tab.line, tab.column) < last) {
+            let Tab { line, column, hash } = tab;
             let between = (line, column) < bounds;
             let from = if self.passed.0 == line {
                 self.passed.1
             } else {
                 0
             };
-            let comment = between && before.chars().skip(from).any(|c| c == '#');
+            let comment = between && hash.is_some_and(|hash| hash >= from);
             if comment || (quoted && !between) {
                 continue;
             }

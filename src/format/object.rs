@@ -75,12 +75,22 @@ macro_rules! module {
     };
 }
 
+/// The word of an enumeration's value: its name, unless another is given.
+macro_rules! word {
+    ($variant:ident) => {
+        stringify!($variant)
+    };
+    ($variant:ident $word:literal) => {
+        $word
+    };
+}
+
 /// Declares an enumeration written as a string.
 macro_rules! string_enum {
-    ($(#[doc = $doc:literal])* pub enum $name:ident { $($(#[doc = $vdoc:literal])* $variant:ident,)* }) => {
+    ($(#[doc = $doc:literal])* pub enum $name:ident { $($(#[doc = $vdoc:literal])* $variant:ident $(= $word:literal)?,)* }) => {
         $(#[doc = $doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
-        pub enum $name { $($(#[doc = $vdoc])* $variant,)* }
+        pub enum $name { $($(#[doc = $vdoc])* $(#[serde(rename = $word)])? $variant,)* }
 
         impl $name {
             /// Every value, in the order of the specification.
@@ -88,7 +98,7 @@ macro_rules! string_enum {
 
             /// The word as it is written in a document.
             pub fn as_str(self) -> &'static str {
-                match self { $($name::$variant => stringify!($variant),)* }
+                match self { $($name::$variant => $crate::format::object::word!($variant $($word)?),)* }
             }
         }
 
@@ -103,7 +113,7 @@ macro_rules! string_enum {
                 use serde::de::Error;
                 let word = <std::borrow::Cow<'_, str>>::deserialize(deserializer)?;
                 $name::ALL.iter().copied().find(|v| v.as_str() == word).ok_or_else(|| {
-                    D::Error::unknown_variant(&word, &[$(stringify!($variant)),*])
+                    D::Error::unknown_variant(&word, &[$($crate::format::object::word!($variant $($word)?)),*])
                 })
             }
         }
@@ -116,7 +126,7 @@ macro_rules! string_enum {
             fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
                 $crate::format::object::string_enum_schema(
                     &[$($doc),*],
-                    &[$((stringify!($variant), &[$($vdoc),*] as &[&str])),*],
+                    &[$(($crate::format::object::word!($variant $($word)?), &[$($vdoc),*] as &[&str])),*],
                 )
             }
         }
@@ -224,7 +234,7 @@ macro_rules! pattern {
     };
 }
 
-pub(crate) use {integer, module, object, pattern, string_enum};
+pub(crate) use {integer, module, object, pattern, string_enum, word};
 
 /// The next key of an object that is one of `fields`, as its position there; extension keys
 /// are stepped over, any other key is an error.

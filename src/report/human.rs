@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
+use crate::format::index::Count;
+
 use super::model::{Finding, Report, Severity, Status, Urdd, Verdict};
 
 /// How the human report looks.
@@ -109,7 +111,7 @@ fn describe(urdd: &Urdd) -> String {
     parts.extend(
         sizes
             .into_iter()
-            .filter_map(|(size, unit)| Some(plural(size?, unit))),
+            .filter_map(|(size, unit)| Some(plural(size?.get(), unit))),
     );
     let legacy = urdd
         .modules
@@ -128,7 +130,7 @@ fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::
         Severity::Warning => (YELLOW, "warning"),
         Severity::Info => (BLUE, "info"),
     };
-    let times = if finding.count > 1 {
+    let times = if finding.count.get() > 1 {
         format!(" ({} times)", finding.count)
     } else {
         String::new()
@@ -178,11 +180,11 @@ fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::
             .unwrap_or_default();
         writeln!(out, "      {} {place}{found}", style.paint(DIM, "also"))?;
     }
-    if finding.count > shown {
+    if finding.count.get() > shown {
         writeln!(
             out,
             "      {}",
-            style.paint(DIM, format!("and {} more", finding.count - shown))
+            style.paint(DIM, format!("and {} more", finding.count.get() - shown))
         )?;
     }
     Ok(())
@@ -191,8 +193,8 @@ fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::
 fn place(
     file: Option<&str>,
     pointer: Option<&str>,
-    line: Option<u32>,
-    column: Option<u32>,
+    line: Option<Count>,
+    column: Option<Count>,
 ) -> String {
     let mut place = file.unwrap_or_default().to_owned();
     if let (Some(line), Some(column)) = (line, column) {
@@ -231,7 +233,7 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
 }
 
 fn write_summary(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
-    let totals = report.totals;
+    let totals = &report.totals;
     let verdicts = [
         (report.count(Verdict::Pass), "passed"),
         (report.count(Verdict::Fail), "failed"),
@@ -246,11 +248,11 @@ fn write_summary(report: &Report, style: Style, out: &mut impl Write) -> fmt::Re
     writeln!(
         out,
         "{}: {}. {}, {}, {}.",
-        style.paint(BOLD, plural(totals.urdds, "URDD")),
+        style.paint(BOLD, plural(totals.urdds.get(), "URDD")),
         verdicts.join(", "),
-        plural(totals.error, "error"),
-        plural(totals.warning, "warning"),
-        plural(totals.info, "info"),
+        plural(totals.error.get(), "error"),
+        plural(totals.warning.get(), "warning"),
+        plural(totals.info.get(), "info"),
     )?;
     let first = report
         .urdds

@@ -1,6 +1,7 @@
 //! Reports: one model, and a file for each rendering of it.
 
 pub mod human;
+pub mod info;
 pub mod model;
 
 pub use model::Report;

@@ -1,226 +1,13 @@
-//! The report as data: what `--format json` writes, and what every other rendering is made from.
+//! Makes the report as data, from which every rendering is made, of what a run found.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
+use crate::format::index::Count;
 use crate::format::registry::SPEC_VERSION;
+pub use crate::format::report::*;
 use crate::validate::code::Code;
 use crate::validate::engine::{Check, Outcome};
 use crate::validate::finding::{Finding as Found, Place as FoundPlace};
 use crate::validate::rule::Severity as RuleSeverity;
 use crate::validate::{Examined, Report as Run, Subject};
-
-/// Version of the report's own format.
-pub const REPORT_VERSION: &str = "1.0.0";
-
-/// What a run of `urdd validate` found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Report {
-    /// The program.
-    pub tool: Tool,
-    /// Version of the specification that was checked against.
-    pub spec_version: String,
-    /// Every URDD, in the order of the paths given, then by name.
-    pub urdds: Vec<Urdd>,
-    /// Ignores of the settings that matched nothing.
-    pub stale_ignores: Vec<StaleIgnore>,
-    /// Sums over all URDDs.
-    pub totals: Totals,
-}
-
-/// The program that wrote a report.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Tool {
-    /// Its name.
-    pub name: String,
-    /// Its version.
-    pub version: String,
-}
-
-/// One URDD.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Urdd {
-    /// Its folder's path from the path that was given, with forward slashes; its own name where
-    /// that path was the URDD itself.
-    pub path: String,
-    /// Name of the robot; null where no module says it.
-    pub name: Option<String>,
-    /// What came of it.
-    pub verdict: Verdict,
-    /// Why it is unreadable; else null.
-    pub reason: Option<String>,
-    /// How large the robot is.
-    pub size: Size,
-    /// Its modules.
-    pub modules: Vec<Module>,
-    /// Every rule, in order of code.
-    pub checks: Vec<CheckStatus>,
-    /// What was found: by module, then by severity and code.
-    pub findings: Vec<Finding>,
-}
-
-/// How large a robot is; null where no module says it.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Size {
-    /// Number of links.
-    pub links: Option<usize>,
-    /// Number of joints.
-    pub joints: Option<usize>,
-    /// Number of degrees of freedom.
-    pub dofs: Option<usize>,
-}
-
-/// What came of examining a URDD.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// Nothing found at or above the severity at which a run fails.
-    Pass,
-    /// Something found.
-    Fail,
-    /// The folder could not be read.
-    Unreadable,
-    /// A rule crashed: a fault of this program. The URDD is not fully examined.
-    Incomplete,
-}
-
-/// A module of a URDD.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Module {
-    /// Its name.
-    pub name: String,
-    /// Its folder, relative to the URDD's root.
-    pub path: String,
-    /// Its version; null where it has none.
-    pub version: Option<String>,
-    /// `1.0` or `legacy`; null for extensions and unknown modules.
-    pub profile: Option<String>,
-}
-
-/// What became of a rule.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CheckStatus {
-    /// Its code.
-    pub code: String,
-    /// What became of it.
-    pub status: Status,
-    /// Why it was skipped, or how it crashed; else null.
-    pub reason: Option<String>,
-}
-
-/// What became of a rule.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Status {
-    /// It found nothing.
-    Passed,
-    /// It found something.
-    Failed,
-    /// It did not run.
-    Skipped,
-    /// It ran into a fault of its own.
-    Crashed,
-}
-
-/// How bad a finding is.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "lowercase")]
-pub enum Severity {
-    /// A MUST that is not kept.
-    Error,
-    /// A SHOULD that is not kept, or an odd robot.
-    Warning,
-    /// Worth knowing.
-    Info,
-}
-
-/// Something that was found, or several of the same.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Finding {
-    /// Code of the rule.
-    pub code: String,
-    /// Name of the rule.
-    pub name: String,
-    /// How bad it is, settings applied.
-    pub severity: Severity,
-    /// The severity that the rule has without settings.
-    pub default_severity: Severity,
-    /// Clause of the specification.
-    pub clause: String,
-    /// The module; null where it is about none.
-    pub module: Option<String>,
-    /// The file, relative to the URDD's root, with forward slashes.
-    pub file: Option<String>,
-    /// JSON Pointer into the document.
-    pub pointer: Option<String>,
-    /// Line in the file, from 1.
-    pub line: Option<u32>,
-    /// Column in the line, in characters, from 1.
-    pub column: Option<u32>,
-    /// What is wrong, and what to do.
-    pub message: String,
-    /// What should be there.
-    pub expected: Option<String>,
-    /// What is there.
-    pub actual: Option<String>,
-    /// Where numbers were compared: the tolerance, in their unit.
-    pub tolerance: Option<f64>,
-    /// How many findings this one stands for.
-    pub count: usize,
-    /// The next few of these.
-    pub more: Vec<Place>,
-}
-
-/// Another place of a finding.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Place {
-    /// The file.
-    pub file: Option<String>,
-    /// JSON Pointer into the document.
-    pub pointer: Option<String>,
-    /// Line in the file, from 1.
-    pub line: Option<u32>,
-    /// Column in the line, in characters, from 1.
-    pub column: Option<u32>,
-    /// What should be there.
-    pub expected: Option<String>,
-    /// What is there.
-    pub actual: Option<String>,
-}
-
-/// An ignore of the settings that matched nothing.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct StaleIgnore {
-    /// Code of the rule.
-    pub code: String,
-    /// The pattern.
-    pub path: String,
-}
-
-/// Sums over all URDDs.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Totals {
-    /// Number of URDDs.
-    pub urdds: usize,
-    /// Number of errors.
-    pub error: usize,
-    /// Number of warnings.
-    pub warning: usize,
-    /// Number of informations.
-    pub info: usize,
-}
 
 impl From<RuleSeverity> for Severity {
     fn from(severity: RuleSeverity) -> Self {
@@ -240,17 +27,21 @@ impl Report {
             .iter()
             .map(|subject| urdd(subject, fail_on.into()))
             .collect();
-        let mut totals = Totals {
-            urdds: urdds.len(),
-            ..Totals::default()
+        let total = |severity: Severity| {
+            let findings = urdds.iter().flat_map(|urdd| &urdd.findings);
+            count(
+                findings
+                    .filter(|finding| finding.severity == severity)
+                    .map(|finding| finding.count.get())
+                    .sum(),
+            )
         };
-        for finding in urdds.iter().flat_map(|urdd| &urdd.findings) {
-            match finding.severity {
-                Severity::Error => totals.error += finding.count,
-                Severity::Warning => totals.warning += finding.count,
-                Severity::Info => totals.info += finding.count,
-            }
-        }
+        let totals = Totals {
+            urdds: count(urdds.len()),
+            error: total(Severity::Error),
+            warning: total(Severity::Warning),
+            info: total(Severity::Info),
+        };
         let stale = |ignore: &crate::validate::settings::StaleIgnore| StaleIgnore {
             code: ignore.code.to_string(),
             path: ignore.path.clone(),
@@ -282,7 +73,11 @@ fn urdd(subject: &Subject, fail_on: Severity) -> Urdd {
         name: None,
         verdict: Verdict::Unreadable,
         reason: None,
-        size: Size::default(),
+        size: Size {
+            links: None,
+            joints: None,
+            dofs: None,
+        },
         modules: Vec::new(),
         checks: Vec::new(),
         findings: Vec::new(),
@@ -312,9 +107,9 @@ fn urdd(subject: &Subject, fail_on: Severity) -> Urdd {
             (false, false) => Verdict::Pass,
         },
         size: Size {
-            links: examined.size.links,
-            joints: examined.size.joints,
-            dofs: examined.size.dofs,
+            links: examined.size.links.map(count),
+            joints: examined.size.joints.map(count),
+            dofs: examined.size.dofs.map(count),
         },
         modules: examined.modules.iter().map(module).collect(),
         checks: examined.checks.iter().map(check).collect(),
@@ -404,7 +199,7 @@ fn finding(examined: &Examined, check: &Check, found: &Found) -> Finding {
         expected: here.expected,
         actual: here.actual,
         tolerance: found.tolerance,
-        count: found.count,
+        count: count(found.count),
         more: found
             .more
             .iter()
@@ -417,9 +212,14 @@ fn place(place: &FoundPlace, expected: &Option<String>, actual: &Option<String>)
     Place {
         file: place.file.clone(),
         pointer: place.pointer.clone(),
-        line: place.position.map(|position| position.line),
-        column: place.position.map(|position| position.column),
+        line: place.position.map(|position| Count(position.line)),
+        column: place.position.map(|position| Count(position.column)),
         expected: expected.clone(),
         actual: actual.clone(),
     }
+}
+
+/// A number of things, as far as the report can say it.
+fn count(number: usize) -> Count {
+    Count(u32::try_from(number).unwrap_or(u32::MAX))
 }

@@ -118,6 +118,7 @@ impl Finding {
 pub struct Findings {
     findings: Vec<Finding>,
     by_place: HashMap<(Option<String>, String), usize>,
+    skipped: Option<String>,
 }
 
 impl Findings {
@@ -145,6 +146,16 @@ impl Findings {
                 }
             }
         }
+    }
+
+    /// Says that the rule cannot be checked after all, and why.
+    pub fn skip(&mut self, reason: impl Into<String>) {
+        self.skipped = Some(reason.into());
+    }
+
+    /// Why the rule could not be checked, where it said so.
+    pub fn skipped(&self) -> Option<&str> {
+        self.skipped.as_deref()
     }
 
     /// Whether nothing was found.

@@ -9,6 +9,7 @@ pub mod engine;
 pub mod finding;
 pub mod load;
 pub mod pose;
+pub mod reference;
 pub mod rule;
 pub mod rules;
 pub mod schema_check;

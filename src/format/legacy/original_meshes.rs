@@ -3,7 +3,7 @@
 use crate::format::object::module;
 
 module! {
-    /// Version 0.0.1: the first visual mesh of each link, copied.
+    /// Version 0.0.1: a visual mesh of each link, copied.
     pub struct OriginalMeshesModule {
         /// For each link the copy of its mesh, relative to the folder above the URDD; null for a link
         /// without one. Links whose meshes have one file name share a path, and then a file.

@@ -4,6 +4,7 @@
 pub mod bounds;
 pub mod chain;
 pub mod connections;
+pub mod consumer;
 pub mod dofs;
 pub mod freedom;
 pub mod mimics;

@@ -24,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.bounds().and_then(|bounds| bounds.v1),
         context.module(ModuleKind::Bounds),
     ) else {
-        return;
+        return findings.skip("bounds_module is of a version that does not say this");
     };
     let flags = bounds.dof_limited.iter().zip(&freedom.joint_of_dof);
     for (dof, (written, joint)) in flags.enumerate() {

@@ -24,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.bounds().and_then(|bounds| bounds.v1),
         context.module(ModuleKind::Bounds),
     ) else {
-        return;
+        return findings.skip("bounds_module is of a version that does not say this");
     };
     for (dof, joint) in freedom.joint_of_dof.iter().enumerate() {
         let Some(joint) = robot.joints.get(*joint) else {

@@ -23,7 +23,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.chain().and_then(|chain| chain.v1),
         context.module(ModuleKind::Chain),
     ) else {
-        return;
+        return findings.skip("chain_module is of a version that does not say this");
     };
     for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
         if joint.joint_type != right.joint_type {

@@ -22,7 +22,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.chain().and_then(|chain| chain.v1),
         context.module(ModuleKind::Chain),
     ) else {
-        return;
+        return findings.skip("chain_module is of a version that does not say this");
     };
     for (index, joint) in chain.joints_in_chain.iter().enumerate() {
         let quaternion = joint.origin.quaternion_wxyz;

@@ -24,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.connections().and_then(|connections| connections.v1),
         context.module(ModuleKind::Connections),
     ) else {
-        return;
+        return findings.skip("connections_module is of a version that does not say this");
     };
     let links = robot.links.len();
     if links > EXPLICIT_UP_TO {

@@ -25,7 +25,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.dofs().and_then(|dofs| dofs.v1),
         context.module(ModuleKind::Dof),
     ) else {
-        return;
+        return findings.skip("dof_module is of a version that does not say this");
     };
     for (index, dof) in dofs.dofs.iter().enumerate() {
         let Some((joint_idx, place)) = freedom.place(index) else {

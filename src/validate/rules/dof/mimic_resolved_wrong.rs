@@ -27,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.dofs().and_then(|dofs| dofs.v1),
         context.module(ModuleKind::Dof),
     ) else {
-        return;
+        return findings.skip("dof_module is of a version that does not say this");
     };
     let file = module.file("module.json");
     let joints = robot.joints.iter().zip(&mimics.by_joint);

@@ -1,0 +1,65 @@
+//! `urdd info`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+
+use super::output;
+use crate::directory::discover::discover;
+use crate::report::info::{self, Info};
+
+/// Arguments of `urdd info`.
+#[derive(Args)]
+pub struct InfoArguments {
+    /// URDDs, or folders with URDDs at any depth.
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+
+    /// How it is told.
+    #[arg(long, value_enum, default_value_t = Format::Human)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people.
+    Human,
+    /// As JSON: a list with an object per URDD.
+    Json,
+}
+
+/// Runs `urdd info`.
+pub fn run(arguments: &InfoArguments) -> ExitCode {
+    match tell(arguments) {
+        Ok(text) => {
+            output::print(&text);
+            ExitCode::SUCCESS
+        }
+        Err(message) => {
+            output::error(&message);
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn tell(arguments: &InfoArguments) -> Result<String, String> {
+    let mut infos = Vec::new();
+    for path in &arguments.paths {
+        for found in discover(path).map_err(|error| error.to_string())? {
+            let info = Info::read(&found.path, &found.name)
+                .map_err(|error| format!("{}: {error}", found.name))?;
+            infos.push(info);
+        }
+    }
+    if arguments.format == Format::Json {
+        let text = serde_json::to_string_pretty(&infos).map_err(|error| error.to_string())?;
+        return Ok(text + "\n");
+    }
+    let mut text = String::new();
+    for info in &infos {
+        info::write(info, &mut text).map_err(|error| error.to_string())?;
+        text.push('\n');
+    }
+    Ok(text)
+}

@@ -1,0 +1,110 @@
+//! The one way to write a string; [`super::canonical`] has the rule in words.
+
+use std::fmt::{self, Write};
+
+/// The language that is written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Language {
+    /// JSON.
+    Json,
+    /// YAML.
+    Yaml,
+}
+
+/// A string in double quotes, as YAML reads it.
+pub fn yaml_quoted(text: &str) -> String {
+    let mut quoted = String::new();
+    let _ = write_quoted(text, Language::Yaml, &mut quoted);
+    quoted
+}
+
+/// Writes a string: plain where the language has that and it is safe, else quoted.
+pub fn write_string(text: &str, language: Language, out: &mut impl Write) -> fmt::Result {
+    if language == Language::Yaml && is_plain(text) {
+        out.write_str(text)
+    } else {
+        write_quoted(text, language, out)
+    }
+}
+
+/// Whether a string may stand in YAML without quotes and be a string to everyone.
+fn is_plain(text: &str) -> bool {
+    const WORDS: [&str; 9] = ["y", "n", "yes", "no", "on", "off", "true", "false", "null"];
+    let mut bytes = text.bytes();
+    bytes
+        .next()
+        .is_some_and(|b| b.is_ascii_alphabetic() || b == b'_')
+        && bytes.all(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'-' | b'.' | b'/'))
+        && !(text.len() <= 5 && WORDS.iter().any(|word| text.eq_ignore_ascii_case(word)))
+}
+
+/// Writes a string in double quotes.
+pub fn write_quoted(text: &str, language: Language, out: &mut impl Write) -> fmt::Result {
+    out.write_char('"')?;
+    let mut rest = text;
+    while let Some(at) = rest.find(|c| must_escape(c, language)) {
+        out.write_str(&rest[..at])?;
+        let mut after = rest[at..].chars();
+        match after.next() {
+            Some('"') => out.write_str("\\\"")?,
+            Some('\\') => out.write_str("\\\\")?,
+            Some('\u{8}') => out.write_str("\\b")?,
+            Some('\t') => out.write_str("\\t")?,
+            Some('\n') => out.write_str("\\n")?,
+            Some('\u{c}') => out.write_str("\\f")?,
+            Some('\r') => out.write_str("\\r")?,
+            Some(c) => write!(out, "\\u{:04x}", u32::from(c))?,
+            None => {}
+        }
+        rest = after.as_str();
+    }
+    out.write_str(rest)?;
+    out.write_char('"')
+}
+
+fn must_escape(c: char, language: Language) -> bool {
+    match c {
+        '"' | '\\' | '\0'..='\u{1f}' => true,
+        // Not printable to YAML, or a line break to YAML 1.1.
+        '\u{7f}'..='\u{9f}' | '\u{2028}' | '\u{2029}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}' => {
+            language == Language::Yaml
+        }
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn characters_that_yaml_cannot_hold_are_escaped() {
+        let text = "\0\u{7f}\u{85}\u{2028}\u{feff}\u{ffff}\u{1F916}é\"\\\n";
+        assert_eq!(
+            yaml_quoted(text),
+            r#""\u0000\u007f\u0085\u2028\ufeff\uffff🤖é\"\\\n""#
+        );
+        let mut json = String::new();
+        write_quoted(text, Language::Json, &mut json).unwrap();
+        assert_eq!(json, serde_json::to_string(text).unwrap());
+    }
+
+    #[test]
+    fn words_that_mean_something_are_quoted() {
+        for word in [
+            "y", "N", "Yes", "nO", "On", "OFF", "True", "false", "NULL", "", "~", "-", "1",
+        ] {
+            assert!(!is_plain(word), "{word}");
+        }
+        for word in [
+            "x",
+            "yesterday",
+            "_1",
+            "base_link",
+            "meshes/0_base.stl",
+            "nan",
+        ] {
+            assert!(is_plain(word), "{word}");
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Tags: what the value behind one is to be compared with, and what to write instead.
+
+use saphyr_parser::Tag;
+use serde_json::Value;
+
+use super::text_fault::TextFault;
+use super::yaml_message as message;
+
+/// What a node is held against, once its tag is taken into account.
+pub struct Target<'j> {
+    pub json: Option<&'j Value>,
+    pub variant: Option<String>,
+    /// How a tag says that a scalar is to be read.
+    pub forced: Option<Forced>,
+}
+
+#[derive(Clone, Copy)]
+pub enum Forced {
+    Text,
+    Plain,
+}
+
+/// What kind of node a tag stands on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Node {
+    Empty,
+    Scalar,
+    List,
+    Mapping,
+}
+
+/// What takes the place of a tag.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Instead {
+    Key,
+    String,
+    Nothing,
+}
+
+/// Turns `target` to what the JSON has in place of the tag.
+pub fn apply(tag: &Tag, node: Node, target: &mut Target<'_>) -> Instead {
+    let name = tag.suffix.as_str();
+    let inner = match target.json {
+        Some(Value::Object(map)) if map.len() == 1 => map.get(name),
+        _ => None,
+    };
+    let unit = node == Node::Empty && target.json.and_then(Value::as_str) == Some(name);
+    if tag.is_yaml_core_schema() {
+        target.forced = Some(if name == "str" {
+            Forced::Text
+        } else {
+            Forced::Plain
+        });
+    } else if inner.is_some() {
+        target.json = inner;
+        target.variant = Some(name.to_owned());
+    } else if name.is_empty() || name == "!" {
+        target.forced = Some(Forced::Text);
+    } else {
+        // The tag is the difference; one more message about it would not help.
+        target.json = target.json.filter(|json| match node {
+            Node::List => json.is_array(),
+            Node::Mapping => json.is_object(),
+            Node::Empty | Node::Scalar => false,
+        });
+    }
+    if target.variant.is_some() {
+        Instead::Key
+    } else if unit {
+        Instead::String
+    } else {
+        Instead::Nothing
+    }
+}
+
+/// The fault that a tag is.
+pub fn fault(tag: &Tag, instead: Instead) -> TextFault {
+    let name = tag.suffix.as_str();
+    let written = if tag.is_yaml_core_schema() {
+        format!("!!{name}")
+    } else {
+        format!("!{}", name.trim_start_matches('!'))
+    };
+    message::tag(&written, name, instead)
+}

@@ -1,0 +1,164 @@
+//! The configurations that the specification defines: the same for every producer and every
+//! validator, in any language.
+
+use std::f64::consts::PI;
+
+use super::error::{Fault, KinematicsError};
+use super::joint::{check_lengths, joint_dofs};
+use super::rotation::{to_rotation_vector, uniform_rotation};
+use crate::format::bounds::BoundsModule;
+use crate::format::chain::ChainModule;
+use crate::format::dof::DofModule;
+use crate::format::urdf::JointType;
+
+/// Number `i` of sample `k`: in [0, 1), as good as random, and the same everywhere.
+///
+/// It is output `k * 2^32 + i` of the generator SplitMix64 with seed 0, of which the upper 53 bits
+/// are taken as a binary fraction. All integers are of 64 bits and wrap.
+pub fn unit(k: u64, i: u64) -> f64 {
+    (bits(k, i) >> 11) as f64 * (0.5_f64).powi(53)
+}
+
+/// Output `k * 2^32 + i` of SplitMix64 with seed 0, counted from 0.
+fn bits(k: u64, i: u64) -> u64 {
+    let count = (k << 32).wrapping_add(i).wrapping_add(1);
+    let mut z = count.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+/// The configurations of a robot that the specification defines.
+///
+/// The last three DOFs of a floating joint and the three of a spherical one are a rotation vector:
+/// all rotations are within its bounds, and it is treated as one thing. No value is negative zero.
+#[derive(Debug, Clone)]
+pub struct ConfigurationSpace {
+    bounds: Vec<[f64; 2]>,
+    rotation_vectors: Vec<[usize; 3]>,
+}
+
+impl ConfigurationSpace {
+    /// From the three modules. Bounds are taken from `bounds` of `bounds_module`, in whatever order
+    /// the two of a pair are; they must be finite.
+    pub fn new(
+        dof: &DofModule,
+        chain: &ChainModule,
+        bounds: &BoundsModule,
+    ) -> Result<Self, KinematicsError> {
+        check_lengths(chain, dof)?;
+        let (expected, found) = (dof.num_dofs.get(), bounds.bounds.len());
+        if found != expected {
+            let what = "DOF of dof_module";
+            let fault = Fault::Length {
+                what,
+                expected,
+                found,
+            };
+            return Err(KinematicsError::bounds("/bounds", fault));
+        }
+        for (i, pair) in bounds.bounds.iter().enumerate() {
+            if let Some(end) = pair.iter().position(|bound| !bound.is_finite()) {
+                let fault = Fault::NotFinite(pair[end]);
+                return Err(KinematicsError::bounds(format!("/bounds/{i}/{end}"), fault));
+            }
+        }
+        let mut rotation_vectors = Vec::new();
+        for (idx, joint) in chain.joints_in_chain.iter().enumerate() {
+            if matches!(joint.joint_type, JointType::Floating | JointType::Spherical) {
+                let dofs = joint_dofs(joint.joint_type, idx, dof)?;
+                rotation_vectors.extend(dofs.last_chunk().copied());
+            }
+        }
+        Ok(Self {
+            bounds: bounds.bounds.clone(),
+            rotation_vectors,
+        })
+    }
+
+    /// Number of DOFs: the length of each configuration.
+    pub fn num_dofs(&self) -> usize {
+        self.bounds.len()
+    }
+
+    /// Every DOF 0, even where 0 is out of bounds.
+    pub fn zero(&self) -> Vec<f64> {
+        vec![0.0; self.bounds.len()]
+    }
+
+    /// Every DOF half-way between its bounds: `lower/2 + upper/2`, which cannot overflow, is 0 for
+    /// symmetric bounds, and the bound itself where both are equal. A rotation vector is (0, 0, 0).
+    pub fn middle(&self) -> Vec<f64> {
+        self.build(|_, [lower, upper]| lower / 2.0 + upper / 2.0, |_| [0.0; 3])
+    }
+
+    /// Every DOF at its lower bound; a rotation vector is (-pi, 0, 0).
+    pub fn lower(&self) -> Vec<f64> {
+        self.build(|_, [lower, _]| lower, |_| [-PI, 0.0, 0.0])
+    }
+
+    /// Every DOF at its upper bound; a rotation vector is (pi, 0, 0).
+    pub fn upper(&self) -> Vec<f64> {
+        self.build(|_, [_, upper]| upper, |_| [PI, 0.0, 0.0])
+    }
+
+    /// Sampled configuration `k`, with `u(i)` = [`unit()`]`(k, i)` for DOF `i`:
+    /// `q = lower + u(i) * (upper - lower)`. Where `upper - lower` overflows, this is done with half
+    /// of each bound, and the result doubled. A rotation vector is that of the
+    /// [`uniform_rotation`] made of the `u(i)` of its three DOFs, in order.
+    pub fn sampled(&self, k: u64) -> Vec<f64> {
+        self.build(
+            |i, pair| between(pair, unit(k, i as u64)),
+            |dofs| to_rotation_vector(&uniform_rotation(dofs.map(|i| unit(k, i as u64)))),
+        )
+    }
+
+    fn build(
+        &self,
+        value: impl Fn(usize, [f64; 2]) -> f64,
+        rotation_vector: impl Fn([usize; 3]) -> [f64; 3],
+    ) -> Vec<f64> {
+        let pairs = self.bounds.iter().enumerate();
+        let mut configuration: Vec<f64> = pairs.map(|(i, pair)| value(i, *pair) + 0.0).collect();
+        for dofs in &self.rotation_vectors {
+            for (i, component) in dofs.iter().zip(rotation_vector(*dofs)) {
+                configuration[*i] = component;
+            }
+        }
+        configuration
+    }
+}
+
+fn between([lower, upper]: [f64; 2], u: f64) -> f64 {
+    let width = upper - lower;
+    if width.is_finite() {
+        lower + u * width
+    } else {
+        2.0 * (lower / 2.0 + u * (upper / 2.0 - lower / 2.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The first outputs of SplitMix64 with seed 0, as published with the generator.
+    const PUBLISHED: [u64; 3] = [
+        0xE220_A839_7B1D_CDAF,
+        0x6E78_9E6A_A1B9_65F4,
+        0x06C4_5D18_8009_454F,
+    ];
+
+    #[test]
+    fn is_splitmix64() {
+        for (i, published) in (0..).zip(PUBLISHED) {
+            assert_eq!(bits(0, i), published);
+        }
+    }
+
+    #[test]
+    fn sample_k_goes_on_where_the_generator_is_after_k_times_2_to_the_32() {
+        assert_eq!(bits(3, 5), bits(0, (3 << 32) + 5));
+        assert_eq!(bits(1 << 32, 5), bits(0, 5), "wraps at 64 bits");
+    }
+}

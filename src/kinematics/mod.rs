@@ -1,0 +1,15 @@
+//! Kinematics as a consumer does it: from the modules of a URDD alone, no URDF in sight.
+//!
+//! [`ForwardKinematics`] turns a configuration into the pose of every link;
+//! [`ConfigurationSpace`] makes the configurations that the specification defines.
+
+mod configurations;
+mod error;
+mod forward;
+mod joint;
+pub mod pose;
+pub mod rotation;
+
+pub use configurations::{ConfigurationSpace, unit};
+pub use error::{ConfigurationError, Fault, KinematicsError};
+pub use forward::ForwardKinematics;

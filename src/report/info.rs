@@ -1,0 +1,223 @@
+//! What a URDD holds, told without judging it.
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Write};
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::directory::root::ReadError;
+use crate::format::dof::Quantity;
+use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::validate::context::Context;
+use crate::validate::load::Loaded;
+
+/// What a URDD holds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Info {
+    /// How the URDD is called.
+    pub path: String,
+    /// Name of the robot.
+    pub robot_name: Option<String>,
+    /// Version of the specification that it states.
+    pub urdd_version: Option<String>,
+    /// The conformance class that it claims.
+    pub conformance_class: Option<String>,
+    /// The carried source URDF.
+    pub urdf: Option<String>,
+    /// Number of links.
+    pub links: Option<usize>,
+    /// Number of joints of each type.
+    pub joints: BTreeMap<String, usize>,
+    /// The degrees of freedom.
+    pub dofs: Vec<DofInfo>,
+    /// The modules.
+    pub modules: Vec<ModuleInfo>,
+}
+
+/// A degree of freedom.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DofInfo {
+    /// Its name; for legacy modules that of its joint.
+    pub name: String,
+    /// `rad` or `m`, where the module says it.
+    pub unit: Option<&'static str>,
+    /// Lower and upper bound.
+    pub bounds: Option<[f64; 2]>,
+}
+
+/// A module.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModuleInfo {
+    /// Its folder.
+    pub path: String,
+    /// Its version.
+    pub version: Option<String>,
+    /// Number of its files.
+    pub files: usize,
+    /// Their size, bytes.
+    pub bytes: u64,
+    /// Why its document cannot be used, where it cannot.
+    pub unusable: Option<String>,
+}
+
+impl Info {
+    /// What the URDD at `path` holds; `name` is how it is called.
+    ///
+    /// # Errors
+    /// Where its folder cannot be read.
+    pub fn read(path: &Path, name: &str) -> Result<Info, ReadError> {
+        let context = Context::new(Loaded::read(path)?, None);
+        let robot = context.robot();
+        let mut joints = BTreeMap::new();
+        for joint in robot.iter().flat_map(|robot| &robot.joints) {
+            *joints.entry(joint.joint_type.to_string()).or_insert(0) += 1;
+        }
+        let metadata = context.metadata();
+        Ok(Info {
+            path: name.to_owned(),
+            robot_name: robot
+                .map(|robot| robot.name.clone())
+                .or_else(|| metadata.map(|m| m.robot_name.clone())),
+            urdd_version: metadata.map(|metadata| metadata.urdd_version.to_string()),
+            conformance_class: metadata.map(|metadata| metadata.conformance_class.to_string()),
+            urdf: context.urdf().ok().map(|urdf| urdf.path.clone()),
+            links: robot.map(|robot| robot.links.len()),
+            joints,
+            dofs: dofs(&context),
+            modules: context
+                .modules()
+                .iter()
+                .map(|module| {
+                    let sizes: Vec<u64> = context
+                        .listing()
+                        .below(&module.folder)
+                        .map(|entry| entry.size)
+                        .collect();
+                    ModuleInfo {
+                        path: module.folder.clone(),
+                        version: module.version.clone(),
+                        files: context
+                            .listing()
+                            .below(&module.folder)
+                            .filter(|entry| context.listing().has_file(&entry.path))
+                            .count(),
+                        bytes: sizes.iter().sum(),
+                        unusable: module.unusable(),
+                    }
+                })
+                .collect(),
+        })
+    }
+}
+
+fn dofs(context: &Context) -> Vec<DofInfo> {
+    let Some(dofs) = context.dofs() else {
+        return Vec::new();
+    };
+    let bounds = context.bounds();
+    let described = match context.document(ModuleKind::Dof) {
+        Some(ModuleDocument::Dof(module)) => Some(&module.dofs),
+        _ => None,
+    };
+    let name_of_joint = |dof: usize| {
+        let joint = dofs.joint_of_dof.get(dof)?;
+        Some(context.robot()?.joints.get(joint.get())?.name.clone())
+    };
+    (0..dofs.joint_of_dof.len())
+        .map(|dof| {
+            let description = described.and_then(|list| list.get(dof));
+            DofInfo {
+                name: description
+                    .map(|description| description.name.clone())
+                    .or_else(|| name_of_joint(dof))
+                    .unwrap_or_else(|| format!("DOF {dof}")),
+                unit: description.map(|description| match description.quantity {
+                    Quantity::Angle => "rad",
+                    Quantity::Length => "m",
+                }),
+                bounds: bounds.and_then(|bounds| bounds.bounds.get(dof).copied()),
+            }
+        })
+        .collect()
+}
+
+/// Writes what a URDD holds, for a person.
+///
+/// # Errors
+/// Where writing fails.
+pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
+    let unknown = || "not known".to_owned();
+    writeln!(out, "{}", info.path)?;
+    writeln!(
+        out,
+        "  robot     {}",
+        info.robot_name.clone().unwrap_or_else(unknown)
+    )?;
+    match (&info.urdd_version, &info.conformance_class) {
+        (Some(version), Some(class)) => writeln!(out, "  format    URDD {version}, class {class}")?,
+        _ => writeln!(out, "  format    no root metadata")?,
+    }
+    writeln!(
+        out,
+        "  source    {}",
+        info.urdf.as_deref().unwrap_or("no URDF is carried")
+    )?;
+    writeln!(
+        out,
+        "  links     {}",
+        info.links.map_or_else(unknown, |links| links.to_string())
+    )?;
+    let joints: Vec<String> = info
+        .joints
+        .iter()
+        .map(|(kind, count)| format!("{count} {kind}"))
+        .collect();
+    writeln!(
+        out,
+        "  joints    {}",
+        if joints.is_empty() {
+            "none".to_owned()
+        } else {
+            joints.join(", ")
+        }
+    )?;
+    writeln!(out, "  DOFs      {}", info.dofs.len())?;
+    let width = info
+        .dofs
+        .iter()
+        .map(|dof| dof.name.chars().count())
+        .max()
+        .unwrap_or(0);
+    for (index, dof) in info.dofs.iter().enumerate() {
+        let unit = dof.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+        let bounds = dof
+            .bounds
+            .map(|[lower, upper]| format!("  [{lower}, {upper}]{unit}"))
+            .unwrap_or_default();
+        writeln!(out, "    {index:>3}  {:width$}{bounds}", dof.name)?;
+    }
+    writeln!(out, "  modules   {}", info.modules.len())?;
+    let width = info
+        .modules
+        .iter()
+        .map(|module| module.path.len())
+        .max()
+        .unwrap_or(0);
+    for module in &info.modules {
+        let version = module.version.as_deref().unwrap_or("-");
+        let unusable = module
+            .unusable
+            .as_ref()
+            .map(|reason| format!("  ({reason})"))
+            .unwrap_or_default();
+        writeln!(
+            out,
+            "    {:width$}  {version:6}  {:>4} files  {:>9} kB{unusable}",
+            module.path,
+            module.files,
+            module.bytes.div_ceil(1000)
+        )?;
+    }
+    Ok(())
+}

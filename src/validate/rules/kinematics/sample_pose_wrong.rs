@@ -1,0 +1,112 @@
+use nalgebra::Isometry3;
+
+use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::kinematics::ForwardKinematics;
+use crate::kinematics::pose::to_isometry;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::tolerance::{POSITION_OF_REACH, ROTATION, reach, rotation_distance};
+
+declare_rule! {
+    /// A stored link pose is not where forward kinematics puts the link.
+    ///
+    /// Consumers take these poses for truth when they test their own kinematics: a wrong one makes
+    /// right programs look wrong. (Poses are compared with those that follow from `chain_module` and
+    /// `dof_module`, which are held to the carried URDF by KIN001.)
+    ///
+    /// Compute the poses again. Where only some links are off, look at the joint above the first of
+    /// them; where all are off by one transform, look at the frame: poses are in the root link's.
+    KIN003 "sample-pose-wrong", Error, clause "9.2", since "0.1.0",
+    phase Kinematics,
+    needs [
+        Module(Kind::KinematicsSamples), Module(Kind::Chain), Module(Kind::Dof), Module(Kind::Urdf), Passed(KIN002),
+        Passed(CHN001), Passed(CHN003), Passed(CHN006), Passed(CHN008), Passed(CHN009), Passed(CHN010), Passed(DOF007),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(module), Some(robot), Some(tree)) = (
+        context.module(ModuleKind::KinematicsSamples),
+        context.robot(),
+        context.tree(),
+    ) else {
+        return;
+    };
+    let (
+        Some(ModuleDocument::KinematicsSamples(samples)),
+        Some(ModuleDocument::Chain(chain)),
+        Some(ModuleDocument::Dof(dof)),
+    ) = (
+        &module.document,
+        context.document(ModuleKind::Chain),
+        context.document(ModuleKind::Dof),
+    )
+    else {
+        return;
+    };
+    let kinematics = match ForwardKinematics::new(chain, dof) {
+        Ok(kinematics) => kinematics,
+        Err(error) => return findings.skip(error.to_string()),
+    };
+    let tolerance = POSITION_OF_REACH * reach(robot, tree);
+    for (place, sample) in samples.samples.iter().enumerate() {
+        let Ok(poses) = kinematics.link_poses(&sample.configuration) else {
+            continue;
+        };
+        for (link, (expected, stored)) in poses.iter().zip(&sample.link_poses).enumerate() {
+            let name = robot
+                .links
+                .get(link)
+                .map(|link| link.name.as_str())
+                .unwrap_or_default();
+            let pointer = format!("/samples/{place}/link_poses/{link}");
+            let found = match to_isometry(stored) {
+                Ok(found) => found,
+                Err(error) => {
+                    let message = format!(
+                        "the pose of link {name:?} in {} is no pose: {error}",
+                        sample.kind
+                    );
+                    findings.report(Finding::at(module.file("module.json"), pointer, message));
+                    continue;
+                }
+            };
+            let (shift, turn) = difference(&found, expected);
+            if shift > tolerance || turn > ROTATION {
+                findings.report(
+                    Finding::at(
+                        module.file("module.json"),
+                        pointer,
+                        format!(
+                            "in {}, link {name:?} is {shift:.3e} m and {turn:.3e} rad from where forward kinematics puts it",
+                            sample.kind
+                        ),
+                    )
+                    .expected(describe(expected))
+                    .actual(describe(&found))
+                    .tolerance(tolerance),
+                );
+            }
+        }
+    }
+}
+
+fn difference(a: &Isometry3<f64>, b: &Isometry3<f64>) -> (f64, f64) {
+    let shift = (a.translation.vector - b.translation.vector).norm();
+    let turn = rotation_distance(
+        a.rotation.to_rotation_matrix().matrix(),
+        b.rotation.to_rotation_matrix().matrix(),
+    );
+    (shift, turn)
+}
+
+fn describe(pose: &Isometry3<f64>) -> String {
+    let p = pose.translation;
+    let q = pose.rotation.quaternion();
+    format!(
+        "position ({}, {}, {}), quaternion ({}, {}, {}, {})",
+        p.x, p.y, p.z, q.w, q.i, q.j, q.k
+    )
+}

@@ -1,0 +1,25 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+
+declare_rule! {
+    /// There is no `kinematics_samples_module`.
+    ///
+    /// It holds configurations and the pose of every link in each: golden values with which a
+    /// consumer in any language proves its own forward kinematics right, and which show years later
+    /// what the producer meant.
+    ///
+    /// Write it: zero, middle, lower and upper configuration, and a few sampled ones.
+    KIN005 "samples-missing", Warning, clause "9.2", since "0.1.0",
+    phase Files, needs [Version1],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    if context.module(ModuleKind::KinematicsSamples).is_none() {
+        findings.report(Finding::in_directory(
+            "there is no kinematics_samples_module; with it, consumers can test their forward kinematics",
+        ));
+    }
+}

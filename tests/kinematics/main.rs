@@ -1,0 +1,12 @@
+//! Kinematics from modules alone, held to hand calculation, to published numbers, and to a second
+//! implementation of another kind.
+
+mod closed_forms;
+mod configurations;
+mod faults;
+mod naive_kinematics;
+mod properties;
+mod rotations;
+
+#[path = "../support/core_modules.rs"]
+mod core_modules;
