@@ -115,7 +115,6 @@ fn elsewhere(variable: &str, default: &str) -> PathBuf {
 }
 
 #[test]
-#[ignore = "needs the figures and robots of branch peers; to be dropped on merging"]
 fn our_own_robots() {
     compare("urdd", repository());
 }
@@ -169,7 +168,6 @@ struct Rotation {
 }
 
 #[test]
-#[ignore = "needs the figures and robots of branch peers; to be dropped on merging"]
 fn units() {
     let samples: Samples = figures("sampled_configurations.json");
     assert!(!samples.u.is_empty());
@@ -181,7 +179,6 @@ fn units() {
 }
 
 #[test]
-#[ignore = "needs the figures and robots of branch peers; to be dropped on merging"]
 fn uniform_rotations() {
     let samples: Samples = figures("sampled_configurations.json");
     assert!(!samples.rotations.is_empty());
@@ -195,7 +192,6 @@ fn uniform_rotations() {
 
 /// As [`uniform_rotations`], by way of a robot: a ball whose first DOF is 3.
 #[test]
-#[ignore = "needs the figures and robots of branch peers; to be dropped on merging"]
 fn sampled_balls() {
     let samples: Samples = figures("sampled_configurations.json");
     let joints: Vec<Joint> = [Prismatic, Prismatic, Prismatic, Spherical]

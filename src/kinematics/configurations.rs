@@ -81,6 +81,12 @@ impl ConfigurationSpace {
         self.bounds.len()
     }
 
+    /// The DOFs of each rotation vector, three at a time: of floating joints the last three, of
+    /// spherical ones all.
+    pub fn rotation_vectors(&self) -> &[[usize; 3]] {
+        &self.rotation_vectors
+    }
+
     /// Every DOF 0, even where 0 is out of bounds.
     pub fn zero(&self) -> Vec<f64> {
         vec![0.0; self.bounds.len()]
