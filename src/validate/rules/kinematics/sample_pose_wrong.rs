@@ -6,7 +6,9 @@ use crate::kinematics::pose::to_isometry;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::tolerance::{POSITION_OF_REACH, ROTATION, reach, rotation_distance};
+use crate::validate::tolerance::{
+    POSITION_OF_REACH, ROTATION, UNIT_NORM, reach, rotation_distance,
+};
 
 declare_rule! {
     /// A stored link pose is not where forward kinematics puts the link.
@@ -73,6 +75,19 @@ fn check(context: &Context, findings: &mut Findings) {
                     continue;
                 }
             };
+            let [w, ..] = stored.quaternion_wxyz;
+            if w < -UNIT_NORM {
+                let message = format!(
+                    "the quaternion of link {name:?} in {} has w < 0; write its opposite, the same rotation",
+                    sample.kind
+                );
+                findings.report(
+                    Finding::at(module.file("module.json"), pointer, message)
+                        .expected("w >= 0")
+                        .actual(w),
+                );
+                continue;
+            }
             let (shift, turn) = difference(&found, expected);
             if shift > tolerance || turn > ROTATION {
                 findings.report(

@@ -1,0 +1,448 @@
+#!/usr/bin/env python3
+"""A minimal URDD producer: a URDF in, a URDD of conformance class Core out.
+
+Written from SPEC.md and the published schemas, with Python's standard library alone, to show how little it takes.
+Numbers in brackets are clauses of SPEC.md.
+
+    python3 minimal_producer.py robot.urdf out_dir
+"""
+import hashlib
+import json
+import math
+import os
+import re
+import sys
+from xml.parsers import expat
+
+NUM_SAMPLED = 16  # sampled configurations in kinematics_samples_module: any number will do [9.2]
+MAX_EXPLICIT_LINKS = 300  # up to here connections_module spells out every path [6.4.6]
+MODULES = {  # each module, with the modules that it is derived from, in the order of the table [12.1]
+    "urdf_module": [],
+    "dof_module": ["urdf_module"],
+    "chain_module": ["urdf_module"],
+    "connections_module": ["chain_module"],
+    "bounds_module": ["urdf_module", "dof_module"],
+    "kinematics_samples_module": ["dof_module", "chain_module", "bounds_module"],
+}
+
+
+# ---- XML. Unknown elements are kept as they stand in the file [6.1.1], so we ask expat where elements begin and end.
+
+class Element:
+    def __init__(self, tag, attributes):
+        self.tag, self.attributes, self.children, self.xml = tag, attributes, [], None
+        self.get = attributes.get
+
+    def all(self, tag):
+        return [child for child in self.children if child.tag == tag]
+
+    def first(self, tag):
+        return next(iter(self.all(tag)), None)
+
+    def others(self, known):
+        return [child.xml for child in self.children if child.tag not in known.split()]
+
+
+def parse_xml(data):
+    declared = re.match(rb"""\s*<\?xml[^>]*encoding=["']([\w.-]+)""", data)
+    encoding = declared[1].decode().lower() if declared else "utf-8"
+    data = data.decode("utf-8-sig" if encoding == "utf-8" else encoding).encode("utf-8")
+    start_tag = re.compile(rb"""<(?:[^>"']|"[^"]*"|'[^']*')*>""")
+    parser, stack, top = expat.ParserCreate("utf-8"), [], Element("", {})
+
+    def start(tag, attributes):
+        element = Element(tag, attributes)
+        (stack[-1][0] if stack else top).children.append(element)
+        stack.append((element, parser.CurrentByteIndex))
+
+    def end(_tag):
+        element, begin = stack.pop()
+        opening = start_tag.match(data, begin)
+        closed = opening[0].endswith(b"/>")
+        element.xml = data[begin:opening.end() if closed else data.index(b">", parser.CurrentByteIndex) + 1].decode()
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.Parse(data, True)
+    return top.children[0]
+
+
+# ---- urdf_module: all of the URDF; what it leaves out is null [6.1]
+
+def vector(element, key, count):
+    """`count` numbers of an attribute; null where it is absent, or where one is not finite [6.1.2]."""
+    if element is None or element.get(key) is None:
+        return None
+    values = [float(word) for word in element.get(key).split()]
+    if len(values) != count:
+        raise ValueError(f"<{element.tag} {key}={element.get(key)!r}>: {count} number(s) wanted")
+    return values if all(map(math.isfinite, values)) else None
+
+
+def numbers(element, keys):
+    if element is None:
+        return None
+    return {key: (vector(element, key, 1) or [None])[0] for key in keys.split()}
+
+
+def complete(value):
+    """The object, or null where something in it that cannot be null is missing."""
+    return None if value is None or None in value.values() else value
+
+
+def read_origin(parent):
+    element = parent.first("origin")
+    return element and {"xyz": vector(element, "xyz", 3), "rpy": vector(element, "rpy", 3)}
+
+
+def read_geometry(geometry):
+    for shape in geometry.children if geometry else []:
+        if shape.tag == "mesh":
+            value = {"filename": shape.get("filename"), "scale": vector(shape, "scale", 3)}
+            return {"Mesh": value} if value["filename"] is not None else None
+        if shape.tag == "box":
+            size = vector(shape, "size", 3)
+            return size and {"Box": {"size": size}}
+        if shape.tag in ("cylinder", "capsule", "sphere"):
+            value = complete(numbers(shape, "radius" if shape.tag == "sphere" else "radius length"))
+            return value and {shape.tag.capitalize(): value}
+    return None
+
+
+def read_material(element):
+    color, texture = element.first("color"), element.first("texture")
+    return {"name": element.get("name"), "color": color and complete({"rgba": vector(color, "rgba", 4)}),
+            "texture": texture and complete({"filename": texture.get("filename")})}
+
+
+def read_part(element):  # a visual or collision element
+    part = {"name": element.get("name"), "origin": read_origin(element),
+            "geometry": read_geometry(element.first("geometry"))}
+    if element.tag == "visual":
+        part["material"] = element.first("material") and read_material(element.first("material"))
+    return part
+
+
+def read_link(element):
+    inertial = element.first("inertial")
+    return {
+        "name": element.attributes["name"],
+        "inertial": inertial and {"origin": read_origin(inertial),
+                                  "mass": complete(numbers(inertial.first("mass"), "value")),
+                                  "inertia": numbers(inertial.first("inertia"), "ixx ixy ixz iyy iyz izz")},
+        "visual": [read_part(part) for part in element.all("visual")],
+        "collision": [read_part(part) for part in element.all("collision")],
+        "unknown_elements": element.others("inertial visual collision"),
+    }
+
+
+def read_joint(element):
+    axis, mimic = element.first("axis"), element.first("mimic")
+    soft = "soft_lower_limit soft_upper_limit k_position k_velocity"
+    return {
+        "name": element.attributes["name"],
+        "joint_type": element.attributes["type"].capitalize(),
+        "origin": read_origin(element),
+        "parent": {"link": element.first("parent").attributes["link"]},
+        "child": {"link": element.first("child").attributes["link"]},
+        "axis": axis and {"xyz": vector(axis, "xyz", 3)},
+        "limit": numbers(element.first("limit"), "lower upper effort velocity"),
+        "dynamics": numbers(element.first("dynamics"), "damping friction"),
+        "mimic": mimic and {"joint": mimic.attributes["joint"], **numbers(mimic, "multiplier offset")},
+        "safety_controller": numbers(element.first("safety_controller"), soft),
+        "calibration": numbers(element.first("calibration"), "rising falling"),
+        "unknown_elements": element.others(
+            "origin parent child axis limit dynamics mimic safety_controller calibration"),
+    }
+
+
+def urdf_module(robot):
+    return {
+        "name": robot.attributes["name"],
+        "version": robot.get("version"),
+        "links": [read_link(element) for element in robot.all("link")],
+        "joints": [read_joint(element) for element in robot.all("joint")],
+        "materials": [read_material(element) for element in robot.all("material")],
+        "unknown_elements": robot.others("link joint material"),
+    }
+
+
+# ---- dof_module [6.2]
+
+DOFS_OF_TYPE = {  # what follows the joint's name [6.2.5]; all but /trans_… and a prismatic joint's are angles [5.8]
+    "Fixed": [], "Revolute": [""], "Continuous": [""], "Prismatic": [""], "Planar": ["/trans_x", "/trans_y", "/rot"],
+    "Floating": ["/trans_x", "/trans_y", "/trans_z", "/rot_x", "/rot_y", "/rot_z"],
+    "Spherical": ["/rot_x", "/rot_y", "/rot_z"],
+}
+
+
+def is_mimic(joint):
+    return joint["mimic"] is not None and joint["joint_type"] != "Fixed"
+
+
+def resolve_mimic(joint, by_name, depth=0):
+    """(joint at the end of the chain, multiplier, offset) [5.10]"""
+    if not is_mimic(joint):
+        return joint, 1.0, 0.0
+    if depth > len(by_name):
+        raise ValueError(f"mimic joints go in a circle at {joint['name']!r}")
+    end, multiplier, offset = resolve_mimic(by_name[joint["mimic"]["joint"]], by_name, depth + 1)
+    own = 1.0 if joint["mimic"]["multiplier"] is None else joint["mimic"]["multiplier"]
+    return end, own * multiplier, own * offset + (joint["mimic"]["offset"] or 0.0)
+
+
+def dof_module(urdf):
+    dofs, dofs_of_joint, mimics = [], [], []
+    for idx, joint in enumerate(urdf["joints"]):
+        first = len(dofs)
+        for suffix in [] if is_mimic(joint) else DOFS_OF_TYPE[joint["joint_type"]]:
+            length = joint["joint_type"] == "Prismatic" or suffix.startswith("/trans")
+            dofs.append({"name": joint["name"] + suffix, "joint_idx": idx, "joint_name": joint["name"],
+                         "quantity": "Length" if length else "Angle"})
+        dofs_of_joint.append(list(range(first, len(dofs))))
+    place = {joint["name"]: idx for idx, joint in enumerate(urdf["joints"])}
+    for joint in urdf["joints"]:
+        end, multiplier, offset = resolve_mimic(joint, {j["name"]: j for j in urdf["joints"]})
+        driver = (dofs_of_joint[place[end["name"]]] or [None])[0]
+        resolved = {"dof_idx": driver, "multiplier": multiplier, "offset": offset}
+        mimics.append(resolved if is_mimic(joint) else None)
+    return {"num_dofs": len(dofs), "dof_idx_to_joint_idx_mapping": [dof["joint_idx"] for dof in dofs],
+            "joint_idx_to_dof_idxs_mapping": dofs_of_joint, "joint_idx_to_mimic_mapping": mimics, "dofs": dofs}
+
+
+# ---- Rotations as unit quaternions (w, x, y, z); a pose is (position, quaternion) [5.4, 5.5]
+
+def multiply(a, b):
+    (aw, ax, ay, az), (bw, bx, by, bz) = a, b
+    return (aw * bw - ax * bx - ay * by - az * bz, aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw)
+
+
+def rotate(q, v):
+    return multiply(multiply(q, (0.0, *v)), (q[0], -q[1], -q[2], -q[3]))[1:]
+
+
+def turn(axis, angle):
+    return (math.cos(angle / 2), *(math.sin(angle / 2) * c for c in axis))
+
+
+def turn_by_vector(v):
+    angle = math.hypot(*v)
+    return turn([c / angle for c in v], angle) if angle > 0 else (1.0, 0.0, 0.0, 0.0)
+
+
+def compose(a, b):
+    return [p + r for p, r in zip(a[0], rotate(a[1], b[0]))], multiply(a[1], b[1])
+
+
+def write_pose(position, q):
+    sign = next((math.copysign(1.0, c) for c in q if c != 0), 1.0)  # the first that is not 0 is positive
+    return {"position": list(position), "quaternion_wxyz": [sign * c / math.hypot(*q) for c in q]}
+
+
+# ---- chain_module [6.3] and connections_module [6.4]
+
+def chain_module(urdf):
+    names = [link["name"] for link in urdf["links"]]
+    links = [{"name": name, "link_idx": idx, "parent_joint_idx": None, "parent_link_idx": None,
+              "children_joint_idxs": [], "children_link_idxs": []} for idx, name in enumerate(names)]
+    joints = []
+    for idx, joint in enumerate(urdf["joints"]):
+        parent, child = (names.index(joint[end]["link"]) for end in ("parent", "child"))
+        origin, axis = joint["origin"] or {}, None
+        roll, pitch, yaw = origin.get("rpy") or [0.0] * 3
+        rotation = multiply(turn((0, 0, 1), yaw), multiply(turn((0, 1, 0), pitch), turn((1, 0, 0), roll)))
+        if joint["joint_type"] in ("Revolute", "Continuous", "Prismatic", "Planar"):
+            axis = (joint["axis"] or {}).get("xyz") or [1.0, 0.0, 0.0]  # [5.7]
+            axis = [c / math.hypot(*axis) for c in axis]
+        joints.append({"joint_name": joint["name"], "joint_idx": idx,
+                       "parent_link_name": names[parent], "parent_link_idx": parent,
+                       "child_link_name": names[child], "child_link_idx": child, "joint_type": joint["joint_type"],
+                       "origin": write_pose(origin.get("xyz") or [0.0] * 3, rotation), "axis": axis})
+        links[parent]["children_joint_idxs"].append(idx)
+        links[parent]["children_link_idxs"] = sorted(links[parent]["children_link_idxs"] + [child])
+        links[child].update(parent_joint_idx=idx, parent_link_idx=parent)
+    levels = [[link["link_idx"] for link in links if link["parent_joint_idx"] is None]]
+    while below := sorted(child for idx in levels[-1] for child in links[idx]["children_link_idxs"]):
+        levels.append(below)
+    if len(levels[0]) != 1 or sorted(sum(levels, [])) != list(range(len(links))):
+        raise ValueError("links and joints are no tree with one root")
+    return {"links_in_chain": links, "joints_in_chain": joints,
+            "kinematic_hierarchy": levels, "root_idx": levels[0][0]}
+
+
+def connections_module(chain):
+    roots = [None] * len(chain["links_in_chain"])  # root paths
+    for link in (chain["links_in_chain"][idx] for level in chain["kinematic_hierarchy"] for idx in level):
+        is_root = link["parent_link_idx"] is None
+        above = {"links": [], "joints": []} if is_root else roots[link["parent_link_idx"]]
+        roots[link["link_idx"]] = {"links": above["links"] + [link["link_idx"]],
+                                   "joints": above["joints"] + ([] if is_root else [link["parent_joint_idx"]])}
+
+    def shared(i, j):  # how many links the two root paths share
+        return sum(a == b for a, b in zip(roots[i]["links"], roots[j]["links"]))
+
+    def path(i, j):
+        up, down, n = roots[i], roots[j], shared(i, j)
+        return {"links": up["links"][n - 1:][::-1] + down["links"][n:],
+                "joints": up["joints"][n - 1:][::-1] + down["joints"][n - 1:]}
+
+    def descend(i, j):
+        depth = len(roots[i]["links"])
+        return [i] if i == j else roots[j]["links"][depth:] if shared(i, j) == depth else None
+
+    def matrix(element):
+        return [[element(i, j) for j in range(len(roots))] for i in range(len(roots))]
+
+    explicit = len(roots) <= MAX_EXPLICIT_LINKS
+    return {"root_paths": roots,
+            "lowest_common_ancestors": matrix(lambda i, j: roots[i]["links"][shared(i, j) - 1]),
+            "link_to_link_paths": matrix(path) if explicit else None,
+            "link_connection_paths": matrix(descend) if explicit else None}
+
+
+# ---- bounds_module [6.5]
+
+def bounds_module(urdf, dof):
+    rows = []
+    for entry in dof["dofs"]:
+        joint = urdf["joints"][entry["joint_idx"]]
+        lower, upper, effort, velocity = (joint["limit"] or dict.fromkeys(["l", "u", "e", "v"])).values()
+        default = math.pi if entry["quantity"] == "Angle" else 1.0
+        limited = joint["joint_type"] in ("Revolute", "Prismatic") and (lower is not None or upper is not None)
+        single = len(DOFS_OF_TYPE[joint["joint_type"]]) == 1
+        rows.append(([lower or 0.0, upper or 0.0] if limited else [-default, default], limited,
+                     velocity if single else None, effort if single else None))
+    bounds, limited, velocity, effort = map(list, zip(*rows)) if rows else ([], [], [], [])
+    return {"bounds": bounds, "dof_lower_bounds": [b[0] for b in bounds], "dof_upper_bounds": [b[1] for b in bounds],
+            "dof_limited": limited, "dof_velocity_limits": velocity, "dof_effort_limits": effort}
+
+
+# ---- kinematics_samples_module [9]
+
+def motion(kind, axis, q):
+    nowhere, still = [0.0] * 3, (1.0, 0.0, 0.0, 0.0)
+    if kind in ("Revolute", "Continuous"):
+        return nowhere, turn(axis, q[0])
+    if kind == "Prismatic":
+        return [q[0] * c for c in axis], still
+    if kind == "Planar":  # the in-plane basis is (ex, ey), turned by the shortest arc from z to the axis [5.9]
+        x, y, z = axis
+        w = 1 + z if z > 0 else (x * x + y * y) / (1 - z)  # 1 + z, without loss of digits near -z
+        norm = math.hypot(w, x, y)
+        arc = (w / norm, -y / norm, x / norm, 0.0) if norm > 0 else (0.0, 1.0, 0.0, 0.0)
+        return rotate(arc, (q[0], q[1], 0.0)), turn(axis, q[2])
+    if kind == "Floating":
+        return q[:3], turn_by_vector(q[3:])
+    return nowhere, turn_by_vector(q) if kind == "Spherical" else still
+
+
+def forward_kinematics(chain, dof, q):
+    poses = {chain["root_idx"]: ([0.0] * 3, (1.0, 0.0, 0.0, 0.0))}
+    for link in (chain["links_in_chain"][idx] for level in chain["kinematic_hierarchy"][1:] for idx in level):
+        joint = chain["joints_in_chain"][link["parent_joint_idx"]]
+        values = [q[idx] for idx in dof["joint_idx_to_dof_idxs_mapping"][joint["joint_idx"]]]
+        if mimic := dof["joint_idx_to_mimic_mapping"][joint["joint_idx"]]:
+            driver = 0.0 if mimic["dof_idx"] is None else q[mimic["dof_idx"]]
+            values = [mimic["multiplier"] * driver + mimic["offset"]]
+        at_zero = compose(poses[link["parent_link_idx"]], list(joint["origin"].values()))
+        poses[link["link_idx"]] = compose(at_zero, motion(joint["joint_type"], joint["axis"], values))
+    return [write_pose(*poses[idx]) for idx in range(len(poses))]
+
+
+def u(k, i):  # [9.3]
+    mask = 2**64 - 1
+    z = (k * 2**32 + i + 1) * 0x9E3779B97F4A7C15 & mask
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9 & mask
+    z = (z ^ z >> 27) * 0x94D049BB133111EB & mask
+    return ((z ^ z >> 31) >> 11) * 2.0**-53
+
+
+def uniform_rotation_vector(u1, u2, u3):
+    a, b = math.sqrt(u1), math.sqrt(1 - u1)
+    w, *xyz = (a * math.cos(2 * math.pi * u3), b * math.sin(2 * math.pi * u2),
+               b * math.cos(2 * math.pi * u2), a * math.sin(2 * math.pi * u3))
+    sine = math.hypot(*xyz)
+    factor = 2 * math.atan2(sine, abs(w)) / sine if sine > 0 else 0.0
+    return [math.copysign(factor, w) * c for c in xyz]
+
+
+def kinematics_samples_module(dof, chain, bounds):
+    lower, upper, every = bounds["dof_lower_bounds"], bounds["dof_upper_bounds"], range(dof["num_dofs"])
+    vectors = [i for i in every if dof["dofs"][i]["name"] == dof["dofs"][i]["joint_name"] + "/rot_x"]
+    samples = []
+
+    def add(kind, k, value, rotation_vector):
+        q = [value(i) for i in every]
+        for i in vectors:
+            q[i:i + 3] = rotation_vector(i)
+        samples.append({"kind": kind, "sample_idx": k, "configuration": q,
+                        "link_poses": forward_kinematics(chain, dof, q)})
+
+    add("Zero", None, lambda i: 0.0, lambda i: [0.0, 0.0, 0.0])
+    add("Middle", None, lambda i: (lower[i] + upper[i]) / 2, lambda i: [0.0, 0.0, 0.0])
+    add("Lower", None, lambda i: lower[i], lambda i: [-math.pi, 0.0, 0.0])
+    add("Upper", None, lambda i: upper[i], lambda i: [math.pi, 0.0, 0.0])
+    for k in range(NUM_SAMPLED):
+        add("Sampled", k, lambda i: lower[i] + u(k, i) * (upper[i] - lower[i]),
+            lambda i: uniform_rotation_vector(u(k, i), u(k, i + 1), u(k, i + 2)))
+    return {"samples": samples}
+
+
+# ---- JSON and YAML [3]
+
+def to_text(value, indent="\n"):
+    """JSON that is YAML too: the same bytes serve as module.json and as module.yaml."""
+    deeper = indent + " "
+    if isinstance(value, dict) and value:
+        return "{" + ",".join(f'{deeper}"{key}": {to_text(v, deeper)}' for key, v in value.items()) + indent + "}"
+    if isinstance(value, list) and any(isinstance(element, (dict, list)) for element in value):
+        return "[" + ",".join(deeper + to_text(element, deeper) for element in value) + indent + "]"
+    if isinstance(value, list):  # innermost lists on one line
+        return "[" + ", ".join(map(to_text, value)) + "]"
+    if isinstance(value, float):
+        text = json.dumps(value + 0.0, allow_nan=False)  # + 0.0: no negative zero [3.1.3]
+        return text.replace("e", ".0e") if "." not in text else text  # YAML 1.1 takes 1e-07 for a string [3.2.3]
+    text = json.dumps(value, ensure_ascii=False)
+    # What YAML wants escaped and JSON does not: controls, and what some readers take for the end of a line.
+    return re.sub("[\x7f-\xa0\u2028\u2029\ufeff\ufffe\uffff]", lambda c: f"\\u{ord(c[0]):04x}", text)
+
+
+# ---- The directory [2]
+
+def main(urdf_path, out_dir):
+    with open(urdf_path, "rb") as file:
+        source = file.read()
+    urdf = urdf_module(parse_xml(source))
+    dof, chain = dof_module(urdf), chain_module(urdf)
+    bounds = bounds_module(urdf, dof)
+    documents = {"urdf_module": urdf, "dof_module": dof, "chain_module": chain, "bounds_module": bounds,
+                 "connections_module": connections_module(chain),
+                 "kinematics_samples_module": kinematics_samples_module(dof, chain, bounds)}
+    os.makedirs(out_dir)  # a folder of our own: nothing is left over in it from another run
+
+    def write(path, data):
+        full_path = os.path.join(out_dir, *path.split("/"))
+        os.makedirs(os.path.dirname(full_path), exist_ok=True)
+        with open(full_path, "wb") as file:
+            file.write(data)
+        return {"path": path, "size": len(data), "sha256": hashlib.sha256(data).hexdigest()}
+
+    modules = []
+    for name, depends_on in MODULES.items():
+        text = to_text(documents[name]).encode() + b"\n"
+        contents = [("VERSION", b"1.0.0\n"), ("module.json", text), ("module.yaml", text)]  # in byte order [2.7]
+        modules.append({"name": name, "version": "1.0.0", "path": name, "depends_on": depends_on,
+                        "files": [write(f"{name}/{file}", data) for file, data in contents]})
+    file_name = re.sub(r"[\\:\x00-\x1f\x7f-\x9f]", "_", os.path.basename(urdf_path))  # [2.8]
+    root_metadata = {
+        "urdd_version": "1.0.0", "robot_name": urdf["name"], "conformance_class": "Core",
+        "generator": {"name": "minimal_producer.py", "version": "1.0.0"},
+        "source": {"Urdf": write(file_name, source)}, "modules": modules,
+    }
+    write("urdd.json", to_text(root_metadata).encode() + b"\n")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])

@@ -1,0 +1,148 @@
+//! Two producers, written apart from SPEC.md alone, must say the same of a robot: the Python example
+//! and `tests/support`. Needs `python3`.
+
+mod support;
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::process::Command;
+
+use proptest::test_runner::{Config, TestCaseError, TestRunner};
+use serde_json::{Value, json};
+
+use support::fixture::{Fixture, ROOT, URDF, toy_robot};
+use support::robot::{Robot, arbitrary_robot};
+
+#[test]
+fn on_the_toy() {
+    compare(&toy_robot()).unwrap_or_else(|difference| panic!("{difference}"));
+}
+
+#[test]
+fn on_arbitrary_robots() {
+    let config = Config {
+        cases: 50,
+        failure_persistence: None,
+        max_shrink_iters: 60,
+        ..Config::default()
+    };
+    let mut runner = TestRunner::new(config);
+    let outcome = runner.run(&arbitrary_robot(), |robot| {
+        compare(&robot).map_err(TestCaseError::fail)
+    });
+    outcome.unwrap_or_else(|failure| panic!("{failure}"));
+}
+
+fn compare(robot: &Robot) -> Result<(), String> {
+    let ours = Fixture::core(robot);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (urdf, out) = (folder.path().join(URDF), folder.path().join("out"));
+    std::fs::write(&urdf, robot.to_urdf_xml()).expect("the URDF");
+    run_python(&urdf, &out)?;
+    let mut root = read_json(&out.join(ROOT));
+    check_hashes(&out, &root)?;
+    for (name, document) in &ours.documents {
+        if name == ROOT {
+            continue;
+        }
+        let theirs = read_json(&out.join(name).join("module.json"));
+        difference(document, &theirs, "").map_or(Ok(()), |d| Err(format!("{name}{d}")))?;
+        let yaml = std::fs::read(out.join(name).join("module.yaml")).expect("module.yaml");
+        let mirror: Value = serde_yaml::from_slice(&yaml).map_err(|e| format!("{name}: {e}"))?;
+        if mirror != theirs {
+            return Err(format!("{name}: module.yaml and module.json differ"));
+        }
+    }
+    let mut own_root = ours.doc(ROOT).clone();
+    for root in [&mut root, &mut own_root] {
+        root["generator"] = Value::Null;
+        let modules = root["modules"].as_array_mut().expect("modules");
+        for file in modules.iter_mut().flat_map(|m| m["files"].as_array_mut()) {
+            for entry in file {
+                *entry = entry["path"].clone(); // Text and so hashes are each producer's own.
+            }
+        }
+    }
+    difference(&own_root, &root, "").map_or(Ok(()), |d| Err(format!("{ROOT}{d}")))
+}
+
+fn run_python(urdf: &Path, out: &Path) -> Result<(), String> {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/minimal_producer.py");
+    let output = Command::new("python3")
+        .arg(script)
+        .args([urdf, out])
+        .output()
+        .unwrap_or_else(|e| panic!("this test runs python3, which must be on the PATH: {e}"));
+    if output.status.success() {
+        Ok(())
+    } else {
+        Err(String::from_utf8_lossy(&output.stderr).into_owned())
+    }
+}
+
+fn read_json(path: &Path) -> Value {
+    let bytes = std::fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    serde_json::from_slice(&bytes).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// Sizes and hashes that the other producer states, against those that our fixture would write.
+fn check_hashes(out: &Path, root: &Value) -> Result<(), String> {
+    let modules = root["modules"].as_array().into_iter().flatten();
+    let listed = modules.flat_map(|m| m["files"].as_array().into_iter().flatten());
+    for entry in listed.chain([&root["source"]["Urdf"]]) {
+        let path = entry["path"].as_str().expect("a path");
+        let bytes = std::fs::read(out.join(path)).map_err(|e| format!("{path}: {e}"))?;
+        let (size, sha256) = support::fixture::size_and_hash(&bytes);
+        if entry["size"] != json!(size) || entry["sha256"] != json!(sha256) {
+            return Err(format!("{path}: size or hash"));
+        }
+    }
+    Ok(())
+}
+
+/// The first difference between two documents, with its JSON Pointer. Poses agree within 1e-9, a
+/// quaternion up to its sign, which rounding decides at half a turn; other numbers within 1e-12 of
+/// their size (sums that cancel: 1e-14).
+fn difference(ours: &Value, theirs: &Value, at: &str) -> Option<String> {
+    match (ours, theirs) {
+        (Value::Object(a), Value::Object(b)) => {
+            let keys: [BTreeSet<&String>; 2] = [a.keys().collect(), b.keys().collect()];
+            if keys[0] != keys[1] {
+                return Some(format!("{at}: keys {:?} or {:?}", keys[0], keys[1]));
+            }
+            a.iter()
+                .find_map(|(key, value)| difference(value, &b[key], &format!("{at}/{key}")))
+        }
+        (Value::Array(a), Value::Array(b)) if at.ends_with("/quaternion_wxyz") => {
+            let gap = |sign: f64| {
+                let pairs = a.iter().zip(b);
+                let gaps = pairs.map(|(a, b)| (number(a) - sign * number(b)).abs());
+                gaps.fold(0.0, f64::max)
+            };
+            let agree = a.len() == 4 && b.len() == 4 && gap(1.0).min(gap(-1.0)) <= 1e-9;
+            (!agree).then(|| format!("{at}: {ours} or {theirs}"))
+        }
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+            let mut pairs = a.iter().zip(b).enumerate();
+            pairs.find_map(|(i, (a, b))| difference(a, b, &format!("{at}/{i}")))
+        }
+        (Value::Number(_), Value::Number(_)) => {
+            let (a, b) = (number(ours), number(theirs));
+            let in_pose = at.contains("/link_poses/") || at.contains("/origin/position/");
+            let size = a.abs().max(b.abs());
+            let tolerance = if in_pose {
+                1e-9 * size.max(1.0)
+            } else {
+                1e-12 * size + 1e-14
+            };
+            let agree = (a - b).abs() <= tolerance;
+            (!agree || ours.is_f64() != theirs.is_f64())
+                .then(|| format!("{at}: {ours} or {theirs}"))
+        }
+        _ => (ours != theirs).then(|| format!("{at}: {ours} or {theirs}")),
+    }
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::NAN)
+}

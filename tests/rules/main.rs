@@ -1,0 +1,197 @@
+//! Every rule has an invalid case that only it catches, and a near miss that it lets pass.
+//!
+//! A case is a valid URDD with one change. The valid URDD comes from `tests/support`, a producer that
+//! shares nothing with the validator.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod bounds;
+mod chain;
+mod connections;
+mod directory;
+mod dof;
+mod extensions;
+mod json;
+mod kinematics;
+mod legacy;
+mod meshes;
+mod schema;
+mod shapes;
+mod source;
+mod urdf;
+mod yaml;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use support::fixture::Fixture;
+use urdd::format::report;
+use urdd::report::Report;
+use urdd::validate::code::Code;
+use urdd::validate::rule::Severity;
+use urdd::validate::settings::Settings;
+use urdd::validate::{rules, validate};
+
+/// A URDD with one change, and what the validator should say of it.
+pub struct Case {
+    code: Code,
+    name: &'static str,
+    write: Box<dyn Fn(&Path)>,
+    caught: bool,
+}
+
+/// A change of [`Fixture::toy`] that exactly this rule catches. Mirrors and hashes follow it.
+pub fn invalid(code: Code, name: &'static str, change: impl Fn(&mut Fixture) + 'static) -> Case {
+    changed(code, name, true, Fixture::toy, change)
+}
+
+/// A change that comes near what the rule catches, and is right: nothing at all is found.
+pub fn near_miss(code: Code, name: &'static str, change: impl Fn(&mut Fixture) + 'static) -> Case {
+    changed(code, name, false, Fixture::toy, change)
+}
+
+/// A change of another valid URDD than the toy; `caught` says whether it is an invalid case.
+pub fn changed(
+    code: Code,
+    name: &'static str,
+    caught: bool,
+    base: impl Fn() -> Fixture + 'static,
+    change: impl Fn(&mut Fixture) + 'static,
+) -> Case {
+    in_folder(code, name, caught, move |folder| {
+        let mut fixture = base();
+        change(&mut fixture);
+        fixture.seal();
+        fixture.write_to(folder);
+    })
+}
+
+/// A URDD that `write` writes as it likes (a legacy one, say) into a folder named `robot`, which
+/// stands alone in its parent folder. What is found besides infos is compared.
+pub fn in_folder(
+    code: Code,
+    name: &'static str,
+    caught: bool,
+    write: impl Fn(&Path) + 'static,
+) -> Case {
+    Case {
+        code,
+        name,
+        write: Box::new(write),
+        caught,
+    }
+}
+
+fn cases() -> Vec<Case> {
+    [
+        directory::cases(),
+        json::cases(),
+        yaml::cases(),
+        schema::cases(),
+        extensions::cases(),
+        urdf::cases(),
+        source::cases(),
+        dof::cases(),
+        chain::cases(),
+        connections::cases(),
+        bounds::cases(),
+        meshes::cases(),
+        shapes::cases(),
+        kinematics::cases(),
+        legacy::cases(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// Codes that were found, with a message for each. Legacy URDDs always have informations: of these
+/// only those of the rule at hand count.
+fn findings(write: &dyn Fn(&Path), at_hand: Option<Code>) -> BTreeMap<String, String> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let root = folder.path().join("robot");
+    std::fs::create_dir(&root).expect("the URDD's folder");
+    write(&root);
+    let run = validate(&[&root], &Settings::default()).expect("something to examine");
+    let report = Report::new(&run, Severity::Error);
+    let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
+    findings
+        .filter(|f| {
+            f.severity != report::Severity::Info
+                || at_hand.is_some_and(|code| f.code == code.as_str())
+        })
+        .map(|f| {
+            (
+                f.code.clone(),
+                format!("{:?} {:?}: {}", f.file, f.pointer, f.message),
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn the_base_is_valid() {
+    let toy = |root: &Path| {
+        let mut toy = Fixture::toy();
+        toy.seal();
+        toy.write_to(root);
+    };
+    assert_eq!(findings(&toy, None), BTreeMap::new());
+}
+
+#[test]
+fn every_case_is_judged_right() {
+    let mut wrong = Vec::new();
+    for case in cases() {
+        let found = findings(&case.write, Some(case.code));
+        let codes: Vec<&str> = found.keys().map(String::as_str).collect();
+        let expected: Vec<&str> = if case.caught {
+            vec![case.code.as_str()]
+        } else {
+            Vec::new()
+        };
+        if codes != expected {
+            let Case { code, name, .. } = case;
+            wrong.push(format!(
+                "{code} {name}: expected {expected:?}, found {found:#?}"
+            ));
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "{} cases are judged wrong:\n{}",
+        wrong.len(),
+        wrong.join("\n")
+    );
+}
+
+#[test]
+fn every_rule_has_an_invalid_case_and_a_near_miss() {
+    let mut untested: BTreeSet<String> = BTreeSet::new();
+    let cases = cases();
+    for rule in rules::all() {
+        for (caught, kind) in [(true, "invalid case"), (false, "near miss")] {
+            if !cases
+                .iter()
+                .any(|case| case.code == rule.code && case.caught == caught)
+            {
+                untested.insert(format!("{}: no {kind}", rule.code));
+            }
+        }
+    }
+    assert_eq!(untested, BTreeSet::new());
+}
+
+#[test]
+fn case_names_are_unique() {
+    let mut names = BTreeSet::new();
+    for case in cases() {
+        assert!(
+            names.insert((case.code, case.caught, case.name)),
+            "{} {}",
+            case.code,
+            case.name
+        );
+    }
+}

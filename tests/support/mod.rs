@@ -1,0 +1,17 @@
+//! A second, simple producer of URDDs, as the valid base of tests: it shares nothing with the
+//! generator but the types of `urdd::format`. Integration tests take it in with `mod support;`.
+//!
+//! - [`robot`]: a robot as its URDF has it, its XML, and arbitrary robots for proptest
+//! - [`core`]: robot -> documents of the core modules and the kinematics samples
+//! - [`meshes`], [`shapes`]: robot of boxes -> documents and files of the other modules
+//! - [`fixture`]: a whole URDD in memory, to be edited, sealed and written
+//! - [`emit`]: JSON and YAML text
+
+#![allow(dead_code)] // Each test uses a part of this.
+
+pub mod core;
+pub mod emit;
+pub mod fixture;
+pub mod meshes;
+pub mod robot;
+pub mod shapes;
