@@ -15,6 +15,7 @@ mod extensions;
 mod json;
 mod kinematics;
 mod legacy;
+mod legacy_core;
 mod meshes;
 mod schema;
 mod shapes;
@@ -100,6 +101,7 @@ fn cases() -> Vec<Case> {
         shapes::cases(),
         kinematics::cases(),
         legacy::cases(),
+        legacy_core::cases(),
     ]
     .into_iter()
     .flatten()
