@@ -3,8 +3,10 @@
 use std::sync::OnceLock;
 
 use super::load::{CarriedUrdf, Loaded, MetadataFile, Module};
+use super::urdf_text;
 use super::views::freedom::Freedom;
 use super::views::mimics::Mimics;
+use super::views::rigid_groups::RigidGroups;
 use super::views::robot::Robot;
 use super::views::tree::Tree;
 use super::views::{Bounds, Chain, Connections, Dofs, bounds, chain, connections, dofs, robot};
@@ -20,6 +22,8 @@ pub struct Context {
     tree: OnceLock<Option<Tree>>,
     mimics: OnceLock<Option<Mimics>>,
     freedom: OnceLock<Option<Freedom>>,
+    urdf_text: OnceLock<Option<urdf_text::Reading>>,
+    rigid_groups: OnceLock<Option<RigidGroups>>,
 }
 
 impl Context {
@@ -33,6 +37,8 @@ impl Context {
             tree: OnceLock::new(),
             mimics: OnceLock::new(),
             freedom: OnceLock::new(),
+            urdf_text: OnceLock::new(),
+            rigid_groups: OnceLock::new(),
         }
     }
 
@@ -72,6 +78,14 @@ impl Context {
         self.loaded.urdf.as_ref().map_err(String::as_str)
     }
 
+    /// The source URDF, read; `None` where none is carried. What it says counts only where URD011
+    /// found nothing.
+    pub fn urdf_text(&self) -> Option<&urdf_text::Reading> {
+        self.urdf_text
+            .get_or_init(|| Some(urdf_text::read(&self.urdf().ok()?.text)))
+            .as_ref()
+    }
+
     /// Every module folder.
     pub fn modules(&self) -> &[Module] {
         &self.loaded.modules
@@ -99,6 +113,14 @@ impl Context {
     /// The kinematic tree that follows from `urdf_module`; `None` where its joints form no tree.
     pub fn tree(&self) -> Option<&Tree> {
         self.tree.get_or_init(|| Tree::new(self.robot()?)).as_ref()
+    }
+
+    /// The links of `urdf_module` that fixed joints hold together; `None` where its joints form no
+    /// tree.
+    pub fn rigid_groups(&self) -> Option<&RigidGroups> {
+        self.rigid_groups
+            .get_or_init(|| Some(RigidGroups::new(self.robot()?, self.tree()?)))
+            .as_ref()
     }
 
     /// The mimic joints of `urdf_module`, resolved; `None` where that has no meaning.

@@ -61,7 +61,9 @@ pub fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
         let mut later = Vec::new();
         for rule in waiting {
             let waits = rule.needs.iter().any(|need| match need {
-                Need::Passed(code) => !outcomes.contains_key(code) && codes.contains(code),
+                Need::Passed(code) | Need::NotFailed(code) => {
+                    !outcomes.contains_key(code) && codes.contains(code)
+                }
                 _ => false,
             });
             if waits {
@@ -133,6 +135,11 @@ fn unmet(context: &Context, need: Need, outcomes: &HashMap<Code, Outcome>) -> Op
             Some(Outcome::Skipped(reason)) => Some(reason.clone()),
             Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
             None => Some(format!("{code} did not run")),
+        },
+        Need::NotFailed(code) => match outcomes.get(&code) {
+            Some(Outcome::Failed) => Some(format!("{code} found a fault")),
+            Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
+            Some(Outcome::Passed | Outcome::Skipped(_)) | None => None,
         },
         Need::Version1 => {
             (context.profile() != Profile::V1).then(|| "this is a legacy URDD".to_owned())

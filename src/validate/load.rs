@@ -3,6 +3,8 @@
 use rayon::prelude::*;
 use serde::Deserialize;
 
+use super::carried_urdf;
+pub use super::carried_urdf::CarriedUrdf;
 use super::schema_check::{self, SchemaViolation};
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::json::{self, JsonDocument};
@@ -11,13 +13,10 @@ use crate::directory::root::{EntryKind, Listing, ReadError, Root};
 use crate::directory::text_fault::TextFaults;
 use crate::directory::yaml;
 use crate::format::registry::{self, ModuleDocument, ModuleKind, ModuleSpec, Profile};
-use crate::format::root_metadata::{RootMetadata, Source};
+use crate::format::root_metadata::RootMetadata;
 
 /// Longest `VERSION` file that is read, bytes.
 const MAX_VERSION_BYTES: u64 = 1024;
-
-/// Longest source URDF that is read, bytes.
-const MAX_URDF_BYTES: u64 = 64 << 20;
 
 /// A JSON file, as far as it could be read.
 pub enum JsonFile {
@@ -145,14 +144,6 @@ impl Module {
     }
 }
 
-/// The source URDF that a URDD carries.
-pub struct CarriedUrdf {
-    /// Path relative to the root.
-    pub path: String,
-    /// Its text.
-    pub text: String,
-}
-
 /// A URDD, read.
 pub struct Loaded {
     /// Its root folder.
@@ -199,7 +190,7 @@ impl Loaded {
         } else {
             Profile::Legacy
         };
-        let urdf = read_urdf(&root, &listing, &metadata);
+        let urdf = carried_urdf::read(&root, &listing, &metadata);
         Ok(Loaded {
             root,
             listing,
@@ -365,62 +356,5 @@ fn find_spec(kind: ModuleKind, version: Option<&str>) -> (Option<&'static Module
     match newest {
         Some((_, spec)) => (Some(spec), true),
         None => (None, false),
-    }
-}
-
-fn read_urdf(
-    root: &Root,
-    listing: &Listing,
-    metadata: &MetadataFile,
-) -> Result<CarriedUrdf, String> {
-    let path = match (&metadata.json, &metadata.metadata) {
-        (JsonFile::Missing, _) => lone_urdf(root, listing)?,
-        (_, None) => {
-            return Err(format!(
-                "{ROOT_METADATA} does not fit its schema, so the source is not known"
-            ));
-        }
-        (_, Some(metadata)) => match &metadata.source {
-            Some(Source::Urdf(file)) => file.path.clone(),
-            Some(Source::Composition(_)) => {
-                return Err("the source is a composition; no URDF is carried".to_owned());
-            }
-            None => return Err("the root metadata names no source".to_owned()),
-        },
-    };
-    let bytes = root
-        .read(&path, MAX_URDF_BYTES)
-        .map_err(|error| format!("{path}: {error}"))?;
-    let text = String::from_utf8(bytes).map_err(|_| format!("{path} is not UTF-8"))?;
-    let text = text
-        .strip_prefix('\u{feff}')
-        .map(str::to_owned)
-        .unwrap_or(text);
-    Ok(CarriedUrdf { path, text })
-}
-
-/// Without root metadata: the one `.urdf` in the root, or the one that is named as the folder is.
-fn lone_urdf(root: &Root, listing: &Listing) -> Result<String, String> {
-    let mut urdfs = listing
-        .entries
-        .iter()
-        .filter(|entry| {
-            entry.kind == EntryKind::File
-                && !entry.path.contains('/')
-                && entry.path.ends_with(".urdf")
-        })
-        .map(|entry| entry.path.clone());
-    match (urdfs.next(), urdfs.next()) {
-        (None, _) => Err("no URDF file is carried".to_owned()),
-        (Some(only), None) => Ok(only),
-        (Some(_), Some(_)) => {
-            let named = format!("{}.urdf", root.folder_name());
-            match listing.has_file(&named) {
-                true => Ok(named),
-                false => Err(
-                    "several URDF files are carried, and none is named as the folder is".to_owned(),
-                ),
-            }
-        }
     }
 }

@@ -3,6 +3,7 @@
 //! [`validate`] finds URDDs and runs every rule over each; what comes out is a [`Report`], plain
 //! data. Rules are one file each, in [`rules`].
 
+pub mod carried_urdf;
 pub mod code;
 pub mod context;
 pub mod engine;
@@ -15,6 +16,7 @@ pub mod rules;
 pub mod schema_check;
 pub mod settings;
 pub mod tolerance;
+pub mod urdf_text;
 pub mod views;
 
 use std::path::Path;

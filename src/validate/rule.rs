@@ -49,10 +49,12 @@ pub enum Need {
     Module(ModuleKind),
     /// `urdd.json` is there and fits its schema.
     RootMetadata,
-    /// The source URDF is carried, and is well-formed.
+    /// The source URDF is carried. (Whether it can be read as one: URD011.)
     CarriedUrdf,
     /// The other rule ran and found nothing.
     Passed(Code),
+    /// The other rule found nothing, or had nothing to look at.
+    NotFailed(Code),
     /// The URDD is of version 1.
     Version1,
     /// The URDD was published before there was a version 1.

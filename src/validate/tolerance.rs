@@ -28,6 +28,19 @@ pub const UNIT_NORM: f64 = 1e-9;
 /// Reach of a robot that has none, m, so that tolerances stay above rounding.
 pub const LEAST_REACH: f64 = 1e-3;
 
+/// A mimic joint leaves its limits when it does so by more than this part of the largest of them:
+/// limits are written with six digits or so, and a driver's with other roundings than its mimic's.
+pub const MIMIC_LIMIT: f64 = 1e-6;
+
+/// An inertia tensor is positive definite when its smallest principal moment is more than this
+/// part of the largest. Real bodies stay far above (a rod of 1 m, 0.1 mm thick: 1.5e-8); below it
+/// a tensor that is written with nine digits can as well be singular.
+pub const INERTIA_DEFINITE: f64 = 1e-9;
+
+/// A principal moment may be larger than the sum of the others by this part of itself: the moments
+/// of a flat plate fulfil the triangle inequality with equality, and are written rounded.
+pub const INERTIA_TRIANGLE: f64 = 1e-6;
+
 /// Whether two numbers that should be copies of each other agree.
 pub fn numbers_agree(a: f64, b: f64) -> bool {
     a == b || (a - b).abs() <= number_tolerance(a, b)

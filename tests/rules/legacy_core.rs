@@ -57,7 +57,7 @@ impl Legacy {
                 "spin",
                 "Continuous",
                 "d",
-                [-3.14, 3.14, 10.0, 2.0],
+                [-3.0, 3.0, 10.0, 2.0],
                 Value::Null,
             ),
         ];
@@ -101,9 +101,9 @@ impl Legacy {
             "root_idx": 0,
         });
         let bounds = json!({
-            "bounds": [[-1.0, 1.0], [0.3, 0.3], [-3.14, 3.14]],
-            "dof_lower_bounds": [-1.0, 0.3, -3.14],
-            "dof_upper_bounds": [1.0, 0.3, 3.14],
+            "bounds": [[-1.0, 1.0], [0.3, 0.3], [-3.0, 3.0]],
+            "dof_lower_bounds": [-1.0, 0.3, -3.0],
+            "dof_upper_bounds": [1.0, 0.3, 3.0],
         });
         Legacy(BTreeMap::from([
             ("urdf_module", (Some("0.0.3"), urdf)),
@@ -241,9 +241,9 @@ pub fn cases() -> Vec<Case> {
                 (
                     Some("0.0.1"),
                     json!({
-                        "bounds": [[-1.0, 1.0], [0.3, 0.3], [-1.0, 1.0], [-3.14, 3.14]],
-                        "dof_lower_bounds": [-1.0, 0.3, -1.0, -3.14],
-                        "dof_upper_bounds": [1.0, 0.3, 1.0, 3.14],
+                        "bounds": [[-1.0, 1.0], [0.3, 0.3], [-1.0, 1.0], [-3.0, 3.0]],
+                        "dof_lower_bounds": [-1.0, 0.3, -1.0, -3.0],
+                        "dof_upper_bounds": [1.0, 0.3, 1.0, 3.0],
                     }),
                 ),
             );

@@ -1,5 +1,202 @@
-use crate::Case;
+use urdd::format::urdf::{Inertia, Inertial, JointType, Limit, Mass, Mimic};
+use urdd::validate::code::Code::{self, *};
+
+use crate::support::fixture::{Fixture, toy_robot};
+use crate::support::robot::{Robot, cuboid, joint, limit, link, mesh, visual};
+use crate::{Case, changed, invalid, near_miss};
+
+/// A faithful URDD, of class Core, of the toy with a change. All of its modules follow the change.
+fn robot(code: Code, name: &'static str, odd: bool, change: impl Fn(&mut Robot) + 'static) -> Case {
+    let base = move || {
+        let mut robot = toy_robot();
+        change(&mut robot);
+        Fixture::core(&robot)
+    };
+    changed(code, name, odd, base, |_| {})
+}
+
+fn odd(code: Code, name: &'static str, change: impl Fn(&mut Robot) + 'static) -> Case {
+    robot(code, name, true, change)
+}
+
+fn fine(code: Code, name: &'static str, change: impl Fn(&mut Robot) + 'static) -> Case {
+    robot(code, name, false, change)
+}
 
 pub fn cases() -> Vec<Case> {
-    Vec::new()
+    let mut cases = limits();
+    cases.extend(masses());
+    cases.extend(inertias());
+    cases.extend(files());
+    cases
+}
+
+fn lower_only(lower: f64) -> Option<Limit> {
+    Some(Limit {
+        lower: Some(lower),
+        upper: None,
+        effort: Some(1.0),
+        velocity: Some(1.0),
+    })
+}
+
+fn mimic(joint: &str, multiplier: f64, offset: f64) -> Option<Mimic> {
+    Some(Mimic {
+        joint: joint.to_owned(),
+        multiplier: Some(multiplier),
+        offset: Some(offset),
+    })
+}
+
+fn limits() -> Vec<Case> {
+    vec![
+        odd(SRC001, "crossed", |robot| {
+            robot.joint_mut("turn").limit = limit(1.0, -1.0);
+        }),
+        odd(SRC001, "absent-upper-is-zero", |robot| {
+            robot.joint_mut("turn").limit = lower_only(0.5);
+        }),
+        fine(SRC001, "lower-equals-upper", |robot| {
+            robot.joint_mut("turn").limit = limit(-0.5, -0.5);
+            robot.joint_mut("slide").limit = lower_only(-0.5);
+            // Of a continuous joint they have no meaning.
+            robot.joint_mut("spin").limit = limit(1.0, -1.0);
+        }),
+        odd(SRC002, "beyond-its-lower-limit", |robot| {
+            robot.joint_mut("right").limit = limit(-0.03, 0.0);
+        }),
+        odd(SRC002, "through-a-chain-of-mimics", |robot| {
+            // left: 0 to 0.04; right: -left; tip: 10 right + 0.1.
+            robot.joint_mut("tip").limit = limit(-0.299, 1.0);
+        }),
+        odd(SRC002, "of-a-fixed-joint", |robot| {
+            robot.joint_mut("frozen").limit = limit(-1.0, 0.49);
+        }),
+        fine(SRC002, "to-the-very-end", |robot| {
+            robot.joint_mut("tip").limit = limit(-0.299_999_9, 0.1);
+            robot.joint_mut("frozen").limit = limit(0.5, 0.5);
+        }),
+        fine(SRC002, "driver-without-limits", |robot| {
+            robot.joint_mut("frozen").mimic = mimic("spin", 5.0, 0.0);
+        }),
+        odd(SRC006, "revolute-without-limit", |robot| {
+            robot.joint_mut("turn").limit = None;
+        }),
+        odd(SRC006, "prismatic-with-an-empty-limit", |robot| {
+            robot.joint_mut("slide").limit = Some(Limit {
+                lower: None,
+                upper: None,
+                effort: Some(1.0),
+                velocity: Some(1.0),
+            });
+        }),
+        fine(SRC006, "mimic-without-limit", |robot| {
+            robot.joint_mut("right").limit = None;
+            robot.joint_mut("turn").limit = lower_only(-1.0);
+        }),
+    ]
+}
+
+fn of(mass: f64, [ixx, iyy, izz]: [f64; 3]) -> Option<Inertial> {
+    Some(Inertial {
+        origin: None,
+        mass: Some(Mass { value: mass }),
+        inertia: Some(Inertia {
+            ixx: Some(ixx),
+            ixy: Some(0.0),
+            ixz: Some(0.0),
+            iyy: Some(iyy),
+            iyz: Some(0.0),
+            izz: Some(izz),
+        }),
+    })
+}
+
+fn masses() -> Vec<Case> {
+    vec![
+        odd(SRC003, "negative", |robot| {
+            robot.link_mut("base").inertial = of(-1.0, [1.0; 3]);
+        }),
+        odd(SRC003, "moved-without-mass", |robot| {
+            robot.link_mut("arm").inertial = of(0.0, [0.0; 3]);
+        }),
+        odd(SRC003, "moved-and-mass-left-out", |robot| {
+            let inertial = robot.link_mut("turret").inertial.as_mut().expect("it has");
+            inertial.mass = None;
+            inertial.inertia = None;
+        }),
+        odd(SRC003, "inertia-without-mass", |robot| {
+            robot.link_mut("frame").inertial = of(0.0, [1.0; 3]);
+        }),
+        fine(SRC003, "frames-without-mass", |robot| {
+            // Fixed to a body with mass; fixed to the root; moved, and nothing said.
+            robot.link_mut("frame").inertial = of(0.0, [0.0; 3]);
+            robot.link_mut("base").inertial = of(0.0, [0.0; 3]);
+            robot.link_mut("arm").inertial = None;
+            robot.link_mut("frame").inertial = of(1e-6, [1e-9; 3]);
+        }),
+    ]
+}
+
+fn inertias() -> Vec<Case> {
+    vec![
+        odd(SRC004, "negative-moment", |robot| {
+            robot.link_mut("base").inertial = of(1.0, [1.0, 1.0, -1.0]);
+        }),
+        odd(SRC004, "products-larger-than-moments", |robot| {
+            let inertial = robot.link_mut("arm").inertial.as_mut().expect("it has");
+            inertial.inertia.as_mut().expect("it has").ixy = Some(0.1);
+        }),
+        odd(SRC004, "cut-to-zero", |robot| {
+            robot.link_mut("arm").inertial = of(1.0, [1.0, 1.0, 0.0]);
+        }),
+        odd(SRC004, "point-mass-that-is-turned", |robot| {
+            robot.link_mut("turret").inertial = of(1.0, [0.0; 3]);
+        }),
+        fine(SRC004, "point-masses-that-do-no-harm", |robot| {
+            // Fixed to a link with inertia; moved by a prismatic joint.
+            robot.link_mut("frame").inertial = of(1.0, [0.0; 3]);
+            robot.link_mut("tool/ü 1").inertial = of(1.0, [0.0; 3]);
+        }),
+        fine(SRC004, "thin-rod", |robot| {
+            robot.link_mut("arm").inertial = of(1.0, [0.083, 0.083, 1e-9]);
+        }),
+        odd(SRC005, "too-large-by-little", |robot| {
+            robot.link_mut("arm").inertial = of(1.0, [0.01, 0.02, 0.030_001]);
+        }),
+        fine(SRC005, "flat-plate", |robot| {
+            robot.link_mut("arm").inertial = of(1.0, [0.01, 0.02, 0.030_000_01]);
+        }),
+    ]
+}
+
+fn files() -> Vec<Case> {
+    let with_mesh = |file: &'static str| {
+        move || {
+            let mut robot = Robot::new("meshes");
+            robot.meshes.insert("found.stl".to_owned(), [0.1; 3]);
+            robot.urdf.links = vec![link("a"), link("b")];
+            robot.urdf.joints = vec![joint("j", JointType::Fixed, "a", "b")];
+            robot.link_mut("a").visual = vec![visual(None, cuboid([0.1; 3]))];
+            robot.link_mut("b").visual = vec![visual(None, mesh(file, None))];
+            Fixture::full(&robot)
+        }
+    };
+    vec![
+        changed(SRC007, "not-found", true, with_mesh("lost.stl"), |_| {}),
+        changed(SRC007, "found", false, with_mesh("found.stl"), |_| {}),
+        invalid(SRC008, "second-axis", |urdd| {
+            urdd.urdf_replace(
+                "<axis xyz=\"0 0 2\"/>",
+                "<axis xyz=\"0 0 2\"/><axis xyz=\"0 0 2\"/>",
+            );
+        }),
+        invalid(SRC008, "second-shape", |urdd| {
+            urdd.urdf_replace("</geometry>", "<sphere radius=\"1\"/></geometry>");
+        }),
+        near_miss(SRC008, "not-shapes", |urdd| {
+            urdd.urdf_replace("</geometry>", "<plane/><plane/></geometry>");
+            urdd.urdf_replace("</material>", "<specular/><specular/></material>");
+        }),
+    ]
 }

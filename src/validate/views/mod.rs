@@ -8,6 +8,7 @@ pub mod consumer;
 pub mod dofs;
 pub mod freedom;
 pub mod mimics;
+pub mod rigid_groups;
 pub mod robot;
 pub mod tree;
 

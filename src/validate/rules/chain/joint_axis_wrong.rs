@@ -48,7 +48,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 None => "null".to_owned(),
             };
             let message = match expected {
-                Some(_) => "has another axis in urdf_module",
+                Some(_) => "has this axis by urdf_module, made a unit vector",
                 None => "has no axis, being of its type; write null",
             };
             let finding = Finding::at(

@@ -40,7 +40,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     module.file("module.json"),
                     format!("/joints_in_chain/{index}/origin/position"),
                     format!(
-                        "joint {index} ({:?}) sits {offset:?} m from here in urdf_module",
+                        "joint {index} ({:?}) sits {offset:.3e} m from here in urdf_module",
                         right.name
                     ),
                 )
@@ -57,7 +57,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     module.file("module.json"),
                     format!("/joints_in_chain/{index}/origin/quaternion_wxyz"),
                     format!(
-                        "joint {index} ({:?}) is turned otherwise in urdf_module: R and R' are {angle:?} apart",
+                        "joint {index} ({:?}) is turned otherwise in urdf_module: R and R' are {angle:.3e} apart",
                         right.name
                     ),
                 )

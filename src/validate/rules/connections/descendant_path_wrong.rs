@@ -1,4 +1,5 @@
-use super::{Ancestors, Tally};
+use super::Tally;
+use super::walk::Ancestors;
 use crate::format::index::LinkIdx;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;

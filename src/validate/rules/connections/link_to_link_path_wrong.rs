@@ -1,4 +1,5 @@
-use super::{Ancestors, Tally, path_fault};
+use super::Tally;
+use super::walk::{Ancestors, path_fault};
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};

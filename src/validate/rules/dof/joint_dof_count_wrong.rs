@@ -15,7 +15,7 @@ declare_rule! {
     /// joint's type or mimic has changed in `urdf_module`, write `dof_module` and what depends on it
     /// again.
     DOF004 "joint-dof-count-wrong", Error, clause "6.2.2", since "0.1.0",
-    phase References, needs [Passed(DOF002)],
+    phase References, needs [Passed(URD009), Passed(DOF002)],
     check check,
 }
 

@@ -1,0 +1,83 @@
+//! Finding and reading the source URDF that a URDD carries.
+
+use super::load::{JsonFile, MetadataFile};
+use crate::directory::discover::ROOT_METADATA;
+use crate::directory::root::{EntryKind, Listing, Root};
+use crate::format::root_metadata::Source;
+
+/// Longest source URDF that is read, bytes.
+const MAX_URDF_BYTES: u64 = 64 << 20;
+
+/// The source URDF that a URDD carries.
+pub struct CarriedUrdf {
+    /// Path relative to the root.
+    pub path: String,
+    /// Its text; what is not UTF-8 is replaced.
+    pub text: String,
+    /// The first byte that is not UTF-8, where there is one.
+    pub not_utf8_at: Option<usize>,
+}
+
+/// Reads the source URDF.
+///
+/// # Errors
+/// Where none is carried, or it cannot be read: why.
+pub(super) fn read(
+    root: &Root,
+    listing: &Listing,
+    metadata: &MetadataFile,
+) -> Result<CarriedUrdf, String> {
+    let path = match (&metadata.json, &metadata.metadata) {
+        (JsonFile::Missing, _) => lone_urdf(root, listing)?,
+        (_, None) => {
+            return Err(format!(
+                "{ROOT_METADATA} does not fit its schema, so the source is not known"
+            ));
+        }
+        (_, Some(metadata)) => match &metadata.source {
+            Some(Source::Urdf(file)) => file.path.clone(),
+            Some(Source::Composition(_)) => {
+                return Err("the source is a composition; no URDF is carried".to_owned());
+            }
+            None => return Err("the root metadata names no source".to_owned()),
+        },
+    };
+    let bytes = root
+        .read(&path, MAX_URDF_BYTES)
+        .map_err(|error| format!("{path}: {error}"))?;
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    let not_utf8_at = std::str::from_utf8(bytes)
+        .err()
+        .map(|error| error.valid_up_to());
+    Ok(CarriedUrdf {
+        path,
+        text: String::from_utf8_lossy(bytes).into_owned(),
+        not_utf8_at,
+    })
+}
+
+/// Without root metadata: the one `.urdf` in the root, or the one that is named as the folder is.
+fn lone_urdf(root: &Root, listing: &Listing) -> Result<String, String> {
+    let mut urdfs = listing
+        .entries
+        .iter()
+        .filter(|entry| {
+            entry.kind == EntryKind::File
+                && !entry.path.contains('/')
+                && entry.path.ends_with(".urdf")
+        })
+        .map(|entry| entry.path.clone());
+    match (urdfs.next(), urdfs.next()) {
+        (None, _) => Err("no URDF file is carried".to_owned()),
+        (Some(only), None) => Ok(only),
+        (Some(_), Some(_)) => {
+            let named = format!("{}.urdf", root.folder_name());
+            match listing.has_file(&named) {
+                true => Ok(named),
+                false => Err(
+                    "several URDF files are carried, and none is named as the folder is".to_owned(),
+                ),
+            }
+        }
+    }
+}

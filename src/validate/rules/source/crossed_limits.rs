@@ -1,0 +1,46 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+
+declare_rule! {
+    /// The lower limit of a joint is above its upper limit.
+    ///
+    /// No position is allowed to such a joint: planners find no configuration, and what clamps a
+    /// position to the limits does one thing or another. Of two limits, one that is absent is 0.
+    ///
+    /// Swap or correct `lower` and `upper` in the URDF, and write the URDD again.
+    SRC001 "crossed-limits", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), NotFailed(URD001)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+        return;
+    };
+    for (index, joint) in robot.joints.iter().enumerate() {
+        let (Some((lower, upper)), Some(limit)) = (joint.position_limits(), joint.limit) else {
+            continue;
+        };
+        if lower > upper {
+            let absent = match (limit.lower, limit.upper) {
+                (None, _) => " (`lower` is absent, which means 0)",
+                (_, None) => " (`upper` is absent, which means 0)",
+                _ => "",
+            };
+            findings.report(
+                Finding::at(
+                    module.file("module.json"),
+                    format!("/joints/{index}/limit"),
+                    format!(
+                        "the limits of joint `{}` are crossed{absent}: no position is allowed",
+                        joint.name
+                    ),
+                )
+                .expected("lower <= upper")
+                .actual(format!("joint `{}`: {lower} > {upper}", joint.name)),
+            );
+        }
+    }
+}

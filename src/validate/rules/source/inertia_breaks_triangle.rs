@@ -1,0 +1,68 @@
+use super::inertia_not_positive_definite::positive;
+use super::moments;
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::tolerance::INERTIA_TRIANGLE;
+
+declare_rule! {
+    /// A principal moment of inertia is larger than the sum of the other two.
+    ///
+    /// No distribution of mass has such moments: of a flat plate the largest is the sum of the
+    /// others, and of every other body it is less. Simulators that check refuse the link (MuJoCo,
+    /// Drake), others simulate a body that cannot be. Mostly the numbers were made up, the axes
+    /// mixed, or the units (g mm² for kg m²) changed in some of them.
+    ///
+    /// Compute the tensor again, correct the URDF, and write the URDD again.
+    SRC005 "inertia-breaks-the-triangle-inequality", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), NotFailed(URD013)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+        return;
+    };
+    for (index, link) in robot.links.iter().enumerate() {
+        let Some(tensor) = link.inertial.and_then(|inertial| inertial.inertia) else {
+            continue;
+        };
+        let moments = moments::principal(tensor);
+        // What is not positive definite is SRC004's.
+        if !positive(moments) || excess(moments) <= INERTIA_TRIANGLE {
+            continue;
+        }
+        findings.report(
+            Finding::at(
+                module.file("module.json"),
+                format!("/links/{index}/inertial/inertia"),
+                format!(
+                    "no body has the inertia of link `{}`: its largest principal moment is larger than the sum of the others by {:.2}%",
+                    link.name,
+                    100.0 * excess(moments)
+                ),
+            )
+            .expected(format!("at most {:.4e} kg m²", moments[0] + moments[1]))
+            .actual(format!("link `{}`: {}", link.name, moments::show(moments)))
+            .tolerance(INERTIA_TRIANGLE * moments[2]),
+        );
+    }
+}
+
+/// By what part of itself the largest of three moments, ascending, is more than the others' sum.
+fn excess(moments: [f64; 3]) -> f64 {
+    1.0 - moments[0] / moments[2] - moments[1] / moments[2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flat_plate_is_a_body() {
+        assert!(excess([0.3, 0.7, 1.0]) <= INERTIA_TRIANGLE);
+        assert!(excess([0.3, 0.699_999_8, 1.0]) <= INERTIA_TRIANGLE);
+        assert!(excess([0.3, 0.699_998, 1.0]) > INERTIA_TRIANGLE);
+    }
+}

@@ -1,0 +1,114 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::views::robot::Link;
+
+declare_rule! {
+    /// A mass is negative, or 0 where something moves.
+    ///
+    /// Dynamics divide by mass: a body that a joint moves and that weighs nothing, or less, makes
+    /// simulators refuse, or fly apart. Links that fixed joints hold together are one body, so a
+    /// frame without mass on a body with mass is fine, and so is a frame that nothing moves, or a
+    /// robot whose URDF has no inertials at that place. A link with inertia and without mass is
+    /// reported too: no body is like that.
+    ///
+    /// Give the link its mass in the URDF, or take the `<inertial>` out of a mere frame, and write
+    /// the URDD again.
+    SRC003 "mass-not-positive", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [
+        Module(Kind::Urdf), NotFailed(URD001), NotFailed(URD013), Passed(URD004), Passed(URD006),
+    ],
+    check check,
+}
+
+#[derive(Debug, PartialEq)]
+enum Fault {
+    Negative,
+    InertiaAlone,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(bodies), Some(module)) = (
+        context.robot(),
+        context.rigid_groups(),
+        context.module(ModuleKind::Urdf),
+    ) else {
+        return;
+    };
+    for body in &bodies.groups {
+        let links = || {
+            body.links
+                .iter()
+                .filter_map(|index| Some((*index, robot.links.get(*index)?)))
+        };
+        let mut told = false;
+        for (index, link) in links() {
+            let Some(fault) = fault(link) else { continue };
+            told = true;
+            let (message, expected) = match fault {
+                Fault::Negative => (
+                    format!("the mass of link `{}` is negative", link.name),
+                    "a positive mass",
+                ),
+                Fault::InertiaAlone => (
+                    format!("link `{}` has inertia, but no mass", link.name),
+                    "a positive mass, or no inertial",
+                ),
+            };
+            findings.report(
+                Finding::at(
+                    module.file("module.json"),
+                    format!("/links/{index}/inertial/mass"),
+                    message,
+                )
+                .expected(expected)
+                .actual(format!("link `{}`: {} kg", link.name, mass(link))),
+            );
+        }
+        let Some(joint) = body.moved_by.and_then(|joint| robot.joints.get(joint)) else {
+            continue;
+        };
+        let stated = links().find(|(_, link)| link.inertial.is_some());
+        let weightless = links().all(|(_, link)| mass(link) == 0.0);
+        if let (Some((index, link)), true, false) = (stated, weightless, told) {
+            let message = match body.links.len() {
+                1 => format!(
+                    "link `{}` is moved by joint `{}`, and its mass is 0",
+                    link.name, joint.name
+                ),
+                count => format!(
+                    "link `{}` and what is fixed to it ({count} links) are moved by joint `{}`, and have no mass",
+                    link.name, joint.name
+                ),
+            };
+            findings.report(
+                Finding::at(
+                    module.file("module.json"),
+                    format!("/links/{index}/inertial/mass"),
+                    message,
+                )
+                .expected("a positive mass")
+                .actual(format!("link `{}`: 0 kg", link.name)),
+            );
+        }
+    }
+}
+
+fn mass(link: &Link) -> f64 {
+    link.inertial
+        .and_then(|inertial| inertial.mass)
+        .unwrap_or(0.0)
+}
+
+fn fault(link: &Link) -> Option<Fault> {
+    let inertia = link.inertial?.inertia.unwrap_or_default();
+    let mass = mass(link);
+    if mass < 0.0 {
+        Some(Fault::Negative)
+    } else if mass == 0.0 && inertia != [0.0; 6] {
+        Some(Fault::InertiaAlone)
+    } else {
+        None
+    }
+}

@@ -1,0 +1,50 @@
+use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::schema_check::excerpt;
+
+declare_rule! {
+    /// A mesh that the URDF names is not carried.
+    ///
+    /// Its file was not found when the URDD was made, so that the link lacks this part of its
+    /// geometry: it does not show, and nothing collides with it. Mostly a `package://` could not be
+    /// resolved, or a file is missing from the package.
+    ///
+    /// Make the mesh available (tell the producer where the package is), or take the element out
+    /// of the URDF, and write the URDD again.
+    SRC007 "mesh-not-carried", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Module(Kind::OriginalMeshes), Version1],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::OriginalMeshes))
+    else {
+        return;
+    };
+    let Some(ModuleDocument::OriginalMeshes(meshes)) = &module.document else {
+        return;
+    };
+    for (index, reference) in meshes.references.iter().enumerate() {
+        if reference.path.is_some() {
+            continue;
+        }
+        let link = robot
+            .links
+            .get(reference.link_idx.get())
+            .map_or("", |link| &link.name);
+        findings.report(
+            Finding::at(
+                module.file("module.json"),
+                format!("/references/{index}/path"),
+                format!("a mesh of link `{link}` was not found and is not carried"),
+            )
+            .expected("a file")
+            .actual(format!(
+                "null for {} of link `{link}`",
+                excerpt(&reference.filename.as_str().into())
+            )),
+        );
+    }
+}

@@ -1,0 +1,108 @@
+use crate::format::registry::ModuleKind;
+use crate::format::urdf::JointType;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::tolerance::MIMIC_LIMIT;
+
+declare_rule! {
+    /// A mimic joint leaves its own limits while its driver is within its limits.
+    ///
+    /// A URDD's bounds are those of the driver, so that a position that is within bounds puts the
+    /// mimic where its own `<limit>` forbids it: some programs refuse such a state, some stop the
+    /// driver early, some take no notice. Mimics are resolved through chains of mimics. A driver
+    /// without limits is not judged.
+    ///
+    /// Narrow the driver's limits, widen the mimic's, or correct `multiplier` and `offset`, in the
+    /// URDF, and write the URDD again.
+    SRC002 "mimic-leaves-its-limits", Warning, clause "6.1.7", since "0.1.0",
+    phase References, needs [
+        Module(Kind::Urdf), NotFailed(URD001), Passed(URD008), Passed(URD009), Passed(URD012),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(mimics), Some(module)) = (
+        context.robot(),
+        context.mimics(),
+        context.module(ModuleKind::Urdf),
+    ) else {
+        return;
+    };
+    for (index, (joint, resolved)) in robot.joints.iter().zip(&mimics.by_joint).enumerate() {
+        let Some(driver) = resolved.and_then(|resolved| robot.joints.get(resolved.driver)) else {
+            continue;
+        };
+        // A fixed driver stands at 0.
+        let driven = match driver.joint_type {
+            JointType::Fixed => Some((0.0, 0.0)),
+            _ => driver.position_limits(),
+        };
+        let (Some(resolved), Some(own), Some(limits)) = (resolved, joint.position_limits(), driven)
+        else {
+            continue;
+        };
+        // Crossed limits are SRC001's.
+        if own.0 > own.1 || limits.0 > limits.1 {
+            continue;
+        }
+        let (range, tolerance) = (
+            follow(limits, resolved.multiplier, resolved.offset),
+            MIMIC_LIMIT * own.0.abs().max(own.1.abs()),
+        );
+        let beyond = (own.0 - range.0).max(range.1 - own.1);
+        if beyond <= tolerance {
+            continue;
+        }
+        findings.report(
+            Finding::at(
+                module.file("module.json"),
+                format!("/joints/{index}/limit"),
+                format!(
+                    "joint `{}` follows joint `{}`, and leaves its own limits by up to {} where the driver is within its",
+                    joint.name,
+                    driver.name,
+                    short(beyond)
+                ),
+            )
+            .expected(format!("joint `{}` within [{}, {}]", joint.name, own.0, own.1))
+            .actual(format!(
+                "[{}, {}] for `{}` from {} to {}",
+                short(range.0),
+                short(range.1),
+                driver.name,
+                limits.0,
+                limits.1
+            ))
+            .tolerance(tolerance),
+        );
+    }
+}
+
+/// Where a mimic goes while its driver goes through an interval.
+fn follow(driver: (f64, f64), multiplier: f64, offset: f64) -> (f64, f64) {
+    let (a, b) = (
+        multiplier * driver.0 + offset,
+        multiplier * driver.1 + offset,
+    );
+    (a.min(b), a.max(b))
+}
+
+/// A number to six digits, for people.
+fn short(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_negative_multiplier_turns_the_interval_round() {
+        assert_eq!(follow((-1.0, 2.0), -0.5, 0.25), (-0.75, 0.75));
+        assert_eq!(follow((-1.0, 2.0), 2.0, 0.0), (-2.0, 4.0));
+        assert_eq!(follow((-1.0, 2.0), 0.0, 0.5), (0.5, 0.5));
+        assert_eq!(short(0.1 + 0.2), 0.3);
+    }
+}

@@ -1,0 +1,39 @@
+use crate::directory::position::LineIndex;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+
+declare_rule! {
+    /// An element that URDF has once stands in the carried URDF several times.
+    ///
+    /// A URDD takes the first, as most readers do; others take the last, or refuse the file. So
+    /// two programs may see two robots: another axis, another mass. Two shapes in one `<geometry>`
+    /// are one and an other that nobody sees.
+    ///
+    /// Keep one of them in the URDF; write several shapes as several `<visual>` or `<collision>`
+    /// elements. Then write the URDD again.
+    SRC008 "repeated-element", Warning, clause "6.1.8", since "0.1.0",
+    phase References, needs [CarriedUrdf, Passed(URD011)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Ok(carried), Some(reading)) = (context.urdf(), context.urdf_text()) else {
+        return;
+    };
+    let lines = LineIndex::new(&carried.text);
+    for again in &reading.repeated {
+        let first = lines.position(again.first);
+        findings.report(
+            Finding::in_file(
+                &carried.path,
+                format!(
+                    "a second `<{}>` in a `<{}>`: the first counts",
+                    again.element, again.parent
+                ),
+            )
+            .position(Some(lines.position(again.offset)))
+            .actual(format!("the first is in line {}", first.line)),
+        );
+    }
+}

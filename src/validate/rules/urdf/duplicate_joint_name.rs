@@ -1,0 +1,35 @@
+use super::duplicate_link_name::repeated;
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+
+declare_rule! {
+    /// Two joints have one name.
+    ///
+    /// Mimics, joint states, commands and controllers say which joint they mean by its name. With
+    /// two of one name the wrong motor may turn. (A joint and a link may share a name.)
+    ///
+    /// Give every joint a name of its own in the URDF, and write the URDD again.
+    URD003 "duplicate-joint-name", Error, clause "6.1.3", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+        return;
+    };
+    let names = robot.joints.iter().map(|joint| joint.name.as_str());
+    for (index, first, name) in repeated(names) {
+        findings.report(
+            Finding::at(
+                module.file("module.json"),
+                format!("/joints/{index}/name"),
+                format!("there is a joint `{name}` already; give this one a name of its own"),
+            )
+            .expected("a name that no other joint has")
+            .actual(format!("`{name}`, the name of /joints/{first} too")),
+        );
+    }
+}

@@ -1,0 +1,54 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::urdf_text::compare::first_names;
+
+declare_rule! {
+    /// The robot has several roots, or no link at all.
+    ///
+    /// Poses are told from the one link that is no joint's child. With two such links the robot
+    /// falls into parts that nothing holds together, and readers keep one part or refuse.
+    ///
+    /// Connect the parts by joints (a fixed one will do) in the URDF, or make each a robot of its
+    /// own. Then write the URDD again.
+    URD004 "not-one-root", Error, clause "6.1.4", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Passed(URD005)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+        return;
+    };
+    let mut is_child = vec![false; robot.links.len()];
+    for joint in &robot.joints {
+        if let Some(child) = robot
+            .link(&joint.child)
+            .and_then(|child| is_child.get_mut(child))
+        {
+            *child = true;
+        }
+    }
+    let roots: Vec<&str> = robot
+        .links
+        .iter()
+        .zip(&is_child)
+        .filter(|(_, is_child)| !**is_child)
+        .map(|(link, _)| link.name.as_str())
+        .collect();
+    let message = match roots.len() {
+        0 if robot.links.is_empty() => "the robot has no link".to_owned(),
+        // Without any root all links go in circles: URD006 tells of these.
+        0 | 1 => return,
+        _ => "the robot falls into parts: connect these links by joints".to_owned(),
+    };
+    findings.report(
+        Finding::at(module.file("module.json"), "/links", message)
+            .expected("one link that is no joint's child")
+            .actual(match roots.len() {
+                0 => "no link".to_owned(),
+                count => format!("{count}: {}", first_names(&roots)),
+            }),
+    );
+}

@@ -1,0 +1,50 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+
+declare_rule! {
+    /// A link is the child of two joints.
+    ///
+    /// A URDF is a tree: where a link is held by two joints, its pose would be given twice, and
+    /// each reader takes one or refuses. Closed chains (parallel grippers, delta robots) cannot be
+    /// written this way.
+    ///
+    /// Keep one of the joints in the URDF; say the other as a constraint in an element of the
+    /// program that solves it (`<gazebo>`, `<loop_joint>`). Then write the URDD again.
+    URD005 "link-with-two-parents", Error, clause "6.1.4", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Passed(URD003), Passed(URD007)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+        return;
+    };
+    let mut held_by: Vec<Option<usize>> = vec![None; robot.links.len()];
+    for (index, joint) in robot.joints.iter().enumerate() {
+        let Some(holder) = robot
+            .link(&joint.child)
+            .and_then(|child| held_by.get_mut(child))
+        else {
+            continue;
+        };
+        let first = *holder.get_or_insert(index);
+        if first == index {
+            continue;
+        }
+        let other = robot.joints.get(first).map_or("", |joint| &joint.name);
+        findings.report(
+            Finding::at(
+                module.file("module.json"),
+                format!("/joints/{index}/child/link"),
+                format!(
+                    "link `{}` is the child of joint `{}` and of joint `{other}`; it can hang on one only",
+                    joint.child, joint.name
+                ),
+            )
+            .expected("a link that no other joint has as its child")
+            .actual(format!("`{}`, child of /joints/{first} too", joint.child)),
+        );
+    }
+}

@@ -1,0 +1,38 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+
+declare_rule! {
+    /// A joint names a parent or child link that does not exist.
+    ///
+    /// Such a joint hangs in the air: no tree can be built, and everything that follows from the
+    /// tree has no meaning. Mostly a link was renamed and its joints were not, or a part of the
+    /// robot was left out.
+    ///
+    /// Correct the name, or add the link, in the URDF, and write the URDD again.
+    URD007 "unknown-link", Error, clause "6.1.4", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Passed(URD002)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+        return;
+    };
+    for (index, joint) in robot.joints.iter().enumerate() {
+        for (end, link) in [("parent", &joint.parent), ("child", &joint.child)] {
+            if robot.link(link).is_none() {
+                findings.report(
+                    Finding::at(
+                        module.file("module.json"),
+                        format!("/joints/{index}/{end}/link"),
+                        format!("{end} of joint `{}` is no link of the robot", joint.name),
+                    )
+                    .expected("the name of a link")
+                    .actual(format!("`{link}`")),
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,43 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+
+declare_rule! {
+    /// A mimic joint names a joint that does not exist.
+    ///
+    /// The joint has no DOF of its own and nothing to follow, so that its position is unknown.
+    /// Mostly the driver was renamed, or its part of the robot was left out. (A mimic on a fixed
+    /// joint has no meaning, and is passed over.)
+    ///
+    /// Correct `joint` of the `<mimic>`, or take the `<mimic>` out, in the URDF, and write the
+    /// URDD again.
+    URD008 "unknown-mimic-driver", Error, clause "6.1.5", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf), Passed(URD003)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+        return;
+    };
+    for (index, joint) in robot.joints.iter().enumerate() {
+        let Some(mimic) = joint.active_mimic() else {
+            continue;
+        };
+        if robot.joint(&mimic.joint).is_none() {
+            findings.report(
+                Finding::at(
+                    module.file("module.json"),
+                    format!("/joints/{index}/mimic/joint"),
+                    format!(
+                        "joint `{}` follows a joint that the robot does not have",
+                        joint.name
+                    ),
+                )
+                .expected("the name of a joint")
+                .actual(format!("`{}`", mimic.joint)),
+            );
+        }
+    }
+}

@@ -1,0 +1,46 @@
+use crate::directory::position::{self, LineIndex};
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::schema_check::excerpt;
+
+declare_rule! {
+    /// The carried URDF cannot be read as a URDF.
+    ///
+    /// The file must be well-formed XML in UTF-8 with a `<robot>` that has a name; every link a
+    /// name; every joint a name, a type that URDF defines, a parent and a child; every mimic a
+    /// joint; every shape its sizes or its file name; and every number must be a number, three to a
+    /// vector and four to a colour. Where it is not so, each reader does something else: some
+    /// refuse, some drop a word of `0 x 0 1`, some take zeros.
+    ///
+    /// Correct the URDF at the places that are named (a `$(arg …)` or `${…}` means that xacro was
+    /// not run), and write the URDD again.
+    URD011 "unreadable-urdf", Error, clause "6.1.2", since "0.1.0",
+    phase Syntax, needs [CarriedUrdf],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Ok(carried), Some(reading)) = (context.urdf(), context.urdf_text()) else {
+        return;
+    };
+    if let Some(offset) = carried.not_utf8_at {
+        findings.report(
+            Finding::in_file(
+                &carried.path,
+                "the URDF is not in UTF-8; save it as UTF-8, and say so in its XML declaration",
+            )
+            .position(Some(position::position(&carried.text, offset))),
+        );
+        return;
+    }
+    let lines = LineIndex::new(&carried.text);
+    for problem in &reading.problems {
+        let mut finding = Finding::in_file(&carried.path, problem.fault.to_string())
+            .position(Some(lines.position(problem.offset)));
+        if let Some(actual) = &problem.actual {
+            finding = finding.actual(excerpt(&actual.as_str().into()));
+        }
+        findings.report(finding);
+    }
+}

@@ -1,0 +1,59 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+
+declare_rule! {
+    /// The axis of a joint that moves along or about it is zero.
+    ///
+    /// A zero vector has no direction: made a unit vector it is 0/0, and NaN spreads into every
+    /// pose below the joint. Fixed, floating and spherical joints use no axis, and may have any. An
+    /// axis so short or so long that its length is lost in binary64 counts as zero.
+    ///
+    /// Give the joint an axis in the URDF (without one it is `1 0 0`), and write the URDD again.
+    URD010 "zero-axis", Error, clause "6.1.6", since "0.1.0",
+    phase References, needs [Module(Kind::Urdf)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+        return;
+    };
+    for (index, joint) in robot.joints.iter().enumerate() {
+        if !joint.has_axis() || has_direction(joint.axis) {
+            continue;
+        }
+        findings.report(
+            Finding::at(
+                module.file("module.json"),
+                format!("/joints/{index}/axis/xyz"),
+                format!(
+                    "the axis of joint `{}` ({}) has no direction",
+                    joint.name, joint.joint_type
+                ),
+            )
+            .expected("a vector other than zero")
+            .actual(format!("{:?}", joint.axis)),
+        );
+    }
+}
+
+/// Whether the vector can be made a unit vector in binary64.
+fn has_direction(axis: [f64; 3]) -> bool {
+    axis.iter().map(|x| x * x).sum::<f64>().is_normal()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::has_direction;
+
+    #[test]
+    fn short_axes_have_a_direction() {
+        assert!(has_direction([0.001, 0.002, -0.002]));
+        assert!(has_direction([0.0, -1e-9, 0.0]));
+        for axis in [[0.0; 3], [-0.0; 3], [1e-200; 3], [1e200, 0.0, 0.0]] {
+            assert!(!has_direction(axis), "{axis:?}");
+        }
+    }
+}
