@@ -8,8 +8,11 @@ use super::views::freedom::Freedom;
 use super::views::mimics::Mimics;
 use super::views::rigid_groups::RigidGroups;
 use super::views::robot::Robot;
+use super::views::shapes::Shapes;
 use super::views::tree::Tree;
-use super::views::{Bounds, Chain, Connections, Dofs, bounds, chain, connections, dofs, robot};
+use super::views::{
+    Bounds, Chain, Connections, Dofs, Meshes, bounds, chain, connections, dofs, meshes, robot,
+};
 use crate::directory::root::{Listing, Root};
 use crate::format::registry::{ModuleDocument, ModuleKind, Profile};
 use crate::format::root_metadata::{ConformanceClass, RootMetadata};
@@ -157,5 +160,24 @@ impl Context {
     /// `bounds_module`, whatever its version.
     pub fn bounds(&self) -> Option<Bounds<'_>> {
         bounds::view(self.document(ModuleKind::Bounds)?)
+    }
+
+    /// The meshes of a mesh module, whatever its version; `None` for `original_meshes_module` of
+    /// version 1, which is not a list by link.
+    pub fn meshes(&self, kind: ModuleKind) -> Option<Meshes<'_>> {
+        meshes::view(self.document(kind)?)
+    }
+
+    /// What shape indices stand for, as follows from the hulls and the convex pieces.
+    pub fn shapes(&self) -> Option<Shapes> {
+        Shapes::new(self)
+    }
+
+    /// How a link is called in messages: by index, and by name where it has one.
+    pub fn link_label(&self, link: usize) -> String {
+        match self.robot().and_then(|robot| robot.links.get(link)) {
+            Some(named) => format!("link {link} (`{}`)", named.name),
+            None => format!("link {link}"),
+        }
     }
 }

@@ -9,7 +9,7 @@ use super::context::Context;
 use super::finding::{Finding, Findings};
 use super::rule::{Need, Rule, Severity};
 use crate::directory::position;
-use crate::format::registry::Profile;
+use crate::format::registry::{ModuleKind, Profile};
 
 /// What became of a rule on one URDD.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -61,7 +61,7 @@ pub fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
         let mut later = Vec::new();
         for rule in waiting {
             let waits = rule.needs.iter().any(|need| match need {
-                Need::Passed(code) | Need::NotFailed(code) => {
+                Need::Passed(code) | Need::NotFailed(code) | Need::NotFailedInV1(code) => {
                     !outcomes.contains_key(code) && codes.contains(code)
                 }
                 _ => false,
@@ -124,6 +124,13 @@ fn unmet(context: &Context, need: Need, outcomes: &HashMap<Code, Outcome>) -> Op
             None => Some(format!("there is no {}", kind.name())),
             Some(module) => module.unusable(),
         },
+        Need::AnyModule(kinds) => {
+            let usable = |kind: &ModuleKind| context.document(*kind).is_some();
+            (!kinds.iter().any(usable)).then(|| {
+                let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
+                format!("there is no usable {}", names.join(" or "))
+            })
+        }
         Need::RootMetadata => match context.metadata() {
             Some(_) => None,
             None => Some("there is no usable urdd.json".to_owned()),
@@ -136,7 +143,8 @@ fn unmet(context: &Context, need: Need, outcomes: &HashMap<Code, Outcome>) -> Op
             Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
             None => Some(format!("{code} did not run")),
         },
-        Need::NotFailed(code) => match outcomes.get(&code) {
+        Need::NotFailedInV1(_) if context.profile() != Profile::V1 => None,
+        Need::NotFailed(code) | Need::NotFailedInV1(code) => match outcomes.get(&code) {
             Some(Outcome::Failed) => Some(format!("{code} found a fault")),
             Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
             Some(Outcome::Passed | Outcome::Skipped(_)) | None => None,

@@ -8,6 +8,7 @@ pub mod code;
 pub mod context;
 pub mod engine;
 pub mod finding;
+pub mod fold;
 pub mod load;
 pub mod pose;
 pub mod reference;

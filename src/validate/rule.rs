@@ -47,6 +47,8 @@ pub enum Phase {
 pub enum Need {
     /// The module is there, and its document fits its schema.
     Module(ModuleKind),
+    /// At least one of the modules is there, and its document fits its schema.
+    AnyModule(&'static [ModuleKind]),
     /// `urdd.json` is there and fits its schema.
     RootMetadata,
     /// The source URDF is carried. (Whether it can be read as one: URD011.)
@@ -55,6 +57,9 @@ pub enum Need {
     Passed(Code),
     /// The other rule found nothing, or had nothing to look at.
     NotFailed(Code),
+    /// The same, but in a URDD of version 1 only: what the other rule finds in legacy ones is often
+    /// a convention, and no obstacle.
+    NotFailedInV1(Code),
     /// The URDD is of version 1.
     Version1,
     /// The URDD was published before there was a version 1.

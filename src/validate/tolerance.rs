@@ -75,3 +75,23 @@ pub fn reach(robot: &Robot, tree: &Tree) -> f64 {
     }
     reach.into_iter().fold(LEAST_REACH, f64::max)
 }
+
+/// A hull or piece may reach this part farther than its box or sphere: eight steps of binary32, in
+/// which mesh vertices are written, so that boxes may be computed from either side of that rounding.
+pub const HULL_IN_VOLUME: f64 = 1e-6;
+
+/// The reach of a sphere in a legacy module may fall short by this part of the radius: it was
+/// measured at the corners of a sphere of some fifty segments, which lie up to 1 - cos(pi / 50) =
+/// 0.2 % of the radius inside.
+pub const LEGACY_SPHERE_SHORTFALL: f64 = 5e-3;
+
+/// Number of samples that a legacy module is taken to have, where only rounding hangs on it: none says.
+pub const LEGACY_SAMPLES: u32 = 10_000;
+
+/// How far a mean of `samples` distances may lie outside their smallest and largest, `largest` being
+/// the larger absolute value of these: each of the additions and the division rounds by at most half
+/// an epsilon of the running sum, so naive summation stays within samples * epsilon / 2 of the largest;
+/// twice that.
+pub fn mean_tolerance(samples: u32, largest: f64) -> f64 {
+    f64::from(samples) * f64::EPSILON * largest
+}

@@ -16,6 +16,7 @@ mod json;
 mod kinematics;
 mod legacy;
 mod legacy_core;
+mod legacy_robot;
 mod meshes;
 mod schema;
 mod shapes;

@@ -1,0 +1,63 @@
+//! Reporting many findings alike without building each of them.
+
+use super::finding::{Finding, Findings, KEPT_PLACES};
+
+/// Takes findings at one kind of place: builds the first few, and counts the rest. For tables in
+/// which every element may be wrong.
+pub struct Fold<'a> {
+    findings: &'a mut Findings,
+    seen: usize,
+    last: Option<Finding>,
+}
+
+impl<'a> Fold<'a> {
+    /// Reports into `findings`.
+    pub fn new(findings: &'a mut Findings) -> Self {
+        Fold {
+            findings,
+            seen: 0,
+            last: None,
+        }
+    }
+
+    /// Takes one more.
+    pub fn add(&mut self, make: impl FnOnce() -> Finding) {
+        self.seen += 1;
+        if self.seen <= KEPT_PLACES {
+            self.findings.report(make());
+        } else if self.last.is_none() {
+            self.last = Some(make());
+        }
+    }
+
+    /// Counts those that were not built.
+    pub fn finish(self) {
+        if let Some(last) = self.last {
+            self.findings.report(last.count(self.seen - KEPT_PLACES));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_are_counted_and_a_few_are_built() {
+        let mut findings = Findings::default();
+        let mut built = 0;
+        let mut fold = Fold::new(&mut findings);
+        for i in 0..1000 {
+            fold.add(|| {
+                built += 1;
+                Finding::at("a.json", format!("/m/{i}/0"), "wrong").actual(i)
+            });
+        }
+        fold.finish();
+        let findings = findings.into_vec();
+        assert_eq!(findings.len(), 1);
+        assert_eq!(findings[0].count, 1000);
+        assert_eq!(findings[0].more.len(), KEPT_PLACES - 1);
+        assert_eq!(built, KEPT_PLACES + 1);
+    }
+}

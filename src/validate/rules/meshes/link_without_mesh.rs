@@ -1,0 +1,90 @@
+use crate::format::meshes::GeometryKind;
+use crate::format::registry::ModuleKind;
+use crate::format::urdf::Geometry;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::views::usable_geometry::UsableGeometry;
+
+declare_rule! {
+    /// A link has geometry in the URDF and no mesh here, or a mesh here and no geometry in the URDF.
+    ///
+    /// A link without a mesh has no hull, no box and no distances either: every collision check
+    /// passes over it in silence. Converters that read mesh files only lose boxes, cylinders and
+    /// spheres in this way.
+    ///
+    /// Tessellate the link's boxes, cylinders, capsules and spheres; use its collision geometry where it has no
+    /// visual geometry; and write the mesh and link shape modules again. A link needs no mesh when its
+    /// only geometry is meshes that could not be found.
+    MSH011 "link-without-mesh", Error, clause "7.2", since "0.1.0",
+    phase References, needs [
+        Module(Kind::Urdf),
+        Module(Kind::PlainMeshes),
+        NotFailed(URD001),
+        NotFailed(URD004),
+        NotFailedInV1(URD013),
+        NotFailed(MSH001),
+        NotFailed(MSH003),
+        NotFailed(MSH007),
+        NotFailed(MSH009),
+        NotFailed(MSH012),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(meshes), Some(module)) = (
+        context.robot(),
+        context.meshes(ModuleKind::PlainMeshes),
+        context.module(ModuleKind::PlainMeshes),
+    ) else {
+        return;
+    };
+    let usable = UsableGeometry::new(context);
+    for (link, named) in robot.links.iter().enumerate() {
+        let wanted =
+            usable.has(link, GeometryKind::Visual) || usable.has(link, GeometryKind::Collision);
+        let there = meshes.count(link) > 0;
+        if wanted == there {
+            continue;
+        }
+        let label = context.link_label(link);
+        let message = if wanted {
+            let mut kinds = shapes("visual", &named.visual);
+            kinds.extend(shapes("collision", &named.collision));
+            format!(
+                "{label} has geometry in urdf_module ({}) and no mesh here, so no program sees it: make one",
+                kinds.join(", ")
+            )
+        } else {
+            format!(
+                "{label} has no geometry in urdf_module that a mesh could be made from, and a mesh here"
+            )
+        };
+        findings.report(
+            Finding::at(module.file("module.json"), meshes.pointer(link), message)
+                .expected(if wanted { "a mesh" } else { "null" })
+                .actual(match there {
+                    true => format!("a mesh for {label}"),
+                    false => format!("none for {label}"),
+                }),
+        );
+    }
+}
+
+/// The shapes of a link's elements, as `visual Box`.
+fn shapes(element: &str, geometries: &[Option<Geometry>]) -> Vec<String> {
+    let named = geometries.iter().flatten().map(|geometry| {
+        let shape = match geometry {
+            Geometry::Mesh(_) => "Mesh",
+            Geometry::Box(_) => "Box",
+            Geometry::Cylinder(_) => "Cylinder",
+            Geometry::Capsule(_) => "Capsule",
+            Geometry::Sphere(_) => "Sphere",
+        };
+        format!("{element} {shape}")
+    });
+    let mut named: Vec<String> = named.collect();
+    named.dedup();
+    named
+}

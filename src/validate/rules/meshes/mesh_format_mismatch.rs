@@ -1,0 +1,109 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::views::Meshes;
+use crate::validate::views::meshes::DERIVED;
+
+declare_rule! {
+    /// A mesh is not given once in each of the three formats.
+    ///
+    /// `stl`, `obj` and `glb` are the same mesh for programs that read different formats. Here a file
+    /// has the extension of another format, or (in legacy modules, which have one list per format) a
+    /// link has a mesh, or some number of pieces, in one format and not in another: then two programs
+    /// see two different robots.
+    ///
+    /// Name a file with the format's own extension in each place, and give every mesh in all three.
+    MSH003 "mesh-format-mismatch", Error, clause "7.1", since "0.1.0",
+    phase References, needs [
+        AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
+        NotFailed(DIR015),
+        NotFailed(MSH001),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    for kind in DERIVED {
+        let (Some(meshes), Some(module)) = (context.meshes(*kind), context.module(*kind)) else {
+            continue;
+        };
+        let file = module.file("module.json");
+        counts(context, &meshes, *kind, &file, findings);
+        for (link, mesh) in meshes.paths() {
+            let Some(format) = mesh.format else {
+                continue;
+            };
+            let extension = mesh
+                .path
+                .rsplit('/')
+                .next()
+                .and_then(|name| name.rsplit_once('.'));
+            let extension = extension.map_or("", |(_, extension)| extension);
+            if !extension.eq_ignore_ascii_case(format.extension()) {
+                findings.report(
+                    Finding::at(
+                        &file,
+                        &mesh.pointer,
+                        format!(
+                            "for {} this should name a .{} file",
+                            context.link_label(link),
+                            format.extension()
+                        ),
+                    )
+                    .expected(format!("a path that ends in .{}", format.extension()))
+                    .actual(format!("`{}`", mesh.path)),
+                );
+            }
+        }
+    }
+}
+
+/// Whether the lists of the formats have as many meshes for each link.
+fn counts(
+    context: &Context,
+    meshes: &Meshes,
+    kind: ModuleKind,
+    file: &str,
+    findings: &mut Findings,
+) {
+    for link in 0..meshes.num_links() {
+        let counts: Vec<(&str, usize)> = meshes
+            .lists
+            .iter()
+            .filter_map(|list| Some((list.key, list.links.get(link)?.len())))
+            .collect();
+        // The one that differs from the other two, or the second where all three differ.
+        let odd = match counts.as_slice() {
+            [(_, a), (key, b), (_, c)] if a == c && a != b => Some((key, b, a)),
+            [(key, a), (_, b), (_, c)] if b == c && a != b => Some((key, a, b)),
+            [(_, a), (_, b), (key, c)] if a == b && b != c => Some((key, c, a)),
+            [(_, a), (key, b), _] if a != b => Some((key, b, a)),
+            _ => None,
+        };
+        let Some((key, actual, expected)) = odd else {
+            continue;
+        };
+        let what = match kind {
+            ModuleKind::ConvexDecompositionMeshes => "pieces",
+            _ => "meshes",
+        };
+        let all: Vec<String> = counts
+            .iter()
+            .map(|(key, count)| format!("{count} in `{key}`"))
+            .collect();
+        findings.report(
+            Finding::at(
+                file,
+                format!("/{key}/{link}"),
+                format!(
+                    "{} has not the same {what} in every format: {}",
+                    context.link_label(link),
+                    all.join(", ")
+                ),
+            )
+            .expected(format!("{expected} {what}"))
+            .actual(format!("{actual} {what}")),
+        );
+    }
+}

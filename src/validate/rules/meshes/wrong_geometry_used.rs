@@ -1,0 +1,70 @@
+use crate::format::meshes::GeometryKind;
+use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::views::usable_geometry::UsableGeometry;
+
+declare_rule! {
+    /// A link's mesh is said to be made from geometry that should not be used for it.
+    ///
+    /// A mesh is made from the kind of geometry that `preferred_geometry` names, `Visual` or
+    /// `Collision`, and from the other kind only where a link has nothing usable of the first. A
+    /// program that shows or collides links must be able to tell which of the two it sees.
+    ///
+    /// Write `geometry` as the mesh was really made; where the mesh itself was made from the wrong
+    /// elements, write the mesh modules again.
+    MSH008 "wrong-geometry-used", Error, clause "7.4", since "0.1.0",
+    phase References, needs [
+        Version1,
+        Module(Kind::Urdf),
+        Module(Kind::PlainMeshes),
+        NotFailed(URD001),
+        NotFailed(URD004),
+        NotFailed(URD013),
+        NotFailed(MSH001),
+        NotFailed(MSH009),
+        NotFailed(MSH012),
+        NotFailed(MSH011),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let Some(ModuleDocument::PlainMeshes(plain)) = context.document(ModuleKind::PlainMeshes) else {
+        return;
+    };
+    let Some(module) = context.module(ModuleKind::PlainMeshes) else {
+        return;
+    };
+    let usable = UsableGeometry::new(context);
+    let preferred = plain.preferred_geometry;
+    let other = match preferred {
+        GeometryKind::Visual => GeometryKind::Collision,
+        GeometryKind::Collision => GeometryKind::Visual,
+    };
+    for (link, mesh) in plain.link_meshes.iter().enumerate() {
+        let Some(mesh) = mesh else {
+            continue;
+        };
+        let (expected, why) = if usable.has(link, preferred) {
+            (preferred, "it has geometry of the preferred kind")
+        } else {
+            (other, "it has none of the preferred kind")
+        };
+        if mesh.geometry != expected {
+            findings.report(
+                Finding::at(
+                    module.file("module.json"),
+                    format!("/link_meshes/{link}/geometry"),
+                    format!(
+                        "preferred_geometry is {preferred:?}, and for {} this must be {expected:?}: {why}",
+                        context.link_label(link)
+                    ),
+                )
+                .expected(format!("{expected:?}"))
+                .actual(format!("{:?}", mesh.geometry)),
+            );
+        }
+    }
+}

@@ -1,0 +1,55 @@
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::views::shape_matrices::{Elements, MATRIX_MODULES, matrices};
+
+declare_rule! {
+    /// A shape has a distance to itself, or is not to be skipped against itself.
+    ///
+    /// A shape is always in contact with itself: on the diagonal, distances are 0 and skips true. Where
+    /// they are not, a program that runs over all pairs reports a robot in collision with itself for ever.
+    ///
+    /// Write 0, or true, on the diagonal.
+    SHP007 "diagonal-wrong", Error, clause "8.4", since "0.1.0",
+    phase References, needs [
+        AnyModule(&[
+            Kind::LinkShapesDistanceStatistics,
+            Kind::LinkShapesSimpleSkips,
+            Kind::LinkShapesSkips,
+        ]),
+        NotFailed(SHP005),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    for kind in MATRIX_MODULES {
+        let (Some(document), Some(module)) = (context.document(*kind), context.module(*kind))
+        else {
+            continue;
+        };
+        for matrix in matrices(document) {
+            let Some(elements) = matrix.elements else {
+                continue;
+            };
+            for i in 0..elements.rows() {
+                if elements.diagonal_sound(i) {
+                    continue;
+                }
+                let expected = match elements {
+                    Elements::Distances(_) => "0",
+                    _ => "true",
+                };
+                findings.report(
+                    Finding::at(
+                        module.file("module.json"),
+                        format!("{}/{i}/{i}", matrix.pointer),
+                        format!("this stands for shape {i} and itself, and is always {expected}"),
+                    )
+                    .expected(expected)
+                    .actual(elements.text(i, i)),
+                );
+            }
+        }
+    }
+}

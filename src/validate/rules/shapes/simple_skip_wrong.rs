@@ -1,0 +1,88 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::fold::Fold;
+use crate::validate::rule::declare_rule;
+use crate::validate::views::shape_matrices::{at, skips, skips_pointer, statistics};
+use crate::validate::views::shape_pair::Pair;
+use crate::validate::views::shapes::KINDS;
+
+declare_rule! {
+    /// A simple skip is not what the distance statistics say.
+    ///
+    /// A pair is skipped when both shapes are on one link, or when they are always in contact: their
+    /// largest sampled distance is at most 0.001 m. A skip too many hides collisions; one too few makes
+    /// a program report a collision that is there in every configuration. Most often one of the two
+    /// modules is stale.
+    ///
+    /// Write the simple skips again from the statistics, or both again.
+    SHP011 "simple-skip-wrong", Error, clause "8.6", since "0.1.0",
+    phase References, needs [
+        Module(Kind::LinkShapesDistanceStatistics),
+        Module(Kind::LinkShapesSimpleSkips),
+        Passed(SHP005),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let kind = ModuleKind::LinkShapesSimpleSkips;
+    let (Some(document), Some(module), Some(shapes)) = (
+        context.document(kind),
+        context.module(kind),
+        context.shapes(),
+    ) else {
+        return;
+    };
+    let six = context
+        .document(ModuleKind::LinkShapesDistanceStatistics)
+        .and_then(statistics);
+    let (Some(six), Some(skips)) = (six, skips(document)) else {
+        return;
+    };
+    for ((kind, statistics), rows) in KINDS.into_iter().zip(six).zip(skips) {
+        let Some(rows) = rows else {
+            continue;
+        };
+        let mut fold = Fold::new(findings);
+        for i in 0..rows.len() {
+            for j in i + 1..rows.len() {
+                // A pair whose two elements differ is SHP006's.
+                let (Some(skip), Some(mirror)) = (at(rows, i, j), at(rows, j, i)) else {
+                    continue;
+                };
+                let same_link = shapes.link(kind, i) == shapes.link(kind, j);
+                let pair = statistics.as_ref().and_then(|s| Pair::read(s, i, j));
+                let sound = pair.filter(Pair::in_order);
+                let expected = match same_link {
+                    true => Some(true),
+                    false => sound.as_ref().and_then(Pair::always),
+                };
+                if skip != mirror || expected.is_none_or(|expected| expected == skip) {
+                    continue;
+                }
+                fold.add(|| {
+                    let why = match (same_link, pair) {
+                        (false, Some(pair)) => {
+                            format!("their largest sampled distance is {} m", pair.max)
+                        }
+                        _ => "both are on one link".to_owned(),
+                    };
+                    Finding::at(
+                        module.file("module.json"),
+                        format!("{}/{i}/{j}", skips_pointer(document, kind)),
+                        format!(
+                            "shapes {} and {} are {}to be skipped: {why}",
+                            shapes.describe(context, kind, i),
+                            shapes.describe(context, kind, j),
+                            if skip { "not " } else { "" },
+                        ),
+                    )
+                    .expected(!skip)
+                    .actual(skip)
+                });
+            }
+        }
+        fold.finish();
+    }
+}

@@ -1,0 +1,120 @@
+use std::collections::HashSet;
+
+use crate::format::link_shapes_simple_skips::SkipReason;
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::fold::Fold;
+use crate::validate::rule::declare_rule;
+use crate::validate::views::shape_matrices::{at, reasons, skips, statistics};
+use crate::validate::views::shape_pair::Pair;
+use crate::validate::views::shapes::KINDS;
+
+declare_rule! {
+    /// The reason given for a pair of shapes is not the first that applies.
+    ///
+    /// The reasons, in their order: `SameLink`; `Always` in contact (largest sampled distance at most
+    /// 0.001 m); `Adjacent`, connected by a joint; `Never` in contact (smallest distance more than 0.001 m);
+    /// `None` of these. A person goes by them when deciding what else to skip.
+    ///
+    /// Write the reasons again from `chain_module` and the distance statistics.
+    SHP012 "skip-reason-wrong", Error, clause "8.6", since "0.1.0",
+    phase References, needs [
+        Version1,
+        Module(Kind::Chain),
+        Module(Kind::LinkShapesDistanceStatistics),
+        Module(Kind::LinkShapesSimpleSkips),
+        NotFailed(CHN002),
+        Passed(SHP005),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let kind = ModuleKind::LinkShapesSimpleSkips;
+    let (Some(document), Some(module), Some(shapes), Some(chain)) = (
+        context.document(kind),
+        context.module(kind),
+        context.shapes(),
+        context.chain(),
+    ) else {
+        return;
+    };
+    let six = context
+        .document(ModuleKind::LinkShapesDistanceStatistics)
+        .and_then(statistics);
+    let (Some(six), Some(skips), Some(reasons)) = (six, skips(document), reasons(document)) else {
+        return;
+    };
+    let joined: HashSet<(usize, usize)> = chain
+        .joints
+        .iter()
+        .map(|joint| ordered(joint.parent_link_idx.get(), joint.child_link_idx.get()))
+        .collect();
+    for (((kind, statistics), skips), rows) in KINDS.into_iter().zip(six).zip(skips).zip(reasons) {
+        let Some(rows) = rows else {
+            continue;
+        };
+        let mut fold = Fold::new(findings);
+        for i in 0..rows.len() {
+            for j in i..rows.len() {
+                // A pair whose two elements differ is SHP006's.
+                let (Some(reason), Some(mirror)) = (at(rows, i, j), at(rows, j, i)) else {
+                    continue;
+                };
+                let (Some(a), Some(b)) = (shapes.link(kind, i), shapes.link(kind, j)) else {
+                    continue;
+                };
+                let expected = match a == b {
+                    true => Some(SkipReason::SameLink),
+                    false => statistics
+                        .as_ref()
+                        .and_then(|statistics| Pair::read(statistics, i, j))
+                        .filter(Pair::in_order)
+                        .and_then(|pair| first_reason(&pair, joined.contains(&ordered(a, b)))),
+                };
+                let Some(expected) = expected else {
+                    continue;
+                };
+                // Where the skip itself is wrong, SHP011 says so.
+                let skipped = matches!(expected, SkipReason::SameLink | SkipReason::Always);
+                let skip = skips.and_then(|skips| at(skips, i, j)).unwrap_or(skipped);
+                if reason != mirror || reason == expected || (i != j && skip != skipped) {
+                    continue;
+                }
+                fold.add(|| {
+                    Finding::at(
+                        module.file("module.json"),
+                        format!("/reasons/{}/{i}/{j}", kind.name),
+                        format!(
+                            "for shapes {} and {} this is not the first reason that applies",
+                            shapes.describe(context, kind, i),
+                            shapes.describe(context, kind, j)
+                        ),
+                    )
+                    .expected(format!("{expected:?}"))
+                    .actual(format!("{reason:?}"))
+                });
+            }
+        }
+        fold.finish();
+    }
+}
+
+/// The first reason that applies to shapes of two links; `None` where that hangs on the last digit.
+fn first_reason(pair: &Pair, adjacent: bool) -> Option<SkipReason> {
+    if pair.always()? {
+        return Some(SkipReason::Always);
+    }
+    if adjacent {
+        return Some(SkipReason::Adjacent);
+    }
+    Some(match pair.never()? {
+        true => SkipReason::Never,
+        false => SkipReason::None,
+    })
+}
+
+fn ordered(a: usize, b: usize) -> (usize, usize) {
+    (a.min(b), a.max(b))
+}

@@ -1,0 +1,99 @@
+use std::collections::HashMap;
+
+use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::fold::Fold;
+use crate::validate::rule::declare_rule;
+use crate::validate::views::shape_matrices::{at, skips, skips_pointer};
+use crate::validate::views::shapes::KINDS;
+
+declare_rule! {
+    /// A skip is not the simple skip with the edits applied.
+    ///
+    /// `link_shapes_skips_module` is the simple skips and a person's edits on top, in order, each with
+    /// its reason. A skip that neither gives has no reason on record, and is lost when the module is
+    /// written again.
+    ///
+    /// Record the change in `edits`, by the names of the two links, and write the matrices from it; or
+    /// write them again from the simple skips.
+    SHP013 "skips-not-from-edits", Error, clause "8.7", since "0.1.0",
+    phase References, needs [
+        Version1,
+        Module(Kind::Urdf),
+        Module(Kind::LinkShapesSimpleSkips),
+        Module(Kind::LinkShapesSkips),
+        Passed(SHP005),
+        NotFailed(SHP011),
+        Passed(SHP014),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let kind = ModuleKind::LinkShapesSkips;
+    let (Some(document), Some(module), Some(shapes), Some(robot)) = (
+        context.document(kind),
+        context.module(kind),
+        context.shapes(),
+        context.robot(),
+    ) else {
+        return;
+    };
+    let simple = context
+        .document(ModuleKind::LinkShapesSimpleSkips)
+        .and_then(skips);
+    let (ModuleDocument::LinkShapesSkips(edited), Some(simple), Some(six)) =
+        (document, simple, skips(document))
+    else {
+        return;
+    };
+    // Each edit sets all pairs of its two links, so of several the last counts.
+    let mut last: HashMap<(usize, usize), (usize, bool)> = HashMap::new();
+    for (place, edit) in edited.edits.iter().enumerate() {
+        if let (Some(a), Some(b)) = (robot.link(&edit.link_a), robot.link(&edit.link_b)) {
+            last.insert((a.min(b), a.max(b)), (place, edit.skip));
+        }
+    }
+    for ((kind, simple), rows) in KINDS.into_iter().zip(simple).zip(six) {
+        let (Some(simple), Some(rows)) = (simple, rows) else {
+            continue;
+        };
+        let mut fold = Fold::new(findings);
+        for i in 0..rows.len() {
+            for j in i + 1..rows.len() {
+                let (Some(skip), Some(mirror)) = (at(rows, i, j), at(rows, j, i)) else {
+                    continue;
+                };
+                let (Some(a), Some(b)) = (shapes.link(kind, i), shapes.link(kind, j)) else {
+                    continue;
+                };
+                let edit = last.get(&(a.min(b), a.max(b))).copied();
+                // A pair whose two elements differ is SHP006's, here and in the simple skips.
+                let plain = at(simple, i, j).filter(|skip| at(simple, j, i) == Some(*skip));
+                let expected = edit.map(|(_, skip)| skip).or(plain);
+                if skip != mirror || expected.is_none_or(|expected| expected == skip) {
+                    continue;
+                }
+                fold.add(|| {
+                    let why = match edit {
+                        Some((place, skip)) => format!("/edits/{place} says {skip}"),
+                        None => format!("no edit is about it, and the simple skip is {}", !skip),
+                    };
+                    Finding::at(
+                        module.file("module.json"),
+                        format!("{}/{i}/{j}", skips_pointer(document, kind)),
+                        format!(
+                            "the pair of shapes {} and {}: {why}",
+                            shapes.describe(context, kind, i),
+                            shapes.describe(context, kind, j)
+                        ),
+                    )
+                    .expected(!skip)
+                    .actual(skip)
+                });
+            }
+        }
+        fold.finish();
+    }
+}

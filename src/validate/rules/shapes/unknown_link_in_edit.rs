@@ -1,0 +1,50 @@
+use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+
+declare_rule! {
+    /// An edit of the skips names a link that the robot has not.
+    ///
+    /// The edit does nothing, and the collision checks that a person wanted skipped, or not skipped,
+    /// are as they were. Most often a link was renamed.
+    ///
+    /// Write the link's name as `urdf_module` has it, or take the edit out.
+    SHP014 "unknown-link-in-edit", Error, clause "8.7", since "0.1.0",
+    phase References, needs [
+        Version1,
+        Module(Kind::Urdf),
+        Module(Kind::LinkShapesSkips),
+        NotFailed(URD001),
+        NotFailed(URD004),
+        NotFailed(URD007),
+        NotFailed(CHN001),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let kind = ModuleKind::LinkShapesSkips;
+    let (Some(ModuleDocument::LinkShapesSkips(skips)), Some(module), Some(robot)) = (
+        context.document(kind),
+        context.module(kind),
+        context.robot(),
+    ) else {
+        return;
+    };
+    for (place, edit) in skips.edits.iter().enumerate() {
+        for (key, name) in [("link_a", &edit.link_a), ("link_b", &edit.link_b)] {
+            if robot.link(name).is_none() {
+                findings.report(
+                    Finding::at(
+                        module.file("module.json"),
+                        format!("/edits/{place}/{key}"),
+                        "the robot has no link of this name",
+                    )
+                    .expected("the name of a link of urdf_module")
+                    .actual(format!("`{name}`")),
+                );
+            }
+        }
+    }
+}

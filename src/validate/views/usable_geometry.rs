@@ -1,0 +1,101 @@
+//! Which elements of a link can be made a mesh (SPEC 7.2).
+
+use std::collections::HashSet;
+
+use crate::format::meshes::GeometryKind;
+use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::format::urdf::Geometry;
+use crate::validate::context::Context;
+
+/// Which elements of a robot's links can be made a mesh: those with a surface, but for meshes that
+/// could not be carried.
+pub struct UsableGeometry<'a> {
+    context: &'a Context,
+    /// Link, kind, element of meshes that could not be carried.
+    lost: HashSet<(usize, GeometryKind, usize)>,
+    /// Links whose visual meshes a legacy module does not carry.
+    lost_legacy: HashSet<usize>,
+}
+
+impl<'a> UsableGeometry<'a> {
+    /// For a URDD. Without `original_meshes_module` every mesh is taken to be carried.
+    pub fn new(context: &'a Context) -> Self {
+        let mut usable = UsableGeometry {
+            context,
+            lost: HashSet::new(),
+            lost_legacy: HashSet::new(),
+        };
+        match context.document(ModuleKind::OriginalMeshes) {
+            Some(ModuleDocument::OriginalMeshes(module)) => {
+                let lost = module.references.iter().filter(|r| r.path.is_none());
+                usable.lost = lost
+                    .map(|r| (r.link_idx.get(), r.geometry, r.element_idx.get()))
+                    .collect();
+            }
+            _ => {
+                if let Some(meshes) = context.meshes(ModuleKind::OriginalMeshes) {
+                    let links = 0..meshes.num_links();
+                    usable.lost_legacy = links.filter(|link| meshes.count(*link) == 0).collect();
+                }
+            }
+        }
+        usable
+    }
+
+    /// Whether a link has a usable element of a kind.
+    pub fn has(&self, link: usize, kind: GeometryKind) -> bool {
+        let Some(named) = self.context.robot().and_then(|robot| robot.links.get(link)) else {
+            return false;
+        };
+        let elements = match kind {
+            GeometryKind::Visual => &named.visual,
+            GeometryKind::Collision => &named.collision,
+        };
+        elements.iter().enumerate().any(|(element, geometry)| {
+            let Some(geometry) = geometry else {
+                return false;
+            };
+            let lost = match (geometry, kind) {
+                (Geometry::Mesh(_), GeometryKind::Visual) => {
+                    self.lost_legacy.contains(&link) || self.lost.contains(&(link, kind, element))
+                }
+                (Geometry::Mesh(_), _) => self.lost.contains(&(link, kind, element)),
+                _ => false,
+            };
+            !lost && has_surface(geometry)
+        })
+    }
+}
+
+/// Whether a geometry has a surface with an area, so that there is something to make a mesh of.
+fn has_surface(geometry: &Geometry) -> bool {
+    let two = |numbers: [f64; 3], extends: fn(f64) -> bool| {
+        numbers
+            .into_iter()
+            .filter(|number| extends(*number))
+            .count()
+            >= 2
+    };
+    match geometry {
+        Geometry::Mesh(mesh) => two(mesh.scale.unwrap_or([1.0; 3]), |factor| factor != 0.0),
+        Geometry::Box(cuboid) => two(cuboid.size, |side| side > 0.0),
+        Geometry::Cylinder(cylinder) => cylinder.radius > 0.0 && cylinder.length >= 0.0,
+        Geometry::Capsule(capsule) => capsule.radius > 0.0 && capsule.length >= 0.0,
+        Geometry::Sphere(sphere) => sphere.radius > 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::urdf::{Cuboid, Sphere};
+
+    #[test]
+    fn flat_is_enough_and_a_point_is_not() {
+        let of = |size| has_surface(&Geometry::Box(Cuboid { size }));
+        assert!(of([1.0, 2.0, 0.0]));
+        assert!(!of([1.0, 0.0, 0.0]));
+        assert!(!of([0.0; 3]));
+        assert!(!has_surface(&Geometry::Sphere(Sphere { radius: 0.0 })));
+    }
+}

@@ -1,0 +1,199 @@
+//! A small legacy URDD with meshes, of module versions that were published.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use crate::support::emit;
+use crate::support::meshes::glb;
+
+/// A robot of two links that show the same mesh, one fixed to the other; the second at `shift` along x.
+pub struct LegacyRobot {
+    /// Modules: folder, version, document.
+    pub modules: Vec<(&'static str, &'static str, Value)>,
+}
+
+pub const STL: &str = "stl_link_mesh_relative_paths";
+pub const OBJ: &str = "obj_link_mesh_relative_paths";
+pub const GLB: &str = "glb_link_mesh_relative_paths";
+
+impl LegacyRobot {
+    /// Mesh paths begin with `folder`, which is relative to the folder above the URDD.
+    pub fn new(folder: &str, shift: f64) -> Self {
+        let origin = |x: f64| json!({ "xyz": [x, 0.0, 0.0], "rpy": [0.0, 0.0, 0.0] });
+        let link = |name: &str, x: f64| {
+            json!({
+                "name": name,
+                "inertial": {
+                    "origin": origin(0.0), "mass": { "value": 0.0 },
+                    "inertia": { "ixx": 0.0, "ixy": 0.0, "ixz": 0.0, "iyy": 0.0, "iyz": 0.0, "izz": 0.0 },
+                },
+                "visual": [{
+                    "name": null, "origin": origin(x), "material": null,
+                    "geometry": { "Mesh": { "filename": "package://p/finger.dae", "scale": null } },
+                }],
+                "collision": [],
+            })
+        };
+        let joint = json!({
+            "name": "joint", "joint_type": "Fixed", "origin": origin(1.0),
+            "parent": { "link": "left" }, "child": { "link": "right" },
+            "axis": { "xyz": [1.0, 0.0, 0.0] },
+            "limit": { "lower": 0.0, "upper": 0.0, "effort": 0.0, "velocity": 0.0 },
+            "dynamics": null, "mimic": null, "safety_controller": null,
+        });
+        let urdf = json!({
+            "name": "robot", "links": [link("left", 0.0), link("right", shift)],
+            "joints": [joint], "materials": [],
+        });
+        let path = |module: &str, format: &str| {
+            format!("{folder}/mesh_modules/{module}/meshes/{format}/finger.{format}")
+        };
+        let single = |module: &str| {
+            let both = |format: &str| json!([path(module, format), path(module, format)]);
+            json!({ STL: both("stl"), OBJ: both("obj"), GLB: both("glb") })
+        };
+        let pieces = |format: &str| {
+            let module = "convex_decomposition_meshes_module";
+            let piece = format!("{folder}/mesh_modules/{module}/meshes/{format}/finger/0.{format}");
+            json!([[piece], [piece]])
+        };
+        let original = "mesh_modules/original_meshes_module/meshes/finger.dae";
+        let original = format!("{folder}/{original}");
+        LegacyRobot {
+            modules: vec![
+                ("urdf_module", "0.0.3", urdf),
+                (
+                    "mesh_modules/original_meshes_module",
+                    "0.0.1",
+                    json!({ "link_mesh_relative_paths": [original, original] }),
+                ),
+                (
+                    "mesh_modules/plain_meshes_module",
+                    "0.0.1",
+                    single("plain_meshes_module"),
+                ),
+                (
+                    "mesh_modules/convex_hull_meshes_module",
+                    "0.0.1",
+                    single("convex_hull_meshes_module"),
+                ),
+                (
+                    "mesh_modules/convex_decomposition_meshes_module",
+                    "0.0.1",
+                    json!({ STL: pieces("stl"), OBJ: pieces("obj"), GLB: pieces("glb") }),
+                ),
+            ],
+        }
+    }
+
+    /// With boxes and spheres of half a metre about both links, and how far they reach: the spheres as
+    /// far as `sphere`.
+    pub fn with_shapes(mut self, sphere: f64) -> Self {
+        let zero = [0.0; 3];
+        let cuboid =
+            json!({ "half_extents": [0.5, 0.0, 0.0], "offset_xyz": zero, "offset_rpy": zero });
+        let ball = json!({ "radius": 0.5, "offset_xyz": zero, "offset_rpy": zero });
+        let approximations = json!({
+            "full_obbs": [cuboid, cuboid],
+            "full_bounding_spheres": [ball, ball],
+            "decomposition_obbs": [[cuboid], [cuboid]],
+            "decomposition_bounding_spheres": [[ball], [ball]],
+        });
+        let reach = json!({
+            "full_convex_hulls_maximum_distances": [0.5, 0.5],
+            "full_obbs_maximum_distances": [0.5, 0.5],
+            "full_bounding_spheres_maximum_distances": [sphere, sphere],
+            "decomposition_convex_hulls_maximum_distances": [[0.5], [0.5]],
+            "decomposition_obbs_maximum_distances": [[0.5], [0.5]],
+            "decomposition_bounding_spheres_maximum_distances": [[sphere], [sphere]],
+        });
+        self.modules.extend([
+            (
+                "link_shapes_modules/link_shapes_approximations_module",
+                "0.0.3",
+                approximations,
+            ),
+            (
+                "link_shapes_modules/link_shapes_max_distance_from_origin_module",
+                "0.0.3",
+                reach,
+            ),
+        ]);
+        self
+    }
+
+    /// With statistics of two links at this largest distance, and skips edited to these.
+    pub fn with_matrices(mut self, max: f64, simple: bool, skips: [[bool; 2]; 2]) -> Self {
+        let kinds = ["convex_hulls", "obbs", "bounding_spheres"];
+        let names = ["full", "decomposition"].into_iter();
+        let names: Vec<String> = names
+            .flat_map(|set| kinds.map(|kind| format!("{set}_{kind}")))
+            .collect();
+        let matrix = |off: f64| json!([[0.0, off], [off, 0.0]]);
+        let (mut statistics, mut simples, mut edited) = (json!({}), json!({}), json!({}));
+        for name in &names {
+            statistics[name] = json!({
+                "averages": matrix(max - 0.02), "maximums": matrix(max), "minimums": matrix(max - 0.05),
+            });
+            simples[format!("{name}_simple_skips")] = json!([[true, simple], [simple, true]]);
+            edited[format!("{name}_skips")] = json!(skips);
+        }
+        self.modules.extend([
+            (
+                "link_shapes_modules/link_shapes_distance_statistics_module",
+                "0.0.3",
+                statistics,
+            ),
+            (
+                "link_shapes_modules/link_shapes_simple_skips_module",
+                "0.0.5",
+                simples,
+            ),
+            (
+                "link_shapes_modules/link_shapes_skips_module",
+                "0.0.2",
+                edited,
+            ),
+        ]);
+        self
+    }
+
+    /// The document of a module.
+    pub fn doc(&mut self, module: &str) -> &mut Value {
+        let mut modules = self.modules.iter_mut();
+        let found = modules.find(|(folder, ..)| folder.ends_with(module));
+        &mut found.expect("a module").2
+    }
+
+    /// Writes the URDD to `root`, and every mesh file to where its path leads. Binary GLB, so that nothing
+    /// else is found.
+    pub fn write(&self, root: &Path) {
+        for (folder, version, document) in &self.modules {
+            let folder = root.join(folder);
+            std::fs::create_dir_all(&folder).expect("a folder");
+            let put = |name: &str, bytes: Vec<u8>| {
+                std::fs::write(folder.join(name), bytes).expect("a file");
+            };
+            put("VERSION", version.as_bytes().to_vec());
+            put("module.json", emit::json(document));
+            put("module.yaml", emit::yaml(document));
+            each_path(document, &mut |path| {
+                let parent = root.parent().expect("a folder above");
+                let file = parent.join(path);
+                std::fs::create_dir_all(file.parent().expect("a folder")).expect("a folder");
+                let corners = [[0.0; 3]; 8];
+                std::fs::write(file, glb(&corners, None)).expect("a file");
+            });
+        }
+    }
+}
+
+fn each_path(value: &Value, take: &mut impl FnMut(&str)) {
+    match value {
+        Value::String(text) if text.contains("/mesh_modules/") => take(text),
+        Value::Array(items) => items.iter().for_each(|item| each_path(item, take)),
+        Value::Object(map) => map.values().for_each(|item| each_path(item, take)),
+        _ => {}
+    }
+}
