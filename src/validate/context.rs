@@ -4,12 +4,15 @@ use std::sync::OnceLock;
 
 use super::load::{CarriedUrdf, Loaded, MetadataFile, Module};
 use super::urdf_text;
+use super::views::freedom::Freedom;
 use super::views::mimics::Mimics;
 use super::views::rigid_groups::RigidGroups;
 use super::views::robot::Robot;
 use super::views::shapes::Shapes;
 use super::views::tree::Tree;
-use super::views::{Bounds, Chain, Dofs, Meshes, bounds, chain, dofs, meshes, robot};
+use super::views::{
+    Bounds, Chain, Connections, Dofs, Meshes, bounds, chain, connections, dofs, meshes, robot,
+};
 use crate::directory::root::{Listing, Root};
 use crate::format::registry::{ModuleDocument, ModuleKind, Profile};
 use crate::format::root_metadata::{ConformanceClass, RootMetadata};
@@ -21,6 +24,7 @@ pub struct Context {
     robot: OnceLock<Option<Robot>>,
     tree: OnceLock<Option<Tree>>,
     mimics: OnceLock<Option<Mimics>>,
+    freedom: OnceLock<Option<Freedom>>,
     urdf_text: OnceLock<Option<urdf_text::Reading>>,
     rigid_groups: OnceLock<Option<RigidGroups>>,
 }
@@ -35,6 +39,7 @@ impl Context {
             robot: OnceLock::new(),
             tree: OnceLock::new(),
             mimics: OnceLock::new(),
+            freedom: OnceLock::new(),
             urdf_text: OnceLock::new(),
             rigid_groups: OnceLock::new(),
         }
@@ -128,6 +133,15 @@ impl Context {
             .as_ref()
     }
 
+    /// The degrees of freedom that follow from `urdf_module`, as `dof_module` of the version at hand
+    /// should have them.
+    pub fn freedom(&self) -> Option<&Freedom> {
+        // The first published version gave mimic joints DOFs of their own (SPEC 10.5).
+        let version = || self.module(ModuleKind::Dof)?.version.as_deref();
+        let make = || Some(Freedom::new(self.robot()?, version() == Some("0.0.1")));
+        self.freedom.get_or_init(make).as_ref()
+    }
+
     /// `dof_module`, whatever its version.
     pub fn dofs(&self) -> Option<Dofs<'_>> {
         dofs::view(self.document(ModuleKind::Dof)?)
@@ -136,6 +150,11 @@ impl Context {
     /// `chain_module`, whatever its version.
     pub fn chain(&self) -> Option<Chain<'_>> {
         chain::view(self.document(ModuleKind::Chain)?)
+    }
+
+    /// `connections_module`, whatever its version.
+    pub fn connections(&self) -> Option<Connections<'_>> {
+        connections::view(self.document(ModuleKind::Connections)?)
     }
 
     /// `bounds_module`, whatever its version.

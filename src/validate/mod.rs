@@ -10,6 +10,7 @@ pub mod engine;
 pub mod finding;
 pub mod fold;
 pub mod load;
+pub mod pose;
 pub mod reference;
 pub mod rule;
 pub mod rules;

@@ -1,10 +1,12 @@
 //! KIN.
 
 use serde_json::json;
+use urdd::format::urdf::JointType;
 use urdd::validate::code::Code::*;
 
-use crate::support::fixture::Fixture;
-use crate::{Case, invalid, near_miss};
+use crate::support::fixture::{Fixture, URDF};
+use crate::support::robot::{Robot, joint, link, origin, solid_box};
+use crate::{Case, changed, invalid, near_miss};
 
 const SAMPLES: &str = "kinematics_samples_module";
 
@@ -13,8 +15,43 @@ fn nudge(fixture: &mut Fixture, pointer: &str, by: f64) {
     fixture.set(SAMPLES, pointer, json!(old + by));
 }
 
+/// Twelve links in a line, each this far from the one before.
+fn line(step: f64) -> Robot {
+    let mut robot = Robot::new("line");
+    for i in 0..12 {
+        let mut link = link(&format!("l{i}"));
+        link.inertial = Some(solid_box(1.0, [0.1; 3]));
+        robot.urdf.links.push(link);
+    }
+    for i in 1..12 {
+        let (parent, child) = (format!("l{}", i - 1), format!("l{i}"));
+        let mut joint = joint(&format!("j{i}"), JointType::Continuous, &parent, &child);
+        joint.origin = origin([step, 0.0, 0.0], [0.0; 3]);
+        robot.urdf.joints.push(joint);
+    }
+    robot
+}
+
+/// The URDD of a line whose modules, but for `urdf_module`, have steps that are longer by `by`.
+fn off(by: f64) -> Fixture {
+    let mut fixture = Fixture::core(&line(0.1 + by));
+    let right = Fixture::core(&line(0.1));
+    *fixture.doc_mut("urdf_module") = right.doc("urdf_module").clone();
+    fixture.put_file(URDF, right.file(URDF));
+    fixture
+}
+
 pub fn cases() -> Vec<Case> {
     vec![
+        // The reach is 1.1 m: each origin is within tolerance, the last link is not.
+        changed(KIN001, "many-small-differences", true, || off(1e-9), |_| {}),
+        changed(
+            KIN001,
+            "many-smaller-differences",
+            false,
+            || off(0.9e-10),
+            |_| {},
+        ),
         invalid(KIN002, "sampled-value-off", |f| {
             nudge(f, "/samples/4/configuration/0", 1e-6)
         }),

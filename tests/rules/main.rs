@@ -15,6 +15,7 @@ mod extensions;
 mod json;
 mod kinematics;
 mod legacy;
+mod legacy_core;
 mod legacy_robot;
 mod meshes;
 mod schema;
@@ -101,6 +102,7 @@ fn cases() -> Vec<Case> {
         shapes::cases(),
         kinematics::cases(),
         legacy::cases(),
+        legacy_core::cases(),
     ]
     .into_iter()
     .flatten()

@@ -3,11 +3,13 @@
 
 pub mod bounds;
 pub mod chain;
+pub mod connections;
 pub mod consumer;
 pub mod digest;
 pub mod dofs;
 pub mod entries;
 pub mod extension_schema;
+pub mod freedom;
 pub mod mesh_files;
 pub mod meshes;
 pub mod mimics;
@@ -24,5 +26,6 @@ pub mod usable_geometry;
 
 pub use bounds::Bounds;
 pub use chain::Chain;
+pub use connections::Connections;
 pub use dofs::Dofs;
 pub use meshes::Meshes;

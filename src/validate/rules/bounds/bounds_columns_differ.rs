@@ -2,6 +2,7 @@ use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
+use crate::validate::tolerance::{number_tolerance, numbers_agree};
 
 declare_rule! {
     /// `dof_lower_bounds` or `dof_upper_bounds` is not the column of `bounds`.
@@ -9,7 +10,7 @@ declare_rule! {
     /// The module says the same twice, for programs that want pairs and for programs that want two
     /// vectors. Where the two differ, programs disagree about the robot.
     ///
-    /// Write all three from one source.
+    /// Write all three from one source: the limits of the joints, which tell which of the two is right.
     BND002 "bounds-columns-differ", Error, clause "6.5.1", since "0.1.0",
     phase References, needs [Module(Kind::Bounds), Passed(BND001)],
     check check,
@@ -28,15 +29,19 @@ fn check(context: &Context, findings: &mut Findings) {
     .enumerate()
     {
         for (dof, (pair, value)) in bounds.bounds.iter().zip(values).enumerate() {
-            if pair[column] != *value {
+            let right = pair[column];
+            if !numbers_agree(right, *value) {
                 findings.report(
                     Finding::at(
                         module.file("module.json"),
                         format!("/{name}/{dof}"),
-                        format!("this is not what `bounds` says of DOF {dof}"),
+                        format!(
+                            "this and `/bounds/{dof}/{column}` say different things of DOF {dof}; one of them is wrong"
+                        ),
                     )
-                    .expected(format!("{} (/bounds/{dof}/{column})", pair[column]))
-                    .actual(value),
+                    .expected(format!("{right:?}, as `/bounds/{dof}/{column}` has it"))
+                    .actual(format!("{value:?}"))
+                    .tolerance(number_tolerance(right, *value)),
                 );
             }
         }

@@ -11,8 +11,8 @@ declare_rule! {
     /// was written before the joints or the way in which mimic joints are counted changed.
     ///
     /// Write `bounds_module` again from the same URDF as `dof_module`.
-    BND001 "bound-count", Error, clause "6.5.1", since "0.1.0",
-    phase References, needs [Module(Kind::Dof), Module(Kind::Bounds)],
+    BND001 "bound-count-wrong", Error, clause "6.5.1", since "0.1.0",
+    phase References, needs [Module(Kind::Bounds), Passed(DOF003)],
     check check,
 }
 

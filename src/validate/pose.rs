@@ -1,0 +1,68 @@
+//! Rotations and axes as SPEC 5.4 and 5.7 define them, for comparing what modules say with the robot.
+
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
+
+/// The rotation that a URDF's `rpy` stands for: fixed-axis roll, pitch, yaw,
+/// R = Rz(yaw) Ry(pitch) Rx(roll).
+pub fn rotation_of_rpy([roll, pitch, yaw]: [f64; 3]) -> Matrix3<f64> {
+    Rotation3::from_euler_angles(roll, pitch, yaw).into_inner()
+}
+
+/// The rotation of a quaternion w, x, y, z, whatever its norm.
+pub fn rotation_of_quaternion([w, x, y, z]: [f64; 4]) -> Matrix3<f64> {
+    UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
+        .to_rotation_matrix()
+        .into_inner()
+}
+
+/// A vector of length 1 in the direction of `axis`; `None` for the zero vector.
+pub fn unit(axis: [f64; 3]) -> Option<Vector3<f64>> {
+    let largest = axis.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    // Divided first, so that the squares of tiny or huge components are neither lost nor infinite.
+    (largest > 0.0).then(|| (Vector3::from(axis) / largest).normalize())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use super::*;
+
+    fn close(a: &Vector3<f64>, b: [f64; 3]) -> bool {
+        (a - Vector3::from(b)).norm() < 1e-15
+    }
+
+    #[test]
+    fn roll_is_turned_first_and_about_fixed_axes() {
+        let r = rotation_of_rpy([FRAC_PI_2, 0.0, FRAC_PI_2]);
+        // z goes to -y by roll, and -y to x by yaw.
+        assert!(close(&(r * Vector3::z()), [1.0, 0.0, 0.0]));
+        assert!(close(&(r * Vector3::x()), [0.0, 1.0, 0.0]));
+        let r = rotation_of_rpy([0.0, FRAC_PI_2, FRAC_PI_2]);
+        // x goes to -z by pitch, which yaw leaves; z goes to x, which yaw takes to y.
+        assert!(close(&(r * Vector3::x()), [0.0, 0.0, -1.0]));
+        assert!(close(&(r * Vector3::z()), [0.0, 1.0, 0.0]));
+    }
+
+    #[test]
+    fn a_quaternion_turns_as_its_rpy_does() {
+        let half = (0.5_f64).sqrt();
+        let turned = rotation_of_quaternion([half, 0.0, 0.0, half]) * Vector3::x();
+        assert!(close(&turned, [0.0, 1.0, 0.0]));
+        let same = rotation_of_quaternion([2.0 * half, 0.0, 0.0, 2.0 * half]) * Vector3::x();
+        assert!(close(&same, [0.0, 1.0, 0.0]));
+    }
+
+    #[test]
+    fn axes_of_any_size_have_a_direction_but_zero_has_none() {
+        assert!(close(
+            &unit([0.0, 3e-300, 4e-300]).unwrap(),
+            [0.0, 0.6, 0.8]
+        ));
+        assert!(close(
+            &unit([0.0, 3e300, -4e300]).unwrap(),
+            [0.0, 0.6, -0.8]
+        ));
+        assert_eq!(unit([0.0, -0.0, 0.0]), None);
+    }
+}

@@ -1,0 +1,127 @@
+use std::f64::consts::PI;
+
+use super::LEGACY_WIDENING;
+use crate::format::dof::Quantity;
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+use crate::validate::tolerance::{NUMBER_ABSOLUTE, number_tolerance, numbers_agree};
+use crate::validate::views::freedom::describe;
+use crate::validate::views::robot::Joint;
+
+declare_rule! {
+    /// A DOF without limits has bounds other than the agreed ones, or is frozen by them.
+    ///
+    /// Bounds are always finite, so that any program can sample them. For a DOF that nothing limits the
+    /// specification settles which: [-pi, pi] for an angle, [-1, 1] for a length. In published URDDs such
+    /// joints often have [0, 1e-7], made from limits that are absent: to a planner they do not move at all.
+    ///
+    /// Write these intervals for every DOF that is not limited, those of continuous joints included. If
+    /// the joint should have limits, give it some in the URDF. (Legacy modules may repeat what limits the
+    /// joint has; only frozen DOFs, and bounds of no known origin, are reported.)
+    BND006 "unlimited-bounds-wrong", Error, clause "6.5.3", since "0.1.0",
+    phase References, needs [Passed(DOF005), Passed(BND002)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(freedom), Some(bounds), Some(module)) = (
+        context.robot(),
+        context.freedom(),
+        context.bounds(),
+        context.module(ModuleKind::Bounds),
+    ) else {
+        return;
+    };
+    for (dof, pair) in bounds.bounds.iter().enumerate() {
+        let Some((joint, place)) = freedom.place(dof) else {
+            continue;
+        };
+        let Some(joint) = robot.joints.get(joint) else {
+            continue;
+        };
+        let Some((_, quantity)) = describe(joint.joint_type, place) else {
+            continue;
+        };
+        if joint.position_limits().is_some() {
+            continue;
+        }
+        let right = match quantity {
+            Quantity::Angle => PI,
+            Quantity::Length => 1.0,
+        };
+        let ends = [-right, right];
+        if agree(*pair, ends) {
+            continue;
+        }
+        let file = module.file("module.json");
+        let kind = joint.joint_type;
+        if bounds.v1.is_none() {
+            if !legacy_copy(*pair, joint) {
+                let message = match is_frozen(*pair) {
+                    true => format!(
+                        "joint {:?} ({kind}, without limits) cannot move within these bounds: write {ends:?}, or give the joint limits in the URDF",
+                        joint.name
+                    ),
+                    false => format!(
+                        "joint {:?} ({kind}) has neither these limits nor are these the bounds of a DOF without limits",
+                        joint.name
+                    ),
+                };
+                findings.report(
+                    Finding::at(file, format!("/bounds/{dof}"), message)
+                        .expected(format!("{ends:?}"))
+                        .actual(format!("{pair:?}")),
+                );
+            }
+            continue;
+        }
+        for (end, (right, written)) in ends.into_iter().zip(*pair).enumerate() {
+            if !numbers_agree(right, written) {
+                findings.report(
+                    Finding::at(
+                        &file,
+                        format!("/bounds/{dof}/{end}"),
+                        format!(
+                            "DOF {dof} moves joint {:?} ({kind}), which nothing limits",
+                            joint.name
+                        ),
+                    )
+                    .expected(format!("{right:?}"))
+                    .actual(format!("{written:?}"))
+                    .tolerance(number_tolerance(right, written)),
+                );
+            }
+        }
+    }
+}
+
+fn agree(a: [f64; 2], b: [f64; 2]) -> bool {
+    numbers_agree(a[0], b[0]) && numbers_agree(a[1], b[1])
+}
+
+/// Whether a legacy module repeats the limits that the joint has, and leaves it some range.
+fn legacy_copy(pair: [f64; 2], joint: &Joint) -> bool {
+    let limit = joint.limit;
+    let end = |end: Option<f64>| end.unwrap_or(0.0);
+    let ends = limit.map_or([0.0; 2], |limit| [end(limit.lower), end(limit.upper)]);
+    agree(pair, ends) && !is_frozen(pair)
+}
+
+/// Whether bounds leave no range: none at all, or only what legacy modules put there.
+fn is_frozen([lower, upper]: [f64; 2]) -> bool {
+    (upper - lower).abs() <= LEGACY_WIDENING + NUMBER_ABSOLUTE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_frozen;
+
+    #[test]
+    fn what_legacy_modules_added_is_no_range() {
+        assert!(is_frozen([0.0, 1e-7]));
+        assert!(is_frozen([3.0, 3.0 + 1e-7]));
+        assert!(!is_frozen([0.0, 1e-6]));
+    }
+}

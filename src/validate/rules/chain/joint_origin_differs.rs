@@ -1,0 +1,75 @@
+use nalgebra::Vector3;
+
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::pose::{rotation_of_quaternion, rotation_of_rpy};
+use crate::validate::rule::declare_rule;
+use crate::validate::tolerance::{POSITION_OF_REACH, ROTATION, reach, rotation_distance};
+
+declare_rule! {
+    /// `origin` of a joint is not the URDF's.
+    ///
+    /// The origin is where the joint sits on its parent link: a wrong one displaces or turns everything
+    /// that the joint carries, in every configuration.
+    ///
+    /// The position is `xyz`; the rotation is R = Rz(yaw) Ry(pitch) Rx(roll) of `rpy`, as a quaternion
+    /// with w first. Common mistakes: x, y, z, w instead of w, x, y, z; the inverse rotation; roll,
+    /// pitch and yaw taken about moving axes; numbers that went through 32-bit floats.
+    CHN008 "joint-origin-differs", Error, clause "6.3.4", since "0.1.0",
+    phase References, needs [Version1, Passed(CHN002), Passed(CHN010)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(tree), Some(chain), Some(module)) = (
+        context.robot(),
+        context.tree(),
+        context.chain().and_then(|chain| chain.v1),
+        context.module(ModuleKind::Chain),
+    ) else {
+        return findings.skip("chain_module is of a version that does not say this");
+    };
+    let position_tolerance = POSITION_OF_REACH * reach(robot, tree);
+    for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
+        let origin = &joint.origin;
+        let offset = (Vector3::from(origin.position) - Vector3::from(right.xyz)).norm();
+        if !within(offset, position_tolerance) {
+            findings.report(
+                Finding::at(
+                    module.file("module.json"),
+                    format!("/joints_in_chain/{index}/origin/position"),
+                    format!(
+                        "joint {index} ({:?}) sits {offset:.3e} m from here in urdf_module",
+                        right.name
+                    ),
+                )
+                .expected(format!("{:?}", right.xyz))
+                .actual(format!("{:?}", origin.position))
+                .tolerance(position_tolerance),
+            );
+        }
+        let turned = rotation_of_rpy(right.rpy);
+        let angle = rotation_distance(&turned, &rotation_of_quaternion(origin.quaternion_wxyz));
+        if !within(angle, ROTATION) {
+            findings.report(
+                Finding::at(
+                    module.file("module.json"),
+                    format!("/joints_in_chain/{index}/origin/quaternion_wxyz"),
+                    format!(
+                        "joint {index} ({:?}) is turned otherwise in urdf_module: R and R' are {angle:.3e} apart",
+                        right.name
+                    ),
+                )
+                .expected(format!("the rotation of rpy {:?}", right.rpy))
+                .actual(format!("{:?}", origin.quaternion_wxyz))
+                .tolerance(ROTATION),
+            );
+        }
+    }
+}
+
+/// Whether a distance is within a tolerance; what is not a number is not.
+fn within(distance: f64, tolerance: f64) -> bool {
+    distance <= tolerance
+}

@@ -1,0 +1,48 @@
+use super::Tally;
+use super::walk::Ancestors;
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::rule::declare_rule;
+
+declare_rule! {
+    /// An entry of `lowest_common_ancestors` is not the last link that two root paths share.
+    ///
+    /// It is where the path between two links turns from climbing to descending. With a wrong one, a
+    /// program that cuts the path out of `root_paths` leaves links out, or takes in links that no path
+    /// between the two passes.
+    ///
+    /// Compare the root paths of the two links from the front; the last link in which they agree is the
+    /// entry. The table is symmetric, and has every link itself on its diagonal.
+    CON003 "common-ancestor-wrong", Error, clause "6.4.3", since "0.1.0",
+    phase References, needs [Version1, Passed(CON001)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(tree), Some(connections), Some(module)) = (
+        context.tree(),
+        context.connections().and_then(|connections| connections.v1),
+        context.module(ModuleKind::Connections),
+    ) else {
+        return findings.skip("connections_module is of a version that does not say this");
+    };
+    let mut tally = Tally::default();
+    let mut ancestors = Ancestors::new(tree);
+    for (i, row) in connections.lowest_common_ancestors.iter().enumerate() {
+        for (j, (written, right)) in row.iter().zip(ancestors.row(i)).enumerate() {
+            if written.get() != *right {
+                tally.wrong(|| {
+                    Finding::at(
+                        module.file("module.json"),
+                        format!("/lowest_common_ancestors/{i}/{j}"),
+                        format!("the root paths of links {i} and {j} part at another link"),
+                    )
+                    .expected(right)
+                    .actual(written)
+                });
+            }
+        }
+    }
+    tally.report(findings);
+}
