@@ -161,7 +161,7 @@ fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::
     if let Some(tolerance) = finding.tolerance {
         writeln!(
             out,
-            "      {} {tolerance:e}",
+            "      {} {tolerance:.1e}",
             style.paint(DIM, "tolerance:")
         )?;
     }
@@ -247,28 +247,21 @@ fn write_summary(report: &Report, style: Style, out: &mut impl Write) -> fmt::Re
         .collect();
     writeln!(
         out,
-        "{}: {}. {}, {}, {}.",
+        "{}: {}. {}: {}, {}, {}.",
         style.paint(BOLD, plural(totals.urdds.get(), "URDD")),
         verdicts.join(", "),
+        plural(
+            report.urdds.iter().map(|urdd| urdd.findings.len()).sum(),
+            "finding"
+        ),
         plural(totals.error.get(), "error"),
         plural(totals.warning.get(), "warning"),
         plural(totals.info.get(), "info"),
     )?;
-    let first = report
-        .urdds
-        .iter()
-        .flat_map(|urdd| &urdd.findings)
-        .map(|finding| &finding.code)
-        .next();
-    if let Some(code) = first {
-        writeln!(
-            out,
-            "{}",
-            style.paint(
-                DIM,
-                format!("`urdd explain {code}` says more about a rule.")
-            )
-        )?;
+    let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
+    if let Some(worst) = findings.min_by_key(|finding| finding.severity) {
+        let hint = format!("`urdd explain {}` says more about a rule.", worst.code);
+        writeln!(out, "{}", style.paint(DIM, hint))?;
     }
     Ok(())
 }

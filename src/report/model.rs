@@ -1,5 +1,7 @@
 //! Makes the report as data, from which every rendering is made, of what a run found.
 
+use std::collections::HashMap;
+
 use crate::format::index::Count;
 use crate::format::registry::SPEC_VERSION;
 pub use crate::format::report::*;
@@ -133,56 +135,48 @@ fn check(check: &Check) -> CheckStatus {
 }
 
 fn findings(examined: &Examined) -> Vec<Finding> {
-    let place_of = |module: &Option<String>| {
-        module.as_ref().map(|name| {
-            examined
-                .modules
-                .iter()
-                .position(|module| module.name == *name)
-        })
-    };
-    let mut findings: Vec<(Code, Finding)> = Vec::new();
+    let folders: HashMap<&str, usize> = examined
+        .modules
+        .iter()
+        .enumerate()
+        .map(|(place, module)| (module.path.as_str(), place))
+        .collect();
+    let mut findings: Vec<(Option<usize>, Code, Finding)> = Vec::new();
     for check in &examined.checks {
         for found in &check.findings {
-            findings.push((check.rule.code, finding(examined, check, found)));
+            let module = found
+                .place
+                .file
+                .as_deref()
+                .and_then(|file| module_of(file, &folders));
+            let name = module.map(|place| examined.modules[place].name.clone());
+            findings.push((module, check.rule.code, finding(name, check, found)));
         }
     }
-    findings.sort_by(|(a_code, a), (b_code, b)| {
-        (
-            place_of(&a.module),
-            a.severity,
-            a_code,
-            &a.file,
-            a.line,
-            a.column,
-            &a.pointer,
-        )
-            .cmp(&(
-                place_of(&b.module),
-                b.severity,
-                b_code,
-                &b.file,
-                b.line,
-                b.column,
-                &b.pointer,
-            ))
+    findings.sort_by(|(a_module, a_code, a), (b_module, b_code, b)| {
+        let a = (
+            a_module, a.severity, a_code, &a.file, a.line, a.column, &a.pointer,
+        );
+        a.cmp(&(
+            b_module, b.severity, b_code, &b.file, b.line, b.column, &b.pointer,
+        ))
     });
-    findings.into_iter().map(|(_, finding)| finding).collect()
+    findings
+        .into_iter()
+        .map(|(_, _, finding)| finding)
+        .collect()
 }
 
-fn finding(examined: &Examined, check: &Check, found: &Found) -> Finding {
+/// The module in whose folder a file is, or which the file is the folder of.
+fn module_of(file: &str, folders: &HashMap<&str, usize>) -> Option<usize> {
+    let parents = file.match_indices('/').map(|(end, _)| &file[..end]);
+    parents
+        .chain([file])
+        .find_map(|folder| folders.get(folder).copied())
+}
+
+fn finding(module: Option<String>, check: &Check, found: &Found) -> Finding {
     let file = found.place.file.clone();
-    let module = file.as_deref().and_then(|file| {
-        let inside = |folder: &str| {
-            file.strip_prefix(folder)
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-        };
-        examined
-            .modules
-            .iter()
-            .find(|module| inside(&module.path))
-            .map(|module| module.name.clone())
-    });
     let here = place(&found.place, &found.expected, &found.actual);
     Finding {
         code: check.rule.code.to_string(),

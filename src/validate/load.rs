@@ -221,11 +221,26 @@ fn read_metadata(root: &Root) -> MetadataFile {
             Ok(metadata) => file.metadata = Some(metadata),
             Err(error) => {
                 let schema = schemars::schema_for!(RootMetadata);
-                file.violations = schema_check::violations(&schema, &document.value, &error);
+                let newer = newer_minor(&document.value);
+                (file.metadata, file.violations) =
+                    schema_check::read_newer(&schema, &document.value, newer, &error, |value| {
+                        RootMetadata::deserialize(value).ok()
+                    });
             }
         }
     }
     file
+}
+
+/// Whether root metadata says that it follows a later minor version of the specification than this.
+fn newer_minor(metadata: &serde_json::Value) -> bool {
+    let version = metadata["urdd_version"]
+        .as_str()
+        .map(semver::Version::parse);
+    match (version, semver::Version::parse(registry::SPEC_VERSION)) {
+        (Some(Ok(version)), Ok(known)) => version.major == known.major && version > known,
+        _ => false,
+    }
 }
 
 /// Every module folder: those of the registry first, then whatever else looks like a module.

@@ -40,7 +40,22 @@ pub fn read(
         Ok(document) => return (Some(document), Vec::new()),
         Err(error) => error,
     };
-    let found = violations(&spec.schema(), document, &error);
+    read_newer(&spec.schema(), document, newer, &error, |known| {
+        spec.read(known).ok()
+    })
+}
+
+/// What a document that was refused (`refusal`) says all the same: where it is of a later minor
+/// version (`newer`) and breaks the schema only by keys that are unknown, it is read without these;
+/// else the violations.
+pub fn read_newer<T>(
+    schema: &Schema,
+    document: &Value,
+    newer: bool,
+    refusal: &dyn Error,
+    read: impl FnOnce(&Value) -> Option<T>,
+) -> (Option<T>, Vec<SchemaViolation>) {
+    let found = violations(schema, document, refusal);
     if !newer {
         return (None, found);
     }
@@ -51,14 +66,14 @@ pub fn read(
     }
     let mut known = document.clone();
     for violation in &unknown {
-        if let Some(object) = known
+        let object = known
             .pointer_mut(&violation.pointer)
-            .and_then(Value::as_object_mut)
-        {
+            .and_then(Value::as_object_mut);
+        if let Some(object) = object {
             object.retain(|key, _| !violation.unknown_keys.contains(key));
         }
     }
-    (spec.read(&known).ok(), Vec::new())
+    (read(&known), Vec::new())
 }
 
 /// Every place where a document breaks a schema. `refusal` is what serde said of it, which is

@@ -3,6 +3,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 use urdd::validate::code::Code::{self, *};
 
+use crate::legacy_robot::LegacyRobot;
 use crate::support::emit;
 use crate::{Case, in_folder};
 
@@ -116,5 +117,9 @@ pub fn cases() -> Vec<Case> {
             change_urdf(root, |urdf| urdf["name"] = json!("robot_description"));
         }),
         case(LEG003, "same-name", false, |_| {}),
+        in_folder(LEG007, "same-mesh-placed-alike", true, |root| {
+            LegacyRobot::new("robot", 0.0).write(root);
+        }),
+        case(LEG007, "no-meshes", false, |_| {}),
     ]
 }

@@ -20,6 +20,7 @@ pub mod schema_work;
 pub mod shape_matrices;
 pub mod shape_pair;
 pub mod shapes;
+pub mod shared_meshes;
 pub mod text_faults;
 pub mod tree;
 pub mod usable_geometry;

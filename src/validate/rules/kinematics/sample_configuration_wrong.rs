@@ -5,7 +5,7 @@ use crate::kinematics::rotation::from_rotation_vector;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::tolerance::{ROTATION, number_tolerance, numbers_agree, rotation_distance};
+use crate::validate::tolerance::{NUMBER_RELATIVE, ROTATION, number_tolerance, rotation_distance};
 
 declare_rule! {
     /// The configuration of a kinematics sample is not the one that the specification defines.
@@ -18,7 +18,7 @@ declare_rule! {
     KIN002 "sample-configuration-wrong", Error, clause "9.2", since "0.1.0",
     phase Kinematics,
     needs [
-        Module(Kind::KinematicsSamples), Module(Kind::Chain), Module(Kind::Dof), Module(Kind::Bounds), Passed(KIN004),
+        Version1, Module(Kind::KinematicsSamples), Module(Kind::Chain), Module(Kind::Dof), Module(Kind::Bounds), Passed(KIN004),
         Passed(CHN002), Passed(CHN007), Passed(DOF003), Passed(DOF004), Passed(DOF005),
         Passed(BND001), Passed(BND002), Passed(BND003), Passed(BND006),
     ],
@@ -60,7 +60,13 @@ fn check(context: &Context, findings: &mut Findings) {
         let found = &sample.configuration;
         for (dof, (expected, found)) in expected.iter().zip(found).enumerate() {
             let in_vector = vectors.iter().any(|vector| vector.contains(&dof));
-            if in_vector || numbers_agree(*expected, *found) {
+            // Sums of bounds cancel: what counts is how large the bounds are, not the sum.
+            let size = bounds
+                .bounds
+                .get(dof)
+                .map_or(0.0, |[lower, upper]| lower.abs().max(upper.abs()));
+            let tolerance = number_tolerance(*expected, *found).max(NUMBER_RELATIVE * size);
+            if in_vector || (expected - found).abs() <= tolerance {
                 continue;
             }
             findings.report(
@@ -74,7 +80,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 )
                 .expected(expected)
                 .actual(found)
-                .tolerance(number_tolerance(*expected, *found)),
+                .tolerance(tolerance),
             );
         }
         for vector in vectors {

@@ -22,7 +22,7 @@ declare_rule! {
     KIN003 "sample-pose-wrong", Error, clause "9.2", since "0.1.0",
     phase Kinematics,
     needs [
-        Module(Kind::KinematicsSamples), Module(Kind::Chain), Module(Kind::Dof), Module(Kind::Urdf), Passed(KIN002),
+        Version1, Module(Kind::KinematicsSamples), Module(Kind::Chain), Module(Kind::Dof), Module(Kind::Urdf), Passed(KIN002),
         Passed(CHN001), Passed(CHN003), Passed(CHN006), Passed(CHN008), Passed(CHN009), Passed(CHN010), Passed(DOF007),
     ],
     check check,

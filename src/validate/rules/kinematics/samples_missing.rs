@@ -17,7 +17,15 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    if context.module(ModuleKind::KinematicsSamples).is_none() {
+    let kind = ModuleKind::KinematicsSamples;
+    // A module that is listed and not there is DIR002's.
+    let listed = context.metadata().is_some_and(|metadata| {
+        metadata
+            .modules
+            .iter()
+            .any(|module| module.name == kind.name())
+    });
+    if context.module(kind).is_none() && !listed {
         findings.report(Finding::in_directory(
             "there is no kinematics_samples_module; with it, consumers can test their forward kinematics",
         ));

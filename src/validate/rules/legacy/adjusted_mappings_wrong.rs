@@ -14,7 +14,7 @@ declare_rule! {
     /// for each of the base robot: those that are kept, and those that are listed as deleted, which have
     /// null. Each is the inverse of the other.
     LEG004 "adjusted-mappings-wrong", Error, clause "10.4", since "0.1.0",
-    phase References, needs [Legacy, Module(Kind::Urdf), Module(Kind::AdjustedRobot)],
+    phase References, needs [Legacy, Module(Kind::Urdf)],
     check check,
 }
 

@@ -3,6 +3,7 @@
 pub mod adjusted_mappings_wrong;
 pub mod folder_name_differs;
 pub mod locked_bound_widened;
+pub mod mesh_file_shared_alike;
 pub mod parent_relative_paths;
 pub mod without_root_metadata;
 
@@ -15,4 +16,5 @@ pub const RULES: &[&Rule] = &[
     &folder_name_differs::RULE,
     &adjusted_mappings_wrong::RULE,
     &locked_bound_widened::RULE,
+    &mesh_file_shared_alike::RULE,
 ];

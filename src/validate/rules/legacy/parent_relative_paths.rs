@@ -36,20 +36,19 @@ fn check(context: &Context, findings: &mut Findings) {
         return;
     };
     let message = if siblings.is_empty() {
-        "mesh paths begin with the folder's own name: do not rename the folder".to_owned()
+        format!("{count} mesh paths begin with the folder's own name: do not rename the folder")
     } else {
         let mut names: Vec<&str> = siblings.iter().copied().take(5).collect();
         if siblings.len() > names.len() {
             names.push("and others");
         }
         format!(
-            "mesh paths lead into other folders beside this one: keep it beside {}, under these names",
+            "of {count} mesh paths some lead into other folders beside this one: keep it beside {}, under these names",
             names.join(", ")
         )
     };
     findings.report(
         Finding::at(first.file(), first.pointer.clone(), message)
-            .actual(format!("{:?}", first.path))
-            .count(count),
+            .actual(format!("{:?}", first.path)),
     );
 }
