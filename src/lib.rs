@@ -9,3 +9,8 @@ mod generate;
 pub mod kinematics;
 pub mod report;
 pub mod validate;
+
+/// The Rust code in README.md is compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

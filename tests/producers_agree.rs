@@ -14,11 +14,13 @@ use support::fixture::{Fixture, ROOT, URDF, toy_robot};
 use support::robot::{Robot, arbitrary_robot};
 
 #[test]
+#[ignore = "needs python3; .ci/run runs it"]
 fn on_the_toy() {
     compare(&toy_robot()).unwrap_or_else(|difference| panic!("{difference}"));
 }
 
 #[test]
+#[ignore = "needs python3; .ci/run runs it"]
 fn on_arbitrary_robots() {
     let config = Config {
         cases: 50,

@@ -208,28 +208,47 @@ fn place(
     place
 }
 
-/// What was not checked, by reason. Rules that are for another kind of URDD are not worth a word.
+/// What was not checked, by reason. Rules that are for another kind of URDD are not worth a word,
+/// and those about modules that are not here no more than one line.
 fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
     let mut by_reason: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    let mut about_absent_modules = 0;
     for check in urdd
         .checks
         .iter()
         .filter(|check| check.status == Status::Skipped)
     {
         let reason = check.reason.as_deref().unwrap_or_default();
-        if !reason.ends_with("a legacy URDD") {
+        if reason.starts_with("there is no ") && reason.ends_with("_module") {
+            about_absent_modules += 1;
+        } else if !reason.ends_with("a legacy URDD") {
             by_reason.entry(reason).or_default().push(&check.code);
         }
     }
+    let label = style.paint(DIM, "not checked:");
     for (reason, codes) in by_reason {
-        writeln!(
-            out,
-            "  {} {}: {reason}",
-            style.paint(DIM, "not checked:"),
-            codes.join(" ")
-        )?;
+        writeln!(out, "  {label} {}: {reason}", list(&codes))?;
+    }
+    if about_absent_modules > 0 {
+        let rules = plural(about_absent_modules, "rule");
+        writeln!(out, "  {label} {rules} about modules that are not here")?;
     }
     Ok(())
+}
+
+/// Codes, or where they are many, how many of which families.
+fn list(codes: &[&str]) -> String {
+    const MOST: usize = 8;
+    if codes.len() <= MOST {
+        return codes.join(" ");
+    }
+    let mut families: Vec<&str> = codes
+        .iter()
+        .map(|code| &code[..code.len().min(3)])
+        .collect();
+    families.sort_unstable();
+    families.dedup();
+    format!("{} ({})", plural(codes.len(), "rule"), families.join(", "))
 }
 
 fn write_summary(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
