@@ -29,7 +29,7 @@ pub fn write(number: &Number, out: &mut impl Write) -> fmt::Result {
     }
 }
 
-/// Writes a float as [`write`] does; the caller vouches that it is finite.
+/// Writes a float as [`write()`] does; the caller vouches that it is finite.
 pub fn write_float(x: f64, out: &mut impl Write) -> fmt::Result {
     let magnitude = x.abs();
     if magnitude == 0.0 {

@@ -18,7 +18,7 @@ const YAML_KINDS: EncodingKinds = EncodingKinds {
 
 /// Finds everything that keeps a YAML file from being the same document as `json`, to every reader.
 ///
-/// A file in the [canonical](super::canonical) form is compared byte by byte and not parsed.
+/// A file in the [canonical] form is compared byte by byte and not parsed.
 /// Any other is parsed, and may differ in layout, comments, the order of keys, and in how numbers
 /// and strings are written, as long as YAML 1.1 and YAML 1.2 agree on what they are. Anchors are
 /// reported and never expanded.
