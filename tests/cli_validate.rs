@@ -313,3 +313,46 @@ fn copy_folder(from: &Path, to: &Path) {
         }
     }
 }
+
+#[test]
+fn rehash_brings_sizes_and_hashes_up_to_date_and_nothing_else() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path().join("robot");
+    let mut toy = Fixture::toy();
+    toy.seal();
+    toy.write_to(&root);
+    let rehash = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
+        command
+            .args(["rehash", "robot"])
+            .current_dir(folder.path())
+            .output()
+            .expect("the program")
+    };
+    let metadata = || fs::read(root.join(ROOT)).expect("urdd.json");
+    let before = metadata();
+    assert_eq!(stdout(&rehash()), "robot: up to date\n");
+    assert_eq!(metadata(), before);
+
+    // White space changes no document, but every size and hash.
+    let module = root.join("dof_module/module.json");
+    let text = fs::read_to_string(&module).expect("module.json");
+    fs::write(&module, text + "\n").expect("written");
+    assert_eq!(status(folder.path(), &["robot"]), 1);
+    assert_eq!(
+        stdout(&rehash()),
+        "robot: brought up to date\n  dof_module/module.json\n"
+    );
+    assert_eq!(status(folder.path(), &["robot"]), 0);
+
+    fs::remove_file(root.join("dof_module/VERSION")).expect("removed");
+    let now = metadata();
+    let output = rehash();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("dof_module/VERSION: there is no such file"),
+        "{}",
+        stderr(&output)
+    );
+    assert_eq!(metadata(), now);
+}

@@ -3,6 +3,7 @@
 mod explain;
 mod info;
 mod output;
+mod rehash;
 mod schema;
 mod validate;
 
@@ -26,6 +27,8 @@ enum Command {
     Explain(explain::ExplainArguments),
     /// Tell what a URDD holds, without judging it.
     Info(info::InfoArguments),
+    /// Bring the sizes and hashes in urdd.json up to date with the files.
+    Rehash(rehash::RehashArguments),
     /// Show, export or check the published JSON Schemas.
     Schema(schema::SchemaArguments),
 }
@@ -36,6 +39,7 @@ pub fn run() -> ExitCode {
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
+        Command::Rehash(arguments) => rehash::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     }
 }

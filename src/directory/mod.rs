@@ -2,6 +2,7 @@
 //! folder of published schemas.
 
 pub mod canonical;
+pub mod digest;
 pub mod discover;
 pub mod json;
 mod json_fault;
@@ -10,6 +11,7 @@ pub mod limits;
 pub mod number_text;
 pub mod path;
 pub mod position;
+pub mod rehash;
 pub mod root;
 pub mod schema_files;
 mod string_text;

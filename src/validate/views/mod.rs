@@ -5,7 +5,6 @@ pub mod bounds;
 pub mod chain;
 pub mod connections;
 pub mod consumer;
-pub mod digest;
 pub mod dofs;
 pub mod entries;
 pub mod extension_schema;

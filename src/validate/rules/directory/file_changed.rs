@@ -2,13 +2,14 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
+use crate::directory::digest::{Change, compare};
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::root::EntryKind;
 use crate::format::root_metadata::{FileEntry, Source};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings, KEPT_PLACES, Occurrence, Place};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::digest::{Change, compare};
+
 use crate::validate::views::{entries, paths};
 
 declare_rule! {
@@ -85,7 +86,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 ROOT_METADATA,
                 format!("{}/{key}", listed.pointer),
                 format!(
-                    "{} is not the file that is described here: bring it back, or write what follows from it, and urdd.json, again",
+                    "{} is not the file that is described here: bring it back; or, if it is the right one, write again what follows from it and run `urdd rehash`",
                     listed.file.path
                 ),
             )

@@ -1,10 +1,10 @@
-//! Whether a file is the one that was described, read in bounded memory.
+//! Sizes and hashes of files, and whether a file is the one that was described. In bounded memory.
 
 use std::io::Read;
 
 use sha2::{Digest, Sha256};
 
-use crate::directory::root::Root;
+use super::root::{ReadError, Root};
 
 /// How a file differs from what was said of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,6 +17,34 @@ pub enum Change {
     Size(u64),
     /// It has this SHA-256.
     Hash(String),
+}
+
+/// Size in bytes and SHA-256 (64 lower-case hexadecimal digits) of a file, read in pieces: meshes are
+/// large.
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn of(root: &Root, path: &str) -> Result<(u64, String), ReadError> {
+    let (mut file, _) = root.open_file(path)?;
+    let mut hasher = Sha256::new();
+    let mut piece = vec![0; 1 << 16];
+    let mut size = 0;
+    loop {
+        let read = file
+            .read(&mut piece)
+            .map_err(|error| ReadError::Io(error.to_string()))?;
+        if read == 0 {
+            break;
+        }
+        size += read as u64;
+        hasher.update(&piece[..read]);
+    }
+    let digits = hasher
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
+    Ok((size, digits))
 }
 
 /// Every Git LFS pointer begins so, and is shorter than this.
