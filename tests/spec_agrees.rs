@@ -1,6 +1,9 @@
 //! SPEC.md and the rules agree, both ways: every code in SPEC.md is a rule of that clause, and every
 //! rule stands in the clause that it names.
 
+#[path = "spec/annex.rs"]
+mod annex;
+
 use std::collections::BTreeMap;
 use std::fs;
 
@@ -128,4 +131,57 @@ fn the_table_of_modules_is_the_registry() {
         .map(|kind| (kind.name().to_owned(), kind.folder().to_owned()))
         .collect();
     assert_eq!(cells, registry);
+}
+
+const BEGIN: &str = "<!-- made from the schemas by tests/spec_agrees.rs: begin -->\n";
+const END: &str = "<!-- end -->";
+
+/// `URDD_UPDATE=1 cargo test --test spec_agrees` writes the tables.
+#[test]
+fn the_tables_of_fields_are_the_schemas() {
+    let text = spec();
+    let begin = text.find(BEGIN).expect("the annex begins") + BEGIN.len();
+    let end = begin + text[begin..].find(END).expect("the annex ends");
+    let expected = format!("\n{}", annex::tables());
+    if std::env::var_os("URDD_UPDATE").is_some() {
+        let updated = format!("{}{expected}{}", &text[..begin], &text[end..]);
+        fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md"), updated).expect("written");
+        return;
+    }
+    assert!(
+        text[begin..end] == expected,
+        "annex A of SPEC.md is not what the schemas say: run URDD_UPDATE=1 cargo test --test spec_agrees"
+    );
+}
+
+/// The figures of clause 9.3 are those that a second implementation made (tests/figures).
+#[test]
+fn the_sampled_numbers_are_the_figures() {
+    let figures = fs::read_to_string(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/figures/sampled_configurations.json"
+    ));
+    let figures: serde_json::Value =
+        serde_json::from_str(&figures.expect("figures")).expect("JSON");
+    let text = spec();
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .skip_while(|line| !line.starts_with("| k | i | u(k, i) |"))
+        .skip(2)
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| {
+            line.trim_matches('|')
+                .split('|')
+                .map(|cell| cell.trim().parse().expect("a number"))
+                .collect()
+        })
+        .collect();
+    assert!(rows.len() >= 6, "{} rows", rows.len());
+    for row in rows {
+        let known = figures["u"].as_array().into_iter().flatten();
+        let known =
+            known.filter(|u| u["k"].as_f64() == Some(row[0]) && u["i"].as_f64() == Some(row[1]));
+        let known: Vec<Option<f64>> = known.map(|u| u["u"].as_f64()).collect();
+        assert_eq!(known, [Some(row[2])], "k {} i {}", row[0], row[1]);
+    }
 }
