@@ -91,7 +91,7 @@ fn against_the_urdf() -> Vec<Case> {
             );
         }),
         invalid(URD001, "mimic-changed", |urdd| {
-            urdd.urdf_replace("multiplier=\"-1\"", "multiplier=\"-1.001\"");
+            urdd.urdf_replace("multiplier=\"-1\"", "multiplier=\"-0.999\"");
         }),
         invalid(URD001, "link-added", |urdd| {
             urdd.urdf_replace(

@@ -1,4 +1,4 @@
-//! The robot that `urdf_module` describes, with URDF's defaults filled in.
+//! The robot that `urdf_module` or the carried URDF describes, with URDF's defaults filled in.
 
 use std::collections::HashMap;
 
@@ -164,11 +164,7 @@ impl Joint {
 /// The robot of a `urdf_module`.
 pub fn view(document: &ModuleDocument) -> Option<Robot> {
     match document {
-        ModuleDocument::Urdf(module) => Some(Robot::new(
-            module.name.clone(),
-            module.links.iter().map(from_v1_link).collect(),
-            module.joints.iter().map(from_v1_joint).collect(),
-        )),
+        ModuleDocument::Urdf(module) => Some(of_urdf(module)),
         ModuleDocument::LegacyUrdf(module) => Some(Robot::new(
             module.name.clone(),
             module.links.iter().map(from_legacy_link).collect(),
@@ -176,6 +172,15 @@ pub fn view(document: &ModuleDocument) -> Option<Robot> {
         )),
         _ => None,
     }
+}
+
+/// The robot of a URDF, or of the `urdf_module` of version 1, which keeps all of one.
+pub fn of_urdf(urdf: &v1::UrdfModule) -> Robot {
+    Robot::new(
+        urdf.name.clone(),
+        urdf.links.iter().map(from_v1_link).collect(),
+        urdf.joints.iter().map(from_v1_joint).collect(),
+    )
 }
 
 fn from_v1_link(link: &v1::Link) -> Link {
