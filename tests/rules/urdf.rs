@@ -84,6 +84,16 @@ fn against_the_urdf() -> Vec<Case> {
         invalid(URD001, "velocity-limit-gone", |urdd| {
             urdd.urdf_replace(" velocity=\"1.5\"", "");
         }),
+        // Without the version, the quaternion of an origin has no meaning.
+        invalid(URD001, "version-gone", |urdd| {
+            urdd.urdf_replace(" version=\"1.2\"", "");
+        }),
+        invalid(URD001, "quaternion-lost", |urdd| {
+            set_joint(urdd, "bolt", "/origin/quat_xyzw", json!(null));
+        }),
+        invalid(URD001, "jerk-lost", |urdd| {
+            set_joint(urdd, "slide", "/limit/jerk", json!(null));
+        }),
         invalid(URD001, "type-changed", |urdd| {
             urdd.urdf_replace(
                 "name=\"flange\" type=\"fixed\"",
@@ -172,9 +182,6 @@ fn against_the_urdf() -> Vec<Case> {
         }),
         invalid(URD013, "damping-changed", |urdd| {
             urdd.urdf_replace("damping=\"0.1\"", "damping=\"0.2\"");
-        }),
-        invalid(URD013, "version-lost", |urdd| {
-            urdd.urdf_replace("<robot ", "<robot version=\"1.1\" ");
         }),
         near_miss(URD013, "line-ends-converted", |urdd| {
             urdd.urdf_mut(|xml| *xml = xml.replace('\n', "\r\n"));
@@ -334,6 +341,12 @@ fn readable() -> Vec<Case> {
         invalid(URD011, "word-among-numbers", |urdd| {
             urdd.urdf_replace("xyz=\"0.05 0 0.2\"", "xyz=\"0.05 x 0 0.2\"");
         }),
+        invalid(URD011, "two-rotations", |urdd| {
+            urdd.urdf_replace("quat_xyzw=", "rpy=\"0 0 0\" quat_xyzw=");
+        }),
+        invalid(URD011, "quaternion-of-three", |urdd| {
+            urdd.urdf_replace("quat_xyzw=\"0 ", "quat_xyzw=\"");
+        }),
         invalid(URD011, "commas", |urdd| {
             urdd.urdf_replace("xyz=\"0.05 0 0.2\"", "xyz=\"0.05, 0, 0.2\"");
         }),
@@ -357,6 +370,19 @@ fn readable() -> Vec<Case> {
             urdd.urdf_replace("<!--", "<!DOCTYPE robot><!--");
             urdd.urdf_mut(|xml| xml.insert(0, '\u{feff}'));
         }),
+        changed(
+            URD011,
+            "two-rotations-before-1.1",
+            false,
+            || {
+                let mut robot = toy_robot();
+                robot.urdf.version = None;
+                let origin = &mut robot.joint_mut("bolt").origin;
+                origin.as_mut().expect("it has").rpy = Some([0.1, 0.2, 0.3]);
+                Fixture::core(&robot)
+            },
+            |_| {},
+        ),
         near_miss(URD011, "elements-that-say-nothing", |urdd| {
             urdd.urdf_replace(
                 "<link name=\"frame\">\n",
