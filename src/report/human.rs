@@ -274,7 +274,7 @@ fn write_summary(report: &Report, style: Style, out: &mut impl Write) -> fmt::Re
         style.paint(BOLD, plural(totals.urdds.get(), "URDD")),
         verdicts.join(", "),
         plural(
-            report.urdds.iter().map(|urdd| urdd.findings.len()).sum(),
+            totals.error.get() + totals.warning.get() + totals.info.get(),
             "finding"
         ),
         plural(totals.error.get(), "error"),

@@ -124,7 +124,8 @@ fn against_the_urdf() -> Vec<Case> {
         }),
         // The producer filled in what the URDF leaves out.
         invalid(URD001, "absent-limit-as-zeros", |urdd| {
-            let zeros = json!({"lower": 0.0, "upper": 0.0, "effort": 0.0, "velocity": 0.0});
+            let zeros = json!({"lower": 0.0, "upper": 0.0, "effort": 0.0, "velocity": 0.0,
+                "acceleration": null, "deceleration": null, "jerk": null});
             set_joint(urdd, "flange", "/limit", zeros);
         }),
         invalid(URD001, "absent-axis-filled-in", |urdd| {
