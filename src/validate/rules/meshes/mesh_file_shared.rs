@@ -20,6 +20,7 @@ declare_rule! {
         NotFailed(URD001),
         NotFailed(MSH001),
         NotFailed(MSH003),
+        NotFailedInV1(MSH007),
     ],
     check check,
 }

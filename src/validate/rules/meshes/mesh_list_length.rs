@@ -24,6 +24,7 @@ declare_rule! {
         NotFailed(URD001),
         NotFailed(URD004),
         NotFailed(URD007),
+        NotFailed(URD002),
     ],
     check check,
 }

@@ -27,6 +27,8 @@ declare_rule! {
         NotFailed(URD004),
         NotFailedInV1(URD013),
         NotFailed(MSH001),
+        NotFailed(URD002),
+        NotFailed(URD007),
     ],
     check check,
 }
