@@ -188,19 +188,6 @@ pub fn cases() -> Vec<Case> {
             let mesh = mesh(f).replace("/stl/", "/stl/99_");
             f.put_file(&mesh, *b"solid\n");
         }),
-        invalid(DIR013, "listed-but-not-named", |f| {
-            f.put_file("dof_module/notes.txt", *b"hello\n");
-            f.list("dof_module/notes.txt");
-        }),
-        invalid(DIR013, "side-file-not-named", |f| {
-            let module = "original_meshes_module";
-            let files = f.get(module, "/files").as_array().expect("a list");
-            let with = files
-                .iter()
-                .position(|file| file["side_files"] != json!([]));
-            let pointer = format!("/files/{}/side_files/0", with.expect("a side file"));
-            f.remove(module, &pointer);
-        }),
         near_miss(DIR013, "in-the-root-or-an-extension", |f| {
             f.put_file("LICENSE", *b"MIT\n");
             f.put_file(".gitattributes", *b"* -text\n");

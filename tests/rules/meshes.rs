@@ -336,6 +336,26 @@ fn links() -> Vec<Case> {
             let other = f.get(ORIGINAL, "/references/2/path").clone();
             f.set(ORIGINAL, "/references/1/path", other);
         }),
+        invalid(MSH012, "side-file-not-named", |f| {
+            let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
+            let with = files
+                .iter()
+                .position(|file| file["side_files"] != json!([]));
+            let pointer = format!("/files/{}/side_files/0", with.expect("a side file"));
+            f.remove(ORIGINAL, &pointer);
+        }),
+        near_miss(MSH012, "side-file-of-two-meshes", |f| {
+            let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
+            let with = files
+                .iter()
+                .position(|file| file["side_files"] != json!([]));
+            let without = files
+                .iter()
+                .position(|file| file["side_files"] == json!([]));
+            let (with, without) = (with.expect("a side file"), without.expect("none"));
+            let side = files[with]["side_files"].clone();
+            f.set(ORIGINAL, &format!("/files/{without}/side_files"), side);
+        }),
         invalid(MSH012, "unsorted", |f| {
             let first = f.remove(ORIGINAL, "/files/0");
             f.set(ORIGINAL, "/files/-", first);

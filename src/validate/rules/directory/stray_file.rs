@@ -9,25 +9,26 @@ use crate::validate::views::entries::{self, MODULE_FILES};
 use crate::validate::views::paths::{self, PathRole, Place};
 
 declare_rule! {
-    /// A file lies in a module's folder that the module does not name, whether `urdd.json` lists it or
-    /// not.
+    /// A file lies in a module's folder that neither the module nor `urdd.json` names.
     ///
     /// Most often it is left over from an earlier run (meshes of links that were renamed), or from an
     /// editor. It makes the URDD larger, and people take it for part of the robot.
     ///
     /// Delete it, or keep it outside the module folders: what lies in the root itself is nobody's
-    /// business. If it belongs to the module (a side file of a mesh), name it in `module.json`. Write a module into a fresh folder, not over an old one.
+    /// business. Write a module into a fresh folder, not over an old one.
     DIR013 "stray-file", Warning, clause "2.7", since "0.1.0",
     phase Files, needs [Version1, RootMetadata],
     check check,
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let paths: Vec<_> = context
-        .modules()
+    let entries = entries::all(context);
+    let listed: HashSet<&str> = entries
         .iter()
-        .flat_map(paths::of_module)
+        .flat_map(|entry| &entry.entry.files)
+        .map(|file| file.path.as_str())
         .collect();
+    let paths = paths::all(context);
     let named: HashSet<&str> = paths.iter().map(|path| path.path).collect();
     for module in entries::known_modules(context) {
         // What an extension's documents name is not known; what a broken document names neither.
@@ -42,7 +43,7 @@ fn check(context: &Context, findings: &mut Findings) {
             .filter(|entry| entry.utf8)
             .map(|entry| entry.path.as_str())
             .filter(|path| !own.iter().any(|own| own == path))
-            .filter(|path| !named.contains(path))
+            .filter(|path| !listed.contains(path) && !named.contains(path))
             .collect();
         let Some(first) = stray.first() else {
             continue;
@@ -58,7 +59,7 @@ fn check(context: &Context, findings: &mut Findings) {
             Finding::in_file(
                 *first,
                 format!(
-                    "{} does not name this file{others}: name it there if it belongs to the module; else delete it, or keep it outside the module folders",
+                    "{} does not name this file{others}: delete it, or keep it outside the module folders",
                     module.name()
                 ),
             )
