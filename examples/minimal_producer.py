@@ -336,8 +336,11 @@ def motion(kind, axis, q):
     if kind == "Planar":  # the in-plane basis is (ex, ey), turned by the shortest arc from z to the axis [5.9]
         x, y, z = axis
         w = 1 + z if z > 0 else (x * x + y * y) / (1 - z)  # 1 + z, without loss of digits near -z
-        norm = math.hypot(w, x, y)
-        arc = (w / norm, -y / norm, x / norm, 0.0) if norm > 0 else (0.0, 1.0, 0.0, 0.0)
+        if math.hypot(x, y) < 1e-10:  # counts as +z or -z
+            arc = (1.0, 0.0, 0.0, 0.0) if z > 0 else (0.0, 1.0, 0.0, 0.0)
+        else:
+            norm = math.hypot(w, x, y)
+            arc = (w / norm, -y / norm, x / norm, 0.0)
         return rotate(arc, (q[0], q[1], 0.0)), turn(axis, q[2])
     if kind == "Floating":
         return q[:3], turn_by_vector(q[3:])

@@ -75,7 +75,7 @@ pub(super) fn run_all(
         let mut later = Vec::new();
         for rule in waiting {
             let waits = rule.needs.iter().any(|need| match need {
-                Need::Passed(code) | Need::NotFailed(code) => {
+                Need::Passed(code) | Need::NotFailed(code) | Need::NotFailedInV1(code) => {
                     !outcomes.contains_key(code) && codes.contains(code)
                 }
                 _ => false,
@@ -164,7 +164,8 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<String> {
             Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
             None => Some(format!("{code} did not run")),
         },
-        Need::NotFailed(code) => match outcomes.get(&code) {
+        Need::NotFailedInV1(_) if context.profile() != Profile::V1 => None,
+        Need::NotFailed(code) | Need::NotFailedInV1(code) => match outcomes.get(&code) {
             Some(Outcome::Failed) => Some(format!("{code} found a fault")),
             Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
             Some(Outcome::Passed | Outcome::Skipped(_)) | None => None,

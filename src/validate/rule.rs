@@ -60,6 +60,9 @@ pub enum Need {
     Passed(Code),
     /// The other rule found nothing, or had nothing to look at.
     NotFailed(Code),
+    /// The same, but in a URDD of version 1 only: what the other rule finds in legacy ones is often
+    /// a convention, and no obstacle.
+    NotFailedInV1(Code),
     /// The URDD is of version 1.
     Version1,
     /// The URDD was published before there was a version 1.

@@ -309,6 +309,9 @@ pub fn cases() -> Vec<Case> {
         invalid(DIR021, "name-of-another-module", |f| {
             set_root(f, "/modules/1/name", json!("chain_module"));
         }),
+        invalid(DIR021, "name-of-a-module-with-other-dependencies", |f| {
+            set_root(f, "/modules/1/name", json!("bounds_module"));
+        }),
         invalid(DIR021, "twice", |f| {
             add_extension(f);
             let entry = f.get(ROOT, "/modules/15").clone();

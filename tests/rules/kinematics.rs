@@ -58,6 +58,13 @@ pub fn cases() -> Vec<Case> {
         near_miss(KIN002, "sampled-value-rounded", |f| {
             nudge(f, "/samples/4/configuration/0", 1e-12)
         }),
+        // The same rotation as (pi, 0, 0), but not the vector that SPEC 9.4 has.
+        invalid(KIN002, "upper-rotation-vector-is-lower", |f| {
+            let dofs = f.get("dof_module", "/dofs").as_array().expect("a list");
+            let first = dofs.iter().position(|dof| dof["name"] == "air/rot_x");
+            let pointer = format!("/samples/3/configuration/{}", first.expect("a DOF"));
+            nudge(f, &pointer, -2.0 * std::f64::consts::PI);
+        }),
         invalid(KIN003, "link-moved", |f| {
             nudge(f, "/samples/0/link_poses/1/position/0", 1e-5)
         }),

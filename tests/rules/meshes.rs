@@ -161,6 +161,10 @@ fn files() -> Vec<Case> {
         invalid(MSH004, "piece-missing", |f| {
             f.remove(PIECES, "/link_pieces/0/1");
         }),
+        // The names of those that are left are wrong by the same mistake.
+        invalid(MSH004, "first-piece-missing", |f| {
+            f.remove(PIECES, "/link_pieces/0/0");
+        }),
         near_miss(MSH004, "geometry-class", |f| {
             for module in [
                 APPROXIMATIONS,
@@ -184,6 +188,10 @@ fn files() -> Vec<Case> {
         invalid(MSH005, "another-links-hull", |f| {
             let other = text(f, HULLS, "/link_hulls/0/stl");
             f.set(HULLS, "/link_hulls/1/stl", json!(other));
+        }),
+        invalid(MSH005, "piece-twice", |f| {
+            let piece = f.get(PIECES, "/link_pieces/0/1").clone();
+            f.set(PIECES, "/link_pieces/0/-", piece);
         }),
         legacy(MSH005, "same-mesh-elsewhere", true, || {
             LegacyRobot::new("robot", 0.25)
@@ -254,6 +262,16 @@ fn links() -> Vec<Case> {
         }),
         invalid(MSH007, "plain-mesh-missing", |f| {
             f.set(PLAIN, "/link_meshes/1", Value::Null);
+        }),
+        // Names, and the geometry that was used, are then another link's too.
+        invalid(MSH007, "mesh-at-another-link", |f| {
+            let mesh = f.get(PLAIN, "/link_meshes/2").clone();
+            f.set(PLAIN, "/link_meshes/14", mesh);
+            f.set(PLAIN, "/link_meshes/2", Value::Null);
+        }),
+        invalid(MSH007, "hull-of-another-link", |f| {
+            let hull = f.get(HULLS, "/link_hulls/0").clone();
+            f.set(HULLS, "/link_hulls/4", hull);
         }),
         changed(MSH007, "no-mesh-at-all", false, without_shapes, |_| {}),
         invalid(MSH008, "said-to-be-collision", |f| {
@@ -342,6 +360,26 @@ fn links() -> Vec<Case> {
         invalid(MSH012, "mesh-exchanged", |f| {
             let other = f.get(ORIGINAL, "/references/2/path").clone();
             f.set(ORIGINAL, "/references/1/path", other);
+        }),
+        invalid(MSH012, "side-file-not-named", |f| {
+            let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
+            let with = files
+                .iter()
+                .position(|file| file["side_files"] != json!([]));
+            let pointer = format!("/files/{}/side_files/0", with.expect("a side file"));
+            f.remove(ORIGINAL, &pointer);
+        }),
+        near_miss(MSH012, "side-file-of-two-meshes", |f| {
+            let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
+            let with = files
+                .iter()
+                .position(|file| file["side_files"] != json!([]));
+            let without = files
+                .iter()
+                .position(|file| file["side_files"] == json!([]));
+            let (with, without) = (with.expect("a side file"), without.expect("none"));
+            let side = files[with]["side_files"].clone();
+            f.set(ORIGINAL, &format!("/files/{without}/side_files"), side);
         }),
         invalid(MSH012, "unsorted", |f| {
             let first = f.remove(ORIGINAL, "/files/0");

@@ -33,6 +33,13 @@ fn set_pair(fixture: &mut Fixture, module: &str, matrix: &str, (i, j): (usize, u
     fixture.set(module, &format!("{matrix}/{j}/{i}"), to);
 }
 
+fn exchange_rows(fixture: &mut Fixture, module: &str, matrix: &str, i: usize, j: usize) {
+    let rows = fixture.doc_mut(module).pointer_mut(matrix);
+    let rows = rows.and_then(Value::as_array_mut).expect("a matrix");
+    assert_ne!(rows[i], rows[j]);
+    rows.swap(i, j);
+}
+
 /// The first pair of hulls that is never, sometimes or always in contact, as `reason` says.
 fn pair_that_is(fixture: &Fixture, reason: &str) -> (usize, usize) {
     let rows = fixture.get(SIMPLE, "/reasons/full_convex_hulls").as_array();
@@ -165,6 +172,19 @@ fn matrices() -> Vec<Case> {
             let pointer = format!("/reasons/full_convex_hulls/{j}/{i}");
             f.set(SIMPLE, &pointer, json!("None"));
         }),
+        // Rows in another order also make the diagonal wrong, and pairs of them: one mistake.
+        invalid(SHP006, "rows-of-skips-exchanged", |f| {
+            exchange_rows(f, SKIPS, "/full_obbs_skips", 0, 1);
+        }),
+        invalid(SHP006, "rows-of-simple-skips-exchanged", |f| {
+            exchange_rows(f, SIMPLE, "/full_convex_hulls_simple_skips", 0, 1);
+        }),
+        invalid(SHP006, "rows-of-reasons-exchanged", |f| {
+            exchange_rows(f, SIMPLE, "/reasons/full_convex_hulls", 0, 1);
+        }),
+        invalid(SHP006, "rows-of-distances-exchanged", |f| {
+            exchange_rows(f, STATISTICS, "/full_obbs/max_distances", 1, 3);
+        }),
         near_miss(SHP006, "rounded-one-way", |f| {
             let (i, j) = pair_that_is(f, "None");
             let pointer = format!("/full_convex_hulls/mean_distances/{i}/{j}");
@@ -175,6 +195,10 @@ fn matrices() -> Vec<Case> {
         }),
         invalid(SHP007, "not-skipped-against-itself", |f| {
             f.set(SKIPS, "/full_obbs_skips/2/2", json!(false));
+        }),
+        // These two shapes are alike against all others, and not skipped against each other.
+        invalid(SHP007, "rows-exchanged-and-symmetric", |f| {
+            exchange_rows(f, SIMPLE, "/full_convex_hulls_simple_skips", 6, 7);
         }),
         near_miss(SHP007, "rounded-to-itself", |f| {
             f.set(STATISTICS, "/full_obbs/mean_distances/3/3", json!(1e-15));

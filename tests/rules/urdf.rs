@@ -205,6 +205,9 @@ fn trees() -> Vec<Case> {
         invalid(URD002, "in-the-module-alone", |urdd| {
             set_link(urdd, "still", "/name", json!("lock"));
         }),
+        invalid(URD002, "of-a-link-with-shapes-and-edits", |urdd| {
+            set_link(urdd, "tool/ü 1", "/name", json!("arm"));
+        }),
         sound(URD002, "names-that-differ-in-case", |robot| {
             robot.link_mut("still").name = "Lock".to_owned();
             robot.joint_mut("frozen").child.link = "Lock".to_owned();

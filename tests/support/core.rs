@@ -479,11 +479,12 @@ pub fn rotation_of_rpy([roll, pitch, yaw]: [f64; 3]) -> Rotation {
     ]
 }
 
-/// The rotation that takes +z to n by the shortest arc; half a turn about x for n = -z (5.9).
+/// The rotation that takes +z to n by the shortest arc; half a turn about x for n = -z, and what is
+/// too near to the z axis counts as on it (5.9).
 pub fn shortest_arc_from_z([x, y, z]: [f64; 3]) -> Rotation {
     let sine = x.hypot(y);
-    if sine == 0.0 && z < 0.0 {
-        return rotation_about([1.0, 0.0, 0.0], PI);
+    if sine < 1e-10 {
+        return rotation_about([1.0, 0.0, 0.0], if z < 0.0 { PI } else { 0.0 });
     }
     let axis = unit([-y, x, 0.0]);
     rotation_about(axis, sine.atan2(z))

@@ -5,6 +5,7 @@
 //! - [`core`]: robot -> documents of the core modules and the kinematics samples
 //! - [`meshes`], [`shapes`]: robot of boxes -> documents and files of the other modules
 //! - [`fixture`]: a whole URDD in memory, to be edited, sealed and written
+//! - [`folder`]: a folder on disk, for many URDDs one after the other
 //! - [`emit`]: JSON and YAML text
 
 #![allow(dead_code)] // Each test uses a part of this.
@@ -12,6 +13,7 @@
 pub mod core;
 pub mod emit;
 pub mod fixture;
+pub mod folder;
 pub mod meshes;
 pub mod robot;
 pub mod shapes;

@@ -20,6 +20,7 @@ pub mod shape_matrices;
 pub mod shape_pair;
 pub mod shapes;
 pub mod shared_meshes;
+pub mod tangled;
 pub mod text_faults;
 pub mod tree;
 pub mod usable_geometry;

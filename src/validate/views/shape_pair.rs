@@ -1,6 +1,7 @@
 //! The statistics of one pair of shapes, judged (SPEC 8.5).
 
-use super::shape_matrices::{Statistics, at};
+use super::shape_matrices::{Elements, Statistics, at};
+use super::tangled::Tangled;
 use crate::validate::tolerance::{LEGACY_SAMPLES, mean_tolerance, numbers_agree};
 
 /// Largest distance of shapes that are in contact, m (SPEC 8.6).
@@ -19,10 +20,28 @@ pub struct Pair {
     pub tolerance: f64,
 }
 
-impl Pair {
+/// The statistics of one kind of shapes, to read pairs from.
+#[derive(Debug, Clone)]
+pub struct Pairs<'a> {
+    statistics: Statistics<'a>,
+    tangled: [Tangled; 3],
+}
+
+impl<'a> Pairs<'a> {
+    /// For these statistics.
+    pub fn new(statistics: &Statistics<'a>) -> Self {
+        let three = [statistics.mean, statistics.min, statistics.max];
+        Pairs {
+            statistics: *statistics,
+            tangled: three.map(|rows| Tangled::new(Elements::Distances(rows))),
+        }
+    }
+
     /// The distances of shapes i and j; `None` where an element is missing, is not that of j and i,
-    /// or is negative and may not be: faults that have rules of their own.
-    pub fn read(statistics: &Statistics, i: usize, j: usize) -> Option<Pair> {
+    /// is negative and may not be, or is in a row that is wrong as a whole: faults that have rules of
+    /// their own.
+    pub fn read(&self, i: usize, j: usize) -> Option<Pair> {
+        let statistics = &self.statistics;
         let one = |rows| {
             let (a, b) = (at(rows, i, j)?, at(rows, j, i)?);
             let sound = numbers_agree(a, b) && (statistics.num_samples.is_none() || a >= 0.0);
@@ -33,6 +52,9 @@ impl Pair {
             one(statistics.min)?,
             one(statistics.max)?,
         );
+        if self.tangled.iter().any(|tangled| tangled.pair(i, j)) {
+            return None;
+        }
         let samples = statistics.num_samples.unwrap_or(LEGACY_SAMPLES);
         Some(Pair {
             mean,
@@ -41,7 +63,9 @@ impl Pair {
             tolerance: mean_tolerance(samples, min.abs().max(max.abs())),
         })
     }
+}
 
+impl Pair {
     /// Whether the mean lies between the smallest and the largest.
     pub fn in_order(&self) -> bool {
         self.min <= self.mean + self.tolerance && self.mean <= self.max + self.tolerance
@@ -76,7 +100,7 @@ mod tests {
             max: &max,
             num_samples: Some(samples),
         };
-        Pair::read(&statistics, 0, 1).expect("sound elements")
+        Pairs::new(&statistics).read(0, 1).expect("sound elements")
     }
 
     #[test]

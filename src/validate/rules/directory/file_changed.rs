@@ -120,11 +120,12 @@ fn listed(context: &Context) -> Vec<Listed<'_>> {
         }),
         _ => None,
     };
-    let modules = metadata.modules.iter().enumerate().flat_map(|(m, module)| {
-        module
-            .files
-            .iter()
-            .enumerate()
+    let modules = entries::all(context).into_iter().flat_map(|entry| {
+        let m = entry.index;
+        let files = entry.entry.files.iter().enumerate();
+        // A file of another module is not the one that is meant: DIR012 tells.
+        files
+            .filter(move |(_, file)| entry.holds(&file.path))
             .map(move |(f, file)| Listed {
                 pointer: format!("/modules/{m}/files/{f}"),
                 file,

@@ -18,7 +18,7 @@ declare_rule! {
     /// List `VERSION`, `module.json`, `module.yaml`, every mesh or other file in the module's folder
     /// that the module's document names (for an extension `schema.json`), and nothing outside of it.
     DIR012 "file-list-incomplete", Error, clause "2.7", since "0.1.0",
-    phase Files, needs [Version1, RootMetadata],
+    phase Files, needs [Version1, RootMetadata, NotFailed(DIR021)],
     check check,
 }
 

@@ -4,7 +4,9 @@ use crate::format::original_meshes::OriginalMeshesModule;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
+use crate::validate::load::Module;
 use crate::validate::rule::declare_rule;
+use crate::validate::views::entries;
 
 declare_rule! {
     /// `references` and `files` of `original_meshes_module` do not belong together.
@@ -35,6 +37,44 @@ fn check(context: &Context, findings: &mut Findings) {
         look(original, &file, findings);
         if !findings.is_empty() {
             return;
+        }
+    }
+    listed(context, original, module, findings);
+}
+
+/// Whether every mesh file that `urdd.json` lists is one of the files or side files.
+fn listed(
+    context: &Context,
+    original: &OriginalMeshesModule,
+    module: &Module,
+    findings: &mut Findings,
+) {
+    let side_files = original.files.iter().flat_map(|f| &f.side_files);
+    let paths = original.files.iter().map(|f| &f.path).chain(side_files);
+    let named: HashSet<&str> = paths.map(String::as_str).collect();
+    // Where a named file is not there, it has another name: MSH002 tells.
+    if named
+        .iter()
+        .any(|path| entries::look(context, path).is_err())
+    {
+        return;
+    }
+    let meshes = module.file("meshes/");
+    for entry in entries::all(context) {
+        for file in &entry.entry.files {
+            let path = file.path.as_str();
+            // What is listed and not there is DIR011's.
+            if path.starts_with(&meshes)
+                && !named.contains(path)
+                && entries::look(context, path).is_ok()
+            {
+                let message = "urdd.json lists a file in `meshes/` that is not named here: name it with the mesh that needs it, or take it out";
+                findings.report(
+                    Finding::at(module.file("module.json"), "/files", message)
+                        .expected(format!("`{path}` as `path` or in `side_files`"))
+                        .actual("neither"),
+                );
+            }
         }
     }
 }

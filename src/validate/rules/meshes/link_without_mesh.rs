@@ -26,6 +26,8 @@ declare_rule! {
         NotFailed(MSH007),
         NotFailed(MSH009),
         NotFailed(MSH012),
+        NotFailed(URD002),
+        NotFailed(URD007),
     ],
     check check,
 }

@@ -24,6 +24,10 @@ declare_rule! {
         NotFailed(DIR015),
         NotFailed(URD007),
         NotFailed(CHN001),
+        NotFailed(URD002),
+        // A list that is displaced has the wrong names too.
+        NotFailed(MSH004),
+        NotFailed(MSH007),
     ],
     check check,
 }

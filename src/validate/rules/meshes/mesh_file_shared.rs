@@ -19,6 +19,7 @@ declare_rule! {
         AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
         NotFailed(MSH001),
         NotFailed(MSH003),
+        NotFailedInV1(MSH007),
     ],
     check check,
 }

@@ -23,6 +23,7 @@ declare_rule! {
         ]),
         NotFailed(URD004),
         NotFailed(URD007),
+        NotFailed(URD002),
     ],
     check check,
 }

@@ -25,6 +25,8 @@ declare_rule! {
         Module(Kind::OriginalMeshes),
         NotFailed(URD004),
         NotFailed(MSH001),
+        NotFailed(URD002),
+        NotFailed(URD007),
     ],
     check check,
 }

@@ -23,6 +23,8 @@ declare_rule! {
         NotFailed(MSH003),
         NotFailed(MSH007),
         NotFailed(SHP001),
+        // A piece that is there twice is one too many.
+        NotFailedInV1(MSH005),
     ],
     check check,
 }

@@ -24,6 +24,11 @@ declare_rule! {
         NotFailed(MSH009),
         NotFailed(MSH012),
         NotFailed(MSH011),
+        // The entry of another link has the geometry of another link.
+        NotFailed(MSH006),
+        NotFailed(MSH007),
+        NotFailed(URD002),
+        NotFailed(URD007),
     ],
     check check,
 }

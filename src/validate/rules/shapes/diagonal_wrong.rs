@@ -2,6 +2,7 @@ use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::views::shape_matrices::{Elements, MATRIX_MODULES, matrices};
+use crate::validate::views::tangled::Tangled;
 
 declare_rule! {
     /// A shape has a distance to itself, or is not to be skipped against itself.
@@ -32,8 +33,10 @@ fn check(context: &Context, findings: &mut Findings) {
             let Some(elements) = matrix.elements else {
                 continue;
             };
+            let tangled = Tangled::new(elements);
             for i in 0..elements.rows() {
-                if elements.diagonal_sound(i) {
+                // Where the row of the shape is wrong beyond that, SHP006 says so.
+                if elements.diagonal_sound(i) || tangled.asymmetric(i) {
                     continue;
                 }
                 let expected = match elements {

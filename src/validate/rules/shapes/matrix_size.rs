@@ -29,6 +29,7 @@ declare_rule! {
         NotFailed(MSH007),
         NotFailed(SHP002),
         NotFailed(SHP010),
+        NotFailedInV1(MSH005),
     ],
     check check,
 }

@@ -28,6 +28,8 @@ declare_rule! {
         NotFailed(MSH004),
         NotFailed(MSH007),
         NotFailed(SHP002),
+        // A piece that is there twice is one too many.
+        NotFailed(MSH005),
     ],
     check check,
 }

@@ -18,6 +18,7 @@ declare_rule! {
         AnyModule(&[Kind::LinkShapesApproximations, Kind::LinkShapesMaxDistanceFromOrigin]),
         NotFailed(URD004),
         NotFailed(URD007),
+        NotFailed(URD002),
     ],
     check check,
 }

@@ -3,9 +3,10 @@ use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::{at, skips, skips_pointer, statistics};
-use crate::validate::views::shape_pair::Pair;
+use crate::validate::views::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
+use crate::validate::views::shape_pair::{Pair, Pairs};
 use crate::validate::views::shapes::KINDS;
+use crate::validate::views::tangled::Tangled;
 
 declare_rule! {
     /// A simple skip is not what the distance statistics say.
@@ -44,6 +45,8 @@ fn check(context: &Context, findings: &mut Findings) {
         let Some(rows) = rows else {
             continue;
         };
+        let tangled = Tangled::new(Elements::Skips(rows));
+        let pairs = statistics.as_ref().map(Pairs::new);
         let mut fold = Fold::new(findings);
         for i in 0..rows.len() {
             for j in i + 1..rows.len() {
@@ -52,13 +55,14 @@ fn check(context: &Context, findings: &mut Findings) {
                     continue;
                 };
                 let same_link = shapes.link(kind, i) == shapes.link(kind, j);
-                let pair = statistics.as_ref().and_then(|s| Pair::read(s, i, j));
+                let pair = pairs.as_ref().and_then(|pairs| pairs.read(i, j));
                 let sound = pair.filter(Pair::in_order);
                 let expected = match same_link {
                     true => Some(true),
                     false => sound.as_ref().and_then(Pair::always),
                 };
-                if skip != mirror || expected.is_none_or(|expected| expected == skip) {
+                let right = expected.is_none_or(|expected| expected == skip);
+                if skip != mirror || right || tangled.pair(i, j) {
                     continue;
                 }
                 fold.add(|| {

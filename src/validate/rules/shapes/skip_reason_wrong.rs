@@ -6,9 +6,10 @@ use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::{at, reasons, skips, statistics};
-use crate::validate::views::shape_pair::Pair;
+use crate::validate::views::shape_matrices::{Elements, at, reasons, skips, statistics};
+use crate::validate::views::shape_pair::{Pair, Pairs};
 use crate::validate::views::shapes::KINDS;
+use crate::validate::views::tangled::Tangled;
 
 declare_rule! {
     /// The reason given for a pair of shapes is not the first that applies.
@@ -55,6 +56,8 @@ fn check(context: &Context, findings: &mut Findings) {
         let Some(rows) = rows else {
             continue;
         };
+        let tangled = Tangled::new(Elements::Reasons(rows));
+        let pairs = statistics.as_ref().map(Pairs::new);
         let mut fold = Fold::new(findings);
         for i in 0..rows.len() {
             for j in i..rows.len() {
@@ -67,9 +70,9 @@ fn check(context: &Context, findings: &mut Findings) {
                 };
                 let expected = match a == b {
                     true => Some(SkipReason::SameLink),
-                    false => statistics
+                    false => pairs
                         .as_ref()
-                        .and_then(|statistics| Pair::read(statistics, i, j))
+                        .and_then(|pairs| pairs.read(i, j))
                         .filter(Pair::in_order)
                         .and_then(|pair| first_reason(&pair, joined.contains(&ordered(a, b)))),
                 };
@@ -79,7 +82,8 @@ fn check(context: &Context, findings: &mut Findings) {
                 // Where the skip itself is wrong, SHP011 says so.
                 let skipped = matches!(expected, SkipReason::SameLink | SkipReason::Always);
                 let skip = skips.and_then(|skips| at(skips, i, j)).unwrap_or(skipped);
-                if reason != mirror || reason == expected || (i != j && skip != skipped) {
+                let tangled = reason != mirror || tangled.pair(i, j);
+                if tangled || reason == expected || (i != j && skip != skipped) {
                     continue;
                 }
                 fold.add(|| {

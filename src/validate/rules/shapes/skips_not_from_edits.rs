@@ -5,8 +5,9 @@ use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::{at, skips, skips_pointer};
+use crate::validate::views::shape_matrices::{Elements, at, skips, skips_pointer};
 use crate::validate::views::shapes::KINDS;
+use crate::validate::views::tangled::Tangled;
 
 declare_rule! {
     /// A skip is not the simple skip with the edits applied.
@@ -59,6 +60,8 @@ fn check(context: &Context, findings: &mut Findings) {
         let (Some(simple), Some(rows)) = (simple, rows) else {
             continue;
         };
+        let tangled = Tangled::new(Elements::Skips(rows));
+        let tangled_simple = Tangled::new(Elements::Skips(simple));
         let mut fold = Fold::new(findings);
         for i in 0..rows.len() {
             for j in i + 1..rows.len() {
@@ -70,9 +73,11 @@ fn check(context: &Context, findings: &mut Findings) {
                 };
                 let edit = last.get(&(a.min(b), a.max(b))).copied();
                 // A pair whose two elements differ is SHP006's, here and in the simple skips.
-                let plain = at(simple, i, j).filter(|skip| at(simple, j, i) == Some(*skip));
+                let plain = at(simple, i, j)
+                    .filter(|skip| at(simple, j, i) == Some(*skip) && !tangled_simple.pair(i, j));
                 let expected = edit.map(|(_, skip)| skip).or(plain);
-                if skip != mirror || expected.is_none_or(|expected| expected == skip) {
+                let right = expected.is_none_or(|expected| expected == skip);
+                if skip != mirror || right || tangled.pair(i, j) {
                     continue;
                 }
                 fold.add(|| {

@@ -4,7 +4,7 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
 use crate::validate::views::shape_matrices::statistics;
-use crate::validate::views::shape_pair::Pair;
+use crate::validate::views::shape_pair::Pairs;
 use crate::validate::views::shapes::KINDS;
 
 declare_rule! {
@@ -31,11 +31,12 @@ fn check(context: &Context, findings: &mut Findings) {
             continue;
         };
         let [mean_key, ..] = one.keys;
+        let pairs = Pairs::new(&one);
         let mut fold = Fold::new(findings);
         for i in 0..one.mean.len() {
             for j in i + 1..one.mean.len() {
                 // Pairs of two minds and negative distances are other rules' business.
-                let Some(pair) = Pair::read(&one, i, j) else {
+                let Some(pair) = pairs.read(i, j) else {
                     continue;
                 };
                 if pair.in_order() {

@@ -18,6 +18,7 @@ declare_rule! {
         NotFailed(URD004),
         NotFailed(URD007),
         NotFailed(CHN001),
+        NotFailed(URD002),
     ],
     check check,
 }
