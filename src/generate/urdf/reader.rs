@@ -1,0 +1,269 @@
+//! From the XML to the robot.
+
+use std::ops::Range;
+
+use roxmltree::Document;
+
+use super::numbers::{self, Numbers};
+use super::tree;
+use super::xml::{self, Element};
+use super::{Edit, Reading};
+use crate::format::urdf as v1;
+use crate::generate::fault::Fault;
+use crate::generate::note::{NoteKind, Remark};
+
+/// Most links, joints or elements of a kind: indices are of 32 bits.
+const MOST: usize = 10_000_000;
+
+/// Reads the robot of a document, and says what makes it none.
+pub(super) fn read(document: &Document<'_>, file_stem: &str) -> (Reading, Vec<(usize, Fault)>) {
+    let mut reader = Reader::default();
+    reader.robot(document.root_element(), file_stem);
+    let Reader {
+        mut reading,
+        faults,
+        ..
+    } = reader;
+    reading.remarks.sort_by_key(|remark| remark.offset);
+    (reading, faults)
+}
+
+/// Where the parts of a joint stand.
+#[derive(Debug, Clone, Default)]
+pub(super) struct JointPlace {
+    pub joint: usize,
+    pub parent: usize,
+    pub child: usize,
+    pub axis: usize,
+    pub mimic: Range<usize>,
+}
+
+#[derive(Default)]
+pub(super) struct Reader {
+    pub(super) reading: Reading,
+    pub(super) faults: Vec<(usize, Fault)>,
+    pub(super) link_places: Vec<usize>,
+    pub(super) joint_places: Vec<JointPlace>,
+}
+
+impl Reader {
+    pub(super) fn fault(&mut self, offset: usize, fault: Fault) {
+        self.faults.push((offset, fault));
+    }
+
+    pub(super) fn remark(
+        &mut self,
+        kind: NoteKind,
+        offset: usize,
+        problem: String,
+        assumed: impl Into<String>,
+    ) {
+        self.reading.remarks.push(Remark {
+            kind,
+            offset,
+            problem,
+            assumed: assumed.into(),
+        });
+    }
+
+    pub(super) fn edit(&mut self, range: Range<usize>, text: impl Into<String>) {
+        let text = text.into();
+        self.reading.edits.push(Edit { range, text });
+    }
+
+    /// Takes an attribute out of the text, with the white space before it.
+    fn remove_attribute(&mut self, element: Element<'_>, attribute: Range<usize>) {
+        let text = element.document().input_text();
+        let before = text[..attribute.start].trim_end().len();
+        self.edit(before..attribute.end, "");
+    }
+
+    /// The first element of a name in another; others do not count.
+    pub(super) fn only<'a>(&mut self, parent: Element<'a>, name: &str) -> Option<Element<'a>> {
+        let mut found = xml::children(parent).filter(|(found, _)| *found == name);
+        let (_, first) = found.next()?;
+        for (_, again) in found {
+            let problem = format!("another `<{name}>` in one `<{}>`", xml::name(parent));
+            self.remark(
+                NoteKind::Repeated,
+                again.range().start,
+                problem,
+                "the first counts",
+            );
+        }
+        Some(first)
+    }
+
+    pub(super) fn text(element: Element<'_>, attribute: &str) -> Option<String> {
+        xml::attribute(element, attribute).map(|found| found.value().to_owned())
+    }
+
+    pub(super) fn needed(
+        &mut self,
+        element: Element<'_>,
+        name: &'static str,
+        attribute: &'static str,
+    ) -> Option<String> {
+        let text = Self::text(element, attribute);
+        if text.is_none() {
+            let fault = Fault::MissingAttribute {
+                element: name,
+                attribute,
+            };
+            self.fault(element.range().start, fault);
+        }
+        text
+    }
+
+    /// An attribute of `N` numbers. One that is something else counts as absent, and is taken out
+    /// of the text; one with a number that is not finite counts as absent too (SPEC 6.1.8).
+    pub(super) fn vector<const N: usize>(
+        &mut self,
+        element: Element<'_>,
+        attribute: &str,
+    ) -> Option<[f64; N]> {
+        let found = xml::attribute(element, attribute)?;
+        let what = || {
+            let element = xml::name(element);
+            format!(
+                "`{attribute}` of `<{element}>` is `{}`",
+                shortened(found.value())
+            )
+        };
+        match numbers::read(found.value()) {
+            Numbers::Finite(numbers) => Some(numbers),
+            Numbers::NotFinite => {
+                let problem = format!("{}: not finite", what());
+                let assumed = "taken as absent";
+                self.remark(NoteKind::NotFinite, found.range().start, problem, assumed);
+                None
+            }
+            Numbers::Wrong => {
+                let problem = format!("{}, and should be {}", what(), numbers::what(N));
+                if let Some(numbers) = completed(attribute, found.value()) {
+                    let words: Vec<String> = numbers.iter().map(f64::to_string).collect();
+                    let text = words.join(" ");
+                    let assumed = format!("read as `{text}`");
+                    self.remark(NoteKind::Numbers, found.range().start, problem, assumed);
+                    self.edit(found.range_value(), text);
+                    return numbers.try_into().ok();
+                }
+                let assumed = "taken as absent";
+                self.remark(NoteKind::Numbers, found.range().start, problem, assumed);
+                self.remove_attribute(element, found.range());
+                None
+            }
+        }
+    }
+
+    pub(super) fn number(&mut self, element: Element<'_>, attribute: &str) -> Option<f64> {
+        self.vector::<1>(element, attribute).map(|[number]| number)
+    }
+
+    /// The elements that URDF does not define, as text.
+    pub(super) fn unknown(&mut self, parent: Element<'_>, known: &[&str]) -> Vec<String> {
+        let mut unknown = Vec::new();
+        for (name, element) in xml::children(parent) {
+            if known.contains(&name) {
+                continue;
+            }
+            if name.starts_with("xacro:") {
+                self.reading.has_xacro = true;
+                let problem = format!("`<{name}>` is a macro that was not expanded");
+                let assumed = "kept as text, without effect";
+                self.remark(
+                    NoteKind::XacroLeftOver,
+                    element.range().start,
+                    problem,
+                    assumed,
+                );
+            }
+            unknown.push(xml::verbatim(element));
+        }
+        unknown
+    }
+
+    fn robot(&mut self, robot: Element<'_>, file_stem: &str) {
+        let offset = robot.range().start;
+        let name = xml::name(robot);
+        if name != "robot" {
+            self.fault(offset, Fault::NotRobot(shortened(name)));
+            return;
+        }
+        let name = Self::text(robot, "name").unwrap_or_else(|| {
+            let problem = "`<robot>` has no name".to_owned();
+            let assumed = format!("named `{file_stem}`, after the file");
+            self.remark(NoteKind::RobotName, offset, problem, assumed);
+            let start = offset + "<robot".len();
+            self.edit(start..start, format!(" name=\"{}\"", escaped(file_stem)));
+            file_stem.to_owned()
+        });
+        self.reading.robot.name = name;
+        self.reading.robot.version = Self::text(robot, "version");
+        self.reading.robot.unknown_elements = self.unknown(robot, &["link", "joint", "material"]);
+        for (name, element) in xml::children(robot) {
+            match name {
+                "link" => {
+                    if let Some(link) = self.link(element) {
+                        self.reading.robot.links.push(link);
+                        self.link_places.push(element.range().start);
+                    }
+                }
+                "joint" => self.joint(element),
+                "material" => {
+                    let material = self.material(element);
+                    self.reading.robot.materials.push(material);
+                }
+                _ => {}
+            }
+        }
+        let robot = &self.reading.robot;
+        if robot.links.len() > MOST || robot.joints.len() > MOST {
+            self.fault(offset, Fault::TooMany(MOST as u32));
+            return;
+        }
+        if self.faults.is_empty() {
+            tree::check(self, offset);
+        }
+    }
+
+    pub(super) fn origin(&mut self, parent: Element<'_>) -> Option<v1::Origin> {
+        let origin = self.only(parent, "origin")?;
+        Some(v1::Origin {
+            xyz: self.vector(origin, "xyz"),
+            rpy: self.vector(origin, "rpy"),
+        })
+    }
+}
+
+/// Numbers of which some are left out, where there is one way to read them: one factor of a scale
+/// is that of all axes, and a colour without opacity is opaque.
+fn completed(attribute: &str, text: &str) -> Option<Vec<f64>> {
+    let mut numbers = numbers::words(text)?;
+    if numbers.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    match (attribute, numbers.len()) {
+        ("scale", 1) => Some(vec![numbers[0]; 3]),
+        ("rgba", 3) => {
+            numbers.push(1.0);
+            Some(numbers)
+        }
+        _ => None,
+    }
+}
+
+/// Text for a message.
+pub(super) fn shortened(text: &str) -> String {
+    const LONGEST: usize = 60;
+    let mut short: String = text.chars().take(LONGEST).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short.replace(char::is_control, " ")
+}
+
+fn escaped(text: &str) -> String {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    text.replace('"', "&quot;")
+}
