@@ -144,6 +144,75 @@ fn a_folder_that_may_not_be_read() {
     assert_findings(&outcome, &["DIR023"]);
 }
 
+/// The program as a user who may not read everything: as root, another user's number.
+#[cfg(unix)]
+fn as_plain_user(command: &mut Command) -> &mut Command {
+    use std::os::unix::process::CommandExt;
+    let closed = tempfile::tempdir().expect("a folder");
+    let may_read_all = {
+        use std::os::unix::fs::PermissionsExt;
+        fs::set_permissions(closed.path(), fs::Permissions::from_mode(0o000)).expect("closed");
+        fs::read_dir(closed.path()).is_ok()
+    };
+    if may_read_all {
+        command.uid(65534).gid(65534)
+    } else {
+        command
+    }
+}
+
+/// A folder among URDDs that cannot be listed may hold URDDs: passing it over would be a pass that
+/// means nothing.
+#[cfg(unix)]
+#[test]
+fn a_closed_folder_among_urdds() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = folder.path().join("urdd");
+    fs::copy(env!("CARGO_BIN_EXE_urdd"), &program).expect("a copy that anyone can run");
+    fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).expect("open");
+    let robots = folder.path().join("robots");
+    let mut toy = Fixture::toy();
+    toy.seal();
+    toy.write_to(&robots.join("toy"));
+    let closed = robots.join("vendor/closed");
+    fs::create_dir_all(&closed).expect("a folder");
+    let run = || {
+        as_plain_user(Command::new(&program).arg("validate").arg(&robots))
+            .output()
+            .expect("the program")
+    };
+    let before = run();
+    assert_eq!(
+        before.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&before.stderr)
+    );
+    fs::set_permissions(&closed, fs::Permissions::from_mode(0o000)).expect("closed");
+    let output = run();
+    fs::set_permissions(&closed, fs::Permissions::from_mode(0o755)).expect("open");
+    assert_eq!(output.status.code(), Some(1));
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        text.contains("vendor/closed UNREADABLE") && text.contains("permission denied"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_folder_too_deep_to_search() {
+    let outcome = examine(|root| {
+        fs::create_dir_all(root.join("a/".repeat(40))).expect("folders");
+    });
+    assert_eq!(outcome.status, 2);
+    assert!(
+        outcome.stdout.contains("deeper than 32"),
+        "{}",
+        outcome.stdout
+    );
+}
+
 #[test]
 fn a_version_alone() {
     let outcome = examine(|root| {

@@ -4,6 +4,7 @@
 mod support;
 
 use std::collections::BTreeSet;
+use std::fs;
 use std::path::Path;
 use std::process::Command;
 
@@ -147,4 +148,38 @@ fn difference(ours: &Value, theirs: &Value, at: &str) -> Option<String> {
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or(f64::NAN)
+}
+
+/// The robots and meshes in `conformance/robots` are what `make/make_robots.py` writes.
+#[test]
+#[ignore = "needs python3; .ci/run runs it"]
+fn our_robots_are_what_their_script_writes() {
+    let robots = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/robots");
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = Command::new("python3")
+        .arg(robots.join("make/make_robots.py"))
+        .arg(folder.path())
+        .output()
+        .unwrap_or_else(|e| panic!("this test runs python3, which must be on the PATH: {e}"));
+    assert!(output.status.success(), "{output:?}");
+    let mut written = 0;
+    let mut folders = vec![folder.path().to_owned()];
+    while let Some(next) = folders.pop() {
+        for entry in fs::read_dir(next).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let name = path.strip_prefix(folder.path()).expect("below it");
+            let ours = fs::read(robots.join(name)).unwrap_or_default();
+            assert!(
+                ours == fs::read(&path).expect("written"),
+                "{} is not what the script writes: run it",
+                name.display()
+            );
+            written += 1;
+        }
+    }
+    assert!(written >= 20, "{written} files");
 }

@@ -47,6 +47,9 @@ fn tell(arguments: &InfoArguments) -> Result<String, String> {
     let mut infos = Vec::new();
     for path in &arguments.paths {
         for found in discover(path).map_err(|error| error.to_string())? {
+            if let Some(error) = found.closed {
+                return Err(format!("{}: {error}", found.name));
+            }
             let info = Info::read(&found.path, &found.name)
                 .map_err(|error| format!("{}: {error}", found.name))?;
             infos.push(info);

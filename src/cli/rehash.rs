@@ -31,7 +31,9 @@ pub fn run(arguments: &RehashArguments) -> ExitCode {
             }
         };
         for urdd in found {
-            let changed = Root::open(&urdd.path)
+            let changed = urdd
+                .closed
+                .map_or_else(|| Root::open(&urdd.path), Err)
                 .map_err(|error| error.to_string())
                 .and_then(|root| rehash(&root).map_err(|error| error.to_string()));
             match changed {

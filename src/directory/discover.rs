@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
+use super::root::ReadError;
 use crate::format::registry::ModuleKind;
 
 /// Name of the root metadata file.
@@ -19,6 +20,9 @@ pub struct Found {
     /// How reports call it: its path from the searched folder, with forward slashes, or the
     /// searched folder's own name.
     pub name: String,
+    /// Why it cannot be looked into, so that URDDs may be missed: a folder that cannot be listed, or
+    /// that lies too deep.
+    pub closed: Option<ReadError>,
 }
 
 /// Why there is nothing to examine under a path.
@@ -54,7 +58,20 @@ pub enum DiscoverError {
         /// What the operating system said.
         reason: String,
     },
+    /// A folder with more below it than is searched.
+    #[error(
+        "{path}: more than {limit} files and folders: give the URDDs themselves, or smaller folders"
+    )]
+    TooMany {
+        /// The path as given.
+        path: String,
+        /// How many are looked at.
+        limit: usize,
+    },
 }
+
+/// Most entries of folders that are looked at in search of URDDs.
+const MAX_VISITED: usize = 10 * MAX_FILES;
 
 /// Whether a folder is the root of a URDD: it holds `urdd.json`, or a module's folder.
 pub fn is_urdd(folder: &Path) -> bool {
@@ -65,7 +82,8 @@ pub fn is_urdd(folder: &Path) -> bool {
 }
 
 /// Finds every URDD at or below a path, at any depth, in order of path. A URDD is not searched for
-/// more of them; symbolic links below `path` are not followed.
+/// more of them; symbolic links below `path` are not followed. A folder that cannot be searched is
+/// among the found, closed.
 ///
 /// # Errors
 /// Where the path holds none, or cannot be searched.
@@ -90,6 +108,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
         return Ok(vec![Found {
             path: path.to_owned(),
             name,
+            closed: None,
         }]);
     }
     if let Err(error) = fs::read_dir(&canonical) {
@@ -102,14 +121,34 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
     let mut visited = 0;
     let mut folders = vec![(path.to_owned(), String::new(), 0)];
     while let Some((folder, prefix, depth)) = folders.pop() {
-        let Ok(entries) = fs::read_dir(&folder) else {
-            continue;
+        let entries = match fs::read_dir(&folder) {
+            Ok(_) if depth >= MAX_FOLDER_DEPTH => Err(ReadError::Io(format!(
+                "it lies deeper than {MAX_FOLDER_DEPTH} folders; give its path to examine it"
+            ))),
+            Ok(entries) => Ok(entries),
+            Err(error) => Err(ReadError::from_io(&error)),
+        };
+        let entries = match entries {
+            Ok(entries) => entries,
+            Err(error) => {
+                found.push(Found {
+                    path: folder,
+                    name: prefix,
+                    closed: Some(error),
+                });
+                continue;
+            }
         };
         for entry in entries.flatten() {
             visited += 1;
+            if visited > MAX_VISITED {
+                return Err(DiscoverError::TooMany {
+                    path: shown,
+                    limit: MAX_VISITED,
+                });
+            }
             // Not followed: a link may lead in a circle, or anywhere.
-            let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
-            if !is_folder || depth + 1 >= MAX_FOLDER_DEPTH || visited > 10 * MAX_FILES {
+            if !entry.file_type().is_ok_and(|kind| kind.is_dir()) {
                 continue;
             }
             let name = entry.file_name().to_string_lossy().into_owned();
@@ -122,6 +161,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
                 found.push(Found {
                     path: entry.path(),
                     name,
+                    closed: None,
                 });
             } else {
                 folders.push((entry.path(), name, depth + 1));

@@ -39,7 +39,7 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    fn from_io(error: &io::Error) -> Self {
+    pub(super) fn from_io(error: &io::Error) -> Self {
         match error.kind() {
             io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => ReadError::Missing,
             io::ErrorKind::PermissionDenied => ReadError::Io("permission denied".to_owned()),

@@ -38,5 +38,8 @@ object! {
         /// Files that the mesh names in turn (`.mtl`, `.bin`, textures), relative to the URDD's root,
         /// sorted. They lie where the mesh expects them.
         pub side_files: Vec<String>,
+        /// Whether the file can be read as a mesh, and has a triangle with an area. Where not, elements
+        /// that name it have no surface.
+        pub usable: bool,
     }
 }

@@ -131,6 +131,9 @@ fn examine(
     settings: &Settings,
     rules: &[&'static Rule],
 ) -> Result<Examined, ReadError> {
+    if let Some(error) = &found.closed {
+        return Err(error.clone());
+    }
     let loaded = Loaded::read(&found.path)?;
     let context = Context::new(loaded, settings.class);
     let checks = engine::run(&context, rules);

@@ -211,6 +211,7 @@ fn original_meshes_module(
                     let entry = OriginalMesh {
                         path: path.clone(),
                         side_files: side.into_iter().collect(),
+                        usable: true,
                     };
                     carried.insert(path.clone(), entry);
                     path

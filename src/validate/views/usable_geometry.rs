@@ -7,11 +7,11 @@ use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::format::urdf::Geometry;
 use crate::validate::context::Context;
 
-/// Which elements of a robot's links can be made a mesh: those with a surface, but for meshes that
-/// could not be carried.
+/// Which elements of a robot's links can be made a mesh: those with a surface. A mesh that
+/// could not be carried has none.
 pub struct UsableGeometry<'a> {
     context: &'a Context,
-    /// Link, kind, element of meshes that could not be carried.
+    /// Link, kind, element of meshes that could not be carried, or have no surface.
     lost: HashSet<(usize, GeometryKind, usize)>,
     /// Links whose visual meshes a legacy module does not carry.
     lost_legacy: HashSet<usize>,
@@ -27,7 +27,18 @@ impl<'a> UsableGeometry<'a> {
         };
         match context.document(ModuleKind::OriginalMeshes) {
             Some(ModuleDocument::OriginalMeshes(module)) => {
-                let lost = module.references.iter().filter(|r| r.path.is_none());
+                let bare: HashSet<&String> = module
+                    .files
+                    .iter()
+                    .filter(|file| !file.usable)
+                    .map(|file| &file.path)
+                    .collect();
+                let lost = module.references.iter().filter(|reference| {
+                    reference
+                        .path
+                        .as_ref()
+                        .is_none_or(|path| bare.contains(path))
+                });
                 usable.lost = lost
                     .map(|r| (r.link_idx.get(), r.geometry, r.element_idx.get()))
                     .collect();
