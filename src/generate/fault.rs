@@ -89,7 +89,7 @@ pub enum Fault {
         first: String,
     },
     /// No link.
-    #[error("there is no `<link>`")]
+    #[error("there is no `<link>` in `<robot>`")]
     NoLinks,
     /// Links that no joint holds together.
     #[error(
@@ -122,6 +122,9 @@ pub enum Fault {
         /// The axis as written.
         axis: String,
     },
+    /// Poses beyond 64-bit numbers.
+    #[error("the links have no poses: {0}")]
+    NoPoses(String),
     /// More than the format counts.
     #[error("there are more than {0} elements")]
     TooMany(u32),

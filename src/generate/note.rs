@@ -31,8 +31,6 @@ pub enum NoteKind {
     Material,
     /// A mesh that cannot be carried.
     Mesh,
-    /// A module that cannot be made of this robot.
-    LeftOut,
 }
 
 impl NoteKind {
@@ -51,7 +49,6 @@ impl NoteKind {
         NoteKind::Repeated,
         NoteKind::Material,
         NoteKind::Mesh,
-        NoteKind::LeftOut,
     ];
 
     /// Its word, for programs.
@@ -70,7 +67,6 @@ impl NoteKind {
             NoteKind::Repeated => "repeated",
             NoteKind::Material => "material",
             NoteKind::Mesh => "mesh",
-            NoteKind::LeftOut => "left-out",
         }
     }
 }

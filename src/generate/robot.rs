@@ -116,13 +116,12 @@ pub fn generate(
     let (mut entries, mut modules) = (Vec::new(), Vec::new());
     for (done, stage) in stages.iter().enumerate() {
         progress.module(stage.kind, done, stages.len());
-        if let Some((entry, kept)) = run(stage, &mut work, &writer, old.as_ref(), &entries)? {
-            entries.push(entry);
-            modules.push(MadeModule {
-                kind: stage.kind,
-                kept,
-            });
-        }
+        let (entry, kept) = run(stage, &mut work, &writer, old.as_ref(), &entries)?;
+        entries.push(entry);
+        modules.push(MadeModule {
+            kind: stage.kind,
+            kept,
+        });
     }
     let num_dofs = work.dof.dofs.len();
     let mut notes = source.notes.clone();
@@ -203,7 +202,7 @@ fn run(
     writer: &Writer,
     old: Option<&Old>,
     entries: &[Entry],
-) -> Result<Option<(Entry, bool)>, GenerateError> {
+) -> Result<(Entry, bool), GenerateError> {
     let kind = stage.kind;
     let inputs = (stage.settings)(work).map(|text| metadata::inputs(kind, &text, entries));
     if let (Some(old), Some(inputs)) = (old, &inputs)
@@ -213,11 +212,9 @@ fn run(
             writer.keep(&old.root.path().join(&file.path), &file.path)?;
         }
         let entry = metadata::entry(kind, files.to_vec(), Some(inputs.clone()));
-        return Ok(Some((entry, true)));
+        return Ok((entry, true));
     }
-    let Some(Made { document, files }) = (stage.make)(work)? else {
-        return Ok(None);
-    };
+    let Made { document, files } = (stage.make)(work)?;
     let mut written: Vec<FileEntry> = writer.module(kind, metadata::MODULE_VERSION, &document)?;
     for file in files {
         written.push(match file.content {
@@ -225,7 +222,7 @@ fn run(
             Content::CopyOf(from) => writer.copy(&from, &file.path)?,
         });
     }
-    Ok(Some((metadata::entry(kind, written, inputs), false)))
+    Ok((metadata::entry(kind, written, inputs), false))
 }
 
 /// Whether the URDD before is the same to the byte: its metadata, and each file as that says.

@@ -10,8 +10,9 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::error::GenerateError;
+use super::fault::{Fault, PlacedFault};
 use super::meshes::original::{OriginalMeshes, original_meshes};
-use super::note::{Note, NoteKind};
+use super::note::Note;
 use super::old::Old;
 use super::robot::Settings;
 use super::source::Source;
@@ -19,6 +20,7 @@ use super::{bounds, chain, connections, dof, kinematics_samples};
 use crate::format::bounds::BoundsModule;
 use crate::format::chain::ChainModule;
 use crate::format::dof::DofModule;
+use crate::format::kinematics_samples::KinematicsSamplesModule;
 use crate::format::registry::ModuleKind;
 
 /// What stages work with.
@@ -35,6 +37,7 @@ pub(super) struct Work<'a> {
     pub dof: DofModule,
     pub chain: ChainModule,
     pub bounds: BoundsModule,
+    pub samples: KinematicsSamplesModule,
     pub original: Option<OriginalMeshes>,
     pub notes: Vec<Note>,
 }
@@ -43,7 +46,7 @@ impl<'a> Work<'a> {
     /// With what nearly every stage needs, and takes no time to make.
     ///
     /// # Errors
-    /// Where mimics are beyond 64-bit numbers.
+    /// Where mimics or poses are beyond 64-bit numbers.
     pub fn new(
         source: &'a Source,
         settings: &'a Settings,
@@ -53,17 +56,22 @@ impl<'a> Work<'a> {
         let reading = &source.reading;
         let refused = |fault| GenerateError::Refused {
             file: source.shown.clone(),
-            faults: vec![super::fault::PlacedFault {
+            faults: vec![PlacedFault {
                 line: 1,
                 column: 1,
                 fault,
             }],
         };
         let dof = dof::dof_module(&reading.robot, &reading.tree).map_err(refused)?;
+        let chain = chain::chain_module(&reading.robot, &reading.tree);
+        let bounds = bounds::bounds_module(&reading.robot, &dof);
+        let samples = kinematics_samples::kinematics_samples_module(&dof, &chain, &bounds)
+            .map_err(|error| refused(Fault::NoPoses(error.to_string())))?;
         Ok(Work {
-            chain: chain::chain_module(&reading.robot, &reading.tree),
-            bounds: bounds::bounds_module(&reading.robot, &dof),
             dof,
+            chain,
+            bounds,
+            samples,
             source,
             settings,
             root: root.to_owned(),
@@ -71,18 +79,6 @@ impl<'a> Work<'a> {
             original: None,
             notes: Vec::new(),
         })
-    }
-
-    /// Notes that a module is not made.
-    fn leave_out(&mut self, kind: ModuleKind, problem: String) {
-        self.notes.push(Note {
-            kind: NoteKind::LeftOut,
-            file: self.source.shown.clone(),
-            line: 0,
-            column: 0,
-            problem,
-            assumed: format!("{} is left out", kind.name()),
-        });
     }
 }
 
@@ -114,8 +110,8 @@ pub(super) struct Stage {
     /// What the module depends on besides those of [`ModuleKind::depends_on`], as text; `None` for a
     /// module that is made anew each time, since that takes no time.
     pub settings: fn(&Work) -> Option<String>,
-    /// Makes the module; `None` where the robot has no such module, which it notes.
-    pub make: fn(&mut Work) -> Result<Option<Made>, GenerateError>,
+    /// Makes the module.
+    pub make: fn(&mut Work) -> Result<Made, GenerateError>,
 }
 
 /// Every stage, in the order of the specification.
@@ -148,7 +144,7 @@ const STAGES: &[Stage] = &[
     Stage {
         kind: ModuleKind::KinematicsSamples,
         settings: |_| None,
-        make: samples,
+        make: |work| document(&work.samples),
     },
     Stage {
         kind: ModuleKind::OriginalMeshes,
@@ -167,27 +163,16 @@ pub(super) fn of(kind: ModuleKind) -> Option<&'static Stage> {
     STAGES.iter().find(|stage| stage.kind == kind)
 }
 
-fn document(module: &impl Serialize) -> Result<Option<Made>, GenerateError> {
+fn document(module: &impl Serialize) -> Result<Made, GenerateError> {
     let document = serde_json::to_value(module).map_err(|error| GenerateError::Internal {
         file: String::new(),
         reason: error.to_string(),
     })?;
     let files = Vec::new();
-    Ok(Some(Made { document, files }))
+    Ok(Made { document, files })
 }
 
-fn samples(work: &mut Work) -> Result<Option<Made>, GenerateError> {
-    let made = kinematics_samples::kinematics_samples_module(&work.dof, &work.chain, &work.bounds);
-    match made {
-        Ok(module) => document(&module),
-        Err(error) => {
-            work.leave_out(ModuleKind::KinematicsSamples, error.to_string());
-            Ok(None)
-        }
-    }
-}
-
-fn meshes(work: &mut Work) -> Result<Option<Made>, GenerateError> {
+fn meshes(work: &mut Work) -> Result<Made, GenerateError> {
     let source = work.source;
     let mut original = original_meshes(
         &source.reading.robot,
@@ -202,7 +187,7 @@ fn meshes(work: &mut Work) -> Result<Option<Made>, GenerateError> {
         content: Content::CopyOf(from.clone()),
     });
     let files = files.collect();
-    let made = document(&original.module)?.map(|made| Made { files, ..made });
+    let made = document(&original.module)?;
     work.original = Some(original);
-    Ok(made)
+    Ok(Made { files, ..made })
 }

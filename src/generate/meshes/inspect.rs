@@ -1,24 +1,22 @@
-//! What a mesh file needs besides itself, and whether it can be read at all.
+//! What a mesh file needs besides itself, and whether it can be read as a mesh.
 
 use std::path::{Path, PathBuf};
 
-/// A file that a mesh names in turn.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct SideFile {
-    /// Where it is.
-    pub file: PathBuf,
-    /// How the mesh names it: relative to the mesh's folder, with forward slashes.
-    pub name: String,
+/// What is known of a mesh file.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Inspected {
+    /// The files that the mesh names (`.mtl`, `.bin`, textures), as far as they are there.
+    pub side_files: Vec<PathBuf>,
+    /// Why it is no mesh with a surface, in words; `None` for one that is.
+    pub unusable: Option<String>,
+    /// Files that it names and that are not there, as it names them.
+    pub missing: Vec<String>,
 }
 
-/// The files that a mesh names (`.mtl`, `.bin`, textures), as far as they are there.
+/// Looks into a mesh file.
 ///
-/// The place for the mesh readers of `geometry`: they say which files a mesh names, and which mesh
-/// cannot be read. One that cannot is not carried, since an element with a carried mesh must have a
-/// plain mesh (SPEC 7.2).
-///
-/// # Errors
-/// Where the mesh cannot be read: why, in words.
-pub(crate) fn side_files(_mesh: &Path) -> Result<Vec<SideFile>, String> {
-    Ok(Vec::new())
+/// This is the place for the mesh readers of `geometry`; without them every file counts as a mesh
+/// that names no other.
+pub(crate) fn inspect(_mesh: &Path) -> Inspected {
+    Inspected::default()
 }

@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use super::inspect;
+use super::inspect::{Inspected, inspect};
 use super::layout::lay_out;
 use super::package::Packages;
-use super::resolve::{FoundMesh, Home, NotFound, resolve};
+use super::resolve::{Home, resolve};
 use crate::format::index::{ElementIdx, LinkIdx};
 use crate::format::meshes::GeometryKind;
 use crate::format::original_meshes::{MeshReference, OriginalMesh, OriginalMeshesModule};
@@ -43,11 +43,12 @@ pub(crate) fn original_meshes(
     let mut notes = Vec::new();
     let mut known: BTreeMap<&str, Option<PathBuf>> = BTreeMap::new();
     let mut homes: BTreeMap<PathBuf, Home> = BTreeMap::new();
-    let mut side_files: BTreeMap<PathBuf, Vec<PathBuf>> = BTreeMap::new();
+    let mut inspected: BTreeMap<PathBuf, Inspected> = BTreeMap::new();
     for (mesh, place) in named.iter().zip(places) {
         if known.contains_key(mesh.filename) {
             continue;
         }
+        let name = mesh.filename;
         let mut note = |problem: String, assumed: &str| {
             notes.push(Note {
                 kind: NoteKind::Mesh,
@@ -58,45 +59,56 @@ pub(crate) fn original_meshes(
                 assumed: assumed.to_owned(),
             });
         };
-        let found = find(mesh.filename, urdf_folder, packages);
-        let file = match found {
-            Ok((found, beside)) => {
-                if let Some(assumed) = &found.assumed {
-                    let problem = format!("mesh `{}` is not written as files are", mesh.filename);
-                    note(problem, assumed);
-                }
-                for file in &beside {
-                    homes
-                        .entry(file.clone())
-                        .or_insert_with(|| found.home.clone());
-                }
-                // The first name that a file has decides what it belongs to.
-                homes.entry(found.file.clone()).or_insert(found.home);
-                side_files.insert(found.file.clone(), beside);
-                Some(found.file)
-            }
+        let found = match resolve(name, urdf_folder, packages) {
+            Ok(found) => found,
             Err(why) => {
-                let what = format!("mesh `{}` {why}", mesh.filename);
-                note(what, "not carried; the element has no geometry");
-                None
+                let problem = format!("mesh `{name}` was not found ({})", why.in_words());
+                note(problem, "not carried; the element has no surface");
+                known.insert(name, None);
+                continue;
             }
         };
-        known.insert(mesh.filename, file);
+        if let Some(assumed) = &found.assumed {
+            note(format!("mesh `{name}` is not named as files are"), assumed);
+        }
+        known.insert(name, Some(found.file.clone()));
+        if inspected.contains_key(&found.file) {
+            continue;
+        }
+        let inside = inspect(&found.file);
+        if let Some(why) = &inside.unusable {
+            let problem = format!(
+                "mesh `{name}` is not usable ({}: {why})",
+                found.file.display()
+            );
+            note(problem, "carried as it is; the element has no surface");
+        }
+        for missing in &inside.missing {
+            let problem = format!("mesh `{name}` names `{missing}`, which is not there");
+            note(problem, "the mesh is carried without it");
+        }
+        for file in inside.side_files.iter().chain([&found.file]) {
+            // The first mesh that brings a file along decides what it belongs to.
+            homes
+                .entry(file.clone())
+                .or_insert_with(|| found.home.clone());
+        }
+        inspected.insert(found.file, inside);
     }
     let folder = ModuleKind::OriginalMeshes.folder();
     let paths: BTreeMap<PathBuf, String> = lay_out(&homes)
         .into_iter()
         .map(|(file, name)| (file, format!("{folder}/meshes/{name}")))
         .collect();
-    let carried: BTreeSet<&PathBuf> = known.values().flatten().collect();
-    let mut files: Vec<OriginalMesh> = carried
-        .into_iter()
-        .map(|file| {
-            let beside = side_files[file].iter();
+    let mut files: Vec<OriginalMesh> = inspected
+        .iter()
+        .map(|(file, inside)| {
+            let beside = inside.side_files.iter().filter(|side| *side != file);
             let beside: BTreeSet<String> = beside.map(|file| paths[file].clone()).collect();
             OriginalMesh {
                 path: paths[file].clone(),
                 side_files: beside.into_iter().collect(),
+                usable: inside.unusable.is_none(),
             }
         })
         .collect();
@@ -118,21 +130,6 @@ pub(crate) fn original_meshes(
         files: paths.into_iter().map(|(file, path)| (path, file)).collect(),
         notes,
     }
-}
-
-/// The file of a mesh, and its side files.
-fn find(
-    filename: &str,
-    urdf_folder: &Path,
-    packages: &Packages,
-) -> Result<(FoundMesh, Vec<PathBuf>), String> {
-    let not_found = |why: NotFound| format!("was not found ({})", why.in_words());
-    let found = resolve(filename, urdf_folder, packages).map_err(not_found)?;
-    let beside = inspect::side_files(&found.file)
-        .map_err(|why| format!("cannot be read ({}: {why})", found.file.display()))?;
-    let beside = beside.into_iter().map(|side| side.file);
-    let beside = beside.filter(|file| *file != found.file).collect();
-    Ok((found, beside))
 }
 
 /// Every mesh of the URDF: links ascending, visual before collision, elements ascending.

@@ -140,13 +140,13 @@ impl Reader {
             }
             Numbers::Wrong => {
                 let problem = format!("{}, and should be {}", what(), numbers::what(N));
-                if let Some(numbers) = completed(attribute, found.value()) {
+                if let Some(numbers) = completed::<N>(attribute, found.value()) {
                     let words: Vec<String> = numbers.iter().map(f64::to_string).collect();
                     let text = words.join(" ");
                     let assumed = format!("read as `{text}`");
                     self.remark(NoteKind::Numbers, found.range().start, problem, assumed);
                     self.edit(found.range_value(), text);
-                    return numbers.try_into().ok();
+                    return Some(numbers);
                 }
                 let assumed = "taken as absent";
                 self.remark(NoteKind::Numbers, found.range().start, problem, assumed);
@@ -236,21 +236,21 @@ impl Reader {
     }
 }
 
-/// Numbers of which some are left out, where there is one way to read them: one factor of a scale
-/// is that of all axes, and a colour without opacity is opaque.
-fn completed(attribute: &str, text: &str) -> Option<Vec<f64>> {
-    let mut numbers = numbers::words(text)?;
-    if numbers.iter().any(|x| !x.is_finite()) {
-        return None;
-    }
+/// Numbers that are not as URDF writes them, where there is one way to read them: commas between all
+/// of them; one factor of a scale, for all axes; a colour without opacity, which is opaque.
+fn completed<const N: usize>(attribute: &str, text: &str) -> Option<[f64; N]> {
+    let between_commas = || {
+        let words = text.split(',').map(|word| word.trim().parse().ok());
+        words.collect::<Option<Vec<f64>>>()
+    };
+    let mut numbers = numbers::words(text).or_else(between_commas)?;
     match (attribute, numbers.len()) {
-        ("scale", 1) => Some(vec![numbers[0]; 3]),
-        ("rgba", 3) => {
-            numbers.push(1.0);
-            Some(numbers)
-        }
-        _ => None,
+        ("scale", 1) => numbers = vec![numbers[0]; 3],
+        ("rgba", 3) => numbers.push(1.0),
+        _ => {}
     }
+    let all_finite = numbers.iter().all(|x| x.is_finite());
+    <[f64; N]>::try_from(numbers).ok().filter(|_| all_finite)
 }
 
 /// Text for a message.
