@@ -107,3 +107,75 @@ fn descents(root_paths: &[LinkPath]) -> Vec<Vec<Option<Vec<LinkIdx>>>> {
     };
     (0..root_paths.len()).map(row).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::chain::chain_module;
+    use crate::generate::urdf;
+
+    /// Links in a line, which stand in the file from the far end to the root.
+    fn line(links: usize) -> ConnectionsModule {
+        let mut xml = "<robot name=\"line\">".to_owned();
+        for i in 0..links {
+            xml += &format!("<link name=\"l{i}\"/>");
+        }
+        for i in 1..links {
+            let above = i - 1;
+            xml += &format!(
+                "<joint name=\"j{i}\" type=\"fixed\"><parent link=\"l{i}\"/><child link=\"l{above}\"/></joint>"
+            );
+        }
+        let reading = urdf::read(&(xml + "</robot>"), "line").unwrap();
+        connections_module(&chain_module(&reading.robot, &reading.tree))
+    }
+
+    #[test]
+    fn paths_along_a_line_are_ranges() {
+        let count = 7;
+        let module = line(count);
+        let range = |from: usize, to: usize| -> Vec<LinkIdx> {
+            let up = (from..=to).map(|link| LinkIdx(link as u32));
+            let down = (to..=from).rev().map(|link| LinkIdx(link as u32));
+            if from <= to {
+                up.collect()
+            } else {
+                down.collect()
+            }
+        };
+        let pairs = module.link_to_link_paths.unwrap();
+        let descents = module.link_connection_paths.unwrap();
+        for i in 0..count {
+            // The root is the last.
+            assert_eq!(module.root_paths[i].links, range(count - 1, i));
+            for j in 0..count {
+                assert_eq!(
+                    module.lowest_common_ancestors[i][j],
+                    LinkIdx(i.max(j) as u32)
+                );
+                assert_eq!(pairs[i][j].links, range(i, j));
+                // Joint k is between links k and k + 1.
+                let joints: Vec<u32> = pairs[i][j].joints.iter().map(|joint| joint.0).collect();
+                let mut between: Vec<u32> = (i.min(j) as u32..i.max(j) as u32).collect();
+                if i > j {
+                    between.reverse();
+                }
+                assert_eq!(joints, between);
+                let below = match i.cmp(&j) {
+                    std::cmp::Ordering::Equal => Some(range(i, i)),
+                    std::cmp::Ordering::Greater => Some(range(i - 1, j)),
+                    std::cmp::Ordering::Less => None,
+                };
+                assert_eq!(descents[i][j], below);
+            }
+        }
+    }
+
+    #[test]
+    fn above_300_links_the_paths_of_pairs_are_left_out() {
+        assert!(line(300).link_to_link_paths.is_some());
+        let long = line(301);
+        assert!(long.link_to_link_paths.is_none() && long.link_connection_paths.is_none());
+        assert_eq!(long.root_paths[0].links.len(), 301);
+    }
+}

@@ -105,7 +105,7 @@ pub enum Fault {
     #[error("the joints go in a circle: {0}. A URDF is a tree")]
     Cycle(String),
     /// Mimics in a ring.
-    #[error("joint `{0}` mimics, in the end, itself")]
+    #[error("the mimic of joint `{0}` leads back to that joint")]
     MimicCircle(String),
     /// Mimics whose product is no number.
     #[error(
@@ -113,7 +113,9 @@ pub enum Fault {
     )]
     MimicOverflow(String),
     /// An axis without direction.
-    #[error("joint `{joint}` is {joint_type} about the axis `{axis}`, which has no direction")]
+    #[error(
+        "joint `{joint}` is {joint_type} about the axis `{axis}`, which has no direction; give it one, or make the joint fixed"
+    )]
     ZeroAxis {
         /// The joint.
         joint: String,
@@ -123,7 +125,7 @@ pub enum Fault {
         axis: String,
     },
     /// Poses beyond 64-bit numbers.
-    #[error("the links have no poses: {0}")]
+    #[error("the numbers are so large that no 64-bit number holds where the links are ({0})")]
     NoPoses(String),
     /// More than the format counts.
     #[error("there are more than {0} elements")]

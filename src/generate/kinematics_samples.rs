@@ -16,7 +16,7 @@ use crate::kinematics::{
 
 /// Sampled configurations in the module, besides the four others: enough that a consumer with a
 /// wrong sign or order cannot pass by chance, and few enough to read.
-pub const NUM_SAMPLED: u32 = 8;
+pub const NUM_SAMPLED: u32 = 16;
 
 /// Why there are no samples: numbers beyond what 64 bits hold.
 #[derive(Debug, Error)]

@@ -176,7 +176,7 @@ fn each_has_its_message() {
         }
         let left = fs::read_dir(folder.path()).unwrap().count();
         assert_eq!(left, 1 + usize::from(target.exists()), "{name}: left-overs");
-        let here = folder.path().display().to_string();
+        let here = folder.path().canonicalize().unwrap().display().to_string();
         write!(told, "{name}\n{}", lines.replace(&here, "DIR")).unwrap();
     }
     insta::assert_snapshot!(told);

@@ -6,10 +6,12 @@
 //! - [`meshes`], [`shapes`]: robot of boxes -> documents and files of the other modules
 //! - [`fixture`]: a whole URDD in memory, to be edited, sealed and written
 //! - [`emit`]: JSON and YAML text
+//! - [`difference`]: comparing two producers' documents
 
 #![allow(dead_code)] // Each test uses a part of this.
 
 pub mod core;
+pub mod difference;
 pub mod emit;
 pub mod fixture;
 pub mod meshes;

@@ -179,7 +179,10 @@ impl Search {
         is_model: bool,
     ) -> Option<FoundMesh> {
         let folders = packages.folders(package, urdf_folder, is_model);
-        for folder in folders {
+        let folders = folders.into_iter().filter(|folder| folder.is_dir());
+        let mut folders: Vec<PathBuf> = folders.collect();
+        folders.dedup();
+        for folder in &folders {
             let home = Home::Package(package.to_owned(), folder.clone());
             let found = self.try_file(&folder.join(rest), home);
             if found.is_some() {
@@ -192,11 +195,16 @@ impl Search {
             if found.is_some() {
                 return found;
             }
+            folders.push(folder);
         }
-        if self.not_found.hint.is_none() {
-            let hint = format!("say where the package is: --package {package}=FOLDER");
-            self.not_found.hint = Some(hint);
-        }
+        let hint = match folders.is_empty() {
+            true => format!(
+                "there is no package `{package}` at or above {}, on ROS_PACKAGE_PATH or AMENT_PREFIX_PATH; say where it is: --package {package}=FOLDER",
+                urdf_folder.display()
+            ),
+            false => format!("if the package is elsewhere, say where: --package {package}=FOLDER"),
+        };
+        self.not_found.hint.get_or_insert(hint);
         None
     }
 
@@ -219,10 +227,7 @@ impl Search {
                 );
                 self.not_found.hint.get_or_insert(hint);
             }
-            Ok(_) => {
-                let hint = format!("{} is no regular file", path.display());
-                self.not_found.hint.get_or_insert(hint);
-            }
+            Ok(_) => {}
             Err(_) => {
                 if let Some(near) = other_case(path) {
                     let hint = format!("there is {}, whose case differs", near.display());
@@ -230,14 +235,12 @@ impl Search {
                 }
             }
         }
-        // A folder that is not there at all is no news, but for the URDF's own.
-        let folder_exists = path.parent().is_some_and(Path::is_dir);
-        let shown = path.display().to_string();
-        if !self.not_found.tried.contains(&shown) {
-            match folder_exists {
-                true => self.not_found.tried.insert(0, shown),
-                false => self.not_found.tried.push(shown),
-            }
+        let tried = match path.is_dir() {
+            true => format!("{}, which is a folder", path.display()),
+            false => path.display().to_string(),
+        };
+        if !self.not_found.tried.contains(&tried) {
+            self.not_found.tried.push(tried);
         }
         None
     }

@@ -25,8 +25,8 @@ pub(crate) fn apply(text: &str, mut edits: Vec<Edit>) -> String {
     edited
 }
 
-/// Makes XML of what nearly is: white space before the declaration, and prefixes that stand for
-/// nothing (in files made for old versions of Gazebo). Gives the text, what was done, and how many
+/// Makes XML of what nearly is: white space before the declaration, NUL bytes after the end (of a C
+/// string), and prefixes that stand for nothing (in files for old versions of Gazebo). Gives the text, what was done, and how many
 /// lines were taken off its start.
 pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
     let mut remarks = Vec::new();
@@ -43,6 +43,16 @@ pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
             problem: "there is white space before the declaration `<?xml …?>`".to_owned(),
             assumed: "taken out".to_owned(),
         });
+    }
+    let end = text.trim_end_matches('\0').len();
+    if end < text.len() {
+        remarks.push(Remark {
+            kind: NoteKind::Xml,
+            offset: end,
+            problem: "the file ends with a NUL byte".to_owned(),
+            assumed: "taken out".to_owned(),
+        });
+        text.truncate(end);
     }
     for _ in 0..MOST_PREFIXES {
         if text.contains("<!ENTITY") {

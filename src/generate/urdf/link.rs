@@ -145,7 +145,7 @@ impl Reader {
     }
 
     pub(super) fn material(&mut self, material: Element<'_>) -> v1::Material {
-        v1::Material {
+        let read = v1::Material {
             name: Self::text(material, "name"),
             color: self
                 .only(material, "color")
@@ -155,6 +155,8 @@ impl Reader {
                 .only(material, "texture")
                 .and_then(|texture| Self::text(texture, "filename"))
                 .map(|filename| v1::Texture { filename }),
-        }
+        };
+        self.materials.push((material.range().start, read.clone()));
+        read
     }
 }

@@ -7,6 +7,7 @@
 
 mod joint;
 mod link;
+mod materials;
 mod numbers;
 mod reader;
 mod tree;
@@ -115,6 +116,3 @@ fn placed(text: &str, offset: usize, fault: Fault) -> PlacedFault {
         fault,
     }
 }
-
-#[cfg(test)]
-mod tests;

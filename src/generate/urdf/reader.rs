@@ -5,9 +5,9 @@ use std::ops::Range;
 use roxmltree::Document;
 
 use super::numbers::{self, Numbers};
-use super::tree;
 use super::xml::{self, Element};
 use super::{Edit, Reading};
+use super::{materials, tree};
 use crate::format::urdf as v1;
 use crate::generate::fault::Fault;
 use crate::generate::note::{NoteKind, Remark};
@@ -44,6 +44,8 @@ pub(super) struct Reader {
     pub(super) faults: Vec<(usize, Fault)>,
     pub(super) link_places: Vec<usize>,
     pub(super) joint_places: Vec<JointPlace>,
+    /// Every material, and where it stands.
+    pub(super) materials: Vec<(usize, v1::Material)>,
 }
 
 impl Reader {
@@ -133,8 +135,8 @@ impl Reader {
         match numbers::read(found.value()) {
             Numbers::Finite(numbers) => Some(numbers),
             Numbers::NotFinite => {
-                let problem = format!("{}: not finite", what());
-                let assumed = "taken as absent";
+                let problem = format!("{}, which is not finite", what());
+                let assumed = absent(xml::name(element), attribute);
                 self.remark(NoteKind::NotFinite, found.range().start, problem, assumed);
                 None
             }
@@ -148,7 +150,7 @@ impl Reader {
                     self.edit(found.range_value(), text);
                     return Some(numbers);
                 }
-                let assumed = "taken as absent";
+                let assumed = absent(xml::name(element), attribute);
                 self.remark(NoteKind::Numbers, found.range().start, problem, assumed);
                 self.remove_attribute(element, found.range());
                 None
@@ -225,6 +227,7 @@ impl Reader {
         if self.faults.is_empty() {
             tree::check(self, offset);
         }
+        materials::check(self);
     }
 
     pub(super) fn origin(&mut self, parent: Element<'_>) -> Option<v1::Origin> {
@@ -251,6 +254,20 @@ fn completed<const N: usize>(attribute: &str, text: &str) -> Option<[f64; N]> {
     }
     let all_finite = numbers.iter().all(|x| x.is_finite());
     <[f64; N]>::try_from(numbers).ok().filter(|_| all_finite)
+}
+
+/// What it means that an attribute counts as absent.
+fn absent(element: &str, attribute: &str) -> String {
+    let means = match (element, attribute) {
+        ("origin", "xyz" | "rpy") => "0 0 0",
+        ("axis", "xyz") => "1 0 0",
+        ("mesh", "scale") => "1 1 1",
+        ("mimic", "multiplier") => "1",
+        ("mimic", "offset") => "0",
+        ("limit", "lower" | "upper") => "0 beside another limit",
+        _ => return "taken as absent".to_owned(),
+    };
+    format!("taken as absent, which means {means}")
 }
 
 /// Text for a message.
