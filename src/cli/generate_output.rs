@@ -74,8 +74,8 @@ impl Printer {
                 "robots": total, "generated": generated, "unchanged": unchanged, "failed": failed,
             }})),
             Format::Human => {
-                let plural = if total == 1 { "" } else { "s" };
-                format!("{total} robot{plural}: {generated} generated, {unchanged} unchanged, {failed} failed\n")
+                let robots = count(total, "robot");
+                format!("{robots}: {generated} generated, {unchanged} unchanged, {failed} failed\n")
             }
         });
     }
@@ -156,6 +156,11 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
+fn count(number: usize, thing: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{number} {thing}{plural}")
+}
+
 fn line(value: &Value) -> String {
     format!("{value}\n")
 }
@@ -163,12 +168,12 @@ fn line(value: &Value) -> String {
 fn told(job: &Job, made: &Generated) -> String {
     let kept = made.modules.iter().filter(|module| module.kept).count();
     let mut text = format!(
-        "{}: {} links, {} joints, {} DOFs; {} modules",
+        "{}: {}, {}, {}; {}",
         job.name,
-        made.num_links,
-        made.num_joints,
-        made.num_dofs,
-        made.modules.len(),
+        count(made.num_links, "link"),
+        count(made.num_joints, "joint"),
+        count(made.num_dofs, "DOF"),
+        count(made.modules.len(), "module"),
     );
     if !made.changed {
         text += ", unchanged";

@@ -128,11 +128,9 @@ fn names(sources: &[PathBuf]) -> Vec<String> {
     let name = |idx: usize, used: usize| parts[idx][parts[idx].len() - used..].join("-");
     loop {
         let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-        for idx in 0..sources.len() {
-            groups
-                .entry(name(idx, used[idx]).to_lowercase())
-                .or_default()
-                .push(idx);
+        for (idx, used) in used.iter().enumerate() {
+            let name = name(idx, *used).to_lowercase();
+            groups.entry(name).or_default().push(idx);
         }
         let mut grown = false;
         for idx in groups

@@ -9,6 +9,8 @@ pub enum NoteKind {
     Encoding,
     /// XML that readers refuse, with one possible meaning.
     Xml,
+    /// A name that is written in another case.
+    Case,
     /// Macros that nothing has expanded.
     XacroLeftOver,
     /// The robot has no name.
@@ -38,6 +40,7 @@ impl NoteKind {
     pub const ALL: &[NoteKind] = &[
         NoteKind::Encoding,
         NoteKind::Xml,
+        NoteKind::Case,
         NoteKind::XacroLeftOver,
         NoteKind::RobotName,
         NoteKind::Numbers,
@@ -56,6 +59,7 @@ impl NoteKind {
         match self {
             NoteKind::Encoding => "encoding",
             NoteKind::Xml => "xml",
+            NoteKind::Case => "case",
             NoteKind::XacroLeftOver => "xacro-left-over",
             NoteKind::RobotName => "robot-name",
             NoteKind::Numbers => "numbers",

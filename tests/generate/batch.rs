@@ -2,9 +2,12 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use serde_json::Value;
-use urdd::generate::batch::{Shard, jobs};
+use urdd::format::registry::ModuleKind;
+use urdd::generate::batch::{Job, Observer, Shard, jobs};
+use urdd::generate::{GenerateError, Generated, Progress, Settings};
 
 use crate::{findings_of, urdd};
 
@@ -75,6 +78,55 @@ fn a_bad_robot_stops_nothing() {
             .collect::<Vec<_>>()
     };
     assert_eq!(outputs(&lines), outputs(&again));
+}
+
+/// Stands for a fault of the program.
+struct Crashing(bool);
+
+impl Progress for Crashing {
+    fn module(&self, kind: ModuleKind, _: usize, _: usize) {
+        assert!(!self.0 || kind != ModuleKind::Chain, "the program is wrong");
+    }
+}
+
+#[derive(Default)]
+struct Watcher(Mutex<Vec<(String, Result<(), String>)>>);
+
+impl Observer for Watcher {
+    fn begin(&self, job: &Job) -> Box<dyn Progress> {
+        Box::new(Crashing(job.name == "leg-robot" || job.name == "arm"))
+    }
+
+    fn done(&self, job: &Job, outcome: &Result<Generated, GenerateError>) {
+        let outcome = outcome
+            .as_ref()
+            .map(|_| ())
+            .map_err(|error| error.to_string());
+        self.0.lock().unwrap().push((job.name.clone(), outcome));
+    }
+}
+
+#[test]
+fn a_crash_stops_nothing() {
+    let folder = folder();
+    let jobs = jobs(&["arm", "leg", "hand/left"].map(|name| folder.path().join(name))).unwrap();
+    let (out, watcher) = (folder.path().join("out"), Watcher::default());
+    let failed = urdd::generate::batch::run(&jobs, &out, &Settings::default(), &watcher);
+    assert_eq!(failed, 2);
+    let told = watcher.0.into_inner().unwrap();
+    let names: Vec<&str> = told.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["arm", "leg-robot", "deep-robot"], "in order");
+    let crash = told[0].1.as_ref().unwrap_err();
+    assert!(
+        crash.contains("the program is wrong") && crash.contains("report it"),
+        "{crash}"
+    );
+    assert!(told[2].1.is_ok());
+    let made: Vec<_> = fs::read_dir(&out)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .collect();
+    assert_eq!(made, ["deep-robot"], "and no left-overs");
 }
 
 #[test]

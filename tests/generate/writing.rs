@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
+use urdd::format::registry::ModuleKind;
 use urdd::generate::{Generated, Settings, generate};
 
 use crate::{bytes_below, findings_of, our_robots, read_json, urdd};
@@ -129,6 +130,44 @@ fn a_second_run_changes_nothing() {
     fs::remove_file(target.join("chain_module/VERSION")).unwrap();
     assert!(make(&source, &target).changed);
     assert!(bytes_below(&target) == before);
+}
+
+#[test]
+fn modules_are_kept_while_what_they_are_made_of_is_the_same() {
+    let (folder, source) = workshop();
+    let target = folder.path().join("out");
+    let kept = |made: &Generated| {
+        let kept = made.modules.iter().filter(|module| module.kept);
+        kept.map(|module| module.kind).collect::<Vec<_>>()
+    };
+    let connections = ModuleKind::Connections;
+    assert_eq!(kept(&make(&source, &target)), []);
+    assert_eq!(kept(&make(&source, &target)), [connections]);
+    // The chain is the same with other limits, and not with another name.
+    let limited = "<limit effort=\"1\" velocity=\"1\"/></joint>";
+    fs::write(&source, ROBOT.replace("</joint>", limited)).unwrap();
+    let made = make(&source, &target);
+    assert_eq!((kept(&made), made.changed), (vec![connections], true));
+    fs::write(&source, ROBOT.replace("\"j\"", "\"k\"")).unwrap();
+    assert_eq!(kept(&make(&source, &target)), []);
+    // A file that is not as it was is not kept, nor is one whose inputs are not told.
+    let file = target.join("connections_module/module.yaml");
+    let right = fs::read(&file).unwrap();
+    fs::write(&file, "changed").unwrap();
+    assert_eq!(kept(&make(&source, &target)), []);
+    assert_eq!(fs::read(&file).unwrap(), right);
+    let metadata = fs::read_to_string(target.join("urdd.json")).unwrap();
+    fs::write(
+        target.join("urdd.json"),
+        metadata.replace("x_urdd_inputs", "x_other"),
+    )
+    .unwrap();
+    assert_eq!(kept(&make(&source, &target)), []);
+    // Kept or not, the bytes are those of a first run.
+    make(&source, &target);
+    let fresh = folder.path().join("fresh");
+    make(&source, &fresh);
+    assert!(bytes_below(&target) == bytes_below(&fresh));
 }
 
 #[test]
@@ -277,6 +316,7 @@ fn many_runs_into_one_folder_do_not_mix() {
             urdd(&["generate", "-o"])
                 .arg(&target)
                 .arg(source)
+                .stdout(Stdio::null())
                 .spawn()
                 .unwrap()
         })

@@ -1,7 +1,7 @@
 //! Joints.
 
 use super::reader::{JointPlace, Reader, shortened};
-use super::xml::{self, Element};
+use super::xml::Element;
 use crate::format::urdf as v1;
 use crate::generate::fault::Fault;
 use crate::generate::note::NoteKind;
@@ -96,7 +96,7 @@ impl Reader {
         let found = kinds
             .into_iter()
             .find(|kind| kind.as_str().to_ascii_lowercase() == plain);
-        let attribute = xml::attribute(joint, "type")?;
+        let attribute = self.attribute(joint, "type")?;
         match found {
             None => {
                 let fault = Fault::UnknownJointType {
@@ -146,7 +146,7 @@ impl Reader {
     }
 
     fn mimic(&mut self, mimic: Element<'_>, shown: &str) -> Option<v1::Mimic> {
-        let Some(joint) = Self::text(mimic, "joint") else {
+        let Some(joint) = self.text(mimic, "joint") else {
             let problem = format!("the mimic of joint `{shown}` names no joint");
             self.remark(
                 NoteKind::Mimic,

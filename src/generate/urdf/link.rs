@@ -18,7 +18,7 @@ impl Reader {
         let of = |kind| xml::children(link).filter(move |(name, _)| *name == kind);
         let visual = of("visual")
             .map(|(_, element)| v1::Visual {
-                name: Self::text(element, "name"),
+                name: self.text(element, "name"),
                 origin: self.origin(element),
                 geometry: self.geometry(element),
                 material: self
@@ -28,7 +28,7 @@ impl Reader {
             .collect();
         let collision = of("collision")
             .map(|(_, element)| v1::Collision {
-                name: Self::text(element, "name"),
+                name: self.text(element, "name"),
                 origin: self.origin(element),
                 geometry: self.geometry(element),
             })
@@ -87,7 +87,7 @@ impl Reader {
     fn shape(&mut self, name: &str, shape: Element<'_>) -> Option<v1::Geometry> {
         match name {
             "mesh" => {
-                let Some(filename) = Self::text(shape, "filename") else {
+                let Some(filename) = self.text(shape, "filename") else {
                     self.no_shape(shape, "filename");
                     return None;
                 };
@@ -146,14 +146,14 @@ impl Reader {
 
     pub(super) fn material(&mut self, material: Element<'_>) -> v1::Material {
         let read = v1::Material {
-            name: Self::text(material, "name"),
+            name: self.text(material, "name"),
             color: self
                 .only(material, "color")
                 .and_then(|color| self.vector(color, "rgba"))
                 .map(|rgba| v1::Color { rgba }),
             texture: self
                 .only(material, "texture")
-                .and_then(|texture| Self::text(texture, "filename"))
+                .and_then(|texture| self.text(texture, "filename"))
                 .map(|filename| v1::Texture { filename }),
         };
         self.materials.push((material.range().start, read.clone()));

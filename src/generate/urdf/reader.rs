@@ -96,8 +96,40 @@ impl Reader {
         Some(first)
     }
 
-    pub(super) fn text(element: Element<'_>, attribute: &str) -> Option<String> {
-        xml::attribute(element, attribute).map(|found| found.value().to_owned())
+    /// An attribute; one that is written in another case is read, and mended.
+    pub(super) fn attribute<'a>(
+        &mut self,
+        element: Element<'a>,
+        name: &str,
+    ) -> Option<roxmltree::Attribute<'a, 'a>> {
+        if let Some(found) = xml::attribute(element, name) {
+            return Some(found);
+        }
+        let mut others = element.attributes();
+        let found = others
+            .find(|other| other.namespace().is_none() && other.name().eq_ignore_ascii_case(name))?;
+        let offset = found.range().start;
+        // Some attributes are asked for twice.
+        if !self
+            .reading
+            .edits
+            .iter()
+            .any(|edit| edit.range == found.range_qname())
+        {
+            let element = xml::name(element);
+            let problem = format!(
+                "`{}` of `<{element}>` is not as URDF writes it",
+                found.name()
+            );
+            self.remark(NoteKind::Case, offset, problem, format!("read as `{name}`"));
+            self.edit(found.range_qname(), name);
+        }
+        Some(found)
+    }
+
+    pub(super) fn text(&mut self, element: Element<'_>, attribute: &str) -> Option<String> {
+        self.attribute(element, attribute)
+            .map(|found| found.value().to_owned())
     }
 
     pub(super) fn needed(
@@ -106,7 +138,7 @@ impl Reader {
         name: &'static str,
         attribute: &'static str,
     ) -> Option<String> {
-        let text = Self::text(element, attribute);
+        let text = self.text(element, attribute);
         if text.is_none() {
             let fault = Fault::MissingAttribute {
                 element: name,
@@ -124,7 +156,7 @@ impl Reader {
         element: Element<'_>,
         attribute: &str,
     ) -> Option<[f64; N]> {
-        let found = xml::attribute(element, attribute)?;
+        let found = self.attribute(element, attribute)?;
         let what = || {
             let element = xml::name(element);
             format!(
@@ -180,6 +212,12 @@ impl Reader {
                     assumed,
                 );
             }
+            let lower = name.to_ascii_lowercase();
+            if known.contains(&lower.as_str()) {
+                let problem = format!("`<{name}>` is no element of URDF, but `<{lower}>` is");
+                let assumed = "kept as text, without effect";
+                self.remark(NoteKind::Case, element.range().start, problem, assumed);
+            }
             unknown.push(xml::verbatim(element));
         }
         unknown
@@ -192,7 +230,7 @@ impl Reader {
             self.fault(offset, Fault::NotRobot(shortened(name)));
             return;
         }
-        let name = Self::text(robot, "name").unwrap_or_else(|| {
+        let name = self.text(robot, "name").unwrap_or_else(|| {
             let problem = "`<robot>` has no name".to_owned();
             let assumed = format!("named `{file_stem}`, after the file");
             self.remark(NoteKind::RobotName, offset, problem, assumed);
@@ -201,7 +239,7 @@ impl Reader {
             file_stem.to_owned()
         });
         self.reading.robot.name = name;
-        self.reading.robot.version = Self::text(robot, "version");
+        self.reading.robot.version = self.text(robot, "version");
         self.reading.robot.unknown_elements = self.unknown(robot, &["link", "joint", "material"]);
         for (name, element) in xml::children(robot) {
             match name {
