@@ -89,11 +89,17 @@ impl Progress for Crashing {
     }
 }
 
-#[derive(Default)]
-struct Watcher(Mutex<Vec<(String, Result<(), String>)>>);
+struct Watcher {
+    told: Mutex<Vec<(String, Result<(), String>)>>,
+    /// The first robot waits until this is there: what comes later must be told later all the same.
+    last: PathBuf,
+}
 
 impl Observer for Watcher {
     fn begin(&self, job: &Job) -> Box<dyn Progress> {
+        while job.name == "arm" && !self.last.exists() {
+            std::thread::yield_now();
+        }
         Box::new(Crashing(job.name == "leg-robot" || job.name == "arm"))
     }
 
@@ -102,7 +108,7 @@ impl Observer for Watcher {
             .as_ref()
             .map(|_| ())
             .map_err(|error| error.to_string());
-        self.0.lock().unwrap().push((job.name.clone(), outcome));
+        self.told.lock().unwrap().push((job.name.clone(), outcome));
     }
 }
 
@@ -110,10 +116,19 @@ impl Observer for Watcher {
 fn a_crash_stops_nothing() {
     let folder = folder();
     let jobs = jobs(&["arm", "leg", "hand/left"].map(|name| folder.path().join(name))).unwrap();
-    let (out, watcher) = (folder.path().join("out"), Watcher::default());
-    let failed = urdd::generate::batch::run(&jobs, &out, &Settings::default(), &watcher);
+    let out = folder.path().join("out");
+    let watcher = Watcher {
+        told: Mutex::default(),
+        last: out.join("deep-robot"),
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(2)
+        .build()
+        .unwrap();
+    let settings = Settings::default();
+    let failed = pool.install(|| urdd::generate::batch::run(&jobs, &out, &settings, &watcher));
     assert_eq!(failed, 2);
-    let told = watcher.0.into_inner().unwrap();
+    let told = watcher.told.into_inner().unwrap();
     let names: Vec<&str> = told.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["arm", "leg-robot", "deep-robot"], "in order");
     let crash = told[0].1.as_ref().unwrap_err();
