@@ -91,7 +91,8 @@ def complete(value):
 
 def read_origin(parent):
     element = parent.first("origin")
-    return element and {"xyz": vector(element, "xyz", 3), "rpy": vector(element, "rpy", 3)}
+    return element and {"xyz": vector(element, "xyz", 3), "rpy": vector(element, "rpy", 3),
+                        "quat_xyzw": vector(element, "quat_xyzw", 4)}
 
 
 def read_geometry(geometry):
@@ -145,7 +146,7 @@ def read_joint(element):
         "parent": {"link": element.first("parent").attributes["link"]},
         "child": {"link": element.first("child").attributes["link"]},
         "axis": axis and {"xyz": vector(axis, "xyz", 3)},
-        "limit": numbers(element.first("limit"), "lower upper effort velocity"),
+        "limit": numbers(element.first("limit"), "lower upper effort velocity acceleration deceleration jerk"),
         "dynamics": numbers(element.first("dynamics"), "damping friction"),
         "mimic": mimic and {"joint": mimic.attributes["joint"], **numbers(mimic, "multiplier offset")},
         "safety_controller": numbers(element.first("safety_controller"), soft),
@@ -246,11 +247,17 @@ def chain_module(urdf):
     links = [{"name": name, "link_idx": idx, "parent_joint_idx": None, "parent_link_idx": None,
               "children_joint_idxs": [], "children_link_idxs": []} for idx, name in enumerate(names)]
     joints = []
+    version = re.fullmatch(r"(\d+)\.(\d+)", (urdf["version"] or "").strip())
+    quaternions = version is not None and tuple(map(int, version.groups())) >= (1, 1)
     for idx, joint in enumerate(urdf["joints"]):
         parent, child = (names.index(joint[end]["link"]) for end in ("parent", "child"))
         origin, axis = joint["origin"] or {}, None
-        roll, pitch, yaw = origin.get("rpy") or [0.0] * 3
-        rotation = multiply(turn((0, 0, 1), yaw), multiply(turn((0, 1, 0), pitch), turn((1, 0, 0), roll)))
+        x, y, z, w = quaternions and origin.get("quat_xyzw") or [0.0] * 4
+        if x * x + y * y + z * z + w * w > 0:  # [6.1.9]; write_pose gives it length 1
+            rotation = (w, x, y, z)
+        else:
+            roll, pitch, yaw = origin.get("rpy") or [0.0] * 3
+            rotation = multiply(turn((0, 0, 1), yaw), multiply(turn((0, 1, 0), pitch), turn((1, 0, 0), roll)))
         if joint["joint_type"] in ("Revolute", "Continuous", "Prismatic", "Planar"):
             axis = (joint["axis"] or {}).get("xyz") or [1.0, 0.0, 0.0]  # [5.7]
             axis = [c / math.hypot(*axis) for c in axis]
@@ -306,7 +313,8 @@ def bounds_module(urdf, dof):
     rows = []
     for entry in dof["dofs"]:
         joint = urdf["joints"][entry["joint_idx"]]
-        lower, upper, effort, velocity = (joint["limit"] or dict.fromkeys(["l", "u", "e", "v"])).values()
+        limit = joint["limit"] or {}
+        lower, upper, effort, velocity = map(limit.get, ("lower", "upper", "effort", "velocity"))
         default = math.pi if entry["quantity"] == "Angle" else 1.0
         limited = joint["joint_type"] in ("Revolute", "Prismatic") and (lower is not None or upper is not None)
         single = len(DOFS_OF_TYPE[joint["joint_type"]]) == 1

@@ -59,6 +59,9 @@ object! {
         pub xyz: Option<[f64; 3]>,
         /// Fixed-axis roll, pitch, yaw, radians: turn about x, then y, then z of the outer frame.
         pub rpy: Option<[f64; 3]>,
+        /// Rotation as a quaternion x, y, z, w of any length but zero, instead of `rpy`. It counts
+        /// from URDF version 1.1 on; before, it has no meaning.
+        pub quat_xyzw: Option<[f64; 4]>,
     }
 }
 
@@ -281,6 +284,12 @@ object! {
         pub effort: Option<f64>,
         /// Largest speed.
         pub velocity: Option<f64>,
+        /// Largest acceleration, rad/s² or m/s². This and the next two: from URDF version 1.2 on.
+        pub acceleration: Option<f64>,
+        /// Largest deceleration, rad/s² or m/s²; where it is absent, that of `acceleration`.
+        pub deceleration: Option<f64>,
+        /// Largest rate of change of acceleration, rad/s³ or m/s³.
+        pub jerk: Option<f64>,
     }
 }
 

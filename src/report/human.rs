@@ -71,11 +71,15 @@ fn write_urdd(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
     if let Some(reason) = &urdd.reason {
         writeln!(out, "  the folder cannot be read: {reason}")?;
     }
-    let mut module: Option<&Option<String>> = None;
+    let mut above = None;
     for finding in &urdd.findings {
-        if module != Some(&finding.module) {
-            module = Some(&finding.module);
-            let title = finding.module.as_deref().unwrap_or("the directory");
+        let title = match (&finding.module, &finding.file) {
+            (Some(module), _) => module.as_str(),
+            (None, Some(file)) if file.ends_with(".urdf") => "the URDF",
+            _ => "the directory",
+        };
+        if above != Some(title) {
+            above = Some(title);
             writeln!(out, "  {}", style.paint(BOLD, title))?;
         }
         write_finding(finding, style, out)?;
@@ -270,7 +274,7 @@ fn write_summary(report: &Report, style: Style, out: &mut impl Write) -> fmt::Re
         style.paint(BOLD, plural(totals.urdds.get(), "URDD")),
         verdicts.join(", "),
         plural(
-            report.urdds.iter().map(|urdd| urdd.findings.len()).sum(),
+            totals.error.get() + totals.warning.get() + totals.info.get(),
             "finding"
         ),
         plural(totals.error.get(), "error"),

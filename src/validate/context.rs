@@ -1,6 +1,6 @@
 //! What a rule sees of a URDD.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use super::load::{CarriedUrdf, Loaded, MetadataFile, Module};
 use super::urdf_text;
@@ -18,30 +18,79 @@ use crate::format::registry::{ModuleDocument, ModuleKind, Profile};
 use crate::format::root_metadata::{ConformanceClass, RootMetadata};
 
 /// A URDD, as rules see it. A rule may count on what it says that it needs.
+///
+/// A URDD describes its robot twice, in `urdf_module` and in the carried URDF. By which of them
+/// rules judge is the context's choice: see [`Context::by_urdf`].
 pub struct Context {
-    loaded: Loaded,
+    loaded: Arc<Loaded>,
     class: Option<ConformanceClass>,
+    robot_from: RobotFrom,
     robot: OnceLock<Option<Robot>>,
     tree: OnceLock<Option<Tree>>,
     mimics: OnceLock<Option<Mimics>>,
     freedom: OnceLock<Option<Freedom>>,
-    urdf_text: OnceLock<Option<urdf_text::Reading>>,
+    urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
     rigid_groups: OnceLock<Option<RigidGroups>>,
+}
+
+/// Which of the two descriptions of the robot rules judge by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum RobotFrom {
+    UrdfModule,
+    CarriedUrdf,
 }
 
 impl Context {
     /// For a URDD that was read. `class` is the conformance class to hold it to, where that is
     /// not the one that it claims.
     pub fn new(loaded: Loaded, class: Option<ConformanceClass>) -> Self {
+        let urdf_text = Arc::new(OnceLock::new());
+        Context::over(Arc::new(loaded), urdf_text, class, RobotFrom::UrdfModule)
+    }
+
+    fn over(
+        loaded: Arc<Loaded>,
+        urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
+        class: Option<ConformanceClass>,
+        robot_from: RobotFrom,
+    ) -> Self {
         Context {
             loaded,
             class,
+            robot_from,
             robot: OnceLock::new(),
             tree: OnceLock::new(),
             mimics: OnceLock::new(),
             freedom: OnceLock::new(),
-            urdf_text: OnceLock::new(),
+            urdf_text,
             rigid_groups: OnceLock::new(),
+        }
+    }
+
+    /// The same URDD with the robot as the carried URDF has it, instead of `urdf_module`; `None`
+    /// where none is carried, or it cannot be read (URD011).
+    pub fn by_urdf(&self) -> Option<Context> {
+        let readable = self.urdf().is_ok_and(|urdf| urdf.not_utf8_at.is_none())
+            && self
+                .urdf_text()
+                .is_some_and(|reading| reading.problems.is_empty() && reading.robot.is_some());
+        readable.then(|| {
+            let (loaded, text) = (Arc::clone(&self.loaded), Arc::clone(&self.urdf_text));
+            Context::over(loaded, text, self.class, RobotFrom::CarriedUrdf)
+        })
+    }
+
+    /// Whether the robot is the carried URDF's.
+    pub fn is_by_urdf(&self) -> bool {
+        self.robot_from == RobotFrom::CarriedUrdf
+    }
+
+    /// The file that the robot is read from. A finding about the robot stands there, at the JSON
+    /// Pointer that its value has in `urdf_module`.
+    pub fn robot_file(&self) -> Option<String> {
+        match self.robot_from {
+            RobotFrom::CarriedUrdf => Some(self.urdf().ok()?.path.clone()),
+            RobotFrom::UrdfModule => Some(self.module(ModuleKind::Urdf)?.file("module.json")),
         }
     }
 
@@ -107,34 +156,38 @@ impl Context {
         self.module(kind)?.document.as_ref()
     }
 
-    /// The robot as `urdf_module` has it, whatever the module's version.
+    /// The robot: as `urdf_module` has it, whatever the module's version, or as the carried URDF
+    /// has it ([`Context::by_urdf`]).
     pub fn robot(&self) -> Option<&Robot> {
-        let make = || robot::view(self.document(ModuleKind::Urdf)?);
+        let make = || match self.robot_from {
+            RobotFrom::UrdfModule => robot::view(self.document(ModuleKind::Urdf)?),
+            RobotFrom::CarriedUrdf => self.urdf_text()?.robot.as_ref().map(robot::of_urdf),
+        };
         self.robot.get_or_init(make).as_ref()
     }
 
-    /// The kinematic tree that follows from `urdf_module`; `None` where its joints form no tree.
+    /// The kinematic tree of [`Context::robot`]; `None` where its joints form no tree.
     pub fn tree(&self) -> Option<&Tree> {
         self.tree.get_or_init(|| Tree::new(self.robot()?)).as_ref()
     }
 
-    /// The links of `urdf_module` that fixed joints hold together; `None` where its joints form no
-    /// tree.
+    /// The links of [`Context::robot`] that fixed joints hold together; `None` where its joints form
+    /// no tree.
     pub fn rigid_groups(&self) -> Option<&RigidGroups> {
         self.rigid_groups
             .get_or_init(|| Some(RigidGroups::new(self.robot()?, self.tree()?)))
             .as_ref()
     }
 
-    /// The mimic joints of `urdf_module`, resolved; `None` where that has no meaning.
+    /// The mimic joints of [`Context::robot`], resolved; `None` where that has no meaning.
     pub fn mimics(&self) -> Option<&Mimics> {
         self.mimics
             .get_or_init(|| Mimics::resolve(self.robot()?))
             .as_ref()
     }
 
-    /// The degrees of freedom that follow from `urdf_module`, as `dof_module` of the version at hand
-    /// should have them.
+    /// The degrees of freedom that follow from [`Context::robot`], as `dof_module` of the version at
+    /// hand should have them.
     pub fn freedom(&self) -> Option<&Freedom> {
         // The first published version gave mimic joints DOFs of their own (SPEC 10.5).
         let version = || self.module(ModuleKind::Dof)?.version.as_deref();

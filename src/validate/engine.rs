@@ -1,5 +1,5 @@
 //! Runs the rules over a URDD: phase by phase, each rule only when what it needs is sound, a rule
-//! that crashes caught.
+//! that crashes caught. By which description of the robot a rule judges: see [`two_robots`].
 
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -8,7 +8,8 @@ use super::code::Code;
 use super::context::Context;
 use super::finding::{Finding, Findings};
 use super::rule::{Need, Rule, Severity};
-use crate::directory::position;
+use super::two_robots;
+use crate::directory::position::{self, LineIndex};
 use crate::format::registry::{ModuleKind, Profile};
 
 /// What became of a rule on one URDD.
@@ -37,7 +38,7 @@ pub struct Check {
 }
 
 impl Check {
-    fn new(rule: &'static Rule, outcome: Outcome, findings: Vec<Finding>) -> Self {
+    pub(super) fn new(rule: &'static Rule, outcome: Outcome, findings: Vec<Finding>) -> Self {
         Check {
             rule,
             severity: rule.severity,
@@ -47,11 +48,24 @@ impl Check {
     }
 }
 
+/// What became of rules, by code.
+pub(super) type Outcomes = HashMap<Code, Outcome>;
+
 /// Runs rules over a URDD, in the order of their phases.
 pub fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
-    let mut rules: Vec<&'static Rule> = rules.to_vec();
+    let mut checks = two_robots::run(context, rules);
+    checks.sort_by_key(|check| check.rule.code);
+    checks
+}
+
+/// Runs rules by one description of the robot. `outcomes` says what became of rules that ran
+/// before, and takes what becomes of these.
+pub(super) fn run_all(
+    context: &Context,
+    mut rules: Vec<&'static Rule>,
+    outcomes: &mut Outcomes,
+) -> Vec<Check> {
     rules.sort_by_key(|rule| (rule.phase, rule.code));
-    let mut outcomes: HashMap<Code, Outcome> = HashMap::new();
     let mut checks = Vec::with_capacity(rules.len());
     // A rule may need one of the same phase with a higher code: those that wait go round again.
     let mut waiting = rules;
@@ -61,7 +75,7 @@ pub fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
         let mut later = Vec::new();
         for rule in waiting {
             let waits = rule.needs.iter().any(|need| match need {
-                Need::Passed(code) | Need::NotFailed(code) | Need::NotFailedInV1(code) => {
+                Need::Passed(code) | Need::NotFailed(code) => {
                     !outcomes.contains_key(code) && codes.contains(code)
                 }
                 _ => false,
@@ -70,7 +84,7 @@ pub fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
                 later.push(rule);
                 continue;
             }
-            let check = run_rule(context, rule, &outcomes);
+            let check = run_rule(context, rule, outcomes);
             outcomes.insert(rule.code, check.outcome.clone());
             checks.push(check);
         }
@@ -83,11 +97,10 @@ pub fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
         }
         waiting = later;
     }
-    checks.sort_by_key(|check| check.rule.code);
     checks
 }
 
-fn run_rule(context: &Context, rule: &'static Rule, outcomes: &HashMap<Code, Outcome>) -> Check {
+fn run_rule(context: &Context, rule: &'static Rule, outcomes: &Outcomes) -> Check {
     let unmet = rule
         .needs
         .iter()
@@ -95,8 +108,12 @@ fn run_rule(context: &Context, rule: &'static Rule, outcomes: &HashMap<Code, Out
     if let Some(reason) = unmet {
         return Check::new(rule, Outcome::Skipped(reason), Vec::new());
     }
-    let mut findings = Findings::default();
-    let ran = catch_unwind(AssertUnwindSafe(|| (rule.check)(context, &mut findings)));
+    judge(context, rule, &mut Findings::default())
+}
+
+/// Lets a rule look, with findings to report to.
+pub(super) fn judge(context: &Context, rule: &'static Rule, findings: &mut Findings) -> Check {
+    let ran = catch_unwind(AssertUnwindSafe(|| (rule.check)(context, findings)));
     if let Err(panic) = ran {
         let message = panic
             .downcast_ref::<&str>()
@@ -105,21 +122,25 @@ fn run_rule(context: &Context, rule: &'static Rule, outcomes: &HashMap<Code, Out
             .unwrap_or_else(|| "unknown".to_owned());
         return Check::new(rule, Outcome::Crashed(message), Vec::new());
     }
-    let outcome = if findings.is_empty() {
-        Outcome::Passed
-    } else {
-        Outcome::Failed
+    let skipped = findings.skipped().map(str::to_owned);
+    let mut found = findings.take();
+    let outcome = match (found.is_empty(), skipped) {
+        (false, _) => Outcome::Failed,
+        (true, Some(reason)) => Outcome::Skipped(reason),
+        (true, None) => Outcome::Passed,
     };
-    let mut findings = findings.into_vec();
-    for finding in &mut findings {
+    for finding in &mut found {
         locate(context, finding);
     }
-    Check::new(rule, outcome, findings)
+    Check::new(rule, outcome, found)
 }
 
 /// Why a need is not met, if it is not.
-fn unmet(context: &Context, need: Need, outcomes: &HashMap<Code, Outcome>) -> Option<String> {
+fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<String> {
     match need {
+        // What the module should say, the carried URDF says.
+        Need::Module(ModuleKind::Urdf) | Need::SourceRobot if context.is_by_urdf() => None,
+        Need::SourceRobot => unmet(context, Need::Module(ModuleKind::Urdf), outcomes),
         Need::Module(kind) => match context.module(kind) {
             None => Some(format!("there is no {}", kind.name())),
             Some(module) => module.unusable(),
@@ -143,8 +164,7 @@ fn unmet(context: &Context, need: Need, outcomes: &HashMap<Code, Outcome>) -> Op
             Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
             None => Some(format!("{code} did not run")),
         },
-        Need::NotFailedInV1(_) if context.profile() != Profile::V1 => None,
-        Need::NotFailed(code) | Need::NotFailedInV1(code) => match outcomes.get(&code) {
+        Need::NotFailed(code) => match outcomes.get(&code) {
             Some(Outcome::Failed) => Some(format!("{code} found a fault")),
             Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
             Some(Outcome::Passed | Outcome::Skipped(_)) | None => None,
@@ -169,10 +189,17 @@ fn locate(context: &Context, finding: &mut Finding) {
         if place.position.is_some() {
             continue;
         }
-        if let (Some(file), Some(pointer)) = (&place.file, &place.pointer)
-            && let Some(text) = json_text(context, file)
-        {
+        let (Some(file), Some(pointer)) = (&place.file, &place.pointer) else {
+            continue;
+        };
+        if let Some(text) = json_text(context, file) {
             place.position = position::locate(text, pointer);
+        } else if let (Ok(urdf), Some(reading)) = (context.urdf(), context.urdf_text())
+            && urdf.path == *file
+        {
+            // The pointer is that of the value in urdf_module, and leads nowhere in XML.
+            place.position = reading.position(&LineIndex::new(&urdf.text), pointer);
+            place.pointer = None;
         }
     }
 }

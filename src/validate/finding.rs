@@ -1,6 +1,6 @@
 //! Findings, and how many of the same are folded into one.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::directory::position::Position;
 
@@ -118,12 +118,55 @@ impl Finding {
 pub struct Findings {
     findings: Vec<Finding>,
     by_place: HashMap<(Option<String>, String), usize>,
+    reported: usize,
     skipped: Option<String>,
+    spots: Option<HashSet<Spot>>,
+    only: Option<HashSet<Spot>>,
 }
 
+/// What tells one finding of a rule from another: the file, and the pointer or else the message.
+pub type Spot = (Option<String>, String);
+
 impl Findings {
+    /// Remembers the spot of every finding, folded or not.
+    pub fn remembering_spots() -> Self {
+        Findings {
+            spots: Some(HashSet::new()),
+            ..Findings::default()
+        }
+    }
+
+    /// Takes findings at these spots, and drops others.
+    pub fn only_at(spots: HashSet<Spot>) -> Self {
+        Findings {
+            only: Some(spots),
+            ..Findings::default()
+        }
+    }
+
+    /// Whether each finding counts by itself, so that none may be left unbuilt.
+    pub fn wants_each(&self) -> bool {
+        self.spots.is_some() || self.only.is_some()
+    }
+
+    /// The spots that were remembered.
+    pub fn into_spots(self) -> HashSet<Spot> {
+        self.spots.unwrap_or_default()
+    }
+
     /// Takes a finding.
     pub fn report(&mut self, finding: Finding) {
+        self.reported += 1;
+        if self.wants_each() {
+            let which = finding.place.pointer.as_ref().unwrap_or(&finding.message);
+            let spot = (finding.place.file.clone(), which.clone());
+            if self.only.as_ref().is_some_and(|only| !only.contains(&spot)) {
+                return;
+            }
+            if let Some(spots) = &mut self.spots {
+                spots.insert(spot);
+            }
+        }
         let kind = match &finding.place.pointer {
             Some(pointer) => without_indices(pointer),
             None => finding.message.clone(),
@@ -158,14 +201,15 @@ impl Findings {
         self.skipped.as_deref()
     }
 
-    /// Whether nothing was found.
+    /// Whether nothing was reported.
     pub fn is_empty(&self) -> bool {
-        self.findings.is_empty()
+        self.reported == 0
     }
 
-    /// The findings, in the order in which the first of each was reported.
-    pub fn into_vec(self) -> Vec<Finding> {
-        self.findings
+    /// The findings, in the order in which the first of each was reported; none are left.
+    pub fn take(&mut self) -> Vec<Finding> {
+        self.by_place.clear();
+        std::mem::take(&mut self.findings)
     }
 }
 
@@ -196,13 +240,30 @@ mod tests {
             findings.report(Finding::at("b.json", format!("/m/{i}/0"), "wrong"));
         }
         findings.report(Finding::at("a.json", "/n/7", "wrong"));
-        let findings = findings.into_vec();
+        let findings = findings.take();
         assert_eq!(
             findings.iter().map(|f| f.count).collect::<Vec<_>>(),
             [1000, 1000, 1]
         );
         assert_eq!(findings[0].more.len(), KEPT_PLACES - 1);
         assert_eq!(findings[0].more[1].actual.as_deref(), Some("2"));
+    }
+
+    #[test]
+    fn spots_outlive_folding() {
+        let mut all = Findings::remembering_spots();
+        for i in 0..10 {
+            all.report(Finding::at("a.json", format!("/m/{i}"), "wrong"));
+        }
+        let mut both = Findings::only_at(all.into_spots());
+        for i in 8..20 {
+            both.report(Finding::at("a.json", format!("/m/{i}"), "wrong").actual(i));
+        }
+        both.report(Finding::at("b.json", "/m/8", "wrong"));
+        assert!(!both.is_empty());
+        let both = both.take();
+        assert_eq!(both.iter().map(|f| f.count).collect::<Vec<_>>(), [2]);
+        assert_eq!(both[0].actual.as_deref(), Some("8"));
     }
 
     #[test]

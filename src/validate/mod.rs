@@ -17,6 +17,7 @@ pub mod rules;
 pub mod schema_check;
 pub mod settings;
 pub mod tolerance;
+mod two_robots;
 pub mod urdf_text;
 pub mod views;
 

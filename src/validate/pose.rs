@@ -15,6 +15,21 @@ pub fn rotation_of_quaternion([w, x, y, z]: [f64; 4]) -> Matrix3<f64> {
         .into_inner()
 }
 
+/// A quaternion made a unit quaternion; `None` where the square of its length is 0, or not finite.
+pub fn unit_quaternion(q: [f64; 4]) -> Option<[f64; 4]> {
+    let square: f64 = q.iter().map(|x| x * x).sum();
+    (square > 0.0 && square.is_finite()).then(|| q.map(|x| x / square.sqrt()))
+}
+
+/// Whether `quat_xyzw` counts in a URDF of this version: from 1.1 on (SPEC 6.1.9). One that is
+/// absent, or not two numbers with a dot between them, is 1.0.
+pub fn has_quaternions(version: Option<&str>) -> bool {
+    let number = |text: &str| text.parse::<u32>().ok();
+    let parts = version.and_then(|version| version.trim().split_once('.'));
+    let parsed = parts.and_then(|(major, minor)| Some((number(major)?, number(minor)?)));
+    parsed.unwrap_or((1, 0)) >= (1, 1)
+}
+
 /// A vector of length 1 in the direction of `axis`; `None` for the zero vector.
 pub fn unit(axis: [f64; 3]) -> Option<Vector3<f64>> {
     let largest = axis.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -42,6 +57,17 @@ mod tests {
         // x goes to -z by pitch, which yaw leaves; z goes to x, which yaw takes to y.
         assert!(close(&(r * Vector3::x()), [0.0, 0.0, -1.0]));
         assert!(close(&(r * Vector3::z()), [0.0, 1.0, 0.0]));
+    }
+
+    #[test]
+    fn versions_are_numbers() {
+        for version in ["1.1", "1.2", " 1.1 ", "1.10", "2.0"] {
+            assert!(has_quaternions(Some(version)), "{version}");
+        }
+        for version in ["1.0", "1", "1.1.0", "", "0.9", "one.one", "-1.1"] {
+            assert!(!has_quaternions(Some(version)), "{version}");
+        }
+        assert!(!has_quaternions(None));
     }
 
     #[test]

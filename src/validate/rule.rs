@@ -49,6 +49,9 @@ pub enum Need {
     Module(ModuleKind),
     /// At least one of the modules is there, and its document fits its schema.
     AnyModule(&'static [ModuleKind]),
+    /// The robot as its source has it: the carried URDF where one is carried and reads, otherwise
+    /// `urdf_module`.
+    SourceRobot,
     /// `urdd.json` is there and fits its schema.
     RootMetadata,
     /// The source URDF is carried. (Whether it can be read as one: URD011.)
@@ -57,9 +60,6 @@ pub enum Need {
     Passed(Code),
     /// The other rule found nothing, or had nothing to look at.
     NotFailed(Code),
-    /// The same, but in a URDD of version 1 only: what the other rule finds in legacy ones is often
-    /// a convention, and no obstacle.
-    NotFailedInV1(Code),
     /// The URDD is of version 1.
     Version1,
     /// The URDD was published before there was a version 1.

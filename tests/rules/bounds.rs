@@ -26,6 +26,9 @@ fn limited(joint_type: JointType, lower: Option<f64>, upper: Option<f64>) -> Rob
         upper,
         effort: None,
         velocity: Some(0.0),
+        acceleration: None,
+        deceleration: None,
+        jerk: None,
     });
     robot
 }

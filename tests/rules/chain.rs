@@ -34,8 +34,33 @@ fn turned(rpy: [f64; 3]) -> Fixture {
     robot.joint_mut("j").origin = Some(Origin {
         xyz: None,
         rpy: Some(rpy),
+        quat_xyzw: None,
     });
     Fixture::core(&robot)
+}
+
+/// The same, with a quaternion in a URDF of this version.
+fn turned_by(version: &'static str, xyzw: [f64; 4]) -> Fixture {
+    let mut robot = star(&[("j", JointType::Continuous)]);
+    robot.urdf.version = Some(version.to_owned());
+    robot.joint_mut("j").origin = Some(Origin {
+        xyz: None,
+        rpy: None,
+        quat_xyzw: Some(xyzw),
+    });
+    Fixture::core(&robot)
+}
+
+/// A chain, and so the samples, that take `quat_xyzw` for another rotation than it is.
+fn misread(version: &'static str, xyzw: [f64; 4], wxyz: [f64; 4]) -> impl Fn(&mut Fixture) {
+    move |fixture: &mut Fixture| {
+        *fixture = turned_by(version, xyzw);
+        fixture.set(
+            CHAIN,
+            "/joints_in_chain/0/origin/quaternion_wxyz",
+            json!(wxyz),
+        );
+    }
 }
 
 pub fn cases() -> Vec<Case> {
@@ -147,6 +172,36 @@ fn motions(
             robot.joint_mut("j").limit = limit(-1.0, 1.0);
             robot
         }),
+        invalid(
+            CHN008,
+            "quaternion-taken-for-w-first",
+            misread("1.1", [0.8, 0.0, 0.0, 0.6], [0.8, 0.0, 0.0, 0.6]),
+        ),
+        invalid(
+            CHN008,
+            "quaternion-passed-over",
+            misread("1.2", [0.8, 0.0, 0.0, 0.6], [1.0, 0.0, 0.0, 0.0]),
+        ),
+        invalid(
+            CHN008,
+            "quaternion-before-1.1",
+            misread("1.0", [0.8, 0.0, 0.0, 0.6], [0.6, 0.8, 0.0, 0.0]),
+        ),
+        near_miss(
+            CHN008,
+            "quaternion-of-any-length",
+            misread("1.1", [-2.4, 0.0, 0.0, -1.8], [0.6, 0.8, 0.0, 0.0]),
+        ),
+        near_miss(
+            CHN008,
+            "quaternion-without-meaning",
+            misread("1.0", [0.8, 0.0, 0.0, 0.6], [1.0, 0.0, 0.0, 0.0]),
+        ),
+        near_miss(
+            CHN008,
+            "quaternion-without-length",
+            misread("1.1", [0.0; 4], [1.0, 0.0, 0.0, 0.0]),
+        ),
         invalid(CHN008, "moved-by-a-thousandth", |f| {
             nudge(f, "/joints_in_chain/2/origin/position/2", 1e-3);
         }),

@@ -21,6 +21,7 @@ mod meshes;
 mod schema;
 mod shapes;
 mod source;
+mod two_faults;
 mod urdf;
 mod yaml;
 

@@ -37,6 +37,9 @@ fn lower_only(lower: f64) -> Option<Limit> {
         upper: None,
         effort: Some(1.0),
         velocity: Some(1.0),
+        acceleration: None,
+        deceleration: None,
+        jerk: None,
     })
 }
 
@@ -88,6 +91,9 @@ fn limits() -> Vec<Case> {
                 upper: None,
                 effort: Some(1.0),
                 velocity: Some(1.0),
+                acceleration: None,
+                deceleration: None,
+                jerk: None,
             });
         }),
         fine(SRC006, "mimic-without-limit", |robot| {

@@ -84,6 +84,16 @@ fn against_the_urdf() -> Vec<Case> {
         invalid(URD001, "velocity-limit-gone", |urdd| {
             urdd.urdf_replace(" velocity=\"1.5\"", "");
         }),
+        // Without the version, the quaternion of an origin has no meaning.
+        invalid(URD001, "version-gone", |urdd| {
+            urdd.urdf_replace(" version=\"1.2\"", "");
+        }),
+        invalid(URD001, "quaternion-lost", |urdd| {
+            set_joint(urdd, "bolt", "/origin/quat_xyzw", json!(null));
+        }),
+        invalid(URD001, "jerk-lost", |urdd| {
+            set_joint(urdd, "slide", "/limit/jerk", json!(null));
+        }),
         invalid(URD001, "type-changed", |urdd| {
             urdd.urdf_replace(
                 "name=\"flange\" type=\"fixed\"",
@@ -91,7 +101,7 @@ fn against_the_urdf() -> Vec<Case> {
             );
         }),
         invalid(URD001, "mimic-changed", |urdd| {
-            urdd.urdf_replace("multiplier=\"-1\"", "multiplier=\"-1.001\"");
+            urdd.urdf_replace("multiplier=\"-1\"", "multiplier=\"-0.999\"");
         }),
         invalid(URD001, "link-added", |urdd| {
             urdd.urdf_replace(
@@ -114,7 +124,8 @@ fn against_the_urdf() -> Vec<Case> {
         }),
         // The producer filled in what the URDF leaves out.
         invalid(URD001, "absent-limit-as-zeros", |urdd| {
-            let zeros = json!({"lower": 0.0, "upper": 0.0, "effort": 0.0, "velocity": 0.0});
+            let zeros = json!({"lower": 0.0, "upper": 0.0, "effort": 0.0, "velocity": 0.0,
+                "acceleration": null, "deceleration": null, "jerk": null});
             set_joint(urdd, "flange", "/limit", zeros);
         }),
         invalid(URD001, "absent-axis-filled-in", |urdd| {
@@ -172,9 +183,6 @@ fn against_the_urdf() -> Vec<Case> {
         }),
         invalid(URD013, "damping-changed", |urdd| {
             urdd.urdf_replace("damping=\"0.1\"", "damping=\"0.2\"");
-        }),
-        invalid(URD013, "version-lost", |urdd| {
-            urdd.urdf_replace("<robot ", "<robot version=\"1.1\" ");
         }),
         near_miss(URD013, "line-ends-converted", |urdd| {
             urdd.urdf_mut(|xml| *xml = xml.replace('\n', "\r\n"));
@@ -334,6 +342,12 @@ fn readable() -> Vec<Case> {
         invalid(URD011, "word-among-numbers", |urdd| {
             urdd.urdf_replace("xyz=\"0.05 0 0.2\"", "xyz=\"0.05 x 0 0.2\"");
         }),
+        invalid(URD011, "two-rotations", |urdd| {
+            urdd.urdf_replace("quat_xyzw=", "rpy=\"0 0 0\" quat_xyzw=");
+        }),
+        invalid(URD011, "quaternion-of-three", |urdd| {
+            urdd.urdf_replace("quat_xyzw=\"0 ", "quat_xyzw=\"");
+        }),
         invalid(URD011, "commas", |urdd| {
             urdd.urdf_replace("xyz=\"0.05 0 0.2\"", "xyz=\"0.05, 0, 0.2\"");
         }),
@@ -357,6 +371,19 @@ fn readable() -> Vec<Case> {
             urdd.urdf_replace("<!--", "<!DOCTYPE robot><!--");
             urdd.urdf_mut(|xml| xml.insert(0, '\u{feff}'));
         }),
+        changed(
+            URD011,
+            "two-rotations-before-1.1",
+            false,
+            || {
+                let mut robot = toy_robot();
+                robot.urdf.version = None;
+                let origin = &mut robot.joint_mut("bolt").origin;
+                origin.as_mut().expect("it has").rpy = Some([0.1, 0.2, 0.3]);
+                Fixture::core(&robot)
+            },
+            |_| {},
+        ),
         near_miss(URD011, "elements-that-say-nothing", |urdd| {
             urdd.urdf_replace(
                 "<link name=\"frame\">\n",

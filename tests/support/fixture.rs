@@ -468,6 +468,7 @@ fn edit(link_a: &str, link_b: &str, skip: bool) -> SkipEdit {
 /// geometry, collision geometry alone, and none; all five reasons of skips.
 pub fn toy_robot() -> Robot {
     let mut robot = Robot::new("toy robot");
+    robot.urdf.version = Some("1.2".to_owned());
     robot.meshes = BTreeMap::from([
         (
             "package://toy_description/meshes/turret.stl".to_owned(),
@@ -587,11 +588,18 @@ pub fn toy_robot() -> Robot {
             origin: Some(Origin {
                 xyz: Some([0.4, 0.0, 0.0]),
                 rpy: None,
+                quat_xyzw: None,
             }),
             ..joint("flange", Fixed, "arm", "frame")
         },
         Joint {
-            limit: limit(0.0, 0.2),
+            // URDF 1.2.
+            limit: limit(0.0, 0.2).map(|limit| Limit {
+                acceleration: Some(2.0),
+                deceleration: Some(3.0),
+                jerk: Some(40.0),
+                ..limit
+            }),
             ..joint("slide", Prismatic, "frame", "tool/ü 1")
         },
         Joint {
@@ -607,6 +615,7 @@ pub fn toy_robot() -> Robot {
             origin: Some(Origin {
                 xyz: None,
                 rpy: Some([0.0, 0.5, 0.0]),
+                quat_xyzw: None,
             }),
             ..joint("socket/ü", Spherical, "drone", "eye")
         },
@@ -629,7 +638,12 @@ pub fn toy_robot() -> Robot {
             ..joint("right", Prismatic, "tool/ü 1", "finger_right")
         },
         Joint {
-            origin: origin([-0.22, 0.0, 0.0], [0.0; 3]),
+            // URDF 1.1: half a turn about z, not of length 1.
+            origin: Some(Origin {
+                xyz: Some([-0.22, 0.0, 0.0]),
+                rpy: None,
+                quat_xyzw: Some([0.0, 0.0, -2.0, 0.0]),
+            }),
             ..joint("bolt", Fixed, "base", "1:30")
         },
         // Locked: lower equals upper.

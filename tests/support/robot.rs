@@ -144,6 +144,7 @@ pub fn origin(xyz: [f64; 3], rpy: [f64; 3]) -> Option<Origin> {
     Some(Origin {
         xyz: Some(xyz),
         rpy: Some(rpy),
+        quat_xyzw: None,
     })
 }
 
@@ -154,6 +155,9 @@ pub fn limit(lower: f64, upper: f64) -> Option<Limit> {
         upper: Some(upper),
         effort: Some(10.0),
         velocity: Some(1.5),
+        acceleration: None,
+        deceleration: None,
+        jerk: None,
     })
 }
 
@@ -270,14 +274,18 @@ impl Xml {
     }
 
     fn origin(&mut self, origin: &Option<Origin>) {
-        if let Some(Origin { xyz, rpy }) = origin {
-            let vector = |v: &'_ Option<[f64; 3]>| *v;
-            let (xyz, rpy) = (vector(xyz), vector(rpy));
+        if let Some(Origin {
+            xyz,
+            rpy,
+            quat_xyzw,
+        }) = origin
+        {
             self.empty(
                 "origin",
                 [
                     numbers("xyz", xyz.as_ref().map(|v| &v[..])),
                     numbers("rpy", rpy.as_ref().map(|v| &v[..])),
+                    numbers("quat_xyzw", quat_xyzw.as_ref().map(|v| &v[..])),
                 ],
             );
         }
@@ -389,6 +397,9 @@ impl Xml {
                     maybe("upper", l.upper),
                     maybe("effort", l.effort),
                     maybe("velocity", l.velocity),
+                    maybe("acceleration", l.acceleration),
+                    maybe("deceleration", l.deceleration),
+                    maybe("jerk", l.jerk),
                 ],
             );
         }
@@ -463,7 +474,7 @@ fn robots(
     let parts = (arbitrary_link(geometry, most_elements), arbitrary_joint());
     (
         name(),
-        option(select(vec!["1.0".to_owned(), "1.2".to_owned()])),
+        option(select(vec!["1.0", "1.1", "1.2"]).prop_map(str::to_owned)),
         prop::collection::vec(parts, 1..=most_links),
         prop::collection::vec(material(), 0..3),
         unknown(),
@@ -633,7 +644,7 @@ fn arbitrary_joint() -> impl Strategy<Value = LooseJoint> {
     ];
     (
         (any::<u32>(), name(), joint_type, any::<Index>(), mimic),
-        option(arbitrary_origin()),
+        option(joint_origin()),
         axis(),
         arbitrary_limit(),
         rarely(dynamics),
@@ -726,7 +737,27 @@ fn vector() -> impl Strategy<Value = [f64; 3]> {
 }
 
 fn arbitrary_origin() -> impl Strategy<Value = Origin> {
-    (option(vector()), option(vector())).prop_map(|(xyz, rpy)| Origin { xyz, rpy })
+    (option(vector()), option(vector())).prop_map(|(xyz, rpy)| Origin {
+        xyz,
+        rpy,
+        quat_xyzw: None,
+    })
+}
+
+/// Of a joint: with a rotation in one way or the other, or none.
+fn joint_origin() -> impl Strategy<Value = Origin> {
+    let quaternion = prop::array::uniform4(number())
+        .prop_filter("a length", |q| q.iter().any(|c| c.abs() > 1e-3))
+        .prop_map(Some);
+    (
+        arbitrary_origin(),
+        prop_oneof![2 => Just(None), 1 => quaternion],
+    )
+        .prop_map(|(origin, quat_xyzw)| Origin {
+            rpy: origin.rpy.filter(|_| quat_xyzw.is_none()),
+            quat_xyzw,
+            ..origin
+        })
 }
 
 fn axis() -> impl Strategy<Value = Option<Axis>> {
@@ -748,12 +779,16 @@ fn arbitrary_limit() -> impl Strategy<Value = Option<Limit>> {
         1 => number().prop_map(|upper| (None, Some(upper))),
         1 => Just((None, None)),
     ];
-    option((range, option(positive()), option(positive())).prop_map(
-        |((lower, upper), effort, velocity)| Limit {
+    let more = || option(positive());
+    option((range, more(), more(), more(), more(), more()).prop_map(
+        |((lower, upper), effort, velocity, acceleration, deceleration, jerk)| Limit {
             lower,
             upper,
             effort,
             velocity,
+            acceleration,
+            deceleration,
+            jerk,
         },
     ))
 }

@@ -3,6 +3,7 @@
 //! `crate::kinematics`, which it is there to check.
 
 mod motion;
+mod quaternions;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use urdf_rs::JointType;
@@ -64,6 +65,7 @@ impl Reference {
                 .position(|link| link.name == name)
                 .ok_or_else(|| format!("no link is called {name}"))
         };
+        let quaternions = quaternions::of_joints(urdf);
         let mut dofs = 0;
         let mut joints = Vec::with_capacity(robot.joints.len());
         for joint in &robot.joints {
@@ -86,6 +88,10 @@ impl Reference {
             };
             let [x, y, z] = joint.origin.xyz.0;
             let [roll, pitch, yaw] = joint.origin.rpy.0;
+            let rotation = match quaternions.get(&joint.name) {
+                Some(quaternion) => *quaternion,
+                None => UnitQuaternion::from_euler_angles(roll, pitch, yaw),
+            };
             let limits = [joint.limit.lower, joint.limit.upper];
             let limited = matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic)
                 && limits.iter().all(|limit| limit.is_finite())
@@ -94,10 +100,7 @@ impl Reference {
                 parent: link(&joint.parent.link)?,
                 child: link(&joint.child.link)?,
                 kind: joint.joint_type.clone(),
-                origin: Isometry3::from_parts(
-                    Translation3::new(x, y, z),
-                    UnitQuaternion::from_euler_angles(roll, pitch, yaw),
-                ),
+                origin: Isometry3::from_parts(Translation3::new(x, y, z), rotation),
                 axis: joint.axis.xyz.0,
                 limits: limited.then_some(limits),
                 source,

@@ -36,6 +36,9 @@ impl Reader {
                 upper: self.number(limit, "limit", "upper", &at),
                 effort: self.number(limit, "limit", "effort", &at),
                 velocity: self.number(limit, "limit", "velocity", &at),
+                acceleration: self.number(limit, "limit", "acceleration", &at),
+                deceleration: self.number(limit, "limit", "deceleration", &at),
+                jerk: self.number(limit, "limit", "jerk", &at),
             });
         let dynamics = self
             .only(joint, "joint", "dynamics", at)

@@ -62,6 +62,9 @@ pub enum Fault {
         /// The attribute.
         attribute: &'static str,
     },
+    /// A rotation that is given in two ways.
+    #[error("`rpy` and `quat_xyzw` both say the rotation of an `<origin>`; keep one of them")]
+    TwoRotations,
     /// A joint type that URDF does not define.
     #[error(
         "the type of a joint is one of revolute, continuous, prismatic, fixed, floating, planar, spherical"

@@ -6,6 +6,7 @@ use super::numbers;
 use super::problem::{Fault, Problem, Repeated};
 use super::{Reading, xml};
 use crate::format::urdf as v1;
+use crate::validate::pose::has_quaternions;
 
 pub(super) type Element<'a> = Node<'a, 'a>;
 
@@ -23,6 +24,8 @@ pub(super) fn read(document: &Document<'_>) -> Reading {
 #[derive(Default)]
 pub(super) struct Reader {
     pub(super) reading: Reading,
+    /// Whether `quat_xyzw` counts.
+    quaternions: bool,
 }
 
 impl Reader {
@@ -194,6 +197,7 @@ impl Reader {
             materials: Vec::new(),
             unknown_elements: self.unknown(robot, &["link", "joint", "material"], ""),
         };
+        self.quaternions = has_quaternions(module.version.as_deref());
         for element in xml::elements(robot) {
             let offset = element.range().start;
             match xml::name(element) {
@@ -228,9 +232,17 @@ impl Reader {
         at: &str,
     ) -> Option<v1::Origin> {
         let (origin, at) = self.only(parent, parent_name, "origin", at)?;
+        let quaternion = xml::attribute(origin, "quat_xyzw");
+        if let (Some(quaternion), Some(_), true) =
+            (quaternion, xml::attribute(origin, "rpy"), self.quaternions)
+        {
+            let place = quaternion.range().start;
+            self.problem(place, Fault::TwoRotations, Some(quaternion.value()));
+        }
         Some(v1::Origin {
             xyz: self.vector(origin, "origin", "xyz", &at),
             rpy: self.vector(origin, "origin", "rpy", &at),
+            quat_xyzw: self.vector(origin, "origin", "quat_xyzw", &at),
         })
     }
 }

@@ -84,6 +84,7 @@ mod tests {
                 joint_type,
                 xyz: [0.0; 3],
                 rpy: [0.0; 3],
+                quat_xyzw: None,
                 axis: [0.0; 3],
                 parent: String::new(),
                 child: String::new(),

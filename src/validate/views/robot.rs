@@ -1,10 +1,15 @@
-//! The robot that `urdf_module` describes, with URDF's defaults filled in.
+//! The robot that `urdf_module` or the carried URDF describes, with URDF's defaults filled in.
 
 use std::collections::HashMap;
+
+use nalgebra::Matrix3;
 
 use crate::format::legacy::urdf as legacy;
 use crate::format::registry::ModuleDocument;
 use crate::format::urdf::{self as v1, JointType};
+use crate::validate::pose::{
+    has_quaternions, rotation_of_quaternion, rotation_of_rpy, unit_quaternion,
+};
 
 /// A robot.
 #[derive(Debug, Clone, Default)]
@@ -52,6 +57,8 @@ pub struct Joint {
     pub xyz: [f64; 3],
     /// Rotation of its frame: fixed-axis roll, pitch, yaw, rad.
     pub rpy: [f64; 3],
+    /// The quaternion x, y, z, w that counts instead of `rpy`, where there is one (SPEC 6.1.9).
+    pub quat_xyzw: Option<[f64; 4]>,
     /// Its axis as written, or (1, 0, 0).
     pub axis: [f64; 3],
     /// Name of the link that carries it.
@@ -121,6 +128,17 @@ impl Robot {
 }
 
 impl Joint {
+    /// The rotation of its frame.
+    pub fn rotation(&self) -> Matrix3<f64> {
+        match self
+            .quat_xyzw
+            .and_then(|[x, y, z, w]| unit_quaternion([w, x, y, z]))
+        {
+            Some(unit) => rotation_of_quaternion(unit),
+            None => rotation_of_rpy(self.rpy),
+        }
+    }
+
     /// Number of DOFs that a joint of this type has, mimic or not (SPEC 5.8).
     pub fn freedom(&self) -> usize {
         match self.joint_type {
@@ -164,11 +182,7 @@ impl Joint {
 /// The robot of a `urdf_module`.
 pub fn view(document: &ModuleDocument) -> Option<Robot> {
     match document {
-        ModuleDocument::Urdf(module) => Some(Robot::new(
-            module.name.clone(),
-            module.links.iter().map(from_v1_link).collect(),
-            module.joints.iter().map(from_v1_joint).collect(),
-        )),
+        ModuleDocument::Urdf(module) => Some(of_urdf(module)),
         ModuleDocument::LegacyUrdf(module) => Some(Robot::new(
             module.name.clone(),
             module.links.iter().map(from_legacy_link).collect(),
@@ -176,6 +190,17 @@ pub fn view(document: &ModuleDocument) -> Option<Robot> {
         )),
         _ => None,
     }
+}
+
+/// The robot of a URDF, or of the `urdf_module` of version 1, which keeps all of one.
+pub fn of_urdf(urdf: &v1::UrdfModule) -> Robot {
+    let quaternions = has_quaternions(urdf.version.as_deref());
+    let joint = |joint| from_v1_joint(joint, quaternions);
+    Robot::new(
+        urdf.name.clone(),
+        urdf.links.iter().map(from_v1_link).collect(),
+        urdf.joints.iter().map(joint).collect(),
+    )
 }
 
 fn from_v1_link(link: &v1::Link) -> Link {
@@ -201,13 +226,16 @@ fn from_v1_link(link: &v1::Link) -> Link {
     }
 }
 
-fn from_v1_joint(joint: &v1::Joint) -> Joint {
+fn from_v1_joint(joint: &v1::Joint, quaternions: bool) -> Joint {
     let origin = joint.origin.as_ref();
     Joint {
         name: joint.name.clone(),
         joint_type: joint.joint_type,
         xyz: origin.and_then(|origin| origin.xyz).unwrap_or_default(),
         rpy: origin.and_then(|origin| origin.rpy).unwrap_or_default(),
+        quat_xyzw: origin
+            .and_then(|origin| origin.quat_xyzw)
+            .filter(|_| quaternions),
         axis: joint
             .axis
             .as_ref()
@@ -291,6 +319,7 @@ fn from_legacy_joint(joint: &legacy::Joint) -> Joint {
         },
         xyz: joint.origin.xyz,
         rpy: joint.origin.rpy,
+        quat_xyzw: None,
         axis: joint.axis.xyz,
         parent: joint.parent.link.clone(),
         child: joint.child.link.clone(),

@@ -3,7 +3,7 @@ use nalgebra::Vector3;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::pose::{rotation_of_quaternion, rotation_of_rpy};
+use crate::validate::pose::rotation_of_quaternion;
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::{POSITION_OF_REACH, ROTATION, reach, rotation_distance};
 
@@ -14,7 +14,7 @@ declare_rule! {
     /// that the joint carries, in every configuration.
     ///
     /// The position is `xyz`; the rotation is R = Rz(yaw) Ry(pitch) Rx(roll) of `rpy`, as a quaternion
-    /// with w first. Common mistakes: x, y, z, w instead of w, x, y, z; the inverse rotation; roll,
+    /// with w first, or from URDF 1.1 on that of `quat_xyzw` (w last). Common mistakes: x, y, z, w instead of w, x, y, z; the inverse rotation; roll,
     /// pitch and yaw taken about moving axes; numbers that went through 32-bit floats.
     CHN008 "joint-origin-differs", Error, clause "6.3.4", since "0.1.0",
     phase References, needs [Version1, Passed(CHN002), Passed(CHN010)],
@@ -49,7 +49,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 .tolerance(position_tolerance),
             );
         }
-        let turned = rotation_of_rpy(right.rpy);
+        let turned = right.rotation();
         let angle = rotation_distance(&turned, &rotation_of_quaternion(origin.quaternion_wxyz));
         if !within(angle, ROTATION) {
             findings.report(
@@ -61,7 +61,10 @@ fn check(context: &Context, findings: &mut Findings) {
                         right.name
                     ),
                 )
-                .expected(format!("the rotation of rpy {:?}", right.rpy))
+                .expected(match right.quat_xyzw {
+                    Some(xyzw) => format!("the rotation of quat_xyzw {xyzw:?}"),
+                    None => format!("the rotation of rpy {:?}", right.rpy),
+                })
                 .actual(format!("{:?}", origin.quaternion_wxyz))
                 .tolerance(ROTATION),
             );

@@ -63,7 +63,7 @@ mod tests {
         }
         let mut findings = Findings::default();
         tally.report(&mut findings);
-        let findings = findings.into_vec();
+        let findings = findings.take();
         assert_eq!(findings.len(), 1);
         assert_eq!((findings[0].count, findings[0].more.len()), (1000, 2));
     }

@@ -146,7 +146,7 @@ mod tests {
         };
         let mut findings = Findings::default();
         mapping.check("f", &mut findings);
-        let pointers = findings.into_vec().into_iter();
+        let pointers = findings.take().into_iter();
         pointers
             .filter_map(|finding| finding.place.pointer)
             .collect()

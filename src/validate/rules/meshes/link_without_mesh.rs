@@ -20,9 +20,7 @@ declare_rule! {
     phase References, needs [
         Module(Kind::Urdf),
         Module(Kind::PlainMeshes),
-        NotFailed(URD001),
         NotFailed(URD004),
-        NotFailedInV1(URD013),
         NotFailed(MSH001),
         NotFailed(MSH003),
         NotFailed(MSH007),

@@ -22,7 +22,6 @@ declare_rule! {
         NotFailed(MSH003),
         NotFailed(MSH005),
         NotFailed(DIR015),
-        NotFailed(URD001),
         NotFailed(URD007),
         NotFailed(CHN001),
     ],

@@ -17,7 +17,6 @@ declare_rule! {
     phase References, needs [
         Module(Kind::Urdf),
         AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
-        NotFailed(URD001),
         NotFailed(MSH001),
         NotFailed(MSH003),
     ],

@@ -21,7 +21,6 @@ declare_rule! {
             Kind::ConvexHullMeshes,
             Kind::ConvexDecompositionMeshes,
         ]),
-        NotFailed(URD001),
         NotFailed(URD004),
         NotFailed(URD007),
     ],

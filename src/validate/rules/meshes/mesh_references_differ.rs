@@ -23,9 +23,7 @@ declare_rule! {
     phase References, needs [
         Module(Kind::Urdf),
         Module(Kind::OriginalMeshes),
-        NotFailed(URD001),
         NotFailed(URD004),
-        NotFailedInV1(URD013),
         NotFailed(MSH001),
     ],
     check check,

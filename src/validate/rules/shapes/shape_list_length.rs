@@ -16,7 +16,6 @@ declare_rule! {
     phase References, needs [
         Module(Kind::Urdf),
         AnyModule(&[Kind::LinkShapesApproximations, Kind::LinkShapesMaxDistanceFromOrigin]),
-        NotFailed(URD001),
         NotFailed(URD004),
         NotFailed(URD007),
     ],

@@ -15,7 +15,6 @@ declare_rule! {
         Version1,
         Module(Kind::Urdf),
         Module(Kind::LinkShapesSkips),
-        NotFailed(URD001),
         NotFailed(URD004),
         NotFailed(URD007),
         NotFailed(CHN001),

@@ -1,4 +1,3 @@
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -11,12 +10,12 @@ declare_rule! {
     ///
     /// Swap or correct `lower` and `upper` in the URDF, and write the URDD again.
     SRC001 "crossed-limits", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), NotFailed(URD001)],
+    phase References, needs [SourceRobot],
     check check,
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     for (index, joint) in robot.joints.iter().enumerate() {
@@ -31,7 +30,7 @@ fn check(context: &Context, findings: &mut Findings) {
             };
             findings.report(
                 Finding::at(
-                    module.file("module.json"),
+                    &file,
                     format!("/joints/{index}/limit"),
                     format!(
                         "the limits of joint `{}` are crossed{absent}: no position is allowed",

@@ -1,6 +1,5 @@
 use super::inertia_not_positive_definite::positive;
 use super::moments;
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -16,12 +15,12 @@ declare_rule! {
     ///
     /// Compute the tensor again, correct the URDF, and write the URDD again.
     SRC005 "inertia-breaks-the-triangle-inequality", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), NotFailed(URD013)],
+    phase References, needs [SourceRobot],
     check check,
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     for (index, link) in robot.links.iter().enumerate() {
@@ -35,7 +34,7 @@ fn check(context: &Context, findings: &mut Findings) {
         }
         findings.report(
             Finding::at(
-                module.file("module.json"),
+                &file,
                 format!("/links/{index}/inertial/inertia"),
                 format!(
                     "no body has the inertia of link `{}`: its largest principal moment is larger than the sum of the others by {:.2}%",

@@ -1,5 +1,4 @@
 use super::moments;
-use crate::format::registry::ModuleKind;
 use crate::format::urdf::JointType;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
@@ -23,16 +22,16 @@ declare_rule! {
     /// correct the URDF, and write the URDD again.
     SRC004 "inertia-not-positive-definite", Warning, clause "6.1.7", since "0.1.0",
     phase References, needs [
-        Module(Kind::Urdf), NotFailed(URD001), NotFailed(URD013), Passed(URD004), Passed(URD006),
+        SourceRobot, Passed(URD004), Passed(URD006),
     ],
     check check,
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(bodies), Some(module)) = (
+    let (Some(robot), Some(bodies), Some(file)) = (
         context.robot(),
         context.rigid_groups(),
-        context.module(ModuleKind::Urdf),
+        context.robot_file(),
     ) else {
         return;
     };
@@ -51,7 +50,7 @@ fn check(context: &Context, findings: &mut Findings) {
             }
             findings.report(
                 Finding::at(
-                    module.file("module.json"),
+                    &file,
                     format!("/links/{index}/inertial/inertia"),
                     format!(
                         "the inertia of link `{}` is not positive definite",
@@ -72,7 +71,7 @@ fn check(context: &Context, findings: &mut Findings) {
         if let (Some(joint), Some((index, link)), true) = (turned_by, point, no_inertia) {
             findings.report(
                 Finding::at(
-                    module.file("module.json"),
+                    &file,
                     format!("/links/{index}/inertial/inertia"),
                     format!(
                         "link `{}` is turned by joint `{}`, has mass, and no inertia",

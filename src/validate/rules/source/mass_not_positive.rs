@@ -1,4 +1,3 @@
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -17,7 +16,7 @@ declare_rule! {
     /// the URDD again.
     SRC003 "mass-not-positive", Warning, clause "6.1.7", since "0.1.0",
     phase References, needs [
-        Module(Kind::Urdf), NotFailed(URD001), NotFailed(URD013), Passed(URD004), Passed(URD006),
+        SourceRobot, Passed(URD004), Passed(URD006),
     ],
     check check,
 }
@@ -29,10 +28,10 @@ enum Fault {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(bodies), Some(module)) = (
+    let (Some(robot), Some(bodies), Some(file)) = (
         context.robot(),
         context.rigid_groups(),
-        context.module(ModuleKind::Urdf),
+        context.robot_file(),
     ) else {
         return;
     };
@@ -57,13 +56,9 @@ fn check(context: &Context, findings: &mut Findings) {
                 ),
             };
             findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/links/{index}/inertial/mass"),
-                    message,
-                )
-                .expected(expected)
-                .actual(format!("link `{}`: {} kg", link.name, mass(link))),
+                Finding::at(&file, format!("/links/{index}/inertial/mass"), message)
+                    .expected(expected)
+                    .actual(format!("link `{}`: {} kg", link.name, mass(link))),
             );
         }
         let Some(joint) = body.moved_by.and_then(|joint| robot.joints.get(joint)) else {
@@ -83,13 +78,9 @@ fn check(context: &Context, findings: &mut Findings) {
                 ),
             };
             findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/links/{index}/inertial/mass"),
-                    message,
-                )
-                .expected("a positive mass")
-                .actual(format!("link `{}`: 0 kg", link.name)),
+                Finding::at(&file, format!("/links/{index}/inertial/mass"), message)
+                    .expected("a positive mass")
+                    .actual(format!("link `{}`: 0 kg", link.name)),
             );
         }
     }

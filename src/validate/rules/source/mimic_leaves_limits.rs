@@ -1,4 +1,3 @@
-use crate::format::registry::ModuleKind;
 use crate::format::urdf::JointType;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
@@ -17,17 +16,15 @@ declare_rule! {
     /// URDF, and write the URDD again.
     SRC002 "mimic-leaves-its-limits", Warning, clause "6.1.7", since "0.1.0",
     phase References, needs [
-        Module(Kind::Urdf), NotFailed(URD001), Passed(URD008), Passed(URD009), Passed(URD012),
+        SourceRobot, Passed(URD008), Passed(URD009), Passed(URD012),
     ],
     check check,
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(mimics), Some(module)) = (
-        context.robot(),
-        context.mimics(),
-        context.module(ModuleKind::Urdf),
-    ) else {
+    let (Some(robot), Some(mimics), Some(file)) =
+        (context.robot(), context.mimics(), context.robot_file())
+    else {
         return;
     };
     for (index, (joint, resolved)) in robot.joints.iter().zip(&mimics.by_joint).enumerate() {
@@ -57,7 +54,7 @@ fn check(context: &Context, findings: &mut Findings) {
         }
         findings.report(
             Finding::at(
-                module.file("module.json"),
+                &file,
                 format!("/joints/{index}/limit"),
                 format!(
                     "joint `{}` follows joint `{}`, and leaves its own limits by up to {} where the driver is within its",

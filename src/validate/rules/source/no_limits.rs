@@ -1,4 +1,3 @@
-use crate::format::registry::ModuleKind;
 use crate::format::urdf::JointType;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
@@ -14,12 +13,12 @@ declare_rule! {
     /// Write `<limit lower=… upper=… effort=… velocity=…/>` in the URDF, or make the joint
     /// `continuous` where it turns without end. Then write the URDD again.
     SRC006 "joint-without-limits", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Version1, NotFailed(URD001)],
+    phase References, needs [SourceRobot, Version1],
     check check,
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     for (index, joint) in robot.joints.iter().enumerate() {
@@ -33,7 +32,7 @@ fn check(context: &Context, findings: &mut Findings) {
         };
         findings.report(
             Finding::at(
-                module.file("module.json"),
+                &file,
                 format!("/joints/{index}/limit"),
                 format!(
                     "joint `{}` ({}) has no limits; it counts as not limited",

@@ -14,7 +14,8 @@ use crate::validate::urdf_text::compare::{Difference, differences};
 pub(super) fn is_kinematic(pointer: &str) -> bool {
     let mut parts = pointer.split('/').skip(1);
     match (parts.next(), parts.next(), parts.next()) {
-        (Some("links" | "joints"), None, _) => true,
+        // By the version, a quaternion counts or does not.
+        (Some("links" | "joints" | "version"), None, _) => true,
         (Some("links" | "joints"), Some(_), Some("name")) => true,
         (Some("joints"), Some(_), Some(key)) => matches!(
             key,
@@ -92,6 +93,7 @@ mod tests {
             "/links",
             "/joints",
             "/links/3/name",
+            "/version",
             "/joints/1/mimic/offset",
         ] {
             assert!(is_kinematic(pointer), "{pointer}");

@@ -1,0 +1,146 @@
+//! By which description of the robot rules judge, where a URDD has two: `urdf_module`, and the
+//! URDF that it carries.
+//!
+//! That the two agree is for URD001 and URD013 to say. Where they do not, one fault should still be
+//! one message, and a second fault should not hide behind the first:
+//!
+//! - What a robot is like (SRC) is judged by its source: the carried URDF where it can be read.
+//! - A module that follows from the robot is judged by each of the two, and is at fault where it
+//!   is so by both. One that was made from the URDF as it was before somebody changed it follows
+//!   from `urdf_module`; one beside an `urdf_module` that was damaged follows from the URDF. In
+//!   neither case is there anything to add to what URD001 says. What follows from neither is wrong
+//!   by itself.
+//!
+//! Each of the two runs keeps its own account of what rules found, so that a rule may count on what
+//! it needs; then they are put together rule by rule.
+
+use std::collections::{HashMap, HashSet};
+
+use super::code::Code;
+use super::context::Context;
+use super::engine::{Check, Outcome, Outcomes, judge, run_all};
+use super::finding::Findings;
+use super::rule::{Need, Phase, Rule};
+
+/// What a rule judges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Judges {
+    /// Files, texts, `urdf_module` itself: one run says all.
+    AsItStands,
+    /// The robot, whatever the modules say of it.
+    Source,
+    /// What follows from the robot.
+    Derived,
+}
+
+fn judges(rule: &Rule) -> Judges {
+    if rule.needs.contains(&Need::SourceRobot) {
+        return Judges::Source;
+    }
+    // A rule that needs the URDF compares with it already.
+    let as_it_stands = rule.phase < Phase::References
+        || matches!(rule.code.family(), "URD" | "SRC")
+        || rule.needs.contains(&Need::CarriedUrdf);
+    match as_it_stands {
+        true => Judges::AsItStands,
+        false => Judges::Derived,
+    }
+}
+
+/// Runs rules over a URDD, in no particular order.
+pub(super) fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
+    let mut outcomes = Outcomes::new();
+    let Some(by_urdf) = context.by_urdf() else {
+        return run_all(context, rules.to_vec(), &mut outcomes);
+    };
+    let of = |kind: Judges| {
+        rules
+            .iter()
+            .copied()
+            .filter(move |rule| judges(rule) == kind)
+    };
+    let once = of(Judges::AsItStands).chain(of(Judges::Derived)).collect();
+    let mut checks = run_all(context, once, &mut outcomes);
+    let differs = difference(&outcomes);
+
+    let mut second: Vec<&'static Rule> = of(Judges::Source).collect();
+    // Whether the URDF's robot is sound enough for the others; urdf_module's was told above.
+    let sound: Vec<&'static Rule> = of(Judges::AsItStands).filter(|r| on_robot(r)).collect();
+    second.extend(&sound);
+    if differs.is_some() {
+        second.extend(of(Judges::Derived));
+    }
+    for rule in &second {
+        outcomes.remove(&rule.code);
+    }
+    let mut again: HashMap<Code, Check> = run_all(&by_urdf, second, &mut outcomes)
+        .into_iter()
+        .map(|check| (check.rule.code, check))
+        .collect();
+    for rule in &sound {
+        again.remove(&rule.code);
+    }
+    if let Some(differs) = differs {
+        for check in &mut checks {
+            if let Some(second) = again.remove(&check.rule.code) {
+                put_together(check, second, context, &by_urdf);
+            }
+        }
+        tell_why_skipped(&mut checks, differs);
+    }
+    checks.extend(again.into_values());
+    checks
+}
+
+/// Which rule did not find that `urdf_module` is what the URDF says.
+fn difference(outcomes: &Outcomes) -> Option<Code> {
+    [Code::URD001, Code::URD013].into_iter().find(|code| {
+        outcomes
+            .get(code)
+            .is_some_and(|outcome| *outcome != Outcome::Passed)
+    })
+}
+
+/// Whether a rule says if the robot is one at all: a tree of links, mimics that can be resolved.
+fn on_robot(rule: &Rule) -> bool {
+    rule.code.family() == "URD" && !rule.needs.contains(&Need::CarriedUrdf)
+}
+
+/// Makes one check of two: by `urdf_module`, and by the URDF.
+fn put_together(check: &mut Check, second: Check, context: &Context, by_urdf: &Context) {
+    let both = match (&check.outcome, &second.outcome) {
+        (Outcome::Crashed(_), _) | (_, Outcome::Skipped(_)) => return,
+        (Outcome::Skipped(_), _) | (_, Outcome::Crashed(_)) => second,
+        (Outcome::Failed, Outcome::Failed) => at_fault_by_both(check.rule, context, by_urdf),
+        (Outcome::Passed, _) | (_, Outcome::Passed) => {
+            Check::new(check.rule, Outcome::Passed, Vec::new())
+        }
+    };
+    *check = both;
+}
+
+/// What a rule that failed twice finds in the same places. It looks once more, since of many
+/// findings only the first few are kept.
+fn at_fault_by_both(rule: &'static Rule, context: &Context, by_urdf: &Context) -> Check {
+    let mut first = Findings::remembering_spots();
+    judge(context, rule, &mut first);
+    judge(by_urdf, rule, &mut Findings::only_at(first.into_spots()))
+}
+
+/// A rule that was skipped because another failed, and that other one has nothing left to say now:
+/// the reason is that the two robots differ.
+fn tell_why_skipped(checks: &mut [Check], differs: Code) {
+    let found = |code: Code| format!("{code} found a fault");
+    let settled: HashSet<String> = checks
+        .iter()
+        .filter(|check| check.outcome == Outcome::Passed)
+        .map(|check| found(check.rule.code))
+        .collect();
+    for check in checks {
+        if let Outcome::Skipped(reason) = &mut check.outcome
+            && settled.contains(reason)
+        {
+            *reason = found(differs);
+        }
+    }
+}
