@@ -1,14 +1,12 @@
 //! `chain_module` from the robot: SPEC 6.3.
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion};
-
+use super::pose;
 use super::urdf::{Tree, has_axis, written_axis};
 use crate::format::chain::{ChainModule, JointInChain, LinkInChain};
 use crate::format::index::{JointIdx, LinkIdx};
-use crate::format::pose::Pose;
-use crate::format::urdf::{Origin, UrdfModule};
+use crate::format::urdf::UrdfModule;
 use crate::kinematics::pose::from_isometry;
-use crate::kinematics::rotation::{from_rpy, unit_axis};
+use crate::kinematics::rotation::unit_axis;
 
 /// Makes the module.
 pub(super) fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
@@ -23,6 +21,7 @@ pub(super) fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
             children_link_idxs: Vec::new(),
         })
         .collect();
+    let quaternions = pose::has_quaternions(robot.version.as_deref());
     let mut joints = Vec::with_capacity(robot.joints.len());
     for ((joint_idx, joint), [parent, child]) in (0..).zip(&robot.joints).zip(&tree.ends) {
         let joint_idx = JointIdx(joint_idx);
@@ -40,7 +39,7 @@ pub(super) fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
             child_link_name: joint.child.link.clone(),
             child_link_idx: child_idx,
             joint_type: joint.joint_type,
-            origin: pose(joint.origin.as_ref()),
+            origin: from_isometry(&pose::of(joint.origin.as_ref(), quaternions)),
             axis: axis.map(|axis| axis.into_inner().into()),
         });
     }
@@ -55,16 +54,6 @@ pub(super) fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
         kinematic_hierarchy,
         root_idx: LinkIdx(tree.root as u32),
     }
-}
-
-/// An origin as a pose; what is absent is zero.
-pub(super) fn pose(origin: Option<&Origin>) -> Pose {
-    let xyz = origin.and_then(|origin| origin.xyz).unwrap_or_default();
-    let rotation = match origin.and_then(|origin| origin.rpy) {
-        Some(rpy) => from_rpy(rpy),
-        None => UnitQuaternion::identity(),
-    };
-    from_isometry(&Isometry3::from_parts(Translation3::from(xyz), rotation))
 }
 
 fn hierarchy(links: &[LinkInChain], root: usize) -> Vec<Vec<LinkIdx>> {

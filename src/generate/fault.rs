@@ -48,6 +48,9 @@ pub enum Fault {
         /// The type.
         found: String,
     },
+    /// A rotation that is given in two ways.
+    #[error("`rpy` and `quat_xyzw` both say the rotation of an `<origin>`; keep one of them")]
+    TwoRotations,
     /// Two links of one name.
     #[error("there are two links named `{name}`; the other one is in line {first}")]
     TwoLinks {

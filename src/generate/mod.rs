@@ -16,6 +16,7 @@ mod meshes;
 mod metadata;
 pub mod note;
 mod old;
+mod pose;
 mod robot;
 mod selection;
 mod source;

@@ -75,6 +75,7 @@ fn cases() -> Vec<(&'static str, Vec<u8>)> {
         ("many faults", text(&format!("<robot name=\"r\">{}</robot>", "\n  <link/>".repeat(9)))),
         ("deeply nested", text(&format!("<robot name=\"r\">{}{}</robot>", "<a>".repeat(100_000), "</a>".repeat(100_000)))),
         ("only macros", text("<robot name=\"r\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n  <xacro:include filename=\"$(find r)/arm.xacro\"/>\n</robot>\n")),
+        ("two rotations", text("<robot name=\"r\" version=\"1.1\">\n  <link name=\"a\"><visual><origin rpy=\"0 0 0\" quat_xyzw=\"0 0 0 1\"/></visual></link>\n</robot>\n")),
         // What is a robot all the same.
         ("byte order mark", text("\u{feff}<?xml version=\"1.0\"?><robot name=\"r\"><link name=\"a\"/></robot>")),
         ("UTF-16", utf16("<?xml version=\"1.0\" encoding=\"UTF-16\"?><robot name=\"é\"><link name=\"a\"/></robot>")),
@@ -117,6 +118,8 @@ fn cases() -> Vec<(&'static str, Vec<u8>)> {
         ("a mimic without joint", with_limits("<mimic multiplier=\"2\"/>")),
         ("a floating mimic", two_links("  <joint name=\"j\" type=\"floating\"><parent link=\"a\"/><child link=\"b\"/><mimic joint=\"j\"/></joint>")),
         ("two axes", with_limits("<axis xyz=\"0 0 1\"/><axis xyz=\"1 0 0\"/>")),
+        ("a quaternion before 1.1", with_limits("<origin rpy=\"0 0 1\" quat_xyzw=\"0 0 0 1\"/>")),
+        ("a quaternion of no length", text("<robot name=\"r\" version=\"1.1\">\n  <link name=\"a\"><visual><origin quat_xyzw=\"0 0 0 0\"/></visual></link>\n</robot>\n")),
         ("numbers beyond reach", joint("prismatic", "<limit lower=\"-1e308\" upper=\"1e308\" effort=\"1\" velocity=\"1\"/><origin xyz=\"1e308 1e308 1e308\"/>")),
         ("slashes and unicode in names", text("<robot name=\"r/ö\"><link name=\"../ä/&#10;b\"/></robot>")),
     ]

@@ -43,6 +43,9 @@ impl Reader {
             upper: self.number(limit, "upper"),
             effort: self.number(limit, "effort"),
             velocity: self.number(limit, "velocity"),
+            acceleration: self.number(limit, "acceleration"),
+            deceleration: self.number(limit, "deceleration"),
+            jerk: self.number(limit, "jerk"),
         });
         let dynamics = self.only(joint, "dynamics").map(|dynamics| v1::Dynamics {
             damping: self.number(dynamics, "damping"),

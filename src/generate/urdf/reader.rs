@@ -11,6 +11,7 @@ use super::{materials, tree};
 use crate::format::urdf as v1;
 use crate::generate::fault::Fault;
 use crate::generate::note::{NoteKind, Remark};
+use crate::generate::pose::{from_xyzw, has_quaternions};
 
 /// Most links, joints or elements of a kind: indices are of 32 bits.
 const MOST: usize = 10_000_000;
@@ -270,10 +271,27 @@ impl Reader {
 
     pub(super) fn origin(&mut self, parent: Element<'_>) -> Option<v1::Origin> {
         let origin = self.only(parent, "origin")?;
-        Some(v1::Origin {
+        let read = v1::Origin {
             xyz: self.vector(origin, "xyz"),
             rpy: self.vector(origin, "rpy"),
-        })
+            quat_xyzw: self.vector(origin, "quat_xyzw"),
+        };
+        let offset = origin.range().start;
+        let both = self.attribute(origin, "rpy").is_some()
+            && self.attribute(origin, "quat_xyzw").is_some();
+        if !has_quaternions(self.reading.robot.version.as_deref()) {
+            if read.quat_xyzw.is_some() {
+                let problem = "`quat_xyzw` of `<origin>` has a meaning from URDF 1.1 on, and this is an older one";
+                let assumed = "kept, without effect; `version=\"1.1\"` of `<robot>` gives it one";
+                self.remark(NoteKind::Numbers, offset, problem.to_owned(), assumed);
+            }
+        } else if both {
+            self.fault(offset, Fault::TwoRotations);
+        } else if read.quat_xyzw.is_some_and(|xyzw| from_xyzw(xyzw).is_none()) {
+            let problem = "`quat_xyzw` of `<origin>` has no length".to_owned();
+            self.remark(NoteKind::Numbers, offset, problem, "taken as no rotation");
+        }
+        Some(read)
     }
 }
 
