@@ -21,6 +21,10 @@ pub(super) fn check(reader: &mut Reader) {
     for (offset, material) in &materials {
         let look = (&material.color, &material.texture);
         let has_look = look != (&None, &None);
+        // An empty name is how some programs write that there is none.
+        if material.name.as_deref() == Some("") {
+            continue;
+        }
         let (problem, assumed) = match &material.name {
             None => (
                 "a material has no name".to_owned(),
@@ -31,8 +35,7 @@ pub(super) fn check(reader: &mut Reader) {
                     format!("there is another look of material `{}`", shortened(name)),
                     "each element keeps its own; where only the name stands, the first counts",
                 ),
-                // An empty name is how some programs write that there is none.
-                None if !name.is_empty() && told.insert(name) => (
+                None if told.insert(name) => (
                     format!("no material `{}` has a colour or texture", shortened(name)),
                     "the name is kept, and has no look",
                 ),
