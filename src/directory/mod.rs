@@ -4,6 +4,7 @@
 pub mod canonical;
 pub mod digest;
 pub mod discover;
+pub mod document;
 pub mod json;
 mod json_fault;
 pub mod json_scan;

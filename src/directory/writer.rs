@@ -4,10 +4,9 @@ use std::fs::{self, File};
 use std::io::{BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::canonical;
+use super::document::Document;
 use super::staging::StagingError;
 use crate::format::index::Count;
 use crate::format::registry::ModuleKind;
@@ -85,7 +84,7 @@ impl Writer {
         &self,
         kind: ModuleKind,
         version: &str,
-        document: &Value,
+        document: &Document,
     ) -> Result<Vec<FileEntry>, StagingError> {
         let folder = kind.folder();
         Ok(vec![
@@ -93,8 +92,8 @@ impl Writer {
                 &format!("{folder}/VERSION"),
                 format!("{version}\n").as_bytes(),
             )?,
-            self.document(&format!("{folder}/module.json"), document, canonical::json)?,
-            self.document(&format!("{folder}/module.yaml"), document, canonical::yaml)?,
+            self.document(&format!("{folder}/module.json"), document, Document::json)?,
+            self.document(&format!("{folder}/module.yaml"), document, Document::yaml)?,
         ])
     }
 
@@ -102,8 +101,8 @@ impl Writer {
     fn document(
         &self,
         path: &str,
-        document: &Value,
-        emit: fn(&Value, &mut Sink) -> std::fmt::Result,
+        document: &Document,
+        emit: fn(&Document, &mut Sink) -> std::fmt::Result,
     ) -> Result<FileEntry, StagingError> {
         let mut sink = Sink {
             file: BufWriter::with_capacity(1 << 16, self.create(path)?),
@@ -111,11 +110,12 @@ impl Writer {
             size: 0,
             error: None,
         };
-        // The emission fails only where the sink does, and that remembers why.
-        let _ = emit(document, &mut sink);
-        let result = match sink.error.take() {
-            Some(error) => Err(error),
-            None => sink.file.flush(),
+        let emitted = emit(document, &mut sink);
+        let result = match (sink.error.take(), emitted) {
+            // The sink remembers why it failed.
+            (Some(error), _) => Err(error),
+            (None, Err(error)) => Err(std::io::Error::other(error)),
+            (None, Ok(())) => sink.file.flush(),
         };
         self.check(path, result)?;
         Ok(entry(path, sink.size, sink.hasher.finalize().as_slice()))

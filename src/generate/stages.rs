@@ -7,7 +7,6 @@
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use serde_json::Value;
 
 use super::error::GenerateError;
 use super::fault::{Fault, PlacedFault};
@@ -17,6 +16,7 @@ use super::old::Old;
 use super::robot::Settings;
 use super::source::Source;
 use super::{bounds, chain, connections, dof, kinematics_samples};
+use crate::directory::document::{Document, Rows};
 use crate::format::bounds::BoundsModule;
 use crate::format::chain::ChainModule;
 use crate::format::dof::DofModule;
@@ -84,7 +84,7 @@ impl<'a> Work<'a> {
 
 /// A module that was made.
 pub(super) struct Made {
-    pub document: Value,
+    pub document: Document,
     /// The files that the document names.
     pub files: Vec<MadeFile>,
 }
@@ -136,7 +136,7 @@ const STAGES: &[Stage] = &[
         kind: ModuleKind::Connections,
         // With hundreds of links it is megabytes of text.
         settings: |_| Some("1".to_owned()),
-        make: |work| document(&connections::connections_module(&work.chain)),
+        make: connections,
     },
     Stage {
         kind: ModuleKind::Bounds,
@@ -170,6 +170,31 @@ fn document(module: &impl Serialize) -> Result<Made, GenerateError> {
         file: String::new(),
         reason: error.to_string(),
     })?;
+    let files = Vec::new();
+    Ok(Made {
+        document: Document::Whole(document),
+        files,
+    })
+}
+
+/// With 300 links in a line these are 8 million numbers.
+fn connections(work: &mut Work) -> Result<Made, GenerateError> {
+    let module = connections::connections_module(&work.chain);
+    let document = Document::Lists(vec![
+        ("root_paths", Some(Rows::new(module.root_paths))),
+        (
+            "lowest_common_ancestors",
+            Some(Rows::new(module.lowest_common_ancestors)),
+        ),
+        (
+            "link_to_link_paths",
+            module.link_to_link_paths.map(Rows::new),
+        ),
+        (
+            "link_connection_paths",
+            module.link_connection_paths.map(Rows::new),
+        ),
+    ]);
     let files = Vec::new();
     Ok(Made { document, files })
 }
