@@ -46,15 +46,12 @@ def mtl(material: str, rgb: tuple[float, float, float]) -> bytes:
 
 def collada(bodies: list[tuple[list[Triangle], tuple[float, float, float]]], rgb, up: str = "Z_UP", unit: float = 1.0) -> bytes:
     """A COLLADA file: each body a geometry of its own, written about its own origin and put in its
-    place by its node; lengths in `unit` metres; of the axes the one that `up` says points upward."""
+    place by its node; lengths in `unit` metres. `up` is written and nothing is turned by it: that is how
+    URDF tools read it (RViz, Pinocchio, trimesh), and how half of the exporters write it."""
     geometries, nodes = [], []
     for n, (body, at) in enumerate(bodies):
         local = scaled([tuple(tuple(a - b for a, b in zip(p, at)) for p in t) for t in body], 1 / unit)
         place = [a / unit for a in at]
-        if up == "Y_UP":
-            # z of the robot is y of the file.
-            local = [tuple((x, z, -y) for x, y, z in t) for t in local]
-            place = [place[0], place[2], -place[1]]
         points, triangles = indexed(local)
         numbers = " ".join(f"{a + 0.0:.6g}" for p in points for a in p)
         corners = " ".join(str(i) for t in triangles for i in t)
