@@ -5,7 +5,7 @@
 pub mod cli;
 pub mod directory;
 pub mod format;
-mod generate;
+pub mod generate;
 pub mod kinematics;
 pub mod report;
 pub mod validate;

@@ -1,6 +1,8 @@
 //! The command line: arguments in, text out. Everything else is in the library.
 
 mod explain;
+mod generate;
+mod generate_output;
 mod info;
 mod output;
 mod rehash;
@@ -21,6 +23,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Make URDDs of URDFs.
+    Generate(generate::GenerateArguments),
     /// Check URDDs against the specification.
     Validate(validate::ValidateArguments),
     /// Tell about a rule, or list them all.
@@ -36,6 +40,7 @@ enum Command {
 /// Reads the command line and runs what it asks for.
 pub fn run() -> ExitCode {
     match Arguments::parse().command {
+        Command::Generate(arguments) => generate::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),

@@ -132,7 +132,8 @@ fn inline(value: &Value, language: Language, out: &mut impl Write) -> fmt::Resul
     }
 }
 
-fn json_node(value: &Value, indent: usize, out: &mut impl Write) -> fmt::Result {
+/// A value in JSON, from where it stands.
+pub(super) fn json_node(value: &Value, indent: usize, out: &mut impl Write) -> fmt::Result {
     match value {
         Value::Array(list) if !is_inline(value) => {
             let mut before = "[\n";
@@ -168,20 +169,22 @@ fn json_node(value: &Value, indent: usize, out: &mut impl Write) -> fmt::Result 
 fn yaml_block(value: &Value, indent: usize, begun: bool, out: &mut impl Write) -> fmt::Result {
     match value {
         Value::Object(map) => yaml_members(map, indent, begun, out),
-        Value::Array(list) => {
-            for element in list {
-                spaces(indent, out)?;
-                out.write_char('-')?;
-                if element.is_object() && !is_inline(element) {
-                    out.write_char(' ')?;
-                    yaml_block(element, indent + 2, true, out)?;
-                } else {
-                    yaml_rest(element, indent + 2, out)?;
-                }
-            }
-            Ok(())
-        }
+        Value::Array(list) => list
+            .iter()
+            .try_for_each(|element| yaml_element(element, indent, out)),
         _ => inline(value, Language::Yaml, out),
+    }
+}
+
+/// An element of a list that is not inline.
+pub(super) fn yaml_element(element: &Value, indent: usize, out: &mut impl Write) -> fmt::Result {
+    spaces(indent, out)?;
+    out.write_char('-')?;
+    if element.is_object() && !is_inline(element) {
+        out.write_char(' ')?;
+        yaml_block(element, indent + 2, true, out)
+    } else {
+        yaml_rest(element, indent + 2, out)
     }
 }
 

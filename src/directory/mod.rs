@@ -4,6 +4,7 @@
 pub mod canonical;
 pub mod digest;
 pub mod discover;
+pub mod document;
 pub mod json;
 mod json_fault;
 pub mod json_scan;
@@ -14,8 +15,10 @@ pub mod position;
 pub mod rehash;
 pub mod root;
 pub mod schema_files;
+pub mod staging;
 mod string_text;
 pub mod text_fault;
+pub mod writer;
 pub mod yaml;
 mod yaml_compare;
 mod yaml_message;

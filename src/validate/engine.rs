@@ -1,5 +1,5 @@
 //! Runs the rules over a URDD: phase by phase, each rule only when what it needs is sound, a rule
-//! that crashes caught. By which description of the robot a rule judges: see [`two_robots`].
+//! that crashes caught. By which description of the robot a rule judges: see `two_robots`.
 
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -7,10 +7,12 @@
 //! - [`fixture`]: a whole URDD in memory, to be edited, sealed and written
 //! - [`folder`]: a folder on disk, for many URDDs one after the other
 //! - [`emit`]: JSON and YAML text
+//! - [`difference`]: comparing two producers' documents
 
 #![allow(dead_code)] // Each test uses a part of this.
 
 pub mod core;
+pub mod difference;
 pub mod emit;
 pub mod fixture;
 pub mod folder;

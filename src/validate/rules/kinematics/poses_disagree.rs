@@ -1,8 +1,8 @@
 use nalgebra::Isometry3;
 
 use crate::format::registry::{ModuleKind, Profile};
-use crate::kinematics::ForwardKinematics;
 use crate::kinematics::unit;
+use crate::kinematics::{ConfigurationError, ForwardKinematics};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::reference::{MimicDofs, Reference};
@@ -75,10 +75,16 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     let tolerance = POSITION_OF_REACH * reach(robot, tree);
     for (name, configuration) in configurations(&reference) {
-        let (Ok(found), Some(expected)) = (
-            kinematics.link_poses(&configuration),
-            reference.link_poses(&configuration),
-        ) else {
+        let found = match kinematics.link_poses(&configuration) {
+            Ok(found) => Some(found),
+            // Numbers that are beyond 64 bits.
+            Err(error @ ConfigurationError::Overflow { .. }) => {
+                let message = format!("the link poses cannot be computed ({name}): {error}");
+                return findings.report(Finding::in_file(file, message));
+            }
+            Err(_) => None,
+        };
+        let Some((found, expected)) = found.zip(reference.link_poses(&configuration)) else {
             let message =
                 "the modules and the URDF have configurations of different lengths".to_owned();
             return findings.report(

@@ -1,0 +1,262 @@
+//! What `urdd generate` prints: results, notes, and progress on a terminal.
+
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
+use clap::ValueEnum;
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use serde_json::{Value, json};
+
+use super::output;
+use crate::format::registry::ModuleKind;
+use crate::generate::batch::{Job, Observer};
+use crate::generate::note::{Note, NoteKind};
+use crate::generate::{GenerateError, Generated, Progress};
+
+/// Notes of a kind that are told one by one.
+const MOST_TOLD: usize = 3;
+
+/// How results are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// For people.
+    Human,
+    /// As JSON lines: one object a robot, and after a batch one with the totals.
+    Json,
+}
+
+/// Prints results as they come.
+pub(super) struct Printer {
+    format: Format,
+    is_batch: bool,
+    bars: Option<Bars>,
+    unchanged: Mutex<usize>,
+}
+
+/// Progress on a terminal: one bar for the batch, one for each robot at work.
+struct Bars {
+    all: MultiProgress,
+    batch: ProgressBar,
+}
+
+impl Printer {
+    pub(super) fn new(format: Format, is_batch: bool, is_terminal: bool) -> Self {
+        let bars = is_terminal.then(|| Bars {
+            all: MultiProgress::new(),
+            batch: ProgressBar::hidden(),
+        });
+        Printer {
+            format,
+            is_batch,
+            bars,
+            unchanged: Mutex::new(0),
+        }
+    }
+
+    /// A batch of so many robots begins.
+    pub(super) fn begin(&self, total: usize) {
+        if let Some(bars) = &self.bars {
+            let bar = bars.all.add(bars.batch.clone());
+            bar.set_length(total as u64);
+            bar.set_style(style("{bar:30} {pos}/{len} robots, {elapsed}"));
+        }
+    }
+
+    /// A batch is over.
+    pub(super) fn end(&self, total: usize, failed: usize) {
+        if let Some(bars) = &self.bars {
+            bars.batch.finish_and_clear();
+        }
+        let unchanged = self.unchanged.lock().map_or(0, |count| *count);
+        let generated = total - failed - unchanged;
+        self.print(&match self.format {
+            Format::Json => line(&json!({"summary": {
+                "robots": total, "generated": generated, "unchanged": unchanged, "failed": failed,
+            }})),
+            Format::Human => {
+                let robots = count(total, "robot");
+                format!("{robots}: {generated} generated, {unchanged} unchanged, {failed} failed\n")
+            }
+        });
+    }
+
+    pub(super) fn begin_robot(&self, job: &Job) -> Box<dyn Progress> {
+        let bar = self.bars.as_ref().map(|bars| {
+            let bar = bars.all.add(ProgressBar::new(1));
+            bar.set_style(style("  {spinner} {prefix} {bar:20} {msg}"));
+            bar.set_prefix(job.name.clone());
+            bar
+        });
+        Box::new(RobotBar(bar))
+    }
+
+    /// Prints to standard output, the bars out of the way.
+    fn print(&self, text: &str) {
+        match &self.bars {
+            Some(bars) => bars.all.suspend(|| output::print(text)),
+            None => output::print(text),
+        }
+    }
+
+    fn error(&self, text: &str) {
+        match &self.bars {
+            Some(bars) => bars.all.suspend(|| output::error(text)),
+            None => output::error(text),
+        }
+    }
+}
+
+impl Observer for Printer {
+    fn begin(&self, job: &Job) -> Box<dyn Progress> {
+        self.begin_robot(job)
+    }
+
+    fn done(&self, job: &Job, outcome: &Result<Generated, GenerateError>) {
+        if let (Some(bars), true) = (&self.bars, self.is_batch) {
+            bars.batch.inc(1);
+        }
+        if let (Ok(made), Ok(mut unchanged)) = (outcome, self.unchanged.lock()) {
+            *unchanged += usize::from(!made.changed);
+        }
+        match (self.format, outcome) {
+            (Format::Json, outcome) => self.print(&line(&as_json(job, outcome))),
+            (Format::Human, Ok(made)) => {
+                self.print(&told(job, made));
+                for text in notes_told(&made.notes, self.is_batch) {
+                    self.error(&text);
+                }
+            }
+            (Format::Human, Err(error)) => self.error(&error.to_string()),
+        }
+    }
+}
+
+/// The bar of a robot, gone when the robot is done.
+struct RobotBar(Option<ProgressBar>);
+
+impl Progress for RobotBar {
+    fn module(&self, kind: ModuleKind, done: usize, total: usize) {
+        if let Some(bar) = &self.0 {
+            bar.set_length(total as u64);
+            bar.set_position(done as u64);
+            bar.set_message(kind.name());
+        }
+    }
+}
+
+impl Drop for RobotBar {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+fn count(number: usize, thing: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{number} {thing}{plural}")
+}
+
+fn line(value: &Value) -> String {
+    format!("{value}\n")
+}
+
+fn told(job: &Job, made: &Generated) -> String {
+    let kept = made.modules.iter().filter(|module| module.kept).count();
+    let mut text = format!(
+        "{}: {}, {}, {}; {}",
+        job.name,
+        count(made.num_links, "link"),
+        count(made.num_joints, "joint"),
+        count(made.num_dofs, "DOF"),
+        count(made.modules.len(), "module"),
+    );
+    if !made.changed {
+        text += ", unchanged";
+    } else if kept > 0 {
+        text += &format!(", {kept} of them kept");
+    }
+    text + "\n"
+}
+
+/// Notes as lines, many of a kind folded; of a batch, all of a kind.
+fn notes_told(notes: &[Note], is_batch: bool) -> Vec<String> {
+    let mut by_kind: BTreeMap<NoteKind, Vec<&Note>> = BTreeMap::new();
+    for note in notes {
+        by_kind.entry(note.kind).or_default().push(note);
+    }
+    let most = if is_batch { 1 } else { MOST_TOLD };
+    let mut lines = Vec::new();
+    for (kind, notes) in by_kind {
+        // One more than is told would be told as shortly by itself.
+        let told = if notes.len() <= most + 1 {
+            notes.len()
+        } else {
+            most
+        };
+        lines.extend(notes[..told].iter().map(|note| format!("note: {note}")));
+        if told < notes.len() {
+            let more = notes.len() - told;
+            lines.push(format!(
+                "note: and {more} more of this kind ({}); --format json tells them all",
+                kind.as_str()
+            ));
+        }
+    }
+    lines
+}
+
+fn as_json(job: &Job, outcome: &Result<Generated, GenerateError>) -> Value {
+    let mut object = json!({
+        "source": job.source.display().to_string(),
+        "output": job.name,
+    });
+    let more = match outcome {
+        Ok(made) => json!({
+            "status": if made.changed { "generated" } else { "unchanged" },
+            "robot": made.robot_name,
+            "links": made.num_links,
+            "joints": made.num_joints,
+            "dofs": made.num_dofs,
+            "class": made.class,
+            "modules": made.modules.iter().map(|module| json!({
+                "name": module.kind.name(), "kept": module.kept,
+            })).collect::<Vec<_>>(),
+            "notes": made.notes.iter().map(note_as_json).collect::<Vec<_>>(),
+        }),
+        Err(error) => json!({
+            "status": "failed",
+            "error": { "code": error.code(), "message": error.to_string(), "faults": faults(error) },
+        }),
+    };
+    if let (Some(object), Value::Object(more)) = (object.as_object_mut(), more) {
+        object.extend(more);
+    }
+    object
+}
+
+fn note_as_json(note: &Note) -> Value {
+    json!({
+        "kind": note.kind.as_str(),
+        "file": note.file,
+        "line": note.line,
+        "column": note.column,
+        "problem": note.problem,
+        "assumed": note.assumed,
+    })
+}
+
+fn faults(error: &GenerateError) -> Vec<Value> {
+    let faults = match error {
+        GenerateError::Refused { faults, .. } => faults.as_slice(),
+        _ => &[],
+    };
+    let told = faults.iter().map(|placed| {
+        json!({ "line": placed.line, "column": placed.column, "message": placed.fault.to_string() })
+    });
+    told.collect()
+}

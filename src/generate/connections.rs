@@ -1,0 +1,181 @@
+//! `connections_module` from the chain: SPEC 6.4.
+
+use crate::format::chain::ChainModule;
+use crate::format::connections::{ConnectionsModule, LinkPath};
+use crate::format::index::{JointIdx, LinkIdx};
+
+/// Up to this many links, the path of every pair is written out (SPEC 6.4.6).
+pub const MOST_LINKS_WITH_PAIRS: usize = 300;
+
+/// Makes the module. Its size grows with links times depth and links squared; with the paths of
+/// pairs, with links squared times depth.
+pub(super) fn connections_module(chain: &ChainModule) -> ConnectionsModule {
+    let root_paths = root_paths(chain);
+    let ancestors = lowest_common_ancestors(chain, &root_paths);
+    let with_pairs = chain.links_in_chain.len() <= MOST_LINKS_WITH_PAIRS;
+    let pairs = with_pairs.then(|| {
+        let paths = root_paths.iter().zip(&ancestors);
+        paths
+            .map(|(from, row)| {
+                let to = root_paths.iter().zip(row);
+                to.map(|(to, ancestor)| path(from, to, *ancestor)).collect()
+            })
+            .collect()
+    });
+    let descents = with_pairs.then(|| descents(&root_paths));
+    ConnectionsModule {
+        root_paths,
+        lowest_common_ancestors: ancestors,
+        link_to_link_paths: pairs,
+        link_connection_paths: descents,
+    }
+}
+
+fn root_paths(chain: &ChainModule) -> Vec<LinkPath> {
+    let mut paths = vec![
+        LinkPath {
+            links: Vec::new(),
+            joints: Vec::new(),
+        };
+        chain.links_in_chain.len()
+    ];
+    for idx in chain.kinematic_hierarchy.iter().flatten() {
+        let link = &chain.links_in_chain[idx.get()];
+        let mut path = match (link.parent_link_idx, link.parent_joint_idx) {
+            (Some(parent), Some(joint)) => {
+                let mut path = paths[parent.get()].clone();
+                path.joints.push(joint);
+                path
+            }
+            _ => paths[idx.get()].clone(),
+        };
+        path.links.push(*idx);
+        paths[idx.get()] = path;
+    }
+    paths
+}
+
+/// Row i, from the root downwards: of a link on the path to i itself; of another, that of its
+/// parent.
+fn lowest_common_ancestors(chain: &ChainModule, root_paths: &[LinkPath]) -> Vec<Vec<LinkIdx>> {
+    let rows = root_paths.iter().map(|path| {
+        let mut row = vec![chain.root_idx; root_paths.len()];
+        let mut on_path = vec![false; root_paths.len()];
+        for link in &path.links {
+            on_path[link.get()] = true;
+        }
+        for idx in chain.kinematic_hierarchy.iter().flatten() {
+            let parent = chain.links_in_chain[idx.get()].parent_link_idx;
+            row[idx.get()] = match parent {
+                _ if on_path[idx.get()] => *idx,
+                Some(parent) => row[parent.get()],
+                None => *idx,
+            };
+        }
+        row
+    });
+    rows.collect()
+}
+
+/// Up from one link to the common ancestor, down to the other.
+fn path(from: &LinkPath, to: &LinkPath, ancestor: LinkIdx) -> LinkPath {
+    let depth = from
+        .links
+        .iter()
+        .position(|link| *link == ancestor)
+        .unwrap_or_default();
+    let links_up = from.links[depth..].iter().rev();
+    let joints_up = from.joints[depth..].iter().rev();
+    let links: Vec<LinkIdx> = links_up.chain(&to.links[depth + 1..]).copied().collect();
+    let joints: Vec<JointIdx> = joints_up.chain(&to.joints[depth..]).copied().collect();
+    LinkPath { links, joints }
+}
+
+/// The published table: the links below i down to j, where j hangs on i.
+fn descents(root_paths: &[LinkPath]) -> Vec<Vec<Option<Vec<LinkIdx>>>> {
+    let row = |from: usize| {
+        let to = root_paths.iter().enumerate();
+        to.map(|(to, path)| {
+            let own = LinkIdx(from as u32);
+            let depth = path.links.iter().position(|link| *link == own)?;
+            match to == from {
+                true => Some(vec![own]),
+                false => Some(path.links[depth + 1..].to_vec()),
+            }
+        })
+        .collect()
+    };
+    (0..root_paths.len()).map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::chain::chain_module;
+    use crate::generate::urdf;
+
+    /// Links in a line, which stand in the file from the far end to the root.
+    fn line(links: usize) -> ConnectionsModule {
+        let mut xml = "<robot name=\"line\">".to_owned();
+        for i in 0..links {
+            xml += &format!("<link name=\"l{i}\"/>");
+        }
+        for i in 1..links {
+            let above = i - 1;
+            xml += &format!(
+                "<joint name=\"j{i}\" type=\"fixed\"><parent link=\"l{i}\"/><child link=\"l{above}\"/></joint>"
+            );
+        }
+        let reading = urdf::read(&(xml + "</robot>"), "line").unwrap();
+        connections_module(&chain_module(&reading.robot, &reading.tree))
+    }
+
+    #[test]
+    fn paths_along_a_line_are_ranges() {
+        let count = 7;
+        let module = line(count);
+        let range = |from: usize, to: usize| -> Vec<LinkIdx> {
+            let up = (from..=to).map(|link| LinkIdx(link as u32));
+            let down = (to..=from).rev().map(|link| LinkIdx(link as u32));
+            if from <= to {
+                up.collect()
+            } else {
+                down.collect()
+            }
+        };
+        let pairs = module.link_to_link_paths.unwrap();
+        let descents = module.link_connection_paths.unwrap();
+        for i in 0..count {
+            // The root is the last.
+            assert_eq!(module.root_paths[i].links, range(count - 1, i));
+            for j in 0..count {
+                assert_eq!(
+                    module.lowest_common_ancestors[i][j],
+                    LinkIdx(i.max(j) as u32)
+                );
+                assert_eq!(pairs[i][j].links, range(i, j));
+                // Joint k is between links k and k + 1.
+                let joints: Vec<u32> = pairs[i][j].joints.iter().map(|joint| joint.0).collect();
+                let mut between: Vec<u32> = (i.min(j) as u32..i.max(j) as u32).collect();
+                if i > j {
+                    between.reverse();
+                }
+                assert_eq!(joints, between);
+                let below = match i.cmp(&j) {
+                    std::cmp::Ordering::Equal => Some(range(i, i)),
+                    std::cmp::Ordering::Greater => Some(range(i - 1, j)),
+                    std::cmp::Ordering::Less => None,
+                };
+                assert_eq!(descents[i][j], below);
+            }
+        }
+    }
+
+    #[test]
+    fn above_300_links_the_paths_of_pairs_are_left_out() {
+        assert!(line(300).link_to_link_paths.is_some());
+        let long = line(301);
+        assert!(long.link_to_link_paths.is_none() && long.link_connection_paths.is_none());
+        assert_eq!(long.root_paths[0].links.len(), 301);
+    }
+}

@@ -1,0 +1,286 @@
+//! From the file name in a URDF to a file.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::package::Packages;
+
+/// Largest mesh file that is carried, bytes.
+const MAX_MESH_BYTES: u64 = 2 << 30;
+/// Most places that a message names.
+const MOST_TOLD: usize = 4;
+
+/// A mesh file that was found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct FoundMesh {
+    /// The file, its links followed: a file that has two names is one file.
+    pub file: PathBuf,
+    /// What it belongs to, by which it is named in the URDD.
+    pub home: Home,
+    /// What had to be assumed to find it.
+    pub assumed: Option<String>,
+}
+
+/// What a mesh file belongs to.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Home {
+    /// A package, by its name and its folder.
+    Package(String, PathBuf),
+    /// The URDF's surroundings.
+    Urdf,
+    /// A place in the file system, named by its full path.
+    Elsewhere,
+}
+
+/// Why no mesh was found: where it was looked for.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct NotFound {
+    /// Each place that was tried, and why it was not that.
+    pub tried: Vec<String>,
+    /// What else there is to say.
+    pub hint: Option<String>,
+}
+
+impl NotFound {
+    fn because(hint: &str) -> Self {
+        let hint = Some(hint.to_owned());
+        NotFound {
+            tried: Vec::new(),
+            hint,
+        }
+    }
+
+    pub(crate) fn in_words(&self) -> String {
+        let mut words = String::new();
+        if !self.tried.is_empty() {
+            words = format!(
+                "tried {}",
+                self.tried[..self.tried.len().min(MOST_TOLD)].join(", ")
+            );
+            if self.tried.len() > MOST_TOLD {
+                words += &format!(" and {} more places", self.tried.len() - MOST_TOLD);
+            }
+        }
+        if let Some(hint) = &self.hint {
+            if !words.is_empty() {
+                words.push_str("; ");
+            }
+            words.push_str(hint);
+        }
+        words
+    }
+}
+
+/// Finds the file of a mesh.
+///
+/// # Errors
+/// Where there is none: where it was looked for.
+pub(crate) fn resolve(
+    filename: &str,
+    urdf_folder: &Path,
+    packages: &Packages,
+) -> Result<FoundMesh, NotFound> {
+    let trimmed = filename.trim();
+    let mut search = Search::default();
+    let found = search.as_written(trimmed, urdf_folder, packages);
+    if let Some(found) = found {
+        return Ok(found);
+    }
+    // Names that are written as no file system has them, but mean one thing.
+    let others = [
+        (trimmed.replace('\\', "/"), "backslashes read as `/`"),
+        (
+            percent_decoded(trimmed),
+            "`%` and two digits read as a character",
+        ),
+    ];
+    for (name, assumed) in others {
+        if name == trimmed {
+            continue;
+        }
+        if let Some(found) = search.as_written(&name, urdf_folder, packages) {
+            let assumed = Some(assumed.to_owned());
+            return Ok(FoundMesh { assumed, ..found });
+        }
+    }
+    Err(search.not_found)
+}
+
+#[derive(Default)]
+struct Search {
+    not_found: NotFound,
+}
+
+impl Search {
+    fn as_written(
+        &mut self,
+        name: &str,
+        urdf_folder: &Path,
+        packages: &Packages,
+    ) -> Option<FoundMesh> {
+        // A macro that was left over, which says the same as `package://`.
+        let find = name
+            .strip_prefix("$(find ")
+            .and_then(|rest| rest.split_once(')'));
+        if let Some((package, rest)) = find {
+            let rest = rest.trim_start_matches('/');
+            return self.in_package(package.trim(), rest, urdf_folder, packages, false);
+        }
+        match name.split_once("://") {
+            Some((scheme, rest)) => match scheme.to_ascii_lowercase().as_str() {
+                scheme @ ("package" | "model") => {
+                    let rest = rest.trim_start_matches('/');
+                    let (package, rest) = rest.split_once('/').unwrap_or(("", rest));
+                    self.in_package(package, rest, urdf_folder, packages, scheme == "model")
+                }
+                "file" => {
+                    let path = rest
+                        .strip_prefix("localhost/")
+                        .map(|rest| format!("/{rest}"));
+                    self.plain(path.as_deref().unwrap_or(rest), urdf_folder)
+                }
+                "http" | "https" | "ftp" => {
+                    self.not_found = NotFound::because(
+                        "nothing is fetched over the network; download it and name the file",
+                    );
+                    None
+                }
+                other => {
+                    let words = format!("`{other}://` is no way to name a file that is known here");
+                    self.not_found = NotFound::because(&words);
+                    None
+                }
+            },
+            None => self.plain(name, urdf_folder),
+        }
+    }
+
+    fn plain(&mut self, name: &str, urdf_folder: &Path) -> Option<FoundMesh> {
+        if name.is_empty() {
+            self.not_found = NotFound::because("the file name is empty");
+            return None;
+        }
+        let path = Path::new(name);
+        let home = if path.is_absolute() {
+            Home::Elsewhere
+        } else {
+            Home::Urdf
+        };
+        // An absolute path replaces the folder.
+        self.try_file(&urdf_folder.join(path), home)
+    }
+
+    fn in_package(
+        &mut self,
+        package: &str,
+        rest: &str,
+        urdf_folder: &Path,
+        packages: &Packages,
+        is_model: bool,
+    ) -> Option<FoundMesh> {
+        let folders = packages.folders(package, urdf_folder, is_model);
+        let folders = folders.into_iter().filter(|folder| folder.is_dir());
+        let mut folders: Vec<PathBuf> = folders.collect();
+        folders.dedup();
+        for folder in &folders {
+            let home = Home::Package(package.to_owned(), folder.clone());
+            let found = self.try_file(&folder.join(rest), home);
+            if found.is_some() {
+                return found;
+            }
+        }
+        if let Some(folder) = packages.crawl(package) {
+            let home = Home::Package(package.to_owned(), folder.clone());
+            let found = self.try_file(&folder.join(rest), home);
+            if found.is_some() {
+                return found;
+            }
+            folders.push(folder);
+        }
+        let hint = match folders.is_empty() {
+            true => format!(
+                "there is no package `{package}` at or above {}, on ROS_PACKAGE_PATH or AMENT_PREFIX_PATH; say where it is: --package {package}=FOLDER",
+                urdf_folder.display()
+            ),
+            false => format!("if the package is elsewhere, say where: --package {package}=FOLDER"),
+        };
+        self.not_found.hint.get_or_insert(hint);
+        None
+    }
+
+    fn try_file(&mut self, path: &Path, home: Home) -> Option<FoundMesh> {
+        match fs::metadata(path) {
+            Ok(metadata) if metadata.is_file() && metadata.len() <= MAX_MESH_BYTES => {
+                let file = path.canonicalize().ok()?;
+                let assumed = None;
+                return Some(FoundMesh {
+                    file,
+                    home,
+                    assumed,
+                });
+            }
+            Ok(metadata) if metadata.is_file() => {
+                let hint = format!(
+                    "{} is larger than {} GiB",
+                    path.display(),
+                    MAX_MESH_BYTES >> 30
+                );
+                self.not_found.hint.get_or_insert(hint);
+            }
+            Ok(_) => {}
+            Err(_) => {
+                if let Some(near) = other_case(path) {
+                    let hint = format!("there is {}, whose case differs", near.display());
+                    self.not_found.hint.get_or_insert(hint);
+                }
+            }
+        }
+        let tried = match path.is_dir() {
+            true => format!("{}, which is a folder", path.display()),
+            false => path.display().to_string(),
+        };
+        if !self.not_found.tried.contains(&tried) {
+            self.not_found.tried.push(tried);
+        }
+        None
+    }
+}
+
+/// A file of the same folder whose name differs in case only.
+fn other_case(path: &Path) -> Option<PathBuf> {
+    let name = path.file_name()?.to_str()?.to_lowercase();
+    let mut near: Vec<PathBuf> = fs::read_dir(path.parent()?)
+        .ok()?
+        .flatten()
+        .filter(|entry| entry.file_name().to_string_lossy().to_lowercase() == name)
+        .map(|entry| entry.path())
+        .collect();
+    near.sort();
+    near.into_iter().next()
+}
+
+/// `%20` and the like as characters; as it is where that makes no text.
+fn percent_decoded(name: &str) -> String {
+    let bytes = name.as_bytes();
+    let mut decoded = Vec::with_capacity(bytes.len());
+    let mut at = 0;
+    while at < bytes.len() {
+        let digits = bytes
+            .get(at + 1..at + 3)
+            .and_then(|two| std::str::from_utf8(two).ok());
+        let byte = digits
+            .filter(|two| bytes[at] == b'%' && two.bytes().all(|b| b.is_ascii_hexdigit()))
+            .and_then(|two| u8::from_str_radix(two, 16).ok());
+        match byte {
+            Some(byte) => {
+                decoded.push(byte);
+                at += 3;
+            }
+            None => {
+                decoded.push(bytes[at]);
+                at += 1;
+            }
+        }
+    }
+    String::from_utf8(decoded).unwrap_or_else(|_| name.to_owned())
+}

@@ -1,0 +1,74 @@
+//! The URDD that a new one replaces.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::metadata::{GENERATOR, INPUTS_KEY};
+use crate::directory::digest;
+use crate::directory::discover::ROOT_METADATA;
+use crate::directory::json;
+use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::directory::root::Root;
+use crate::format::registry::ModuleKind;
+use crate::format::root_metadata::{FileEntry, RootMetadata};
+
+/// A URDD with root metadata that can be read.
+#[derive(Debug)]
+pub(super) struct Old {
+    pub root: Root,
+    pub metadata: RootMetadata,
+    /// The same as a value, with the keys that are an addition to the format.
+    pub value: Value,
+}
+
+impl Old {
+    /// Reads the root metadata of a folder, where there is any that fits the format.
+    pub fn read(folder: &Path) -> Option<Self> {
+        let root = Root::open(folder).ok()?;
+        let bytes = root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES).ok()?;
+        let value = json::read(&bytes).ok()?.value;
+        let metadata = serde_json::from_value(value.clone()).ok()?;
+        Some(Old {
+            root,
+            metadata,
+            value,
+        })
+    }
+
+    /// Whether this program wrote it.
+    pub fn is_ours(&self) -> bool {
+        let generator = self.metadata.generator.as_ref();
+        generator.is_some_and(|generator| generator.name == GENERATOR)
+    }
+
+    /// The files of a module that was made of the same inputs, where each is as it was.
+    pub fn kept(&self, kind: ModuleKind, version: &str, inputs: &str) -> Option<&[FileEntry]> {
+        let mut entries = self
+            .metadata
+            .modules
+            .iter()
+            .zip(self.value["modules"].as_array()?);
+        let (entry, value) = entries.find(|(entry, _)| entry.name == kind.name())?;
+        let same = value[INPUTS_KEY].as_str() == Some(inputs)
+            && entry.version.as_str() == version
+            && entry.path == kind.folder();
+        let intact = same && entry.files.iter().all(|file| self.is_intact(file));
+        intact.then_some(entry.files.as_slice())
+    }
+
+    /// Whether a file is as the metadata says.
+    pub fn is_intact(&self, file: &FileEntry) -> bool {
+        digest::of(&self.root, &file.path).is_ok_and(|(size, sha256)| {
+            size == u64::from(file.size.0) && sha256 == file.sha256.as_str()
+        })
+    }
+
+    /// The document of a module.
+    #[expect(dead_code, reason = "for a person's edits, which outlive a new run")]
+    pub fn document(&self, kind: ModuleKind) -> Option<Value> {
+        let path = format!("{}/module.json", kind.folder());
+        let bytes = self.root.read(&path, MAX_DOCUMENT_BYTES).ok()?;
+        Some(json::read(&bytes).ok()?.value)
+    }
+}

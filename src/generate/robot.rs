@@ -1,0 +1,240 @@
+//! One robot: from its file to its URDD.
+
+use std::fs;
+use std::path::Path;
+
+use super::carry_over::{carry_over, extensions};
+use super::error::GenerateError;
+use super::meshes::Packages;
+use super::metadata::{self, Entry};
+use super::note::Note;
+use super::old::Old;
+use super::selection::Selection;
+use super::source::{self, Source};
+use super::stages::{self, Content, Made, Stage, Work};
+use crate::directory::canonical;
+use crate::directory::discover::ROOT_METADATA;
+use crate::directory::staging::{Staging, StagingError};
+use crate::directory::writer::Writer;
+use crate::format::meshes::GeometryKind;
+use crate::format::registry::ModuleKind;
+use crate::format::root_metadata::{ConformanceClass, FileEntry};
+
+/// Sizes and hashes are of bytes: Git must not convert line ends.
+const GIT_ATTRIBUTES: &str = "# The hashes in urdd.json are of these very bytes.\n* -text\n";
+const GIT_ATTRIBUTES_FILE: &str = ".gitattributes";
+
+/// How URDDs are made.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// The modules to make.
+    pub selection: Selection,
+    /// Where packages are.
+    pub packages: Packages,
+    /// Which geometry links are made from; the other one where a link has none of it.
+    pub preferred_geometry: GeometryKind,
+    /// Sampled configurations of the distance statistics.
+    pub num_samples: u32,
+    /// Whether to write into a folder that holds something else.
+    pub force: bool,
+}
+
+impl Default for Settings {
+    /// Every module, from visual geometry, with 1,000 samples, and no packages but those around the
+    /// URDF.
+    fn default() -> Self {
+        Settings {
+            selection: Selection::all(),
+            packages: Packages::none(),
+            preferred_geometry: GeometryKind::Visual,
+            num_samples: 1000,
+            force: false,
+        }
+    }
+}
+
+/// Who wants to know how far it is.
+pub trait Progress: Sync {
+    /// A module is begun; `done` of `total` are done.
+    fn module(&self, kind: ModuleKind, done: usize, total: usize);
+}
+
+impl Progress for () {
+    fn module(&self, _: ModuleKind, _: usize, _: usize) {}
+}
+
+/// A URDD that was made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Generated {
+    /// Name of the robot.
+    pub robot_name: String,
+    /// Number of links.
+    pub num_links: usize,
+    /// Number of joints.
+    pub num_joints: usize,
+    /// Number of DOFs.
+    pub num_dofs: usize,
+    /// The class that it claims.
+    pub class: ConformanceClass,
+    /// Its modules.
+    pub modules: Vec<MadeModule>,
+    /// Whether anything is different from what was there before; if not, nothing was written.
+    pub changed: bool,
+    /// What was odd in the source, and what was made of it.
+    pub notes: Vec<Note>,
+}
+
+/// A module of a URDD that was made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MadeModule {
+    /// Which.
+    pub kind: ModuleKind,
+    /// Whether it was taken over from the URDD before, since nothing that it is made of changed.
+    pub kept: bool,
+}
+
+/// Makes a URDD in the folder `target` of the URDF (or xacro file) `source`. The folder is there as
+/// a whole when this returns, or is as it was.
+///
+/// # Errors
+/// Where the source is no robot, or the URDD cannot be written.
+pub fn generate(
+    source: &Path,
+    target: &Path,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Generated, GenerateError> {
+    let source_path = source;
+    let source = source::load(source_path)?;
+    let old = Old::read(target);
+    check_target(source_path, &source, target, old.as_ref(), settings)?;
+    let staging = Staging::begin(target)?;
+    let writer = Writer::new(staging.content());
+
+    let mut work = Work::new(&source, settings, staging.content(), old.as_ref())?;
+    let stages: Vec<&Stage> = settings.selection.kinds().filter_map(stages::of).collect();
+    let (mut entries, mut modules) = (Vec::new(), Vec::new());
+    for (done, stage) in stages.iter().enumerate() {
+        progress.module(stage.kind, done, stages.len());
+        let (entry, kept) = run(stage, &mut work, &writer, old.as_ref(), &entries)?;
+        entries.push(entry);
+        modules.push(MadeModule {
+            kind: stage.kind,
+            kept,
+        });
+    }
+    let num_dofs = work.dof.dofs.len();
+    let mut notes = source.notes.clone();
+    notes.append(&mut work.notes);
+
+    let carried = writer.file(&source.file_name, &source.carried)?;
+    let found_name = format!("{}.as-found", source.file_name);
+    let found = source
+        .found
+        .as_deref()
+        .map(|bytes| writer.file(&found_name, bytes));
+    if target.is_dir() {
+        carry_over(target, old.as_ref(), staging.content())?;
+    }
+    if !staging.content().join(GIT_ATTRIBUTES_FILE).exists() {
+        writer.file(GIT_ATTRIBUTES_FILE, GIT_ATTRIBUTES.as_bytes())?;
+    }
+    let robot = &source.reading.robot;
+    let class = metadata::class(&entries);
+    let document = metadata::document(
+        &robot.name,
+        carried,
+        found.transpose()?,
+        entries,
+        extensions(old.as_ref(), staging.content()),
+    )?;
+    let text = canonical::json_string(&document);
+    writer.file(ROOT_METADATA, text.as_bytes())?;
+    let changed = !old.as_ref().is_some_and(|old| is_same(old, &text));
+    if changed {
+        staging.commit()?;
+    }
+    Ok(Generated {
+        robot_name: robot.name.clone(),
+        num_links: robot.links.len(),
+        num_joints: robot.joints.len(),
+        num_dofs,
+        class,
+        modules,
+        changed,
+        notes,
+    })
+}
+
+/// Whether the target may be replaced.
+fn check_target(
+    path: &Path,
+    source: &Source,
+    target: &Path,
+    old: Option<&Old>,
+    settings: &Settings,
+) -> Result<(), GenerateError> {
+    let Ok(canonical) = target.canonicalize() else {
+        return Ok(());
+    };
+    if path
+        .canonicalize()
+        .is_ok_and(|path| path.starts_with(&canonical))
+    {
+        return Err(GenerateError::SourceInTarget {
+            file: source.shown.clone(),
+            target: target.to_owned(),
+        });
+    }
+    let is_empty = fs::read_dir(&canonical).is_ok_and(|mut entries| entries.next().is_none());
+    let is_free = is_empty || old.is_some_and(Old::is_ours) || !canonical.is_dir();
+    if !is_free && !settings.force {
+        let path = target.to_owned();
+        return Err(StagingError::Occupied { path }.into());
+    }
+    Ok(())
+}
+
+/// Makes a module, or takes over the one that was there.
+fn run(
+    stage: &Stage,
+    work: &mut Work,
+    writer: &Writer,
+    old: Option<&Old>,
+    entries: &[Entry],
+) -> Result<(Entry, bool), GenerateError> {
+    let kind = stage.kind;
+    let inputs = (stage.settings)(work).map(|text| metadata::inputs(kind, &text, entries));
+    if let (Some(old), Some(inputs)) = (old, &inputs)
+        && let Some(files) = old.kept(kind, metadata::MODULE_VERSION, inputs)
+    {
+        for file in files {
+            writer.keep(&old.root.path().join(&file.path), &file.path)?;
+        }
+        let entry = metadata::entry(kind, files.to_vec(), Some(inputs.clone()));
+        return Ok((entry, true));
+    }
+    let Made { document, files } = (stage.make)(work)?;
+    let mut written: Vec<FileEntry> = writer.module(kind, metadata::MODULE_VERSION, &document)?;
+    for file in files {
+        written.push(match file.content {
+            Content::Bytes(bytes) => writer.file(&file.path, &bytes)?,
+            Content::CopyOf(from) => writer.copy(&from, &file.path)?,
+        });
+    }
+    Ok((metadata::entry(kind, written, inputs), false))
+}
+
+/// Whether the URDD before is the same to the byte: its metadata, and each file as that says.
+fn is_same(old: &Old, text: &str) -> bool {
+    let path = old.root.path().join(ROOT_METADATA);
+    if fs::read(path).ok().as_deref() != Some(text.as_bytes()) {
+        return false;
+    }
+    let source = match &old.metadata.source {
+        Some(crate::format::root_metadata::Source::Urdf(file)) => Some(file),
+        _ => None,
+    };
+    let files = old.metadata.modules.iter().flat_map(|module| &module.files);
+    files.chain(source).all(|file| old.is_intact(file))
+}

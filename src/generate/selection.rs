@@ -1,0 +1,89 @@
+//! Which modules are made.
+
+use std::collections::BTreeSet;
+
+use thiserror::Error;
+
+use super::stages;
+use crate::format::registry::ModuleKind;
+use crate::format::root_metadata::ConformanceClass;
+
+/// A word that names no module.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("there is no module `{word}`; there are: {}", known())]
+pub struct UnknownModule {
+    /// The word.
+    pub word: String,
+}
+
+fn known() -> String {
+    let names = stages::kinds().into_iter().map(short);
+    let classes = ["core", "geometry", "shapes", "all"];
+    names.chain(classes).collect::<Vec<_>>().join(", ")
+}
+
+/// A module's name without `_module`.
+pub(super) fn short(kind: ModuleKind) -> &'static str {
+    kind.name().strip_suffix("_module").unwrap_or(kind.name())
+}
+
+/// The modules to make: what was asked for, what that is derived from, and the core class, without
+/// which nothing is a URDD.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Selection(BTreeSet<ModuleKind>);
+
+impl Selection {
+    /// Every module that this program can make.
+    pub fn all() -> Self {
+        Selection(stages::kinds().into_iter().collect())
+    }
+
+    /// Reads words: names of modules, with or without `_module`, and of conformance classes.
+    ///
+    /// # Errors
+    /// The first word that is neither.
+    pub fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<Self, UnknownModule> {
+        let kinds = stages::kinds();
+        let up_to = |class: ConformanceClass| {
+            let is_of = move |kind: &ModuleKind| kind.class().is_none_or(|of| of <= class);
+            kinds.iter().copied().filter(is_of).collect::<Vec<_>>()
+        };
+        let mut asked = up_to(ConformanceClass::Core);
+        asked.retain(|kind| kind.class().is_some());
+        for word in words {
+            let word = word.trim();
+            let named = kinds
+                .iter()
+                .copied()
+                .find(|kind| word == kind.name() || word == short(*kind));
+            match (word, named) {
+                (_, Some(kind)) => asked.push(kind),
+                ("core", _) => asked.extend(up_to(ConformanceClass::Core)),
+                ("geometry", _) => asked.extend(up_to(ConformanceClass::Geometry)),
+                ("shapes", _) => asked.extend(up_to(ConformanceClass::Shapes)),
+                ("all", _) => asked.extend(&kinds),
+                _ => {
+                    let word = word.to_owned();
+                    return Err(UnknownModule { word });
+                }
+            }
+        }
+        let mut selection = BTreeSet::new();
+        while let Some(kind) = asked.pop() {
+            if selection.insert(kind) {
+                asked.extend(kind.depends_on());
+            }
+        }
+        Ok(Selection(selection))
+    }
+
+    /// Whether a module is made.
+    pub fn has(&self, kind: ModuleKind) -> bool {
+        self.0.contains(&kind)
+    }
+
+    /// The modules, in the order of the specification.
+    pub fn kinds(&self) -> impl Iterator<Item = ModuleKind> + '_ {
+        self.0.iter().copied()
+    }
+}

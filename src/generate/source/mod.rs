@@ -1,0 +1,183 @@
+//! The source: from a file to a robot, and to the text that the URDD carries.
+
+mod decode;
+mod repair;
+mod xacro;
+
+use std::path::{Path, PathBuf};
+
+use super::error::GenerateError;
+use super::note::{Note, NoteKind, Remark};
+use super::urdf::{self, Reading};
+use crate::directory::position::LineIndex;
+
+pub(crate) use repair::apply;
+
+/// Longest source that is read, bytes; the validator reads no longer one.
+const MAX_SOURCE_BYTES: u64 = 64 << 20;
+
+/// How often a text is repaired at most; once is enough, unless this program is wrong.
+const MOST_ROUNDS: usize = 4;
+
+/// A source that was read.
+#[derive(Debug)]
+pub(crate) struct Source {
+    /// The file, as the user named it.
+    pub shown: String,
+    /// The folder that the file lies in: relative mesh names begin here.
+    pub folder: PathBuf,
+    /// The name under which it is carried.
+    pub file_name: String,
+    /// What is carried: the file as it was found, or repaired, or expanded.
+    pub carried: Vec<u8>,
+    /// The file as it was found, where something else is carried.
+    pub found: Option<Vec<u8>>,
+    /// The robot.
+    pub reading: Reading,
+    /// What is odd in it.
+    pub notes: Vec<Note>,
+    /// Where each mesh is named, as line and column of the file (reading.mesh_offsets).
+    pub mesh_places: Vec<(u32, u32)>,
+}
+
+/// Reads a URDF, or a xacro file that makes one.
+///
+/// # Errors
+/// Where it cannot be read, or is no robot.
+pub(crate) fn load(path: &Path) -> Result<Source, GenerateError> {
+    let shown = path.display().to_string();
+    let unreadable = |reason: String| GenerateError::Read {
+        file: shown.clone(),
+        reason,
+    };
+    let bytes = read_bounded(path).map_err(unreadable)?;
+    let canonical = path
+        .canonicalize()
+        .map_err(|error| unreadable(error.to_string()))?;
+    let folder = canonical
+        .parent()
+        .map_or_else(|| PathBuf::from("."), Path::to_owned);
+
+    let mut notes = Vec::new();
+    let (mut text, mut is_verbatim) = decode::decode(&bytes, &shown, &mut notes)?;
+    let is_xacro_file = path
+        .extension()
+        .is_some_and(|extension| extension == "xacro");
+    if is_xacro_file || text.contains("<xacro:") {
+        match xacro::expand(path, &shown) {
+            Ok(expanded) => (text, is_verbatim) = (expanded, false),
+            Err(error) if is_xacro_file => return Err(error),
+            // A URDF with macros in it may be a whole robot without them; each gets its note.
+            Err(GenerateError::NoXacro { .. }) => {}
+            Err(error) => notes.push(Note {
+                kind: NoteKind::XacroLeftOver,
+                file: shown.clone(),
+                line: 0,
+                column: 0,
+                problem: error.to_string(),
+                assumed: "read without expanding it".to_owned(),
+            }),
+        }
+    }
+    let (name, file_name) = names(&canonical);
+    let (mut text, remarks, first_line) = repair::mend_xml(text);
+    is_verbatim &= remarks.is_empty();
+    place(&remarks, &text, &shown, first_line, &mut notes);
+
+    let mut mesh_places = None;
+    for _ in 0..MOST_ROUNDS {
+        let refused = |mut faults: Vec<super::fault::PlacedFault>| {
+            for placed in &mut faults {
+                placed.line += first_line;
+            }
+            GenerateError::Refused {
+                file: shown.clone(),
+                faults,
+            }
+        };
+        let reading = urdf::read(&text, &name).map_err(refused)?;
+        if mesh_places.is_none() {
+            // Later texts are repaired ones, and their places mean nothing to the user.
+            place(&reading.remarks, &text, &shown, first_line, &mut notes);
+            let lines = LineIndex::new(&text);
+            let places = reading.mesh_offsets.iter().map(|offset| {
+                let at = lines.position(*offset);
+                (at.line + first_line, at.column)
+            });
+            mesh_places = Some(places.collect());
+        }
+        if reading.edits.is_empty() {
+            return Ok(Source {
+                folder,
+                file_name,
+                carried: match is_verbatim {
+                    true => bytes.clone(),
+                    false => text.into_bytes(),
+                },
+                found: (!is_verbatim).then_some(bytes),
+                reading,
+                notes,
+                mesh_places: mesh_places.unwrap_or_default(),
+                shown,
+            });
+        }
+        is_verbatim = false;
+        text = apply(&text, reading.edits);
+    }
+    Err(GenerateError::Internal {
+        file: shown,
+        reason: "the repaired URDF needs repairs again".to_owned(),
+    })
+}
+
+fn place(remarks: &[Remark], text: &str, file: &str, first_line: u32, notes: &mut Vec<Note>) {
+    let lines = LineIndex::new(text);
+    notes.extend(remarks.iter().map(|remark| {
+        let at = lines.position(remark.offset);
+        Note {
+            kind: remark.kind,
+            file: file.to_owned(),
+            line: at.line + first_line,
+            column: at.column,
+            problem: remark.problem.clone(),
+            assumed: remark.assumed.clone(),
+        }
+    }));
+}
+
+fn read_bounded(path: &Path) -> Result<Vec<u8>, String> {
+    use std::io::Read;
+    let metadata = std::fs::metadata(path).map_err(|error| error.to_string())?;
+    if metadata.is_dir() {
+        return Err("it is a folder".to_owned());
+    }
+    if !metadata.is_file() {
+        return Err("it is not a regular file".to_owned());
+    }
+    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
+    let mut bytes = Vec::new();
+    file.take(MAX_SOURCE_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| error.to_string())?;
+    if bytes.len() as u64 > MAX_SOURCE_BYTES {
+        return Err(format!("it is longer than {} MiB", MAX_SOURCE_BYTES >> 20));
+    }
+    Ok(bytes)
+}
+
+/// The file's name without its extensions, and the name under which it is carried.
+fn names(path: &Path) -> (String, String) {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let mut stem: &str = &name;
+    for extension in [".xacro", ".xml", ".urdf"] {
+        stem = stem.strip_suffix(extension).unwrap_or(stem);
+    }
+    let stem = if stem.is_empty() { "robot" } else { stem };
+    let portable = |c: char| match c {
+        '\\' | ':' | '/' => '_',
+        c if c.is_control() => '_',
+        c => c,
+    };
+    let safe: String = stem.chars().map(portable).collect();
+    (stem.to_owned(), format!("{safe}.urdf"))
+}

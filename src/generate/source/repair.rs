@@ -1,0 +1,92 @@
+//! Repairs of the text itself.
+
+use roxmltree::{Document, Error, ParsingOptions};
+
+use crate::generate::note::{NoteKind, Remark};
+use crate::generate::urdf::Edit;
+
+/// Most prefixes that are declared for a file.
+const MOST_PREFIXES: usize = 32;
+
+/// The text with its edits. Of two edits, one within the other, the outer one counts.
+pub(crate) fn apply(text: &str, mut edits: Vec<Edit>) -> String {
+    edits.sort_by_key(|edit| (edit.range.start, std::cmp::Reverse(edit.range.end)));
+    let mut edited = String::with_capacity(text.len());
+    let mut done = 0;
+    for edit in edits {
+        if edit.range.start < done {
+            continue;
+        }
+        edited.push_str(&text[done..edit.range.start]);
+        edited.push_str(&edit.text);
+        done = edit.range.end;
+    }
+    edited.push_str(&text[done..]);
+    edited
+}
+
+/// Makes XML of what nearly is: white space before the declaration, NUL bytes after the end (of a C
+/// string), and prefixes that stand for nothing (in files for old versions of Gazebo). Gives the text, what was done, and how many
+/// lines were taken off its start.
+pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
+    let mut remarks = Vec::new();
+    let mut first_line = 0;
+    let mut text = text;
+    let trimmed = text.trim_start();
+    if trimmed.len() < text.len() && trimmed.starts_with("<?xml") {
+        let space = &text[..text.len() - trimmed.len()];
+        first_line = u32::try_from(space.matches('\n').count()).unwrap_or_default();
+        text = trimmed.to_owned();
+        remarks.push(Remark {
+            kind: NoteKind::Xml,
+            offset: 0,
+            problem: "there is white space before the declaration `<?xml …?>`".to_owned(),
+            assumed: "taken out".to_owned(),
+        });
+    }
+    let end = text.trim_end_matches('\0').len();
+    if end < text.len() {
+        remarks.push(Remark {
+            kind: NoteKind::Xml,
+            offset: end,
+            problem: "the file ends with a NUL byte".to_owned(),
+            assumed: "taken out".to_owned(),
+        });
+        text.truncate(end);
+    }
+    for _ in 0..MOST_PREFIXES {
+        if text.contains("<!ENTITY") {
+            break;
+        }
+        let Some(prefix) = unknown_prefix(&text) else {
+            break;
+        };
+        let Some(at) = text.find("<robot").map(|start| start + "<robot".len()) else {
+            break;
+        };
+        let place = text.find(&format!("{prefix}:")).unwrap_or(at);
+        remarks.push(Remark {
+            kind: NoteKind::Xml,
+            offset: place,
+            problem: format!("the prefix `{prefix}` is used and not declared"),
+            assumed: "declared at `<robot>`".to_owned(),
+        });
+        text.insert_str(
+            at,
+            &format!(" xmlns:{prefix}=\"urn:urdd:undeclared:{prefix}\""),
+        );
+    }
+    (text, remarks, first_line)
+}
+
+/// A prefix that the parser does not know, where that is what it stumbles over first.
+fn unknown_prefix(text: &str) -> Option<String> {
+    let options = ParsingOptions {
+        allow_dtd: true,
+        ..ParsingOptions::default()
+    };
+    match Document::parse_with_options(text, options) {
+        Err(Error::UnknownNamespace(prefix, _)) => Some(prefix),
+        _ => None,
+    }
+}

@@ -1,0 +1,90 @@
+//! Elements and attributes, by the names that are written.
+
+use roxmltree::{Attribute, Error, Node};
+
+use crate::directory::position::LineIndex;
+use crate::generate::fault::{Fault, PlacedFault};
+
+pub(super) type Element<'a> = Node<'a, 'a>;
+
+/// The name of an element, its prefix included: SPEC 6.1.8 knows elements by the name that is
+/// written, so `xacro:link` is no link, whatever `xacro` stands for.
+pub(super) fn name<'a>(element: Element<'a>) -> &'a str {
+    let text = &element.document().input_text()[element.range()];
+    let start = text.strip_prefix('<').unwrap_or(text);
+    start
+        .split(|c: char| c.is_ascii_whitespace() || c == '>' || c == '/')
+        .next()
+        .unwrap_or_default()
+}
+
+/// The elements directly in an element, with their names.
+pub(super) fn children<'a>(parent: Element<'a>) -> impl Iterator<Item = (&'a str, Element<'a>)> {
+    parent
+        .children()
+        .filter(Node::is_element)
+        .map(|element| (name(element), element))
+}
+
+/// An element's own characters.
+pub(super) fn verbatim(element: Element<'_>) -> String {
+    element.document().input_text()[element.range()].to_owned()
+}
+
+/// An attribute without prefix.
+pub(super) fn attribute<'a>(element: Element<'a>, name: &str) -> Option<Attribute<'a, 'a>> {
+    element
+        .attributes()
+        .find(|attribute| attribute.name() == name && attribute.namespace().is_none())
+}
+
+/// What the parser refused, in words and with its place.
+pub(super) fn fault(error: &Error, text: &str) -> PlacedFault {
+    let at = error.pos();
+    let start = LineIndex::new(text)
+        .line_start(at.row as usize)
+        .unwrap_or_default();
+    let is_after_end = text[..start].contains("</robot>") || text.starts_with("<robot/>");
+    let words = match error {
+        Error::UnexpectedDeclaration(_) => {
+            "the declaration `<?xml …?>` may stand only at the very start of the file".to_owned()
+        }
+        Error::NodesLimitReached => format!("it has more than {} nodes", super::MAX_NODES),
+        Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream
+            if text.trim().is_empty() =>
+        {
+            "the file is empty".to_owned()
+        }
+        Error::UnclosedRootNode | Error::UnexpectedEndOfStream => {
+            "the file ends before `</robot>`; it seems to be cut off".to_owned()
+        }
+        Error::UnexpectedCloseTag(expected, found, _) => {
+            format!("`</{found}>` stands where `</{expected}>` should")
+        }
+        Error::MalformedEntityReference(_) => {
+            "there is a `&` that begins nothing; write `&amp;` for the character".to_owned()
+        }
+        Error::UnknownEntityReference(name, _) => format!("there is no entity `&{name};`"),
+        Error::DuplicatedAttribute(name, _) => format!("the attribute `{name}` is there twice"),
+        Error::InvalidComment(_) => "there is `--` within a comment".to_owned(),
+        Error::InvalidAttributeValue(_) => "there is a `<` within an attribute".to_owned(),
+        Error::NonXmlChar(c, _) => format!("there is the character U+{:04X}", u32::from(*c)),
+        Error::UnknownToken(_) if is_after_end => {
+            "there is something after the robot's end, `</robot>`".to_owned()
+        }
+        Error::UnknownToken(_) => "it does not begin as XML does, with `<`".to_owned(),
+        other => {
+            // Its own words end with the place, which stands before them already.
+            let words = other.to_string();
+            match words.rsplit_once(" at ") {
+                Some((words, place)) if place.contains(':') => words.to_owned(),
+                _ => words,
+            }
+        }
+    };
+    PlacedFault {
+        line: at.row,
+        column: at.col,
+        fault: Fault::NotXml(words),
+    }
+}
