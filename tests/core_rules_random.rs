@@ -10,13 +10,13 @@ use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use tempfile::TempDir;
 use urdd::format::registry::{self, ModuleKind};
 use urdd::validate::code::Code;
 use urdd::validate::engine::Outcome;
 use urdd::validate::settings::Settings;
 
 use support::fixture::Fixture;
+use support::folder::Folder;
 use support::robot::{Robot, arbitrary_robot};
 
 const ROBOTS: usize = 200;
@@ -29,9 +29,8 @@ const MODULES: [&str; 5] = [
 ];
 
 /// The codes of what is found in a URDD, each with its first message; but for oddities of the robot.
-fn found(urdd: &Fixture, folder: &TempDir) -> BTreeMap<Code, String> {
-    urdd.write_to(folder.path());
-    let report = urdd::validate::validate(&[folder.path()], &Settings::default()).unwrap();
+fn found(urdd: &Fixture, folder: &mut Folder) -> BTreeMap<Code, String> {
+    let report = urdd::validate::validate(&[folder.put(urdd)], &Settings::default()).unwrap();
     let examined = report.subjects[0].result.as_ref().unwrap();
     let mut found = BTreeMap::new();
     for check in &examined.checks {
@@ -60,11 +59,12 @@ fn robots() -> impl Iterator<Item = Robot> {
 #[test]
 fn valid_urdds_of_any_robot_have_no_finding() {
     let robots: Vec<Robot> = robots().collect();
-    robots.par_iter().for_each(|robot| {
-        let folder = TempDir::new().unwrap();
-        let found = found(&Fixture::core(robot), &folder);
-        assert!(found.is_empty(), "{found:?}\n{}", robot.to_urdf_xml());
-    });
+    robots
+        .par_iter()
+        .for_each_init(Folder::new, |folder, robot| {
+            let found = found(&Fixture::core(robot), folder);
+            assert!(found.is_empty(), "{found:?}\n{}", robot.to_urdf_xml());
+        });
 }
 
 #[test]
@@ -79,13 +79,13 @@ fn a_single_changed_value_is_found_by_one_rule() {
         .enumerate()
         .flat_map_iter(|(number, robot)| {
             let valid = Fixture::core(robot);
-            let folder = TempDir::new().unwrap();
+            let mut folder = Folder::new();
             let mut dice = Dice((number as u64) << 32);
             (0..per_robot).map(move |_| {
                 let mut urdd = valid.clone();
                 let change = mutate(&mut urdd, &mut dice);
                 urdd.seal();
-                (change, found(&urdd, &folder))
+                (change, found(&urdd, &mut folder))
             })
         })
         .collect();
