@@ -6,6 +6,7 @@ pub mod cli;
 pub mod directory;
 pub mod format;
 pub mod generate;
+pub mod geometry;
 pub mod kinematics;
 pub mod report;
 pub mod validate;

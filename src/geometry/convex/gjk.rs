@@ -1,0 +1,169 @@
+//! The Gilbert-Johnson-Keerthi algorithm for several samples at once.
+//!
+//! Source: as for `simplex`; the end test is that of van den Bergen, "A Fast and Robust GJK Implementation
+//! for Collision Detection of Convex Objects", J. Graphics Tools 4(2), 1999: with v the nearest point so far
+//! and w the point of the difference that is farthest towards the origin, the distance is between
+//! v . w / |v| and |v|.
+
+use fearless_simd::{Simd, prelude::*};
+
+use super::lanes::{LANES, Mask, Num, Pose, Vec3, select, splat};
+use super::simplex::{Nearest, segment, tetrahedron, triangle};
+use super::support::Support;
+
+/// Distances are right within this, metres: their upper and lower bound differ by no more. (For shapes
+/// or shifts of more than 10 km, within 1e-13 of that size.)
+pub const TOLERANCE: f64 = 1e-9;
+
+/// Nearer than this is contact, metres.
+const CONTACT: f64 = 1e-10;
+
+/// Rounds after which a lane is given up; two to five are usual.
+const MAX_ROUNDS: usize = 64;
+
+/// The set of all lanes.
+pub(crate) const ALL: u64 = (1 << LANES) - 1;
+
+/// Upper bounds of the distances.
+struct Bounds<S: Simd> {
+    upper: Num<S>,
+    /// Where the lower bound is further off than the tolerance: rounding stopped the descent.
+    unsure: Mask<S>,
+}
+
+/// Distances in the set of lanes `lanes` of `a` and `b`, each about its own centre, `pose` being that of
+/// `b` in the frame of `a`.
+#[inline(always)]
+pub(crate) fn distances<S: Simd, T: Support>(
+    simd: S,
+    a: &T,
+    b: &T,
+    pose: &Pose<S>,
+    lanes: u64,
+) -> [f64; LANES] {
+    let bounds = descend(simd, a, b, pose, -pose.shift, lanes);
+    let mut distances = bounds.upper.to_array();
+    let mut unsure = bounds.unsure.to_bitmask();
+    while unsure != 0 {
+        let lane = unsure.trailing_zeros() as usize & (LANES - 1);
+        unsure &= unsure - 1;
+        let again = from_other_sides(simd, a, b, &pose.lane(lane), distances[lane]);
+        distances[lane] = again;
+    }
+    distances
+}
+
+/// The distance in one pose, descending from the eight octants: the first sure result, or else the least
+/// upper bound, of which `upper` is one.
+#[inline(never)]
+fn from_other_sides<S: Simd, T: Support>(
+    simd: S,
+    a: &T,
+    b: &T,
+    pose: &[[f64; 3]; 4],
+    upper: f64,
+) -> f64 {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let pose = Pose {
+                columns: [
+                    Vec3::splat(simd, pose[0]),
+                    Vec3::splat(simd, pose[1]),
+                    Vec3::splat(simd, pose[2]),
+                ],
+                shift: Vec3::splat(simd, pose[3]),
+            };
+            let mut octants = [[0.0; LANES]; 3];
+            for lane in 0..LANES {
+                for (axis, octant) in octants.iter_mut().enumerate() {
+                    octant[lane] = if lane >> axis & 1 == 0 { 1.0 } else { -1.0 };
+                }
+            }
+            let octants = Vec3::load(simd, [&octants[0], &octants[1], &octants[2]]);
+            let bounds = descend(simd, a, b, &pose, octants, ALL);
+            let unsure = bounds.unsure.to_bitmask() & ALL;
+            if unsure != ALL {
+                return bounds.upper[(!unsure).trailing_zeros() as usize & (LANES - 1)];
+            }
+            let mut least = upper;
+            for lane in 0..LANES {
+                least = least.min(bounds.upper[lane]);
+            }
+            least
+        },
+    )
+}
+
+/// The descent, from the point of the difference A - B that is farthest against `start`.
+#[inline(always)]
+fn descend<S: Simd, T: Support>(
+    simd: S,
+    a: &T,
+    b: &T,
+    pose: &Pose<S>,
+    start: Vec3<S>,
+    lanes: u64,
+) -> Bounds<S> {
+    let contact2 = splat(simd, CONTACT * CONTACT);
+    let tolerance2 = splat(simd, TOLERANCE * TOLERANCE);
+    let zero = splat(simd, 0.0);
+    let mut v = farthest(simd, a, b, pose, start, lanes);
+    let mut s = [v; 3];
+    let mut squared = v.dot(v);
+    let mut contact = squared.simd_le(contact2);
+    let mut done = contact | Mask::from_bitmask(simd, !lanes & ALL);
+    let mut unsure = Mask::splat(simd, false);
+    for round in 1..=MAX_ROUNDS {
+        if done.all_true() {
+            break;
+        }
+        let w = farthest(simd, a, b, pose, v, !done.to_bitmask() & ALL);
+        // The distance is between v . w / |v| and |v|.
+        let gap = squared - v.dot(w);
+        done |= gap.simd_le(zero) | (gap * gap).simd_le(squared * tolerance2);
+        if done.all_true() {
+            break;
+        }
+        let Nearest {
+            point,
+            vertices,
+            inside,
+        } = match round {
+            1 => segment(simd, w, s[0]),
+            2 => triangle(simd, w, [s[0], s[1]]),
+            _ => tetrahedron(simd, w, s),
+        };
+        let least = point.dot(point);
+        let touching = (inside | least.simd_le(contact2)) & !done;
+        contact |= touching;
+        done |= touching;
+        let stuck = !least.simd_lt(squared) & !done;
+        unsure |= stuck;
+        done |= stuck;
+        v = Vec3::select(done, v, point);
+        squared = select(done, squared, least);
+        s = vertices;
+    }
+    Bounds {
+        upper: select(contact, zero, squared.sqrt()),
+        unsure: unsure | !done,
+    }
+}
+
+/// The point of the difference A - B that is farthest against `v`.
+///
+/// A function, for a closure may not be compiled for the instruction set that `simd` stands for.
+#[inline(always)]
+fn farthest<S: Simd, T: Support>(
+    simd: S,
+    a: &T,
+    b: &T,
+    pose: &Pose<S>,
+    v: Vec3<S>,
+    lanes: u64,
+) -> Vec3<S> {
+    let on_a = a.support(simd, -v, lanes);
+    let on_b = b.support(simd, pose.rotate_back(v), lanes);
+    on_a - pose.rotate(on_b) - pose.shift
+}

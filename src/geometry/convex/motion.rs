@@ -1,0 +1,176 @@
+//! Poses of bodies in many samples, laid out for eight samples at once.
+
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
+use nalgebra::Isometry3;
+
+use super::lanes::{LANES, Pose, Vec3};
+
+/// Where the bodies of a robot are in each sample.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    num_samples: usize,
+    bodies: Vec<PoseLanes>,
+    groups: Vec<usize>,
+}
+
+/// Why poses are no motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MotionError {
+    #[error("there are no samples; give at least one")]
+    NoSamples,
+    #[error("sample {sample} has {found} poses; give one for each of the {expected} bodies")]
+    Bodies {
+        sample: usize,
+        expected: usize,
+        found: usize,
+    },
+    #[error("the pose of body {body} in sample {sample} is not finite")]
+    NotFinite { sample: usize, body: usize },
+}
+
+impl Motion {
+    /// From the pose of each body in each sample, `poses[sample][body]`, and the group of each body: bodies
+    /// of one group do not move with respect to each other.
+    pub fn new(poses: &[Vec<Isometry3<f64>>], groups: &[usize]) -> Result<Self, MotionError> {
+        if poses.is_empty() {
+            return Err(MotionError::NoSamples);
+        }
+        for (sample, row) in poses.iter().enumerate() {
+            if row.len() != groups.len() {
+                return Err(MotionError::Bodies {
+                    sample,
+                    expected: groups.len(),
+                    found: row.len(),
+                });
+            }
+            let finite = |p: &Isometry3<f64>| {
+                let rotation = p.rotation.coords.iter();
+                rotation.chain(&p.translation.vector).all(|x| x.is_finite())
+            };
+            if let Some(body) = row.iter().position(|p| !finite(p)) {
+                return Err(MotionError::NotFinite { sample, body });
+            }
+        }
+        let body = |b: usize| PoseLanes::new(poses.iter().map(|row| &row[b]));
+        Ok(Self {
+            num_samples: poses.len(),
+            bodies: (0..groups.len()).map(body).collect(),
+            groups: groups.to_vec(),
+        })
+    }
+
+    /// Number of samples.
+    pub fn num_samples(&self) -> usize {
+        self.num_samples
+    }
+
+    /// Number of bodies.
+    pub fn num_bodies(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// Whether two bodies do not move with respect to each other.
+    pub fn is_rigid(&self, a: usize, b: usize) -> bool {
+        self.groups[a] == self.groups[b]
+    }
+
+    /// The poses of body `b` in the frame of body `a`: of all samples, or of the first where they are all the
+    /// same.
+    pub(crate) fn relative(&self, a: usize, b: usize) -> PoseLanes {
+        if a == b {
+            PoseLanes::new(std::iter::once(&Isometry3::identity()))
+        } else {
+            let num_samples = if self.is_rigid(a, b) {
+                1
+            } else {
+                self.num_samples
+            };
+            PoseLanes::relative(&self.bodies[a], &self.bodies[b], num_samples)
+        }
+    }
+}
+
+/// One pose for each sample: lists of the 12 numbers, the columns of the rotation and then the shift.
+#[derive(Clone, Debug)]
+pub struct PoseLanes {
+    num_samples: usize,
+    /// Each as long as `num_samples`, filled up to whole lanes by the last sample.
+    numbers: [Vec<f64>; 12],
+}
+
+impl PoseLanes {
+    /// Of poses, at least one.
+    pub fn new<'a>(poses: impl Iterator<Item = &'a Isometry3<f64>>) -> Self {
+        let mut numbers: [Vec<f64>; 12] = Default::default();
+        let mut num_samples: usize = 0;
+        for pose in poses {
+            num_samples += 1;
+            let rotation = pose.rotation.to_rotation_matrix();
+            let all = rotation.matrix().iter().chain(&pose.translation.vector);
+            for (list, &x) in numbers.iter_mut().zip(all) {
+                list.push(x);
+            }
+        }
+        for list in &mut numbers {
+            let last = list.last().copied().unwrap_or_default();
+            list.resize(num_samples.next_multiple_of(LANES), last);
+        }
+        Self {
+            num_samples,
+            numbers,
+        }
+    }
+
+    /// The inverse of `a`, times `b`, of the first samples.
+    fn relative(a: &Self, b: &Self, num_samples: usize) -> Self {
+        let len = num_samples.next_multiple_of(LANES);
+        let mut relative = Self {
+            num_samples,
+            numbers: std::array::from_fn(|_| vec![0.0; len]),
+        };
+        dispatch!(Level::new(), simd => relative.fill(simd, a, b));
+        relative
+    }
+
+    #[inline(always)]
+    fn fill<S: Simd>(&mut self, simd: S, a: &Self, b: &Self) {
+        for at in (0..self.numbers[0].len()).step_by(LANES) {
+            let (a, b) = (a.load(simd, at), b.load(simd, at));
+            let vectors = [
+                a.rotate_back(b.columns[0]),
+                a.rotate_back(b.columns[1]),
+                a.rotate_back(b.columns[2]),
+                a.rotate_back(b.shift - a.shift),
+            ];
+            for (to, v) in self.numbers.chunks_exact_mut(3).zip(vectors) {
+                to[0][at..at + LANES].copy_from_slice(v.x.as_slice());
+                to[1][at..at + LANES].copy_from_slice(v.y.as_slice());
+                to[2][at..at + LANES].copy_from_slice(v.z.as_slice());
+            }
+        }
+    }
+
+    /// Number of poses.
+    pub fn num_samples(&self) -> usize {
+        self.num_samples
+    }
+
+    /// The poses of the samples from `at`, a multiple of the lanes.
+    #[inline(always)]
+    pub(crate) fn load<S: Simd>(&self, simd: S, at: usize) -> Pose<S> {
+        Pose {
+            columns: [
+                self.load_vector(simd, 0, at),
+                self.load_vector(simd, 3, at),
+                self.load_vector(simd, 6, at),
+            ],
+            shift: self.load_vector(simd, 9, at),
+        }
+    }
+
+    #[inline(always)]
+    fn load_vector<S: Simd>(&self, simd: S, k: usize, at: usize) -> Vec3<S> {
+        let from = |k: usize| &self.numbers[k][at..at + LANES];
+        Vec3::load(simd, [from(k), from(k + 1), from(k + 2)])
+    }
+}

@@ -1,0 +1,79 @@
+//! Support functions for all lanes at once.
+
+use fearless_simd::{Simd, prelude::*};
+
+use super::lanes::{LANES, Num, Vec3, select, splat};
+use super::support_table::SupportTable;
+use super::{ConvexShape, OrientedBox};
+
+/// A shape about its centre, of which the farthest point in a direction is known.
+pub(crate) trait Support: Sync {
+    /// The farthest point in each lane's direction. Any point of the shape for a direction that is zero,
+    /// and in the lanes that are not in the bit set `lanes`.
+    fn support<S: Simd>(&self, simd: S, direction: Vec3<S>, lanes: u64) -> Vec3<S>;
+}
+
+impl Support for OrientedBox {
+    #[inline(always)]
+    fn support<S: Simd>(&self, simd: S, direction: Vec3<S>, _lanes: u64) -> Vec3<S> {
+        let h = Vec3::splat(simd, self.half_extents);
+        Vec3 {
+            x: h.x.copysign(direction.x),
+            y: h.y.copysign(direction.y),
+            z: h.z.copysign(direction.z),
+        }
+    }
+}
+
+impl Support for ConvexShape {
+    #[inline(always)]
+    fn support<S: Simd>(&self, simd: S, d: Vec3<S>, mut lanes: u64) -> Vec3<S> {
+        let cells = cells(simd, &self.table, d);
+        let (mut x, mut y, mut z) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        if lanes.count_ones() > 5 {
+            for lane in 0..LANES {
+                [x[lane], y[lane], z[lane]] =
+                    self.table
+                        .farthest(simd, cells[lane], [d.x[lane], d.y[lane], d.z[lane]]);
+            }
+        } else {
+            while lanes != 0 {
+                let lane = lanes.trailing_zeros() as usize & (LANES - 1);
+                lanes &= lanes - 1;
+                [x[lane], y[lane], z[lane]] =
+                    self.table
+                        .farthest(simd, cells[lane], [d.x[lane], d.y[lane], d.z[lane]]);
+            }
+        }
+        Vec3 {
+            x: Num::load_array(simd, x),
+            y: Num::load_array(simd, y),
+            z: Num::load_array(simd, z),
+        }
+    }
+}
+
+/// The cell of each lane's direction.
+#[inline(always)]
+fn cells<S: Simd>(simd: S, table: &SupportTable, d: Vec3<S>) -> [usize; LANES] {
+    /// 1.5 * 2^52: adding it rounds to an integer, which is then the lowest bits of the sum.
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+    let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
+    let half = 0.5 * table.side() as f64;
+    let inverse = one / (d.x.abs() + d.y.abs() + d.z.abs());
+    let (u, v) = (d.x * inverse, d.y * inverse);
+    let lower = d.z.simd_lt(zero);
+    let u2 = select(lower, (one - v.abs()).copysign(u), u);
+    let v2 = select(lower, (one - u.abs()).copysign(v), v);
+    // Less than the side by so little that no vertex is lost.
+    let (scale, shift) = (splat(simd, half * (1.0 - 1e-12)), splat(simd, half - 0.5));
+    let round = splat(simd, ROUND);
+    let row = (u2 * scale + shift + round) - round;
+    let column = (v2 * scale + shift + round) - round;
+    let cell = (row * splat(simd, table.side() as f64) + column + round).to_array();
+    let mut cells = [0; LANES];
+    for lane in 0..LANES {
+        cells[lane] = (cell[lane].to_bits() & 0xFFFF_FFFF) as usize;
+    }
+    cells
+}

@@ -1,0 +1,195 @@
+//! The farthest vertex in a direction, in constant time.
+//!
+//! The directions are divided into cells (`cells`). A cell's list is mostly one to four vertices of
+//! which the farthest is then found by four dot products, however many vertices the shape has.
+
+use fearless_simd::{Simd, f64x4, prelude::*};
+
+use super::cells::candidates;
+
+/// Vertices of a block.
+pub(crate) const WIDTH: usize = 4;
+
+/// Candidates of a cell, filled up by repetition.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(crate) struct Block {
+    pub x: [f64; WIDTH],
+    pub y: [f64; WIDTH],
+    pub z: [f64; WIDTH],
+    /// The next block belongs to the same list.
+    pub more: bool,
+}
+
+/// For each cell of directions, the vertices that are farthest in one of them.
+#[derive(Clone, Debug)]
+pub(crate) struct SupportTable {
+    /// Cells along one side of the square map: a power of two.
+    side: usize,
+    /// The first block of each cell, row by row. Cells share blocks: one with few candidates takes a block
+    /// in which they are, so that the blocks stay near the processor.
+    cells: Vec<u32>,
+    blocks: Vec<Block>,
+}
+
+impl SupportTable {
+    /// Of points, at least one, all finite.
+    pub fn new(points: &[[f64; 3]]) -> Self {
+        let side = if points.len() < 24 { 32 } else { 64 };
+        let lists = candidates(points, side);
+        let mut cells = vec![0; side * side];
+        let mut blocks = Vec::new();
+        // Longest lists first, then as the cells are.
+        let mut order: Vec<usize> = (0..lists.len()).collect();
+        order.sort_by_key(|&cell| std::cmp::Reverse(lists[cell].len()));
+        // Of each vertex the lists of one block that it is in.
+        let mut shared: Vec<Vec<(u32, &[u32])>> = vec![Vec::new(); points.len()];
+        for cell in order {
+            let list = &lists[cell];
+            let known = shared[list[0] as usize]
+                .iter()
+                .find(|(_, other)| list.iter().all(|i| other.contains(i)));
+            if let Some(&(block, _)) = known {
+                cells[cell] = block;
+                continue;
+            }
+            cells[cell] = blocks.len() as u32;
+            if list.len() <= WIDTH {
+                for &i in list {
+                    shared[i as usize].push((cells[cell], list));
+                }
+            }
+            for (k, chunk) in list.chunks(WIDTH).enumerate() {
+                let of = |axis: usize| {
+                    std::array::from_fn(|i| points[chunk[i.min(chunk.len() - 1)] as usize][axis])
+                };
+                blocks.push(Block {
+                    x: of(0),
+                    y: of(1),
+                    z: of(2),
+                    more: (k + 1) * WIDTH < list.len(),
+                });
+            }
+        }
+        Self {
+            side,
+            cells,
+            blocks,
+        }
+    }
+
+    /// Cells along one side of the map.
+    #[inline(always)]
+    pub fn side(&self) -> usize {
+        self.side
+    }
+
+    /// The vertex that is farthest in a direction of a cell. Any number is taken as that of some cell.
+    #[inline(always)]
+    pub fn farthest<S: Simd>(&self, simd: S, cell: usize, d: [f64; 3]) -> [f64; 3] {
+        let mut at = self.cells[cell & (self.cells.len() - 1)] as usize;
+        let mut block = &self.blocks[at];
+        let mut most = greatest(simd, block, d);
+        let mut k = (most.to_bits() & (WIDTH as u64 - 1)) as usize;
+        let mut point = [block.x[k], block.y[k], block.z[k]];
+        while block.more {
+            at += 1;
+            block = &self.blocks[at];
+            let other = greatest(simd, block, d);
+            if other > most {
+                most = other;
+                k = (most.to_bits() & (WIDTH as u64 - 1)) as usize;
+                point = [block.x[k], block.y[k], block.z[k]];
+            }
+        }
+        point
+    }
+}
+
+/// The greatest dot product of a block's vertices and a direction.
+///
+/// The number of the vertex in the block is put into the lowest bits, so that the greatest is found without
+/// branches. It shifts the product by less than 2^-50 of itself.
+#[inline(always)]
+fn greatest<S: Simd>(simd: S, block: &Block, d: [f64; 3]) -> f64 {
+    let dots = f64x4::load_array_ref(simd, &block.x) * d[0]
+        + f64x4::load_array_ref(simd, &block.y) * d[1]
+        + f64x4::load_array_ref(simd, &block.z) * d[2];
+    let dots = dots.to_array();
+    let mark = |k: usize| f64::from_bits(dots[k].to_bits() & !(WIDTH as u64 - 1) | k as u64);
+    greater(greater(mark(0), mark(1)), greater(mark(2), mark(3)))
+}
+
+/// The greater of two numbers, neither NaN: one instruction.
+#[inline(always)]
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{Level, dispatch};
+
+    use super::super::lanes::{LANES, Vec3};
+    use super::super::shape::ConvexShape;
+    use super::super::support::Support;
+    use super::*;
+
+    /// Directions of all kinds: general, and those with equal, zero and opposite coordinates, which lie on
+    /// the borders of cells.
+    fn directions() -> Vec<[f64; 3]> {
+        let mut list: Vec<[f64; 3]> = (0..4000)
+            .map(|i| {
+                let x = f64::from(i);
+                [(1.3 * x).sin(), (2.1 * x).cos(), (0.7 * x).sin()]
+            })
+            .collect();
+        for x in [-1.0, -0.5, -0.0, 0.0, 0.5, 1.0] {
+            for y in [-1.0, -0.25, -0.0, 0.0, 0.5, 1.0] {
+                list.extend([-1.0, -0.5, -0.0, 0.0, 0.5, 1.0].map(|z| [x, y, z]));
+            }
+        }
+        list.retain(|d| d.iter().any(|x| *x != 0.0));
+        list
+    }
+
+    fn most(points: &[[f64; 3]], d: [f64; 3]) -> f64 {
+        points
+            .iter()
+            .map(|p| p[0] * d[0] + p[1] * d[1] + p[2] * d[2])
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    #[inline(always)]
+    fn found<S: Simd>(simd: S, shape: &ConvexShape, d: [f64; 3]) -> [f64; 3] {
+        shape
+            .support(simd, Vec3::splat(simd, d), (1 << LANES) - 1)
+            .lane(LANES - 1)
+    }
+
+    #[test]
+    fn the_table_finds_the_farthest_vertex() {
+        for n in [1, 2, 3, 5, 8, 30, 300, 3000] {
+            // On a stretched sphere, with some groups of vertices close together; about the origin.
+            let points: Vec<[f64; 3]> = (0..n)
+                .flat_map(|i| {
+                    let x = f64::from(i);
+                    let z = (0.77 * x).sin();
+                    let (r, near) = ((1.0 - z * z).sqrt(), 1e-3 * (5.1 * x).cos());
+                    let p = [r * (x + near).cos(), 2.0 * r * (x + near).sin(), 0.3 * z];
+                    [p, p.map(|x| -x)]
+                })
+                .collect();
+            let shape = ConvexShape::of_points(&points).expect("a shape");
+            for d in directions() {
+                let p = dispatch!(Level::new(), simd => found(simd, &shape, d));
+                let p = std::array::from_fn(|k| p[k] + shape.centre[k]);
+                let (found, most) = (most(&[p], d), most(&points, d));
+                assert!(
+                    (found - most).abs() < 1e-14,
+                    "{n} points, direction {d:?}: {found} {most}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! The whole surface handed out to the groups that the search found.
+//!
+//! Every triangle goes down the tree of cuts; one that crosses a plane is clipped there
+//! (Sutherland and Hodgman, "Reentrant polygon clipping", 1974) and both parts go on. So the parts
+//! of the groups make up the surface exactly, but for the rounding of the new points.
+
+use super::clean::Surface;
+use super::part::Plane;
+use super::search::Node;
+use super::vector::{dot, lerp};
+
+/// A corner on its way down: its place in unit coordinates, and which vertex or point it is.
+#[derive(Clone, Copy)]
+struct Corner {
+    unit: [f64; 3],
+    at: [f64; 3],
+    /// The vertex, or `NEW` for a point made by a cut.
+    vertex: u32,
+}
+
+const NEW: u32 = u32::MAX;
+
+/// The points of each group, in metres: of the surface, and of points inside (in unit coordinates). Points made by a cut are rounded to f32, as meshes are written.
+pub(super) fn assign(
+    surface: &Surface,
+    (inner, reach): (&[[f64; 3]], f64),
+    nodes: &[Node],
+    group_of_leaf: &[usize],
+    groups: usize,
+    eps: f64,
+) -> Vec<Vec<[f64; 3]>> {
+    let mut out = Hands {
+        points: vec![Vec::new(); groups],
+        last: vec![u32::MAX; surface.vertices.len()],
+        nodes,
+        group_of_leaf,
+        eps,
+    };
+    for &t in &surface.triangles {
+        let corners = t.map(|i| Corner {
+            unit: surface.unit[i as usize],
+            at: surface.vertices[i as usize],
+            vertex: i,
+        });
+        out.descend(0, &corners, &|direction| {
+            dot(surface.normal(t), direction) > 0.0
+        });
+    }
+    for &p in inner {
+        out.drop_in(0, p, reach, surface);
+    }
+    out.points
+}
+
+struct Hands<'a> {
+    points: Vec<Vec<[f64; 3]>>,
+    /// The group that a vertex was last given to: most belong to one only.
+    last: Vec<u32>,
+    nodes: &'a [Node],
+    group_of_leaf: &'a [usize],
+    eps: f64,
+}
+
+impl Hands<'_> {
+    fn descend(&mut self, mut node: usize, polygon: &[Corner], faces: &dyn Fn([f64; 3]) -> bool) {
+        loop {
+            match self.nodes[node] {
+                Node::Leaf(leaf) => return self.give(self.group_of_leaf[leaf], polygon),
+                Node::Cut(plane, sides) => {
+                    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+                    for c in polygon {
+                        let h = plane.height(c.unit);
+                        low = low.min(h);
+                        high = high.max(h);
+                    }
+                    let side = if low >= -self.eps && high <= self.eps {
+                        usize::from(!faces(plane.normal))
+                    } else if low >= -self.eps {
+                        1
+                    } else if high <= self.eps {
+                        0
+                    } else {
+                        let halves = clip(polygon, &plane, self.eps);
+                        self.descend(sides[0], &halves[0], faces);
+                        self.descend(sides[1], &halves[1], faces);
+                        return;
+                    };
+                    node = sides[side];
+                }
+            }
+        }
+    }
+
+    /// A point inside, in unit coordinates: near a plane it is put into that too, for both sides.
+    fn drop_in(&mut self, node: usize, p: [f64; 3], reach: f64, surface: &Surface) {
+        match self.nodes[node] {
+            Node::Leaf(leaf) => {
+                let at =
+                    [0, 1, 2].map(|a| f64::from((p[a] * surface.scale + surface.centre[a]) as f32));
+                self.points[self.group_of_leaf[leaf]].push(at);
+            }
+            Node::Cut(plane, sides) => {
+                let height = plane.height(p);
+                if height.abs() <= reach {
+                    let q = plane.project(p);
+                    self.drop_in(sides[0], q, reach, surface);
+                    self.drop_in(sides[1], q, reach, surface);
+                }
+                self.drop_in(sides[usize::from(height > 0.0)], p, reach, surface);
+            }
+        }
+    }
+
+    fn give(&mut self, group: usize, polygon: &[Corner]) {
+        for c in polygon {
+            if c.vertex != NEW {
+                let last = &mut self.last[c.vertex as usize];
+                if *last == group as u32 {
+                    continue;
+                }
+                *last = group as u32;
+            }
+            self.points[group].push(c.at);
+        }
+    }
+}
+
+/// The parts of a convex polygon below and above a plane.
+fn clip(polygon: &[Corner], plane: &Plane, eps: f64) -> [Vec<Corner>; 2] {
+    let mut out = [
+        Vec::with_capacity(polygon.len() + 1),
+        Vec::with_capacity(polygon.len() + 1),
+    ];
+    for (k, c) in polygon.iter().enumerate() {
+        let d = &polygon[(k + 1) % polygon.len()];
+        let (hc, hd) = (plane.height(c.unit), plane.height(d.unit));
+        if hc <= eps {
+            out[0].push(*c);
+        }
+        if hc >= -eps {
+            out[1].push(*c);
+        }
+        if (hc < -eps && hd > eps) || (hc > eps && hd < -eps) {
+            // From the lower end always, so that two triangles with this edge make the same point.
+            let (from, to, hf, ht) = if hc < hd {
+                (c, d, hc, hd)
+            } else {
+                (d, c, hd, hc)
+            };
+            let t = hf / (hf - ht);
+            let cut = Corner {
+                unit: lerp(from.unit, to.unit, t),
+                at: lerp(from.at, to.at, t).map(|x| f64::from(x as f32)),
+                vertex: NEW,
+            };
+            out[0].push(cut);
+            out[1].push(cut);
+        }
+    }
+    out
+}

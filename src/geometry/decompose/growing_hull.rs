@@ -1,0 +1,241 @@
+//! A convex hull that grows point by point and always knows its volume and area.
+//!
+//! The plain incremental (beneath-beyond) construction: faces that see the new point go, the
+//! horizon's edges are joined to it. Each face is tested for each point; with a hundred faces that is
+//! faster than keeping conflict lists. Points are moved by a fixed tiny pseudo-random step first, so
+//! that no four lie in a plane ("joggled input", Barber and Huhdanpaa, Qhull manual): CAD is full of flat
+//! faces, and those break a plain incremental hull. So it serves the search and the choice of vertices;
+//! what is handed out is made by [`crate::geometry::hull`].
+
+use super::vector::{cross, dot, sub};
+
+/// A face slot that holds nothing has this offset: no point sees it.
+const EMPTY: f64 = f64::INFINITY;
+
+#[derive(Clone, Default)]
+pub(super) struct GrowingHull {
+    /// The points taken, moved; those before the first insertion not.
+    pub points: Vec<[f64; 3]>,
+    jitter: f64,
+    corners: Vec<[u16; 3]>,
+    nx: Vec<f64>,
+    ny: Vec<f64>,
+    nz: Vec<f64>,
+    offset: Vec<f64>,
+    area: Vec<f64>,
+    free: Vec<u32>,
+    /// Slots whose faces went with the last insertion.
+    pub removed: Vec<u32>,
+    edges: Vec<[u16; 2]>,
+    distance: Vec<f64>,
+    volume6: f64,
+    area_sum: f64,
+}
+
+impl GrowingHull {
+    /// A hull of four points, or none where the last is no farther than `thinnest` from the plane of
+    /// the others. `jitter` is how far points may be moved.
+    pub fn tetrahedron(p: [[f64; 3]; 4], thinnest: f64, jitter: f64) -> Option<Self> {
+        let n = cross(sub(p[1], p[0]), sub(p[2], p[0]));
+        let side = dot(n, sub(p[3], p[0]));
+        if side.abs() <= thinnest * dot(n, n).sqrt() {
+            return None;
+        }
+        let mut hull = GrowingHull {
+            points: p.to_vec(),
+            jitter,
+            ..GrowingHull::default()
+        };
+        let faces = if side > 0.0 {
+            [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+        } else {
+            [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]
+        };
+        hull.volume6 = side.abs();
+        for f in faces {
+            hull.add_face(f);
+        }
+        Some(hull)
+    }
+
+    /// A small octahedron about `centre`: a start that makes every later hull solid, so that flat
+    /// and thin parts need no cases of their own. Its size is far below what the search resolves.
+    pub fn seed(centre: [f64; 3], radius: f64) -> Self {
+        let mut hull = GrowingHull {
+            jitter: radius * 1e-4,
+            ..GrowingHull::default()
+        };
+        for axis in 0..3 {
+            for sign in [radius, -radius] {
+                let mut p = centre;
+                p[axis] += sign;
+                hull.points.push(p);
+            }
+        }
+        for code in 0..8_u16 {
+            let (a, b, c) = (code & 1, 2 + (code >> 1 & 1), 4 + (code >> 2 & 1));
+            let even = (code & 1) + (code >> 1 & 1) + (code >> 2 & 1);
+            hull.add_face(if even % 2 == 0 { [a, b, c] } else { [a, c, b] });
+        }
+        hull.volume6 = 8.0 * radius * radius * radius;
+        hull
+    }
+
+    fn add_face(&mut self, f: [u16; 3]) {
+        let [a, b, c] = f.map(|i| self.points[i as usize]);
+        let n = cross(sub(b, a), sub(c, a));
+        let length = dot(n, n).sqrt();
+        let n = if length > 0.0 {
+            n.map(|x| x / length)
+        } else {
+            [0.0; 3]
+        };
+        let offset = if length > 0.0 { dot(n, a) } else { 0.0 };
+        self.area_sum += length;
+        if let Some(slot) = self.free.pop() {
+            let i = slot as usize;
+            self.corners[i] = f;
+            (self.nx[i], self.ny[i], self.nz[i]) = (n[0], n[1], n[2]);
+            self.offset[i] = offset;
+            self.area[i] = length;
+        } else {
+            self.corners.push(f);
+            self.nx.push(n[0]);
+            self.ny.push(n[1]);
+            self.nz.push(n[2]);
+            self.offset.push(offset);
+            self.area.push(length);
+        }
+    }
+
+    /// Volume.
+    pub fn volume(&self) -> f64 {
+        self.volume6 / 6.0
+    }
+
+    /// Slots for faces, empty ones too.
+    pub fn slots(&self) -> usize {
+        self.offset.len()
+    }
+
+    /// Surface area.
+    pub fn area(&self) -> f64 {
+        self.area_sum / 2.0
+    }
+
+    /// Whether the hull may take no more points: corners are 16-bit, and more faces than Euler's
+    /// formula allows mean that rounding has broken it.
+    fn is_full(&self) -> bool {
+        self.points.len() >= usize::from(u16::MAX) || self.offset.len() > 2 * self.points.len()
+    }
+
+    /// The point moved by up to `jitter` along each axis; the same for the same place in the order.
+    fn moved(&self, p: [f64; 3]) -> [f64; 3] {
+        let mut state = self.points.len() as u64;
+        p.map(|x| {
+            // SplitMix64 (Steele, Lea and Flood, 2014).
+            state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+            let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            x + self.jitter * ((z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
+        })
+    }
+
+    /// The face slot whose plane the point is farthest above, and how far; below all: negative.
+    #[inline]
+    pub fn farthest_face(&self, p: [f64; 3]) -> (u32, f64) {
+        let n = self.offset.len();
+        let (nx, ny, nz, offset) = (
+            &self.nx[..n],
+            &self.ny[..n],
+            &self.nz[..n],
+            &self.offset[..n],
+        );
+        let mut best = (0, f64::NEG_INFINITY);
+        for i in 0..n {
+            let d = nx[i] * p[0] + ny[i] * p[1] + nz[i] * p[2] - offset[i];
+            if d > best.1 {
+                best = (i as u32, d);
+            }
+        }
+        best
+    }
+
+    /// The corners of a face slot: places in the order of insertion.
+    pub fn face(&self, slot: u32) -> [u16; 3] {
+        self.corners[slot as usize]
+    }
+
+    /// The places of points that are corners of a face, ascending.
+    pub fn used(&self) -> Vec<usize> {
+        let mut used = vec![false; self.points.len()];
+        for (f, offset) in self.corners.iter().zip(&self.offset) {
+            if *offset != EMPTY {
+                f.iter().for_each(|&i| used[i as usize] = true);
+            }
+        }
+        (0..used.len()).filter(|&i| used[i]).collect()
+    }
+
+    /// Makes the hull hold `p`; false where it is inside already, to within `eps` (which is to be
+    /// more than the jitter).
+    pub fn insert(&mut self, p: [f64; 3], eps: f64) -> bool {
+        let p = self.moved(p);
+        let n = self.offset.len();
+        self.distance.clear();
+        self.distance.resize(n, 0.0);
+        {
+            let (nx, ny, nz, offset) = (
+                &self.nx[..n],
+                &self.ny[..n],
+                &self.nz[..n],
+                &self.offset[..n],
+            );
+            let out = &mut self.distance[..n];
+            for i in 0..n {
+                out[i] = nx[i] * p[0] + ny[i] * p[1] + nz[i] * p[2] - offset[i];
+            }
+        }
+        // In lanes, so that the compiler can use vectors.
+        let mut most = [f64::NEG_INFINITY; 8];
+        for chunk in self.distance.chunks(8) {
+            for (m, &d) in most.iter_mut().zip(chunk) {
+                *m = if d > *m { d } else { *m };
+            }
+        }
+        if most.iter().all(|&d| d <= eps) || self.is_full() {
+            return false;
+        }
+        self.removed.clear();
+        self.edges.clear();
+        for i in 0..n {
+            if self.distance[i] > 0.0 {
+                self.volume6 += self.distance[i] * self.area[i];
+                self.area_sum -= self.area[i];
+                let [a, b, c] = self.corners[i];
+                for e in [[a, b], [b, c], [c, a]] {
+                    // An edge seen from both sides is not on the horizon.
+                    match self.edges.iter().position(|&[u, v]| u == e[1] && v == e[0]) {
+                        Some(k) => {
+                            self.edges.swap_remove(k);
+                        }
+                        None => self.edges.push(e),
+                    }
+                }
+                self.removed.push(i as u32);
+                self.offset[i] = EMPTY;
+                (self.nx[i], self.ny[i], self.nz[i]) = (0.0, 0.0, 0.0);
+                self.area[i] = 0.0;
+                self.free.push(i as u32);
+            }
+        }
+        let apex = self.points.len() as u16;
+        self.points.push(p);
+        let edges = std::mem::take(&mut self.edges);
+        for e in &edges {
+            self.add_face([e[0], e[1], apex]);
+        }
+        self.edges = edges;
+        true
+    }
+}

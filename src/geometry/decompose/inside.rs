@@ -1,0 +1,135 @@
+//! Points inside the surface, on a coarse grid.
+//!
+//! A part of a surface has a smaller hull than the same part of the body: cut a solid cylinder into
+//! quarters, and the quarters of its *surface* leave out its middle. Points inside, given along with
+//! the surface, keep the search from taking that for a gain, and keep pieces from leaving hollows.
+//! Where a cut passes near them they are put into it too, so that corners between cuts are not lost.
+//! Inside is what a flood from the grid's border does not reach, so a surface need not be closed,
+//! only tight to within a cell; where it is not, there is no inside and nothing changes.
+
+use super::cut::Bounds;
+use super::part::Part;
+use super::vector::{norm, sub};
+
+/// Cells of the grid, about.
+const CELLS: f64 = 8000.0;
+
+/// Most cells along the largest extent, so that flat links do not get a huge grid.
+const MOST_ALONG: f64 = 64.0;
+
+/// Centres of the cells inside, in the part's coordinates, and half the cells' side: so far around each
+/// centre all is inside.
+pub(super) fn inside(part: &Part) -> (Vec<[f64; 3]>, f64) {
+    let bounds = Bounds::new(&part.points);
+    let size = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
+    let cell = (size.iter().product::<f64>() / CELLS)
+        .cbrt()
+        .max(bounds.extent() / MOST_ALONG);
+    if cell <= 0.0 {
+        return (Vec::new(), 0.0);
+    }
+    // A border of empty cells all around.
+    let count = size.map(|s| (s / cell).ceil() as usize + 2);
+    let at = |p: [f64; 3]| {
+        let i = [0, 1, 2].map(|a| (((p[a] - bounds.low[a]) / cell) as usize + 1).min(count[a] - 2));
+        (i[2] * count[1] + i[1]) * count[0] + i[0]
+    };
+    let mut state = vec![State::Inside; count.iter().product()];
+    for t in &part.triangles {
+        let [a, b, c] = t.map(|i| part.points[i as usize]);
+        let longest = norm(sub(b, a)).max(norm(sub(c, a))).max(norm(sub(c, b)));
+        let n = (longest / cell * 3.0).ceil().max(1.0) as usize;
+        for i in 0..=n {
+            for j in 0..=n - i {
+                let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
+                state[at([0, 1, 2].map(|k| a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k])))] =
+                    State::Surface;
+            }
+        }
+    }
+    flood(&mut state, count);
+    let mut out = Vec::new();
+    for z in 1..count[2] - 1 {
+        for y in 1..count[1] - 1 {
+            for x in 1..count[0] - 1 {
+                if matches!(state[(z * count[1] + y) * count[0] + x], State::Inside) {
+                    out.push([x, y, z].map(|i| i as f64 - 0.5).map(|i| i * cell));
+                }
+            }
+        }
+    }
+    out.iter_mut()
+        .for_each(|p| (0..3).for_each(|a| p[a] += bounds.low[a]));
+    (out, cell / 2.0)
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum State {
+    /// Not reached (yet).
+    Inside,
+    Surface,
+    Outside,
+}
+
+/// Marks what can be reached from the first cell, which lies in the border.
+fn flood(state: &mut [State], count: [usize; 3]) {
+    let mut stack = vec![0];
+    state[0] = State::Outside;
+    let steps = [1, count[0], count[0] * count[1]];
+    while let Some(k) = stack.pop() {
+        for (a, step) in steps.into_iter().enumerate() {
+            let place = k / step % count[a];
+            let mut visit = |next: usize| {
+                if state[next] == State::Inside {
+                    state[next] = State::Outside;
+                    stack.push(next);
+                }
+            };
+            if place > 0 {
+                visit(k - step);
+            }
+            if place + 1 < count[a] {
+                visit(k + step);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The unit cube about the origin, with or without its top.
+    fn cube(top: bool) -> Part {
+        let points = (0..8)
+            .map(|i| [i & 1, i >> 1 & 1, i >> 2 & 1].map(|b| 2.0 * f64::from(b) - 1.0))
+            .collect();
+        let mut triangles = vec![
+            [0, 2, 1],
+            [1, 2, 3],
+            [0, 1, 4],
+            [1, 5, 4],
+            [0, 4, 2],
+            [2, 4, 6],
+            [1, 3, 5],
+            [3, 7, 5],
+            [2, 6, 3],
+            [3, 6, 7],
+        ];
+        if top {
+            triangles.extend([[4, 5, 6], [5, 7, 6]]);
+        }
+        Part {
+            points,
+            triangles,
+            inner: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_closed_box_has_an_inside_and_an_open_one_none() {
+        // 20 cells along each side, of which the outer ones hold the surface.
+        assert_eq!(inside(&cube(true)).0.len(), 18 * 18 * 18);
+        assert_eq!(inside(&cube(false)).0.len(), 0);
+    }
+}

@@ -1,0 +1,148 @@
+//! Convex decomposition of arbitrary triangle meshes.
+//!
+//! A link's mesh is whatever a CAD program wrote: several shells, open, crossing itself, with parts
+//! inside. So nothing here needs an inside: a *piece* is the convex hull of a part of the surface, and
+//! the parts make up the whole surface. Hence no point of it lies outside the pieces, by construction
+//! (but for [`Settings::surface_tolerance`], which buys pieces with fewer vertices).
+//!
+//! 1. `clean`: equal vertices become one, what is no triangle is left out.
+//! 2. `proxy`: a stand-in with some 1,500 points, for the search only.
+//! 3. `inside`: points inside the body, where it has an inside, so that parts count with what they enclose.
+//! 4. `search`: the stand-in is cut by planes, always there where a cut lowers the summed volume of the
+//!    hulls most (`cut`), into some times more blocks than wanted.
+//! 5. `merge`: blocks are joined again, the cheapest pair first, while there are too many or a join
+//!    costs nearly nothing. Cutting far and joining back finds what one greedy pass does not.
+//! 6. `assign`: the surface itself is clipped by the same planes and handed out to the groups.
+//! 7. `choose`: few points of each group whose hull holds the rest; `ConvexHull` makes the piece.
+//!
+//! The summed volume of hulls is what a decomposition is to be judged by: volume beyond the solid's,
+//! over the area, is how far pieces stand off the surface on average. It needs no solid to be known,
+//! falls with each good cut, and has its least value at the best division. Top-down cuts with hulls for
+//! parts are those of Wei et al., "Approximate convex decomposition for 3D meshes with
+//! collision-aware concavity and tree search" (CoACD, 2022); the measure and the sweep are our own.
+//!
+//! The same input gives the same bytes for any number of threads: parallel parts are independent, and
+//! their results are put together in a fixed order.
+
+mod assign;
+mod choose;
+mod clean;
+mod cut;
+mod growing_hull;
+mod inside;
+mod merge;
+mod part;
+mod proxy;
+mod search;
+mod slices;
+mod support;
+mod vector;
+
+use rayon::prelude::*;
+
+use super::Mesh;
+use super::hull::ConvexHull;
+
+/// How finely to decompose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Most pieces for one mesh; at least 1.
+    pub max_pieces: usize,
+    /// How much fat a piece must save to be worth having: volume over the area of the mesh's hull, so
+    /// the mean distance by which pieces stand off the surface, as a part of half the mesh's largest
+    /// extent. 0 uses all pieces.
+    pub fat_tolerance: f64,
+    /// How far a point of the surface may lie outside the pieces, metres, if
+    /// [`Settings::relative_surface_tolerance`] is not stricter.
+    pub surface_tolerance: f64,
+    /// The same as a part of half the mesh's largest extent, for small meshes.
+    pub relative_surface_tolerance: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            max_pieces: 7,
+            fat_tolerance: 3e-4,
+            surface_tolerance: 2e-4,
+            relative_surface_tolerance: 4e-3,
+        }
+    }
+}
+
+/// What [`decompose`] returns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Decomposition {
+    /// Convex, closed meshes in a fixed order. A flat part gives a flat two-sided polygon. None only
+    /// where the mesh has no triangle with an area.
+    pub pieces: Vec<Mesh>,
+    /// How far a point of the surface may lie outside the pieces, metres: what was asked for, or less.
+    pub surface_tolerance: f64,
+    /// Triangles left out: an index out of range, or a coordinate that is not a finite number.
+    pub ignored_triangles: usize,
+}
+
+/// Blocks that the search makes for each piece allowed.
+const BLOCKS_PER_PIECE: usize = 2;
+
+/// Most flat coordinates kept along an axis.
+const MOST_FLATS: usize = 20;
+
+/// Points this near to a plane lie in it, in units: some roundings of f32.
+const ON_PLANE: f64 = 2e-6;
+
+/// The same for the stand-in, as a part of its cells.
+const ON_PLANE_PROXY: f64 = 0.15;
+
+/// Divides a mesh into convex pieces that hold its whole surface.
+///
+/// Each piece lies in the hull of the mesh, but for the rounding of clipped points to f32.
+pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
+    let Some(surface) = clean::Surface::new(mesh) else {
+        return Decomposition {
+            ignored_triangles: mesh.triangles.len(),
+            ..Decomposition::default()
+        };
+    };
+    let most = settings.max_pieces.max(1);
+    let (mut part, cell) = proxy::proxy(&surface);
+    let (inner, reach) = inside::inside(&part);
+    part.inner = inner.clone();
+    let places = cut::Places {
+        frames: cut::frames(proxy::flat_coordinates(&surface, MOST_FLATS)),
+        reach,
+        eps: (ON_PLANE_PROXY * cell).max(ON_PLANE),
+    };
+    let found = search::search(
+        part,
+        &places,
+        most.saturating_mul(BLOCKS_PER_PIECE),
+        settings.fat_tolerance,
+    );
+    let groups = merge::merge(found.leaves, most, settings.fat_tolerance * found.area);
+    let count = groups.iter().max().map_or(1, |g| g + 1);
+    let tolerance = settings
+        .surface_tolerance
+        .min(settings.relative_surface_tolerance * surface.scale)
+        .max(0.0);
+    let parts = assign::assign(
+        &surface,
+        (&inner, reach),
+        &found.nodes,
+        &groups,
+        count,
+        ON_PLANE,
+    );
+    let pieces = parts
+        .par_iter()
+        .filter(|points| !points.is_empty())
+        // A group of nothing but collinear points has no hull: its triangles have no area.
+        .filter_map(|points| ConvexHull::new(&choose::choose(points, tolerance)).ok())
+        .map(ConvexHull::into_mesh)
+        .collect();
+    Decomposition {
+        pieces,
+        surface_tolerance: tolerance,
+        ignored_triangles: surface.ignored,
+    }
+}

@@ -1,0 +1,174 @@
+//! A part sliced by parallel planes, and hulls that grow slice by slice.
+
+use super::cut::{Bounds, Grower, Places, cost};
+use super::part::Part;
+use super::support::Support;
+use super::vector::{dot, lerp};
+
+/// A part cut into slices by parallel planes: support tables of the slices and of the sections between.
+pub(super) struct Slices {
+    slices: Vec<Support>,
+    sections: Vec<Support>,
+    /// Points of the sections; indices go on after those of the part.
+    cut_points: Vec<[f64; 3]>,
+}
+
+impl Slices {
+    /// Slices across z of the `turned` coordinates, those in `frame`; planes ascending.
+    pub fn new(
+        part: &Part,
+        turned: &[[f64; 3]],
+        frame: &[[f64; 3]; 3],
+        planes: &[f64],
+        places: &Places,
+    ) -> Self {
+        let eps = places.eps;
+        let bounds = Bounds::new(turned);
+        // Odd code 2k+1: inside slice k. Even code 2k: in plane k-1, between slices k-1 and k.
+        let code: Vec<u8> = turned
+            .iter()
+            .map(|p| {
+                let x = p[2];
+                let k = planes.partition_point(|&o| o < x - eps);
+                let on = k < planes.len() && planes[k] <= x + eps;
+                (2 * k + 1 + usize::from(on)) as u8
+            })
+            .collect();
+        let mut out = Slices {
+            slices: vec![Support::new(); planes.len() + 1],
+            sections: vec![Support::new(); planes.len()],
+            cut_points: Vec::new(),
+        };
+        let flat = Scaling::new(&bounds, 0.0, f64::INFINITY);
+        let edge = |k: usize| planes.get(k).copied().unwrap_or(bounds.high[2]);
+        let cubes: Vec<Scaling> = (0..=planes.len())
+            .map(|k| {
+                let from = if k == 0 { bounds.low[2] } else { edge(k - 1) };
+                Scaling::new(&bounds, from, edge(k))
+            })
+            .collect();
+        let mut mask = vec![0_u32; part.points.len()];
+        for &t in &part.triangles {
+            let c = t.map(|i| code[i as usize]);
+            let (least, most) = (c[0].min(c[1]).min(c[2]), c[0].max(c[1]).max(c[2]));
+            if least == most && least % 2 == 0 {
+                // In a plane: with the body behind it.
+                let bit = 1 << (least / 2 - u8::from(part.faces(t, frame[2])));
+                t.iter().for_each(|&i| mask[i as usize] |= bit);
+                continue;
+            }
+            // Slices that the triangle reaches into: first to last.
+            let (first, last) = (least / 2, (most - 1) / 2);
+            for k in 0..3 {
+                let v = c[k];
+                let bits = if v % 2 == 1 {
+                    1 << (v / 2)
+                } else {
+                    (u32::from(v / 2 > first) << (v / 2 - 1))
+                        | (u32::from(v / 2 <= last) << (v / 2))
+                };
+                mask[t[k] as usize] |= bits;
+                if first == last {
+                    continue;
+                }
+                let (i, j) = (t[k] as usize, t[(k + 1) % 3] as usize);
+                let (from, to) = (v.min(c[(k + 1) % 3]), v.max(c[(k + 1) % 3]));
+                for b in from / 2..(to - 1) / 2 {
+                    let (p, q) = (turned[i], turned[j]);
+                    let p = lerp(p, q, (planes[b as usize] - p[2]) / (q[2] - p[2]));
+                    let index = (part.points.len() + out.cut_points.len()) as u32;
+                    out.sections[b as usize].add(flat.apply(p), index);
+                    out.cut_points.push(p);
+                }
+            }
+        }
+        let loose = part
+            .triangles
+            .iter()
+            .filter(|t| Part::is_loose(**t))
+            .map(|t| turned[t[0] as usize]);
+        for p in loose.chain(part.inner.iter().map(|&p| frame.map(|axis| dot(axis, p)))) {
+            let first = planes.partition_point(|&o| o < p[2] - places.reach);
+            for (b, &offset) in planes.iter().enumerate().skip(first) {
+                if offset > p[2] + places.reach {
+                    break;
+                }
+                let p = [p[0], p[1], offset];
+                out.sections[b].add(flat.apply(p), (turned.len() + out.cut_points.len()) as u32);
+                out.cut_points.push(p);
+            }
+        }
+        for (i, &m) in mask.iter().enumerate() {
+            let mut m = m;
+            while m != 0 {
+                let k = m.trailing_zeros() as usize;
+                out.slices[k].add(cubes[k].apply(turned[i]), i as u32);
+                m &= m - 1;
+            }
+        }
+        out
+    }
+
+    /// Grows a hull over the slices, upwards or downwards: the cost at each plane in that order (zero
+    /// where there is nothing yet), and the whole hull.
+    pub fn sweep(&self, turned: &[[f64; 3]], upwards: bool, extent: f64) -> (Vec<f64>, Grower) {
+        let planes = self.sections.len();
+        let mut hull = Grower::new(extent);
+        let take = |table: &Support, hull: &mut Grower| {
+            for index in table.points() {
+                let i = index as usize;
+                let p = turned.get(i).copied();
+                hull.add(p.unwrap_or_else(|| self.cut_points[i - turned.len()]));
+            }
+        };
+        let mut costs = Vec::with_capacity(planes);
+        for n in 0..planes {
+            let (slice, section) = if upwards {
+                (n, n)
+            } else {
+                (planes - n, planes - 1 - n)
+            };
+            take(&self.slices[slice], &mut hull);
+            // A section counts only with something beside it.
+            if !hull.hull.points.is_empty() {
+                take(&self.sections[section], &mut hull);
+            }
+            costs.push(cost(&hull.hull));
+        }
+        take(&self.slices[if upwards { planes } else { 0 }], &mut hull);
+        (costs, hull)
+    }
+}
+
+/// Scaling that makes a slice a cube.
+struct Scaling {
+    centre: [f64; 3],
+    factor: [f64; 3],
+}
+
+impl Scaling {
+    fn new(bounds: &Bounds, from: f64, to: f64) -> Self {
+        let (mut low, mut high) = (bounds.low, bounds.high);
+        (low[2], high[2]) = (from, to);
+        let factor = [0, 1, 2].map(|a| {
+            if high[a] > low[a] {
+                2.0 / (high[a] - low[a])
+            } else {
+                0.0
+            }
+        });
+        let centre = [0, 1, 2].map(|a| {
+            if factor[a] > 0.0 {
+                (low[a] + high[a]) / 2.0
+            } else {
+                0.0
+            }
+        });
+        Scaling { centre, factor }
+    }
+
+    #[inline]
+    fn apply(&self, p: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|a| (p[a] - self.centre[a]) * self.factor[a])
+    }
+}

@@ -1,0 +1,271 @@
+//! Quickhull over exact predicates: from a tetrahedron, take in the farthest point of a face until
+//! no point is outside.
+
+use std::cmp::Ordering;
+use std::collections::VecDeque;
+
+use nalgebra::Vector3;
+
+use super::HullError;
+use super::predicates::{Point, collinear, lexicographic, side_of_plane};
+
+/// What quickhull starts from, as indices of points.
+pub enum Start {
+    /// Four points that are not in one plane.
+    Tetrahedron([u32; 4]),
+    /// All points are in one plane; three that are not on one line.
+    Plane([u32; 3]),
+}
+
+/// A triangle of the hull.
+#[derive(Clone, Debug)]
+pub struct Triangle {
+    /// Indices of points, counterclockwise from outside.
+    pub corners: [u32; 3],
+    /// The triangle across the edge from corner k to corner k + 1.
+    pub neighbours: [u32; 3],
+}
+
+/// A triangle while the hull grows, with the points that are outside of it.
+struct Face {
+    triangle: Triangle,
+    anchor: Vector3<f64>,
+    normal: Vector3<f64>,
+    /// A height over the face below this may have the wrong sign.
+    doubt: f64,
+    outside: Vec<u32>,
+    /// The farthest of `outside`, and its height.
+    farthest: Option<(u32, f64)>,
+    removed: bool,
+    visited_for: u32,
+}
+
+/// Four points far apart, chosen by value: neither order nor repetition of points matters.
+pub fn start(points: &[Point]) -> Result<Start, HullError> {
+    let indices = 0..points.len() as u32;
+    let at = |i: u32| points[i as usize];
+    let by_value = |i: &u32, j: &u32| lexicographic(&at(*i), &at(*j));
+    let a = indices.clone().min_by(by_value).ok_or(HullError::Empty)?;
+    let b = indices.clone().max_by(by_value).ok_or(HullError::Empty)?;
+    if at(a) == at(b) {
+        return Err(HullError::Point);
+    }
+    let vector = |i: u32| Vector3::from(at(i)) - Vector3::from(at(a));
+    let far = |measure: &dyn Fn(u32) -> f64| {
+        indices
+            .clone()
+            .map(|i| (measure(i), i))
+            .max_by(|(x, i), (y, j)| x.total_cmp(y).then_with(|| by_value(i, j)))
+    };
+    // The farthest as doubles see it; where rounding hid it, any that is off exactly.
+    let axis = vector(b);
+    let off_line = |i: &u32| !collinear(at(a), at(b), at(*i));
+    let c = far(&|i| axis.cross(&vector(i)).norm_squared())
+        .map(|(_, i)| i)
+        .filter(off_line)
+        .or_else(|| indices.clone().filter(off_line).min_by(by_value))
+        .ok_or(HullError::Line)?;
+    let normal = axis.cross(&vector(c));
+    let off_plane = |i: &u32| side_of_plane(at(a), at(b), at(c), at(*i)) != Ordering::Equal;
+    let d = far(&|i| normal.dot(&vector(i)).abs())
+        .map(|(_, i)| i)
+        .filter(off_plane)
+        .or_else(|| indices.clone().filter(off_plane).min_by(by_value));
+    Ok(match d {
+        None => Start::Plane([a, b, c]),
+        // The fourth point goes below the first three.
+        Some(d) if side_of_plane(at(a), at(b), at(c), at(d)) == Ordering::Less => {
+            Start::Tetrahedron([a, b, c, d])
+        }
+        Some(d) => Start::Tetrahedron([a, c, b, d]),
+    })
+}
+
+/// The hull's triangles. Some corners may still lie on an edge or in a face.
+pub fn grow(points: &[Point], corners: [u32; 4]) -> Vec<Triangle> {
+    let mut hull = Growing::new(points);
+    let [a, b, c, d] = corners;
+    for (corners, neighbours) in [
+        ([a, b, c], [1, 2, 3]),
+        ([b, a, d], [0, 3, 2]),
+        ([c, b, d], [0, 1, 3]),
+        ([a, c, d], [0, 2, 1]),
+    ] {
+        hull.add_face(corners, neighbours);
+    }
+    let everything: Vec<u32> = (0..points.len() as u32).collect();
+    hull.assign(&everything, 0);
+    let mut queue: VecDeque<u32> = (0..4).collect();
+    while let Some(face) = queue.pop_front() {
+        let first = hull.faces.len() as u32;
+        if let Some((apex, _)) = hull.faces[face as usize].farthest {
+            hull.take_in(apex, face);
+        }
+        queue.extend(first..hull.faces.len() as u32);
+    }
+    hull.into_triangles()
+}
+
+struct Growing<'a> {
+    points: &'a [Point],
+    /// Side lengths of the axis-aligned box of all points.
+    extent: Vector3<f64>,
+    faces: Vec<Face>,
+    /// For a point on the horizon, the new face whose edge starts there.
+    face_from: Vec<u32>,
+    spare_lists: Vec<Vec<u32>>,
+}
+
+impl<'a> Growing<'a> {
+    fn new(points: &'a [Point]) -> Self {
+        let mut low = Vector3::repeat(f64::INFINITY);
+        let mut high = -low;
+        for p in points {
+            low = low.inf(&Vector3::from(*p));
+            high = high.sup(&Vector3::from(*p));
+        }
+        Self {
+            points,
+            extent: high - low,
+            faces: Vec::new(),
+            face_from: vec![u32::MAX; points.len()],
+            spare_lists: Vec::new(),
+        }
+    }
+
+    fn add_face(&mut self, corners: [u32; 3], neighbours: [u32; 3]) {
+        let [anchor, b, c] = corners.map(|i| Vector3::from(self.points[i as usize]));
+        let (u, v) = (b - anchor, c - anchor);
+        let size = Vector3::new(
+            (u.y * v.z).abs() + (u.z * v.y).abs(),
+            (u.z * v.x).abs() + (u.x * v.z).abs(),
+            (u.x * v.y).abs() + (u.y * v.x).abs(),
+        );
+        self.faces.push(Face {
+            triangle: Triangle {
+                corners,
+                neighbours,
+            },
+            anchor,
+            normal: u.cross(&v),
+            // Shewchuk's bound for this expression is (7 + 56e)e times the sum of the absolute
+            // values of its six products, e = 2^-53; here they are at most size . extent. The
+            // factor is more than twice that.
+            doubt: 8.0 * f64::EPSILON * size.dot(&self.extent),
+            outside: self.spare_lists.pop().unwrap_or_default(),
+            farthest: None,
+            removed: false,
+            visited_for: u32::MAX,
+        });
+    }
+
+    /// The height of a point over a face, times twice the face's area, if it is outside.
+    #[inline]
+    fn height_outside(&self, face: &Face, point: u32) -> Option<f64> {
+        let p = self.points[point as usize];
+        let height = face.normal.dot(&(Vector3::from(p) - face.anchor));
+        if height > face.doubt {
+            Some(height)
+        } else if height < -face.doubt {
+            None
+        } else {
+            let [a, b, c] = face.triangle.corners.map(|i| self.points[i as usize]);
+            (side_of_plane(a, b, c, p) == Ordering::Greater).then_some(height)
+        }
+    }
+
+    /// Puts each point on the list of the first face, from `first` on, that it is outside of. A
+    /// point outside of none is inside the hull for good.
+    fn assign(&mut self, candidates: &[u32], first: usize) {
+        for &point in candidates {
+            let found = (first..self.faces.len())
+                .find_map(|f| Some((f, self.height_outside(&self.faces[f], point)?)));
+            let Some((f, height)) = found else { continue };
+            let points = self.points;
+            let face = &mut self.faces[f];
+            face.outside.push(point);
+            let farther = face.farthest.is_none_or(|(other, h)| {
+                let value = |i: u32| &points[i as usize];
+                height > h || (height == h && lexicographic(value(point), value(other)).is_gt())
+            });
+            if farther {
+                face.farthest = Some((point, height));
+            }
+        }
+    }
+
+    /// Adds a point that is outside of `seen_from`: the faces that see it make way for a cone.
+    fn take_in(&mut self, apex: u32, seen_from: u32) {
+        let mut visible = vec![seen_from];
+        let mut horizon = Vec::new();
+        self.faces[seen_from as usize].removed = true;
+        let mut next = 0;
+        while let Some(&f) = visible.get(next) {
+            next += 1;
+            let Triangle {
+                corners,
+                neighbours,
+            } = self.faces[f as usize].triangle.clone();
+            for k in 0..3 {
+                let g = neighbours[k];
+                let neighbour = &self.faces[g as usize];
+                if neighbour.removed {
+                    continue;
+                }
+                if neighbour.visited_for != apex && self.height_outside(neighbour, apex).is_some() {
+                    self.faces[g as usize].removed = true;
+                    visible.push(g);
+                } else {
+                    self.faces[g as usize].visited_for = apex;
+                    horizon.push((corners[k], corners[(k + 1) % 3], f, g));
+                }
+            }
+        }
+        let first = self.faces.len();
+        for &(from, to, behind, beyond) in &horizon {
+            let new = self.faces.len() as u32;
+            self.face_from[from as usize] = new;
+            let links = &mut self.faces[beyond as usize].triangle;
+            // The two triangles of an edge may be neighbours twice only in a flat hull.
+            if let Some(k) = links.neighbours.iter().position(|n| *n == behind) {
+                links.neighbours[k] = new;
+            }
+            self.add_face([from, to, apex], [beyond, u32::MAX, u32::MAX]);
+        }
+        for new in first..self.faces.len() {
+            let to = self.faces[new].triangle.corners[1];
+            let following = self.face_from[to as usize];
+            self.faces[new].triangle.neighbours[1] = following;
+            self.faces[following as usize].triangle.neighbours[2] = new as u32;
+        }
+        for f in visible {
+            let mut list = std::mem::take(&mut self.faces[f as usize].outside);
+            self.faces[f as usize].farthest = None;
+            // Quick farewell to the apex and its repetitions, which are level with all new faces.
+            list.retain(|p| self.points[*p as usize] != self.points[apex as usize]);
+            self.assign(&list, first);
+            list.clear();
+            self.spare_lists.push(list);
+        }
+    }
+
+    fn into_triangles(self) -> Vec<Triangle> {
+        let mut kept = 0;
+        let number: Vec<u32> = self
+            .faces
+            .iter()
+            .map(|face| {
+                let this = kept;
+                kept += u32::from(!face.removed);
+                this
+            })
+            .collect();
+        let alive = self.faces.into_iter().filter(|face| !face.removed);
+        alive
+            .map(|face| Triangle {
+                corners: face.triangle.corners,
+                neighbours: face.triangle.neighbours.map(|n| number[n as usize]),
+            })
+            .collect()
+    }
+}

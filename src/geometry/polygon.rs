@@ -1,0 +1,134 @@
+//! Splits polygons in space into triangles.
+
+use earcut::Earcut;
+use nalgebra::Vector3;
+
+/// Cutting ears can take time with the square of the corners: 0.5 s for so many in a tangle. Real faces have up to 40.
+const MOST_CORNERS: usize = 10_000;
+
+/// Splits polygons; keeps its buffers between them.
+pub(crate) struct Splitter {
+    ears: Earcut<f64>,
+    flat: Vec<[f64; 2]>,
+    found: Vec<u32>,
+}
+
+impl Splitter {
+    pub(crate) fn new() -> Self {
+        Self {
+            ears: Earcut::new(),
+            flat: Vec::new(),
+            found: Vec::new(),
+        }
+    }
+
+    /// Appends the triangles of one polygon, whose corners are indices of `vertices`, with its winding.
+    ///
+    /// Three corners are a triangle; a convex polygon is a fan around its first corner, which is what every reader
+    /// of quads does; one that is not convex is cut by ears in the plane that it faces most. Fewer than three
+    /// corners are nothing, and more than [`MOST_CORNERS`] always a fan.
+    pub(crate) fn split(
+        &mut self,
+        vertices: &[[f64; 3]],
+        corners: &[u32],
+        out: &mut Vec<[u32; 3]>,
+    ) {
+        if let [a, b, c] = *corners {
+            out.push([a, b, c]);
+            return;
+        }
+        if corners.len() < 3 {
+            return;
+        }
+        let place = |index: u32| vertices.get(index as usize).copied().map(Vector3::from);
+        let places: Option<Vec<Vector3<f64>>> =
+            corners.iter().map(|corner| place(*corner)).collect();
+        let fan = |out: &mut Vec<[u32; 3]>| {
+            out.extend(
+                corners[1..]
+                    .windows(2)
+                    .map(|pair| [corners[0], pair[0], pair[1]]),
+            )
+        };
+        // An index out of range or a number that is none: the caller drops the triangles that have it.
+        let Some(places) =
+            places.filter(|places| places.iter().flatten().all(|value| value.is_finite()))
+        else {
+            fan(out);
+            return;
+        };
+        let normal = area_normal(&places);
+        if corners.len() > MOST_CORNERS || is_convex(&places, normal) {
+            fan(out);
+            return;
+        }
+        let start = out.len();
+        self.cut_ears(&places, normal, corners, out);
+        if out.len() == start {
+            fan(out);
+        }
+    }
+
+    fn cut_ears(
+        &mut self,
+        places: &[Vector3<f64>],
+        normal: Vector3<f64>,
+        corners: &[u32],
+        out: &mut Vec<[u32; 3]>,
+    ) {
+        let (u, v) = match normal.iamax() {
+            0 => (1, 2),
+            1 => (2, 0),
+            _ => (0, 1),
+        };
+        self.flat.clear();
+        self.flat
+            .extend(places.iter().map(|place| [place[u], place[v]]));
+        self.ears
+            .earcut::<u32>(self.flat.iter().copied(), &[], &mut self.found);
+        // Earcut winds its triangles always the same way; the polygon's own is known.
+        let wanted = normal[normal.iamax()] > 0.0;
+        for cut in self.found.chunks_exact(3) {
+            let [a, b, c] = [cut[0], cut[1], cut[2]].map(|index| self.flat[index as usize]);
+            let turns_left = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0;
+            let [a, b, c] = [cut[0], cut[1], cut[2]].map(|index| corners[index as usize]);
+            out.push(if turns_left == wanted {
+                [a, b, c]
+            } else {
+                [a, c, b]
+            });
+        }
+    }
+}
+
+/// The polygon's normal, twice its area long (Newell's method).
+fn area_normal(places: &[Vector3<f64>]) -> Vector3<f64> {
+    let origin = places[0];
+    places[1..]
+        .windows(2)
+        .map(|pair| (pair[0] - origin).cross(&(pair[1] - origin)))
+        .sum()
+}
+
+/// Whether no corner turns against the polygon's normal by more than rounding.
+fn is_convex(places: &[Vector3<f64>], normal: Vector3<f64>) -> bool {
+    /// Sine of the angle by which a corner may turn back: below it, corners count as lying on a line.
+    const SLACK: f64 = 1e-6;
+    let count = places.len();
+    let length = normal.norm();
+    let mut turned = 0.0;
+    for at in 0..count {
+        let before = places[at] - places[(at + count - 1) % count];
+        let after = places[(at + 1) % count] - places[at];
+        let turn = before.cross(&after).dot(&normal);
+        let scale = before.norm() * after.norm();
+        if turn < -SLACK * scale * length {
+            return false;
+        }
+        if count > 4 && scale > 0.0 {
+            turned += (before.dot(&after) / scale).clamp(-1.0, 1.0).acos();
+        }
+    }
+    // A star turns always the same way, but more than once round.
+    turned < 1.5 * std::f64::consts::TAU
+}

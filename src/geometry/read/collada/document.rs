@@ -1,0 +1,93 @@
+//! Finding elements of a COLLADA document.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use roxmltree::Node;
+
+/// A document whose elements can be found by tag and id.
+pub(super) struct Document<'a> {
+    pub(super) root: Node<'a, 'a>,
+    by_id: HashMap<(&'a str, &'a str), Node<'a, 'a>>,
+}
+
+impl<'a> Document<'a> {
+    /// Of elements with the same tag and id, the first is found. Names of different kinds do clash in real files.
+    pub(super) fn new(root: Node<'a, 'a>) -> Self {
+        let mut by_id = HashMap::new();
+        for node in root.descendants().filter(Node::is_element) {
+            if let Some(id) = node.attribute("id") {
+                by_id.entry((node.tag_name().name(), id)).or_insert(node);
+            }
+        }
+        Self { root, by_id }
+    }
+
+    /// The element with this tag that a URL within the document names.
+    pub(super) fn find(&self, tag: &str, url: &str) -> Option<Node<'a, 'a>> {
+        let url = url.trim();
+        let id = url.strip_prefix('#').unwrap_or(url);
+        // The lifetimes of the keys are those of the document, hence the search by a shorter one.
+        self.by_id.get(&(tag, id) as &(&str, &str)).copied()
+    }
+
+    /// Every image file, as a name relative to the document.
+    pub(super) fn images(&self) -> Vec<String> {
+        children(self.root, "library_images")
+            .flat_map(|library| children(library, "image"))
+            .filter_map(|image| child(image, "init_from"))
+            .filter_map(|from| child(from, "ref").unwrap_or(from).text())
+            .map(|url| path_of_url(url.trim()))
+            .collect()
+    }
+}
+
+/// The children with this tag, whatever the namespace (1.4 and 1.5 differ in it).
+pub(super) fn children<'a>(node: Node<'a, 'a>, tag: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {
+    node.children()
+        .filter(move |child| child.is_element() && child.tag_name().name() == tag)
+}
+
+/// The first child with this tag.
+pub(super) fn child<'a>(node: Node<'a, 'a>, tag: &'a str) -> Option<Node<'a, 'a>> {
+    children(node, tag).next()
+}
+
+/// All text of an element: comments may split it.
+pub(super) fn text<'a>(node: Node<'a, 'a>) -> Cow<'a, str> {
+    let mut texts = node
+        .children()
+        .filter(Node::is_text)
+        .filter_map(|part| part.text());
+    let first = texts.next().unwrap_or("");
+    match texts.next() {
+        None => Cow::Borrowed(first),
+        Some(second) => Cow::Owned(
+            [first, second]
+                .into_iter()
+                .chain(texts)
+                .collect::<Vec<_>>()
+                .join(" "),
+        ),
+    }
+}
+
+/// A file name from a relative URL: `%20` becomes a space, a backslash a slash.
+pub(crate) fn path_of_url(url: &str) -> String {
+    let bytes = url.as_bytes();
+    let mut path = Vec::with_capacity(bytes.len());
+    let mut at = 0;
+    while at < bytes.len() {
+        let escaped = (bytes[at] == b'%')
+            .then(|| bytes.get(at + 1..at + 3))
+            .flatten()
+            .and_then(|digits| std::str::from_utf8(digits).ok())
+            .filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()))
+            .and_then(|digits| u8::from_str_radix(digits, 16).ok());
+        path.push(escaped.unwrap_or(bytes[at]));
+        at += if escaped.is_some() { 3 } else { 1 };
+    }
+    String::from_utf8(path)
+        .unwrap_or_else(|_| url.to_owned())
+        .replace('\\', "/")
+}

@@ -1,0 +1,102 @@
+//! Diffuse colours of COLLADA materials.
+
+use std::collections::HashMap;
+
+use roxmltree::Node;
+
+use super::super::assembly::Material;
+use super::super::number::Words;
+use super::document::{Document, text};
+
+/// What an instance of a geometry binds: from symbol to the material's URL.
+pub(super) fn bindings<'a>(instance: Option<Node<'a, 'a>>) -> HashMap<&'a str, &'a str> {
+    let mut bindings = HashMap::new();
+    for node in instance
+        .into_iter()
+        .flat_map(|instance| instance.descendants())
+    {
+        if let ("instance_material", Some(symbol), Some(target)) = (
+            node.tag_name().name(),
+            node.attribute("symbol"),
+            node.attribute("target"),
+        ) {
+            bindings.entry(symbol).or_insert(target);
+        }
+    }
+    bindings
+}
+
+/// The material of a part: what the instance binds to the symbol, else a material with that id.
+pub(super) fn of_symbol(
+    document: &Document<'_>,
+    bindings: &HashMap<&str, &str>,
+    symbol: Option<&str>,
+) -> Material {
+    let Some(symbol) = symbol else {
+        return Material::default();
+    };
+    let material = document.find("material", bindings.get(symbol).unwrap_or(&symbol));
+    let name = material.and_then(|material| {
+        material
+            .attribute("name")
+            .or_else(|| material.attribute("id"))
+    });
+    let color = material
+        .and_then(|material| child_of(material, "instance_effect"))
+        .and_then(|effect| document.find("effect", effect.attribute("url")?))
+        .and_then(diffuse);
+    Material {
+        name: Some(name.unwrap_or(symbol).to_owned()),
+        color,
+    }
+}
+
+/// The diffuse colour of an effect; of a `constant` one, which has none, the emission. A texture gives none.
+fn diffuse(effect: Node<'_, '_>) -> Option<[f64; 4]> {
+    let profile = child_of(effect, "profile_COMMON")?;
+    let technique = child_of(profile, "technique")?;
+    let shader = technique.children().find(|node| {
+        matches!(
+            node.tag_name().name(),
+            "phong" | "blinn" | "lambert" | "constant"
+        )
+    })?;
+    let wanted = if shader.tag_name().name() == "constant" {
+        "emission"
+    } else {
+        "diffuse"
+    };
+    let value = child_of(shader, wanted)?;
+    if let Some(color) = child_of(value, "color") {
+        return rgba(color);
+    }
+    // A parameter by name, from the profile or the effect.
+    let name = child_of(value, "param")?.attribute("ref")?;
+    [technique, profile, effect]
+        .into_iter()
+        .flat_map(|scope| {
+            scope
+                .children()
+                .filter(|node| node.tag_name().name() == "newparam")
+        })
+        .find(|parameter| parameter.attribute("sid") == Some(name))
+        .and_then(|parameter| {
+            parameter
+                .children()
+                .find(|node| matches!(node.tag_name().name(), "float4" | "float3" | "color"))
+        })
+        .and_then(rgba)
+}
+
+fn child_of<'a, 'b>(node: Node<'a, 'b>, tag: &str) -> Option<Node<'a, 'b>> {
+    node.children().find(|child| child.tag_name().name() == tag)
+}
+
+/// Three or four numbers, brought into 0 to 1.
+fn rgba(node: Node<'_, '_>) -> Option<[f64; 4]> {
+    let text = text(node);
+    let mut words = Words::new(text.as_bytes());
+    let mut value = || words.float().filter(|value| value.is_finite());
+    let color = [value()?, value()?, value()?, value().unwrap_or(1.0)];
+    Some(color.map(|value| value.clamp(0.0, 1.0)))
+}

@@ -1,0 +1,207 @@
+//! The visual scene: nodes, and what they place.
+
+use std::collections::HashMap;
+
+use nalgebra::{Matrix4, Vector3};
+use roxmltree::Node;
+
+use super::super::assembly::Assembly;
+use super::super::error::{Failure, Fault, NoteCode};
+use super::document::{Document, child, children};
+use super::geometry::{self, Primitive, Tools};
+use super::{material, transform};
+
+/// Nodes may lie so deep in one another.
+const DEEPEST: usize = 200;
+/// So many nodes are visited: `instance_node` can name more than a file holds.
+const MOST_NODES: usize = 100_000;
+
+/// Adds every geometry that the scene shows, at its place.
+///
+/// Without a scene the first visual scene is taken, and without any of these every geometry as it stands.
+pub(super) fn walk(
+    document: &Document<'_>,
+    unit: f64,
+    assembly: &mut Assembly,
+) -> Result<(), Failure> {
+    let root = Matrix4::new_nonuniform_scaling(&Vector3::repeat(unit));
+    let mut walker = Walker {
+        document,
+        assembly,
+        tools: Tools::default(),
+        geometries: HashMap::new(),
+        path: Vec::new(),
+        visited: 0,
+    };
+    let named = child(document.root, "scene")
+        .and_then(|scene| child(scene, "instance_visual_scene"))
+        .and_then(|instance| document.find("visual_scene", instance.attribute("url")?));
+    let first = || {
+        children(document.root, "library_visual_scenes")
+            .find_map(|library| child(library, "visual_scene"))
+    };
+    if let Some(scene) = named {
+        return walker.nodes(scene, &root);
+    }
+    if let Some(scene) = first() {
+        walker.assembly.notes.add(
+            NoteCode::Assumed,
+            "the file names no scene to show; its first was taken",
+        );
+        return walker.nodes(scene, &root);
+    }
+    walker.assembly.notes.add(
+        NoteCode::Assumed,
+        "the file has no scene; every geometry was taken where it stands",
+    );
+    for library in children(document.root, "library_geometries") {
+        for geometry in children(library, "geometry") {
+            walker.geometry(geometry, None, &root)?;
+        }
+    }
+    Ok(())
+}
+
+struct Walker<'a, 'd> {
+    document: &'d Document<'a>,
+    assembly: &'d mut Assembly,
+    tools: Tools,
+    /// Each geometry is read once, however often it is placed.
+    geometries: HashMap<roxmltree::NodeId, Vec<Primitive<'a>>>,
+    /// The nodes around the present one.
+    path: Vec<roxmltree::NodeId>,
+    visited: usize,
+}
+
+impl<'a> Walker<'a, '_> {
+    fn nodes(&mut self, parent: Node<'a, 'a>, matrix: &Matrix4<f64>) -> Result<(), Failure> {
+        for node in children(parent, "node") {
+            self.node(node, matrix)?;
+        }
+        Ok(())
+    }
+
+    fn node(&mut self, node: Node<'a, 'a>, parent: &Matrix4<f64>) -> Result<(), Failure> {
+        let name = || {
+            node.attribute("id")
+                .or_else(|| node.attribute("name"))
+                .unwrap_or("")
+                .to_owned()
+        };
+        self.visited += 1;
+        if self.visited > MOST_NODES {
+            return Err(Fault::TooLarge {
+                what: "nodes",
+                limit: MOST_NODES,
+            }
+            .into());
+        }
+        if self.path.contains(&node.id()) {
+            return Err(Fault::malformed("the node contains itself").within("node", name()));
+        }
+        if self.path.len() >= DEEPEST {
+            return Err(Fault::TooLarge {
+                what: "nodes inside one another",
+                limit: DEEPEST,
+            }
+            .into());
+        }
+        let matrix =
+            parent * transform::of_node(node).map_err(|failure| failure.within("node", name()))?;
+        self.path.push(node.id());
+        for element in node.children().filter(Node::is_element) {
+            let url = element.attribute("url").unwrap_or("");
+            match element.tag_name().name() {
+                "node" => self.node(element, &matrix)?,
+                "instance_node" => match self.document.find("node", url) {
+                    Some(target) => self.node(target, &matrix)?,
+                    None => self.missing("node", url),
+                },
+                "instance_geometry" => match self.document.find("geometry", url) {
+                    Some(geometry) => self.geometry(geometry, Some(element), &matrix)?,
+                    None => self.missing("geometry", url),
+                },
+                "instance_controller" => self.controller(element, url, &matrix)?,
+                _ => {}
+            }
+        }
+        self.path.pop();
+        Ok(())
+    }
+
+    /// A skin's geometry in its bind shape, or a morph's base, without the motion of joints.
+    fn controller(
+        &mut self,
+        instance: Node<'a, 'a>,
+        url: &str,
+        matrix: &Matrix4<f64>,
+    ) -> Result<(), Failure> {
+        let mut url = url;
+        let mut matrix = *matrix;
+        // A skin may deform a morph, which deforms a geometry; longer chains do not exist.
+        for _ in 0..4 {
+            if let Some(geometry) = self.document.find("geometry", url) {
+                self.assembly.notes.add(
+                    NoteCode::SkinAsShape,
+                    "a skinned mesh was read in its bind shape",
+                );
+                return self.geometry(geometry, Some(instance), &matrix);
+            }
+            let Some(controller) = self.document.find("controller", url) else {
+                break;
+            };
+            let Some(deformer) = controller
+                .children()
+                .find(|node| matches!(node.tag_name().name(), "skin" | "morph"))
+            else {
+                break;
+            };
+            if let Some(shape) = deformer
+                .children()
+                .find(|node| node.tag_name().name() == "bind_shape_matrix")
+            {
+                matrix *= transform::rows(transform::numbers::<16>(shape)?);
+            }
+            // 1.5 calls morph's attribute `method`, and both `source`.
+            url = deformer.attribute("source").unwrap_or("");
+        }
+        self.missing("controller", url);
+        Ok(())
+    }
+
+    fn geometry(
+        &mut self,
+        geometry: Node<'a, 'a>,
+        instance: Option<Node<'a, 'a>>,
+        matrix: &Matrix4<f64>,
+    ) -> Result<(), Failure> {
+        let name = geometry.attribute("id").unwrap_or("");
+        if !self.geometries.contains_key(&geometry.id()) {
+            let read = geometry::read(
+                self.document,
+                geometry,
+                &mut self.tools,
+                &mut self.assembly.notes,
+            );
+            self.geometries.insert(
+                geometry.id(),
+                read.map_err(|failure| failure.within("geometry", name))?,
+            );
+        }
+        let bindings = material::bindings(instance);
+        let primitives = &self.geometries[&geometry.id()];
+        self.visited += primitives.len();
+        for primitive in primitives {
+            let material = material::of_symbol(self.document, &bindings, primitive.symbol);
+            self.assembly.add(&primitive.mesh, matrix, &material)?;
+        }
+        Ok(())
+    }
+
+    fn missing(&mut self, kind: &str, url: &str) {
+        self.assembly.notes.add(
+            NoteCode::LeftOut,
+            format!("the {kind} '{url}' is placed by a node, but is not there"),
+        );
+    }
+}

@@ -1,0 +1,199 @@
+//! Accessors of a glTF: positions and indices.
+
+use super::super::assembly::Assembly;
+use super::super::error::{Failure, Fault};
+use super::buffer::Buffers;
+use super::json::{Accessor, Root};
+
+const BYTE: u32 = 5120;
+const UNSIGNED_BYTE: u32 = 5121;
+const SHORT: u32 = 5122;
+const UNSIGNED_SHORT: u32 = 5123;
+const UNSIGNED_INT: u32 = 5125;
+const FLOAT: u32 = 5126;
+
+/// An accessor without data of its own, for sparse values, has at most so many elements.
+const MOST_ZEROS: usize = 1 << 24;
+
+/// The vertex positions of an accessor.
+pub(super) fn positions(
+    root: &Root,
+    index: usize,
+    buffers: &mut Buffers<'_, '_>,
+    assembly: &mut Assembly,
+) -> Result<Vec<[f64; 3]>, Failure> {
+    let accessor = get(root, index)?;
+    if accessor.shape != "VEC3" {
+        return Err(Fault::malformed(format!(
+            "positions are {} and not VEC3",
+            accessor.shape
+        )));
+    }
+    let read = reader(accessor.component_type, accessor.normalized).ok_or_else(|| {
+        Fault::malformed(format!(
+            "positions of component type {}",
+            accessor.component_type
+        ))
+    })?;
+    let size = size(accessor.component_type);
+    let element = |bytes: &[u8]| [0, 1, 2].map(|axis| read(&bytes[axis * size..]));
+    let mut positions = match accessor.buffer_view {
+        Some(view) => {
+            let (bytes, stride) = buffers.view(view, assembly)?;
+            elements(
+                bytes,
+                accessor.byte_offset,
+                stride,
+                size * 3,
+                accessor.count,
+            )?
+            .map(element)
+            .collect()
+        }
+        None if accessor.count > MOST_ZEROS => {
+            return Err(Fault::TooLarge {
+                what: "elements in an accessor without data",
+                limit: MOST_ZEROS,
+            }
+            .into());
+        }
+        None => vec![[0.0; 3]; accessor.count],
+    };
+    if let Some(sparse) = &accessor.sparse {
+        let places = indices_of(
+            sparse.indices.buffer_view,
+            sparse.indices.byte_offset,
+            sparse.indices.component_type,
+            sparse.count,
+            buffers,
+            assembly,
+        )?;
+        let (bytes, stride) = buffers.view(sparse.values.buffer_view, assembly)?;
+        let values = elements(
+            bytes,
+            sparse.values.byte_offset,
+            stride,
+            size * 3,
+            sparse.count,
+        )?;
+        for (place, value) in places.iter().zip(values) {
+            let position = positions.get_mut(*place as usize);
+            *position.ok_or_else(|| Fault::malformed("a sparse index is out of range"))? =
+                element(value);
+        }
+    }
+    Ok(positions)
+}
+
+/// The vertex indices of an accessor.
+pub(super) fn indices(
+    root: &Root,
+    index: usize,
+    buffers: &mut Buffers<'_, '_>,
+    assembly: &mut Assembly,
+) -> Result<Vec<u32>, Failure> {
+    let accessor = get(root, index)?;
+    if accessor.shape != "SCALAR" || accessor.sparse.is_some() {
+        return Err(Fault::malformed("indices are not a plain list of numbers"));
+    }
+    let Some(view) = accessor.buffer_view else {
+        return Err(Fault::malformed("indices without data"));
+    };
+    indices_of(
+        view,
+        accessor.byte_offset,
+        accessor.component_type,
+        accessor.count,
+        buffers,
+        assembly,
+    )
+}
+
+fn indices_of(
+    view: usize,
+    offset: usize,
+    kind: u32,
+    count: usize,
+    buffers: &mut Buffers<'_, '_>,
+    assembly: &mut Assembly,
+) -> Result<Vec<u32>, Failure> {
+    let read: fn(&[u8]) -> u32 = match kind {
+        UNSIGNED_BYTE => |bytes| u32::from(bytes[0]),
+        UNSIGNED_SHORT => |bytes| u32::from(u16::from_le_bytes([bytes[0], bytes[1]])),
+        UNSIGNED_INT => |bytes| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
+        other => {
+            return Err(Fault::malformed(format!(
+                "indices of component type {other}"
+            )));
+        }
+    };
+    let (bytes, stride) = buffers.view(view, assembly)?;
+    Ok(elements(bytes, offset, stride, size(kind), count)?
+        .map(read)
+        .collect())
+}
+
+fn get(root: &Root, index: usize) -> Result<&Accessor, Failure> {
+    root.accessors
+        .get(index)
+        .ok_or_else(|| Fault::malformed("there is no such accessor"))
+}
+
+/// `count` elements of `size` bytes, `stride` apart; all of them lie in `bytes`, or it is an error.
+fn elements(
+    bytes: &[u8],
+    offset: usize,
+    stride: Option<usize>,
+    size: usize,
+    count: usize,
+) -> Result<impl Iterator<Item = &[u8]>, Failure> {
+    let stride = stride.unwrap_or(size);
+    if stride < size {
+        return Err(Fault::malformed(format!(
+            "elements of {size} bytes lie {stride} bytes apart"
+        )));
+    }
+    let length = match count {
+        0 => Some(0),
+        _ => stride
+            .checked_mul(count - 1)
+            .and_then(|length| length.checked_add(size)),
+    };
+    let end = length.and_then(|length| length.checked_add(offset));
+    let bytes = end.and_then(|end| bytes.get(offset..end));
+    let bytes = bytes
+        .ok_or_else(|| Fault::Truncated(format!("{count} elements do not fit the buffer view")))?;
+    // The last chunk may lack the bytes between elements, but holds an element.
+    Ok(bytes.chunks(stride))
+}
+
+fn size(component: u32) -> usize {
+    match component {
+        BYTE | UNSIGNED_BYTE => 1,
+        SHORT | UNSIGNED_SHORT => 2,
+        _ => 4,
+    }
+}
+
+/// How to read a component. Integers occur as positions with `KHR_mesh_quantization`; normalized ones are fractions of
+/// their greatest value, as the specification of glTF has it.
+fn reader(component: u32, normalized: bool) -> Option<fn(&[u8]) -> f64> {
+    Some(match (component, normalized) {
+        (FLOAT, _) => {
+            |bytes| f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
+        }
+        (BYTE, false) => |bytes| f64::from(i8::from_le_bytes([bytes[0]])),
+        (BYTE, true) => |bytes| (f64::from(i8::from_le_bytes([bytes[0]])) / 127.0).max(-1.0),
+        (UNSIGNED_BYTE, false) => |bytes| f64::from(bytes[0]),
+        (UNSIGNED_BYTE, true) => |bytes| f64::from(bytes[0]) / 255.0,
+        (SHORT, false) => |bytes| f64::from(i16::from_le_bytes([bytes[0], bytes[1]])),
+        (SHORT, true) => {
+            |bytes| (f64::from(i16::from_le_bytes([bytes[0], bytes[1]])) / 32767.0).max(-1.0)
+        }
+        (UNSIGNED_SHORT, false) => |bytes| f64::from(u16::from_le_bytes([bytes[0], bytes[1]])),
+        (UNSIGNED_SHORT, true) => {
+            |bytes| f64::from(u16::from_le_bytes([bytes[0], bytes[1]])) / 65535.0
+        }
+        _ => return None,
+    })
+}

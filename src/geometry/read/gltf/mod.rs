@@ -1,0 +1,135 @@
+//! glTF 2.0, as JSON and as GLB.
+
+mod accessor;
+mod buffer;
+mod json;
+mod scene;
+
+use super::GltfUp;
+use super::assembly::Assembly;
+use super::error::{Failure, Fault, NoteCode, Place};
+use super::sniff::skip_byte_order_mark;
+
+type Fetch<'f> = &'f mut dyn FnMut(&str) -> Option<Vec<u8>>;
+
+/// Reads a .gltf.
+pub(super) fn read_json(
+    bytes: &[u8],
+    fetch: Fetch<'_>,
+    up: GltfUp,
+    assembly: &mut Assembly,
+) -> Result<(), Failure> {
+    read_document(skip_byte_order_mark(bytes), None, fetch, up, assembly)
+}
+
+/// Reads a .glb: a header of 12 bytes, a chunk of JSON, and perhaps one of data. Lengths that reach beyond the end of
+/// the file are cut to it with a note; what is missing then shows where it is used.
+pub(super) fn read_binary(
+    bytes: &[u8],
+    fetch: Fetch<'_>,
+    up: GltfUp,
+    assembly: &mut Assembly,
+) -> Result<(), Failure> {
+    let word = |at: usize| {
+        bytes
+            .get(at..at + 4)
+            .and_then(|word| word.try_into().ok())
+            .map(u32::from_le_bytes)
+    };
+    let cut = || {
+        Failure::from(Fault::Truncated(
+            "a GLB has a header of 12 bytes and a chunk of JSON".to_owned(),
+        ))
+    };
+    let version = word(4).ok_or_else(cut)?;
+    if version != 2 {
+        return Err(Fault::NotSupported(format!(
+            "this is GLB of version {version}, only version 2 is read"
+        ))
+        .into());
+    }
+    let length = word(8).ok_or_else(cut)? as usize;
+    if length != bytes.len() {
+        let text = format!(
+            "the header gives {length} bytes, the file has {}",
+            bytes.len()
+        );
+        assembly.notes.add(
+            if length > bytes.len() {
+                NoteCode::CutOff
+            } else {
+                NoteCode::WrongCount
+            },
+            text,
+        );
+    }
+    let mut chunks = Vec::new();
+    let mut at = 12;
+    while let (Some(length), Some(kind), true) = (word(at), word(at + 4), chunks.len() < 2) {
+        let start = at + 8;
+        let end = start.saturating_add(length as usize).min(bytes.len());
+        chunks.push((kind, &bytes[start..end]));
+        at = end;
+    }
+    const JSON: u32 = u32::from_le_bytes(*b"JSON");
+    const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
+    match chunks[..] {
+        [(JSON, json), (BIN, data), ..] => read_document(json, Some(data), fetch, up, assembly),
+        [(JSON, json), ..] => read_document(json, None, fetch, up, assembly),
+        [] => Err(cut()),
+        _ => Err(Fault::malformed("the first chunk is not JSON").at(|| Place::Byte(12))),
+    }
+}
+
+fn read_document(
+    json: &[u8],
+    data: Option<&[u8]>,
+    fetch: Fetch<'_>,
+    up: GltfUp,
+    assembly: &mut Assembly,
+) -> Result<(), Failure> {
+    let root: json::Root = serde_json::from_slice(json.trim_ascii_end()).map_err(|error| {
+        let line = error.line();
+        Fault::malformed(format!("the JSON is not glTF ({error})")).at(|| Place::Line(line))
+    })?;
+    if !root.asset.version.starts_with("2.") {
+        let version = &root.asset.version;
+        return Err(Fault::NotSupported(format!(
+            "this is glTF of version '{version}', only 2.x is read"
+        ))
+        .into());
+    }
+    for extension in &root.extensions_required {
+        match extension.as_str() {
+            "KHR_draco_mesh_compression"
+            | "EXT_meshopt_compression"
+            | "KHR_meshopt_compression" => {
+                return Err(
+                    Fault::NotSupported(format!("the mesh is compressed ({extension})")).into(),
+                );
+            }
+            // These change no position, or are read.
+            "KHR_mesh_quantization"
+            | "KHR_texture_transform"
+            | "KHR_texture_basisu"
+            | "EXT_texture_webp"
+            | "KHR_lights_punctual" => {}
+            other if other.starts_with("KHR_materials_") => {}
+            other => assembly.notes.add(
+                NoteCode::LeftOut,
+                format!("the extension {other} is required, but not read"),
+            ),
+        }
+    }
+    for uri in root.images.iter().filter_map(|image| image.uri.as_deref()) {
+        if !buffer::is_data(uri) {
+            assembly.add_side_file(&super::collada::path_of_url(uri));
+        }
+    }
+    scene::walk(
+        &root,
+        &mut buffer::Buffers::new(&root, data, fetch),
+        up,
+        assembly,
+    )
+}

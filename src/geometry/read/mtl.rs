@@ -1,0 +1,97 @@
+//! The material library of OBJ (.mtl): diffuse colours and opacity.
+
+use super::number::float;
+
+/// A material of the library.
+#[derive(Debug)]
+pub(super) struct Entry {
+    pub(super) name: String,
+    color: Option<[f64; 3]>,
+    opacity: f64,
+    textured: bool,
+}
+
+impl Entry {
+    /// Colour and opacity; `None` with a texture.
+    pub(super) fn color(&self) -> Option<[f64; 4]> {
+        let [red, green, blue] = self.color.filter(|_| !self.textured)?;
+        Some([red, green, blue, self.opacity])
+    }
+}
+
+/// The materials of a library in order, and the textures that it names.
+pub(super) fn read(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
+    let mut entries: Vec<Entry> = Vec::new();
+    let mut textures = Vec::new();
+    let text = String::from_utf8_lossy(bytes);
+    for line in text.lines() {
+        let line = line.trim();
+        let (keyword, rest) = line
+            .split_once(|c: char| c.is_ascii_whitespace())
+            .unwrap_or((line, ""));
+        let rest = rest.trim();
+        let keyword = keyword.to_ascii_lowercase();
+        if keyword == "newmtl" {
+            entries.push(Entry {
+                name: rest.to_owned(),
+                color: None,
+                opacity: 1.0,
+                textured: false,
+            });
+            continue;
+        }
+        let Some(entry) = entries.last_mut() else {
+            continue;
+        };
+        match keyword.as_str() {
+            "kd" => entry.color = color(rest),
+            "d" => entry.opacity = opacity(rest).unwrap_or(1.0),
+            "tr" => entry.opacity = opacity(rest).map_or(1.0, |transparency| 1.0 - transparency),
+            _ if keyword.starts_with("map_")
+                || matches!(
+                    keyword.as_str(),
+                    "bump" | "disp" | "decal" | "norm" | "refl"
+                ) =>
+            {
+                entry.textured |= keyword == "map_kd";
+                // Options such as `-bm 0.2` come before the name, which is last.
+                let name = if rest.starts_with('-') {
+                    rest.rsplit(char::is_whitespace).next().unwrap_or(rest)
+                } else {
+                    rest
+                };
+                textures.push(name.replace('\\', "/"));
+            }
+            _ => {}
+        }
+    }
+    (entries, textures)
+}
+
+/// `r g b`, or `r` for all three; `spectral` and `xyz` give none.
+fn color(text: &str) -> Option<[f64; 3]> {
+    let values: Vec<f64> = text
+        .split_ascii_whitespace()
+        .take(3)
+        .map(|word| float(word.as_bytes()))
+        .collect();
+    let color = match *values {
+        [gray] => [gray; 3],
+        [red, green, blue] => [red, green, blue],
+        _ => return None,
+    };
+    color
+        .iter()
+        .all(|value| value.is_finite())
+        .then(|| color.map(|value| value.clamp(0.0, 1.0)))
+}
+
+/// The first number of a `d` or `Tr` line, which may say `-halo` first.
+fn opacity(text: &str) -> Option<f64> {
+    let word = text
+        .split_ascii_whitespace()
+        .find(|word| *word != "-halo")?;
+    Some(float(word.as_bytes()))
+        .filter(|value| value.is_finite())
+        .map(|value| value.clamp(0.0, 1.0))
+}

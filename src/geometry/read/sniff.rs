@@ -1,0 +1,145 @@
+//! Tells a mesh format by content, and by extension where the content says nothing.
+
+use super::{Fault, Format};
+
+/// How far into a file its marks are looked for: long comments may come before the root element of XML.
+const HEAD: usize = 64 * 1024;
+const STL_HEADER: usize = 84;
+
+/// The format of the bytes, or why they are none that is read.
+pub(super) fn format(bytes: &[u8], name: &str) -> Result<Format, Fault> {
+    if bytes.is_empty() {
+        return Err(Fault::Empty);
+    }
+    if bytes.starts_with(b"glTF") {
+        return Ok(Format::Glb);
+    }
+    // Before the text formats: a binary header may begin with "solid", or with anything else.
+    if is_whole_binary_stl(bytes) {
+        return Ok(Format::StlBinary);
+    }
+    if let Some(unsupported) = known_but_unread(bytes) {
+        return Err(Fault::NotSupported(format!(
+            "this is {unsupported}, which is not read"
+        )));
+    }
+    let head = &bytes[..bytes.len().min(HEAD)];
+    let is_text = looks_like_text(head);
+    let text = skip_byte_order_mark(head).trim_ascii_start();
+    let extension = extension_format(name);
+    if is_utf16(bytes) || (is_text && text.starts_with(b"<")) {
+        let is_collada = is_utf16(bytes) || find(head, b"COLLADA");
+        return if is_collada {
+            Ok(Format::Collada)
+        } else {
+            Err(Fault::NotSupported(
+                "this is XML, but not COLLADA".to_owned(),
+            ))
+        };
+    }
+    if is_text && text.starts_with(b"{") {
+        return Ok(Format::Gltf);
+    }
+    if starts_with_word(text, b"solid")
+        && (is_text || !is_stl_name(extension))
+        && (find(head, b"facet") || find(head, b"endsolid"))
+    {
+        return Ok(Format::StlAscii);
+    }
+    if is_text && is_obj(text) {
+        return Ok(Format::Obj);
+    }
+    match extension {
+        Some(Format::StlBinary) if bytes.len() >= STL_HEADER => Ok(Format::StlBinary),
+        Some(Format::StlBinary) => Err(Fault::Truncated(format!(
+            "an STL has a header of {STL_HEADER} bytes, and this file {}",
+            bytes.len()
+        ))),
+        Some(Format::Obj) if is_text => Ok(Format::Obj),
+        _ => Err(Fault::UnknownFormat),
+    }
+}
+
+/// The format that the extension names, in any case; for `.stl` the binary one.
+pub(super) fn extension_format(name: &str) -> Option<Format> {
+    let (_, extension) = name.rsplit_once('.')?;
+    match extension.to_ascii_lowercase().as_str() {
+        "stl" | "stla" | "stlb" => Some(Format::StlBinary),
+        "dae" => Some(Format::Collada),
+        "obj" => Some(Format::Obj),
+        "gltf" => Some(Format::Gltf),
+        "glb" => Some(Format::Glb),
+        _ => None,
+    }
+}
+
+/// Whether the size is exactly that of a binary STL with the triangles that its header counts.
+fn is_whole_binary_stl(bytes: &[u8]) -> bool {
+    let Some(count) = bytes
+        .get(80..STL_HEADER)
+        .and_then(|count| count.try_into().ok())
+        .map(u32::from_le_bytes)
+    else {
+        return false;
+    };
+    (bytes.len() as u64) == STL_HEADER as u64 + 50 * u64::from(count)
+}
+
+fn known_but_unread(bytes: &[u8]) -> Option<&'static str> {
+    let marks: [(&[u8], &str); 8] = [
+        (b"PK\x03\x04", "a ZIP archive (.zae, .3mf, .usdz)"),
+        (b"ply\n", "PLY"),
+        (b"ply\r", "PLY"),
+        (b"Kaydara FBX", "FBX"),
+        (b"BLENDER", "a Blender file"),
+        (b"\x1f\x8b", "compressed with gzip"),
+        (
+            b"version https://git-lfs",
+            "a Git LFS pointer and not the mesh itself (run `git lfs pull`)",
+        ),
+        (b"OFF\n", "OFF"),
+    ];
+    marks
+        .iter()
+        .find(|(mark, _)| bytes.starts_with(mark))
+        .map(|(_, name)| *name)
+}
+
+fn is_stl_name(extension: Option<Format>) -> bool {
+    extension == Some(Format::StlBinary)
+}
+
+/// No control characters but white space: none of the binary formats passes.
+fn looks_like_text(head: &[u8]) -> bool {
+    head.iter()
+        .all(|byte| *byte >= 0x20 || byte.is_ascii_whitespace() || *byte == 0x0b || *byte == 0x1a)
+}
+
+pub(super) fn is_utf16(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\xff\xfe<\0") || bytes.starts_with(b"\xfe\xff\0<")
+}
+
+pub(super) fn skip_byte_order_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+}
+
+fn starts_with_word(text: &[u8], word: &[u8]) -> bool {
+    text.len() >= word.len() && text[..word.len()].eq_ignore_ascii_case(word)
+}
+
+fn find(head: &[u8], mark: &[u8]) -> bool {
+    head.windows(mark.len())
+        .any(|window| window.eq_ignore_ascii_case(mark))
+}
+
+/// Whether the first line that is neither empty nor a comment begins with a keyword of OBJ.
+fn is_obj(text: &[u8]) -> bool {
+    const KEYWORDS: [&[u8]; 10] = [
+        b"v", b"vt", b"vn", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"vp",
+    ];
+    text.split(|byte| *byte == b'\n')
+        .map(<[u8]>::trim_ascii)
+        .find(|line| !line.is_empty() && !line.starts_with(b"#"))
+        .and_then(|line| line.split(u8::is_ascii_whitespace).next())
+        .is_some_and(|word| KEYWORDS.contains(&word))
+}
