@@ -58,6 +58,16 @@ pub enum GenerateError {
     /// The URDD cannot be written.
     #[error(transparent)]
     Write(#[from] StagingError),
+    /// The robot's geometry is beyond what can be computed.
+    #[error(
+        "{file}: distances of its links have no meaning: {reason}; make the core and geometry modules alone: `--modules geometry`"
+    )]
+    Geometry {
+        /// The file, as the user named it.
+        file: String,
+        /// Why.
+        reason: String,
+    },
     /// A fault of this program.
     #[error(
         "{file}: the generator failed: {reason}; this is a fault of the program, please report it with the file"
@@ -80,6 +90,7 @@ impl GenerateError {
             GenerateError::Xacro { .. } => "xacro-failed",
             GenerateError::SourceInTarget { .. } => "source-in-output",
             GenerateError::Write(_) => "not-written",
+            GenerateError::Geometry { .. } => "geometry",
             GenerateError::Internal { .. } => "internal",
         }
     }

@@ -33,6 +33,8 @@ pub enum NoteKind {
     Material,
     /// A mesh that cannot be carried.
     Mesh,
+    /// A part of a module that is not made of this robot.
+    LeftOut,
 }
 
 impl NoteKind {
@@ -52,6 +54,7 @@ impl NoteKind {
         NoteKind::Repeated,
         NoteKind::Material,
         NoteKind::Mesh,
+        NoteKind::LeftOut,
     ];
 
     /// Its word, for programs.
@@ -71,6 +74,7 @@ impl NoteKind {
             NoteKind::Repeated => "repeated",
             NoteKind::Material => "material",
             NoteKind::Mesh => "mesh",
+            NoteKind::LeftOut => "left-out",
         }
     }
 }

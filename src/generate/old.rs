@@ -65,7 +65,6 @@ impl Old {
     }
 
     /// The document of a module.
-    #[expect(dead_code, reason = "for a person's edits, which outlive a new run")]
     pub fn document(&self, kind: ModuleKind) -> Option<Value> {
         let path = format!("{}/module.json", kind.folder());
         let bytes = self.root.read(&path, MAX_DOCUMENT_BYTES).ok()?;

@@ -10,10 +10,12 @@ use serde::Serialize;
 
 use super::error::GenerateError;
 use super::fault::{Fault, PlacedFault};
+use super::geometry_stages as geometry;
 use super::meshes::original::{OriginalMeshes, original_meshes};
 use super::note::Note;
 use super::old::Old;
 use super::robot::Settings;
+use super::solids::Hoard;
 use super::source::Source;
 use super::{bounds, chain, connections, dof, kinematics_samples};
 use crate::directory::document::{Document, Rows};
@@ -27,18 +29,15 @@ use crate::format::registry::ModuleKind;
 pub(super) struct Work<'a> {
     pub source: &'a Source,
     pub settings: &'a Settings,
-    /// The folder that the new URDD is written to: the files of modules that were made, or kept,
-    /// are here already.
-    #[expect(dead_code, reason = "for stages that take up what an earlier run made")]
-    pub root: PathBuf,
     /// The URDD that is replaced.
-    #[expect(dead_code, reason = "for a person's edits, which outlive a new run")]
     pub old: Option<&'a Old>,
     pub dof: DofModule,
     pub chain: ChainModule,
     pub bounds: BoundsModule,
     pub samples: KinematicsSamplesModule,
     pub original: Option<OriginalMeshes>,
+    /// Meshes and shapes.
+    pub hoard: Hoard,
     pub notes: Vec<Note>,
 }
 
@@ -74,7 +73,7 @@ impl<'a> Work<'a> {
             samples,
             source,
             settings,
-            root: root.to_owned(),
+            hoard: Hoard::new(root),
             old,
             original: None,
             notes: Vec::new(),
@@ -98,7 +97,6 @@ pub(super) struct MadeFile {
 
 /// What a file holds.
 pub(super) enum Content {
-    #[expect(dead_code, reason = "for the meshes that stages make")]
     Bytes(Vec<u8>),
     /// The same as another file.
     CopyOf(PathBuf),
@@ -153,6 +151,46 @@ const STAGES: &[Stage] = &[
         settings: |_| None,
         make: meshes,
     },
+    Stage {
+        kind: ModuleKind::PlainMeshes,
+        settings: geometry::plain_settings,
+        make: geometry::plain,
+    },
+    Stage {
+        kind: ModuleKind::ConvexHullMeshes,
+        settings: |_| Some(String::new()),
+        make: geometry::hulls,
+    },
+    Stage {
+        kind: ModuleKind::ConvexDecompositionMeshes,
+        settings: geometry::decomposition_settings,
+        make: geometry::pieces,
+    },
+    Stage {
+        kind: ModuleKind::LinkShapesApproximations,
+        settings: |_| Some(String::new()),
+        make: geometry::boxes_and_spheres,
+    },
+    Stage {
+        kind: ModuleKind::LinkShapesMaxDistanceFromOrigin,
+        settings: |_| Some(String::new()),
+        make: geometry::distances_from_origin,
+    },
+    Stage {
+        kind: ModuleKind::LinkShapesDistanceStatistics,
+        settings: geometry::statistics_settings,
+        make: geometry::distance_statistics,
+    },
+    Stage {
+        kind: ModuleKind::LinkShapesSimpleSkips,
+        settings: |_| Some(String::new()),
+        make: geometry::skips_by_distance,
+    },
+    Stage {
+        kind: ModuleKind::LinkShapesSkips,
+        settings: geometry::skips_settings,
+        make: geometry::edited_skips,
+    },
 ];
 
 /// The modules that there are stages for, in the order of the specification.
@@ -165,7 +203,7 @@ pub(super) fn of(kind: ModuleKind) -> Option<&'static Stage> {
     STAGES.iter().find(|stage| stage.kind == kind)
 }
 
-fn document(module: &impl Serialize) -> Result<Made, GenerateError> {
+pub(super) fn document(module: &impl Serialize) -> Result<Made, GenerateError> {
     let document = serde_json::to_value(module).map_err(|error| GenerateError::Internal {
         file: String::new(),
         reason: error.to_string(),

@@ -7,6 +7,7 @@ mod batch;
 mod core;
 mod hostile;
 mod packages;
+mod shapes;
 mod writing;
 mod xacro;
 

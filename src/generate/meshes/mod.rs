@@ -2,8 +2,11 @@
 
 pub(crate) mod inspect;
 pub(crate) mod layout;
+pub(crate) mod names;
 pub(crate) mod original;
 mod package;
+pub(crate) mod plain;
 pub(crate) mod resolve;
+pub(crate) mod written;
 
 pub use package::{PackagePathError, Packages};

@@ -2,17 +2,21 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use rayon::prelude::*;
 
 use super::inspect::{Inspected, inspect};
 use super::layout::lay_out;
 use super::package::Packages;
-use super::resolve::{Home, resolve};
+use super::resolve::{FoundMesh, Home, NotFound, resolve};
 use crate::format::index::{ElementIdx, LinkIdx};
 use crate::format::meshes::GeometryKind;
 use crate::format::original_meshes::{MeshReference, OriginalMesh, OriginalMeshesModule};
 use crate::format::registry::ModuleKind;
 use crate::format::urdf::{Geometry, UrdfModule};
 use crate::generate::note::{Note, NoteKind};
+use crate::geometry::read::Scene;
 
 /// The module, and the files that go with it.
 #[derive(Debug)]
@@ -20,6 +24,8 @@ pub(crate) struct OriginalMeshes {
     pub module: OriginalMeshesModule,
     /// Each file that is carried: its path in the URDD, and where it is now.
     pub files: BTreeMap<String, PathBuf>,
+    /// What each usable mesh file holds, by its path in the URDD.
+    pub scenes: BTreeMap<String, Arc<Scene>>,
     pub notes: Vec<Note>,
 }
 
@@ -43,7 +49,19 @@ pub(crate) fn original_meshes(
     let mut notes = Vec::new();
     let mut known: BTreeMap<&str, Option<PathBuf>> = BTreeMap::new();
     let mut homes: BTreeMap<PathBuf, Home> = BTreeMap::new();
-    let mut inspected: BTreeMap<PathBuf, Inspected> = BTreeMap::new();
+    let mut found_files: BTreeMap<&str, Result<FoundMesh, NotFound>> = BTreeMap::new();
+    for mesh in &named {
+        found_files
+            .entry(mesh.filename)
+            .or_insert_with(|| resolve(mesh.filename, urdf_folder, packages));
+    }
+    let files: BTreeSet<&PathBuf> = found_files.values().flatten().map(|f| &f.file).collect();
+    let files: Vec<&PathBuf> = files.into_iter().collect();
+    let inspected: BTreeMap<PathBuf, Inspected> = files
+        .into_par_iter()
+        .map(|file| (file.clone(), inspect(file)))
+        .collect();
+    let mut told: BTreeSet<&PathBuf> = BTreeSet::new();
     for (mesh, place) in named.iter().zip(places) {
         if known.contains_key(mesh.filename) {
             continue;
@@ -59,7 +77,7 @@ pub(crate) fn original_meshes(
                 assumed: assumed.to_owned(),
             });
         };
-        let found = match resolve(name, urdf_folder, packages) {
+        let found = match &found_files[name] {
             Ok(found) => found,
             Err(why) => {
                 let problem = format!("mesh `{name}` was not found ({})", why.in_words());
@@ -72,11 +90,15 @@ pub(crate) fn original_meshes(
             note(format!("mesh `{name}` is not named as files are"), assumed);
         }
         known.insert(name, Some(found.file.clone()));
-        if inspected.contains_key(&found.file) {
+        if !told.insert(&found.file) {
             continue;
         }
-        let inside = inspect(&found.file);
-        if let Some(why) = &inside.unusable {
+        let inside = &inspected[&found.file];
+        for remark in &inside.remarks {
+            let problem = format!("mesh `{name}`: {remark}");
+            note(problem, "the rest of it is used");
+        }
+        if let Err(why) = &inside.scene {
             let problem = format!(
                 "mesh `{name}` is not usable ({}: {why})",
                 found.file.display()
@@ -93,7 +115,6 @@ pub(crate) fn original_meshes(
                 .entry(file.clone())
                 .or_insert_with(|| found.home.clone());
         }
-        inspected.insert(found.file, inside);
     }
     let folder = ModuleKind::OriginalMeshes.folder();
     let paths: BTreeMap<PathBuf, String> = lay_out(&homes)
@@ -108,11 +129,16 @@ pub(crate) fn original_meshes(
             OriginalMesh {
                 path: paths[file].clone(),
                 side_files: beside.into_iter().collect(),
-                usable: inside.unusable.is_none(),
+                usable: inside.scene.is_ok(),
             }
         })
         .collect();
     files.sort_by(|a, b| a.path.cmp(&b.path));
+    let scenes = inspected.iter().filter_map(|(file, inside)| {
+        let scene = inside.scene.as_ref().ok()?;
+        Some((paths[file].clone(), Arc::clone(scene)))
+    });
+    let scenes = scenes.collect();
     let references = named.iter().map(|mesh| MeshReference {
         link_idx: LinkIdx(mesh.link as u32),
         geometry: mesh.geometry,
@@ -128,6 +154,7 @@ pub(crate) fn original_meshes(
             files,
         },
         files: paths.into_iter().map(|(file, path)| (path, file)).collect(),
+        scenes,
         notes,
     }
 }

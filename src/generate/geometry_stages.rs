@@ -1,0 +1,303 @@
+//! The stages that make meshes and link shapes.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::error::GenerateError;
+use super::meshes::names::mesh_files;
+use super::meshes::plain::link_geometries;
+use super::meshes::written::{WrittenMesh, files_of};
+use super::note::{Note, NoteKind};
+use super::shapes::approximations::approximations;
+use super::shapes::max_distances::max_distances;
+use super::shapes::simple_skips::simple_skips;
+use super::shapes::skips::skips;
+use super::shapes::statistics::statistics;
+use super::shapes::{MOST_PIECES_WITH_MATRICES, Solids};
+use super::stages::{Made, MadeFile, Work, document};
+use crate::format::convex_decomposition_meshes::{
+    ConvexDecompositionMeshesModule, DecompositionMethod,
+};
+use crate::format::convex_hull_meshes::ConvexHullMeshesModule;
+use crate::format::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit};
+use crate::format::meshes::{GeometryKind, MeshFiles};
+use crate::format::plain_meshes::{PlainMesh, PlainMeshesModule};
+use crate::format::registry::ModuleKind;
+use crate::geometry::decompose;
+use crate::geometry::hull::ConvexHull;
+use crate::geometry::read::Part;
+
+pub(super) fn plain_settings(work: &Work) -> Option<String> {
+    Some(match work.settings.preferred_geometry {
+        GeometryKind::Visual => "visual".to_owned(),
+        GeometryKind::Collision => "collision".to_owned(),
+    })
+}
+
+pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
+    let kind = ModuleKind::PlainMeshes;
+    let robot = &work.source.reading.robot;
+    let preferred = work.settings.preferred_geometry;
+    let geometries = match &work.original {
+        Some(original) => link_geometries(robot, &original.module, &original.scenes, preferred),
+        None => Vec::new(),
+    };
+    let name = |link: usize| robot.links[link].name.as_str();
+    let written: Vec<_> = geometries
+        .into_par_iter()
+        .enumerate()
+        .map(|(link, geometry)| {
+            let Some(geometry) = geometry else {
+                return Ok(None);
+            };
+            let files = mesh_files(kind, link, name(link), None);
+            let contents = files_of(&geometry.parts, &files)?;
+            let mesh = WrittenMesh::of(&geometry.parts);
+            let geometry = geometry.geometry;
+            Ok(Some((PlainMesh { geometry, files }, contents, mesh)))
+        })
+        .collect::<Result<_, GenerateError>>()?;
+    let (mut link_meshes, mut files, mut meshes) = (Vec::new(), Vec::new(), Vec::new());
+    for link in written {
+        let (plain, contents, mesh) = match link {
+            None => (None, None, None),
+            Some((plain, contents, mesh)) => (Some(plain), Some(contents), Some(mesh)),
+        };
+        link_meshes.push(plain);
+        files.extend(contents.into_iter().flatten());
+        meshes.push(mesh);
+    }
+    work.hoard.plain = Some(Arc::new(meshes));
+    made(
+        &PlainMeshesModule {
+            preferred_geometry: preferred,
+            link_meshes,
+        },
+        files,
+    )
+}
+
+pub(super) fn hulls(work: &mut Work) -> Result<Made, GenerateError> {
+    let plain = work.hoard.plain()?;
+    let hulls: Vec<Option<WrittenMesh>> = plain
+        .par_iter()
+        .map(|plain| {
+            let plain = plain.as_ref()?;
+            // A plain mesh has a triangle with an area, and so a hull.
+            let hull = ConvexHull::new(&plain.mesh.vertices).ok()?;
+            Some(WrittenMesh {
+                mesh: hull.into_mesh(),
+                color: plain.color,
+            })
+        })
+        .collect();
+    let links = hulls.iter().enumerate().map(|(link, hull)| {
+        let hull = hull.as_ref().into_iter();
+        hull.map(|hull| (link, None, hull)).collect::<Vec<_>>()
+    });
+    let (link_hulls, files) = write(work, ModuleKind::ConvexHullMeshes, links)?;
+    let module = ConvexHullMeshesModule {
+        link_hulls: link_hulls
+            .into_iter()
+            .map(|hull| hull.into_iter().next())
+            .collect(),
+    };
+    work.hoard.hulls = Some(Arc::new(hulls));
+    made(&module, files)
+}
+
+/// The name of our way to decompose; another one where it comes out differently.
+const DECOMPOSITION: &str = "urdd cut and merge 1";
+
+pub(super) fn decomposition_settings(_: &Work) -> Option<String> {
+    Some(format!(
+        "{DECOMPOSITION} {:?}",
+        decompose::Settings::default()
+    ))
+}
+
+pub(super) fn pieces(work: &mut Work) -> Result<Made, GenerateError> {
+    let plain = work.hoard.plain()?;
+    let settings = decompose::Settings::default();
+    let decomposed: Vec<(Vec<WrittenMesh>, f64)> = plain
+        .par_iter()
+        .map(|plain| {
+            let Some(plain) = plain else {
+                return (Vec::new(), 0.0);
+            };
+            let made = decompose::decompose(&plain.mesh, &settings);
+            let piece = |mesh| WrittenMesh {
+                mesh,
+                color: plain.color,
+            };
+            let pieces = made.pieces.into_iter().map(piece).collect();
+            (pieces, made.surface_tolerance)
+        })
+        .collect();
+    let tolerance = decomposed.iter().map(|(_, t)| *t).fold(0.0, f64::max);
+    let pieces: Vec<Vec<WrittenMesh>> = decomposed.into_iter().map(|(pieces, _)| pieces).collect();
+    let links = pieces.iter().enumerate().map(|(link, pieces)| {
+        let pieces = pieces.iter().enumerate();
+        pieces
+            .map(|(idx, piece)| (link, Some(idx), piece))
+            .collect()
+    });
+    let (link_pieces, files) = write(work, ModuleKind::ConvexDecompositionMeshes, links)?;
+    let module = ConvexDecompositionMeshesModule {
+        method: DecompositionMethod {
+            name: DECOMPOSITION.to_owned(),
+            surface_tolerance: Some(tolerance),
+        },
+        link_pieces,
+    };
+    work.hoard.pieces = Some(Arc::new(pieces));
+    made(&module, files)
+}
+
+pub(super) fn boxes_and_spheres(work: &mut Work) -> Result<Made, GenerateError> {
+    let (hulls, pieces) = (work.hoard.hulls()?, work.hoard.pieces()?);
+    let solids = Solids {
+        hulls: &hulls,
+        pieces: &pieces,
+    };
+    let module = approximations(solids).map_err(|error| GenerateError::Internal {
+        file: work.source.shown.clone(),
+        reason: error.to_string(),
+    })?;
+    let document = document(&module)?;
+    work.hoard.approximations = Some(Arc::new(module));
+    Ok(document)
+}
+
+pub(super) fn distances_from_origin(work: &mut Work) -> Result<Made, GenerateError> {
+    let (hulls, pieces) = (work.hoard.hulls()?, work.hoard.pieces()?);
+    let solids = Solids {
+        hulls: &hulls,
+        pieces: &pieces,
+    };
+    let approximations = work.hoard.approximations()?;
+    document(&max_distances(solids, &approximations))
+}
+
+pub(super) fn statistics_settings(work: &Work) -> Option<String> {
+    Some(format!("{} samples", work.settings.num_samples))
+}
+
+pub(super) fn distance_statistics(work: &mut Work) -> Result<Made, GenerateError> {
+    let (hulls, pieces) = (work.hoard.hulls()?, work.hoard.pieces()?);
+    let solids = Solids {
+        hulls: &hulls,
+        pieces: &pieces,
+    };
+    let approximations = work.hoard.approximations()?;
+    let num_samples = work.settings.num_samples;
+    let (dof, chain, bounds) = (&work.dof, &work.chain, &work.bounds);
+    let module = statistics(solids, &approximations, dof, chain, bounds, num_samples);
+    let module = module.map_err(|reason| GenerateError::Geometry {
+        file: work.source.shown.clone(),
+        reason,
+    })?;
+    let document = document(&module)?;
+    if module.decomposition_convex_hulls.is_none() {
+        let pieces = module.decomposition_shapes.len();
+        work.notes.push(Note {
+            kind: NoteKind::LeftOut,
+            file: work.source.shown.clone(),
+            line: 0,
+            column: 0,
+            problem: format!(
+                "the robot has {pieces} convex pieces, and matrices over more than {MOST_PIECES_WITH_MATRICES} grow too large"
+            ),
+            assumed: "distances and skips between pieces are left out; those between links are there"
+                .to_owned(),
+        });
+    }
+    work.hoard.statistics = Some(Arc::new(module));
+    Ok(document)
+}
+
+pub(super) fn skips_by_distance(work: &mut Work) -> Result<Made, GenerateError> {
+    let statistics = work.hoard.statistics()?;
+    let module = simple_skips(&statistics, &work.chain);
+    let document = document(&module)?;
+    work.hoard.simple_skips = Some(Arc::new(module));
+    Ok(document)
+}
+
+pub(super) fn skips_settings(work: &Work) -> Option<String> {
+    serde_json::to_string(&edits(work).0).ok()
+}
+
+pub(super) fn edited_skips(work: &mut Work) -> Result<Made, GenerateError> {
+    let simple = work.hoard.simple_skips()?;
+    let (edits, lost) = edits(work);
+    for edit in lost {
+        work.notes.push(Note {
+            kind: NoteKind::LeftOut,
+            file: work.source.shown.clone(),
+            line: 0,
+            column: 0,
+            problem: format!(
+                "the URDD that was there has an edit of the skips between `{}` and `{}`, and the robot has no longer both links",
+                edit.link_a, edit.link_b
+            ),
+            assumed: "the edit is left out".to_owned(),
+        });
+    }
+    document(&skips(&simple, edits, &work.chain))
+}
+
+/// A person's edits, which outlive a new run: those that still name links, and those that do not.
+fn edits(work: &Work) -> (Vec<SkipEdit>, Vec<SkipEdit>) {
+    let document = work
+        .old
+        .and_then(|old| old.document(ModuleKind::LinkShapesSkips));
+    let module: Option<LinkShapesSkipsModule> =
+        document.and_then(|document| serde_json::from_value(document).ok());
+    let edits = module.map(|module| module.edits).unwrap_or_default();
+    let is_link = |name: &str| {
+        let mut links = work.chain.links_in_chain.iter();
+        links.any(|link| link.name == name)
+    };
+    edits
+        .into_iter()
+        .partition(|edit| is_link(&edit.link_a) && is_link(&edit.link_b))
+}
+
+/// A link, the index of a piece, and the mesh.
+type Named<'a> = (usize, Option<usize>, &'a WrittenMesh);
+
+/// Writes the meshes of each link.
+fn write<'a>(
+    work: &Work,
+    kind: ModuleKind,
+    links: impl Iterator<Item = Vec<Named<'a>>>,
+) -> Result<(Vec<Vec<MeshFiles>>, Vec<MadeFile>), GenerateError> {
+    let links: Vec<Vec<Named>> = links.collect();
+    let written: Vec<Vec<(MeshFiles, [MadeFile; 3])>> = links
+        .into_par_iter()
+        .map(|meshes| {
+            let meshes = meshes.into_iter().map(|(link, piece, mesh)| {
+                let name = &work.chain.links_in_chain[link].name;
+                let files = mesh_files(kind, link, name, piece);
+                let part: Part = mesh.part();
+                let contents = files_of(&[part], &files)?;
+                Ok((files, contents))
+            });
+            meshes.collect()
+        })
+        .collect::<Result<_, GenerateError>>()?;
+    let (mut names, mut contents) = (Vec::new(), Vec::new());
+    for link in written {
+        let (of_link, files): (Vec<_>, Vec<_>) = link.into_iter().unzip();
+        names.push(of_link);
+        contents.extend(files.into_iter().flatten());
+    }
+    Ok((names, contents))
+}
+
+fn made(module: &impl serde::Serialize, files: Vec<MadeFile>) -> Result<Made, GenerateError> {
+    let made = document(module)?;
+    Ok(Made { files, ..made })
+}

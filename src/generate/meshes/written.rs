@@ -1,0 +1,85 @@
+//! Meshes as files, and from files.
+
+use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::directory::root::Root;
+use crate::format::meshes::MeshFiles;
+use crate::generate::error::GenerateError;
+use crate::generate::stages::{Content, MadeFile};
+use crate::geometry::Mesh;
+use crate::geometry::read::{GltfUp, Options, Part, read_with};
+use crate::geometry::write;
+
+/// A mesh of a link, or of a piece, as its files have it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct WrittenMesh {
+    pub mesh: Mesh,
+    /// Of the most of its surface.
+    pub color: Option<[f64; 4]>,
+}
+
+impl WrittenMesh {
+    /// Of parts of several colours.
+    pub fn of(parts: &[Part]) -> Self {
+        let mut mesh = Mesh::default();
+        let mut areas: Vec<(Option<[f64; 4]>, f64)> = Vec::new();
+        for part in parts {
+            mesh.append(&part.mesh);
+            let area = part.mesh.area();
+            match areas.iter_mut().find(|(color, _)| *color == part.color) {
+                Some((_, sum)) => *sum += area,
+                None => areas.push((part.color, area)),
+            }
+        }
+        let largest = areas
+            .into_iter()
+            .reduce(|a, b| if b.1 > a.1 { b } else { a });
+        WrittenMesh {
+            mesh,
+            color: largest.and_then(|(color, _)| color),
+        }
+    }
+
+    /// As one part.
+    pub fn part(&self) -> Part {
+        Part {
+            mesh: self.mesh.clone(),
+            color: self.color,
+            material: None,
+        }
+    }
+}
+
+/// The three files of a mesh.
+pub(crate) fn files_of(parts: &[Part], files: &MeshFiles) -> Result<[MadeFile; 3], GenerateError> {
+    let internal = |error: write::WriteError| GenerateError::Internal {
+        file: files.glb.clone(),
+        reason: error.to_string(),
+    };
+    let file = |path: &String, bytes: Vec<u8>| MadeFile {
+        path: path.clone(),
+        content: Content::Bytes(bytes),
+    };
+    Ok([
+        file(&files.stl, write::stl(parts).map_err(internal)?),
+        file(&files.obj, write::obj(parts).map_err(internal)?),
+        file(&files.glb, write::glb(parts).map_err(internal)?),
+    ])
+}
+
+/// Takes up a mesh that was written before.
+pub(crate) fn take_up(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, GenerateError> {
+    let internal = |reason: String| GenerateError::Internal {
+        file: files.glb.clone(),
+        reason,
+    };
+    let bytes = root
+        .read(&files.glb, MAX_DOCUMENT_BYTES)
+        .map_err(|error| internal(error.to_string()))?;
+    let options = Options {
+        gltf_up: GltfUp::Keep,
+        ..Options::default()
+    };
+    let scene = read_with(&bytes, &files.glb, &mut |_| None, &options)
+        .map_err(|error| internal(error.to_string()))?;
+    Ok(WrittenMesh::of(&scene.parts))
+}

@@ -1,0 +1,44 @@
+//! The link shape modules: SPEC 8.
+
+pub(crate) mod approximations;
+pub(crate) mod max_distances;
+pub(crate) mod simple_skips;
+pub(crate) mod skips;
+pub(crate) mod statistics;
+
+use crate::format::index::{LinkIdx, PieceIdx};
+use crate::format::shapes::PieceShape;
+use crate::generate::meshes::written::WrittenMesh;
+
+/// Most pieces of a robot with matrices over pieces, which grow with the square of their number.
+pub(crate) const MOST_PIECES_WITH_MATRICES: usize = 500;
+
+/// The convex meshes that shapes are made of.
+#[derive(Clone, Copy)]
+pub(crate) struct Solids<'a> {
+    /// For each link its hull.
+    pub hulls: &'a [Option<WrittenMesh>],
+    /// For each link its pieces.
+    pub pieces: &'a [Vec<WrittenMesh>],
+}
+
+impl Solids<'_> {
+    /// What index i of a matrix over links stands for.
+    pub fn full_shapes(&self) -> Vec<LinkIdx> {
+        let links = (0..).zip(self.hulls).filter(|(_, hull)| hull.is_some());
+        links.map(|(link, _)| LinkIdx(link)).collect()
+    }
+
+    /// What index i of a matrix over pieces stands for.
+    pub fn decomposition_shapes(&self) -> Vec<PieceShape> {
+        let links = (0..).zip(self.pieces);
+        links
+            .flat_map(|(link, pieces)| {
+                (0..).zip(pieces).map(move |(piece, _)| PieceShape {
+                    link_idx: LinkIdx(link),
+                    piece_idx: PieceIdx(piece),
+                })
+            })
+            .collect()
+    }
+}
