@@ -1,50 +1,87 @@
-//! How long `generate` takes and how much it writes, for chains of growing length.
+//! How long `generate` takes and how much it writes, for chains of growing length, and for the robots
+//! of the paper's timing table where they are in `../shared/robots` (or `URDD_ROBOTS`).
 //!
-//! `cargo bench --bench generate` prints for each chain, made on one thread: the time (least of
-//! several runs), the bytes of the URDD, both per link, and how much memory the program has taken at
-//! most so far (Linux). The paths of pairs stop at 300 links (SPEC 6.4.6).
+//! `cargo bench --bench generate` prints for each: the time (least of several runs), the bytes of the
+//! URDD, both per link, and how much memory the program has taken at most so far (Linux). The paths of
+//! pairs stop at 300 links (SPEC 6.4.6).
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use urdd::generate::{Settings, generate};
+use urdd::generate::{Selection, Settings, generate};
 
 const RUNS: usize = 3;
 
 fn main() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    println!(
-        "{:>8} {:>10} {:>10} {:>10} {:>10} {:>10}",
-        "links", "ms", "ms/link", "MB", "kB/link", "peak MB"
-    );
+    let core = Settings {
+        selection: Selection::parse(["core"]).expect("a class"),
+        ..Settings::default()
+    };
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let one = one.expect("a thread");
+    println!("chains, core class, one thread");
+    titles();
     for links in [10, 100, 300, 301, 500, 1000, 2000] {
         let source = folder.path().join(format!("chain_{links}.urdf"));
         fs::write(&source, chain(links)).expect("the URDF");
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(1)
-            .build()
-            .expect("a thread");
-        let mut least = Duration::MAX;
-        let mut bytes = 0;
-        for run in 0..RUNS {
-            let target = folder.path().join(format!("{links}_{run}"));
-            let start = Instant::now();
-            let made = pool.install(|| generate(&source, &target, &Settings::default(), &()));
-            least = least.min(start.elapsed());
-            made.expect("a URDD");
-            bytes = size(&target);
-            fs::remove_dir_all(&target).expect("removed");
-        }
-        let (ms, mb) = (least.as_secs_f64() * 1e3, bytes as f64 / 1e6);
-        let per_link = |x: f64| x / links as f64;
-        println!(
-            "{links:8} {ms:10.1} {:10.3} {mb:10.2} {:10.2} {:>10}",
-            per_link(ms),
-            per_link(mb * 1e3),
-            peak_mb()
-        );
+        one.install(|| measure(&format!("{links}"), &source, &core, RUNS));
     }
+    println!("chains, every module, every processor");
+    titles();
+    for links in [10, 100, 300, 500] {
+        let source = folder.path().join(format!("chain_{links}.urdf"));
+        measure(&format!("{links}"), &source, &Settings::default(), 1);
+    }
+    let robots = std::env::var_os("URDD_ROBOTS").map(PathBuf::from);
+    let robots = robots.unwrap_or_else(|| PathBuf::from("../shared/robots"));
+    if !robots.is_dir() {
+        println!("{} is not here: no robots", robots.display());
+        return;
+    }
+    println!("robots, every module, every processor");
+    titles();
+    for robot in [
+        "ur5/robot",
+        "xarm7/robot",
+        "h1/robot",
+        "orca/robot_55links_split",
+        "b1/robot_31links_apollo",
+    ] {
+        let source = robots.join(format!("{robot}.urdf"));
+        measure(robot, &source, &Settings::default(), RUNS);
+    }
+}
+
+fn titles() {
+    println!(
+        "{:>24} {:>6} {:>10} {:>10} {:>10} {:>10} {:>10}",
+        "", "links", "ms", "ms/link", "MB", "kB/link", "peak MB"
+    );
+}
+
+/// Makes a URDD several times, and prints a row.
+fn measure(name: &str, source: &Path, settings: &Settings, runs: usize) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (mut least, mut bytes, mut links) = (Duration::MAX, 0, 0);
+    for run in 0..runs {
+        let target = folder.path().join(format!("{run}"));
+        let start = Instant::now();
+        let made = generate(source, &target, settings, &());
+        least = least.min(start.elapsed());
+        links = made.expect("a URDD").num_links;
+        bytes = size(&target);
+        fs::remove_dir_all(&target).expect("removed");
+    }
+    let (ms, mb) = (least.as_secs_f64() * 1e3, bytes as f64 / 1e6);
+    let per_link = |x: f64| x / links as f64;
+    println!(
+        "{name:>24} {links:6} {ms:10.1} {:10.3} {mb:10.2} {:10.2} {:>10}",
+        per_link(ms),
+        per_link(mb * 1e3),
+        peak_mb()
+    );
 }
 
 /// Links in a line, each on a hinge, each a box.

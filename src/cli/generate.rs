@@ -46,8 +46,8 @@ pub struct GenerateArguments {
     #[arg(long, value_enum, default_value_t = Preferred::Visual)]
     geometry: Preferred,
 
-    /// Sampled configurations of the distance statistics.
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
+    /// Sampled configurations of the distance statistics, 100,000 at most.
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     samples: u32,
 
     /// Threads; without it, one for each processor. The URDD is the same for any number.
