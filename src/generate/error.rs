@@ -59,9 +59,7 @@ pub enum GenerateError {
     #[error(transparent)]
     Write(#[from] StagingError),
     /// The robot's geometry is beyond what can be computed.
-    #[error(
-        "{file}: distances of its links have no meaning: {reason}; make the core and geometry modules alone: `--modules geometry`"
-    )]
+    #[error("{file}: {reason}; mend the mesh, or leave out the distances: `--modules geometry`")]
     Geometry {
         /// The file, as the user named it.
         file: String,

@@ -355,3 +355,22 @@ fn edits_of_skips_outlive_a_new_run() {
     assert_eq!(read_json(&module)["edits"], json!([edit("b")]));
     assert_eq!(findings_of(&target), Vec::new());
 }
+
+/// A mesh whose coordinates no robot has is told with its link, and nothing is written.
+#[test]
+fn a_mesh_beyond_all_measure_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let source = folder.path().join("robot.urdf");
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1e12 0\nf 1 2 3\n";
+    fs::write(folder.path().join("far.obj"), text).expect("written");
+    let link = "<link name=\"probe\"><visual><geometry><mesh filename=\"far.obj\"/></geometry></visual></link>";
+    fs::write(&source, format!("<robot name=\"r\">{link}</robot>")).expect("written");
+    let target = folder.path().join("made");
+    let error = generate(&source, &target, &settings(10), &()).expect_err("no URDD");
+    let text = error.to_string();
+    assert!(
+        text.contains("link `probe`") && text.contains("--modules geometry"),
+        "{text}"
+    );
+    assert!(!target.exists());
+}

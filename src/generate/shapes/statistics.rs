@@ -32,11 +32,15 @@ pub(crate) fn statistics(
     num_samples: u32,
 ) -> Result<LinkShapesDistanceStatisticsModule, String> {
     let motion = motion(dof, chain, bounds, num_samples)?;
-    let full = |error: ShapeError| error.to_string();
+    let full = |(link, error): (usize, ShapeError)| {
+        let name = &chain.links_in_chain[link].name;
+        format!("the mesh of link `{name}` is not one that distances can be taken of: {error}")
+    };
     let of = approximations;
     let pieces = solids.decomposition_shapes();
     let with_pieces = pieces.len() <= MOST_PIECES_WITH_MATRICES;
-    let over = |wanted: bool, make: &dyn Fn() -> Result<DistanceStatistics, ShapeError>| {
+    let over = |wanted: bool,
+                make: &dyn Fn() -> Result<DistanceStatistics, (usize, ShapeError)>| {
         wanted.then(make).transpose().map_err(full)
     };
     Ok(LinkShapesDistanceStatisticsModule {
@@ -91,12 +95,12 @@ fn rigid_groups(chain: &ChainModule) -> Vec<usize> {
     groups
 }
 
-/// The statistics of all pairs of the links' shapes.
+/// The statistics of all pairs of the links' shapes; or which link has none that can be used.
 fn pairs<L, T, S>(
     links: &[L],
     motion: &Motion,
     shape: fn(&T) -> Result<S, ShapeError>,
-) -> Result<DistanceStatistics, ShapeError>
+) -> Result<DistanceStatistics, (usize, ShapeError)>
 where
     for<'a> &'a L: IntoIterator<Item = &'a T>,
     S: Shape,
@@ -104,7 +108,7 @@ where
     let mut shapes = Vec::new();
     for (body, of_link) in links.iter().enumerate() {
         for of in of_link {
-            let shape = shape(of)?;
+            let shape = shape(of).map_err(|error| (body, error))?;
             shapes.push(PlacedShape { body, shape });
         }
     }
