@@ -320,7 +320,7 @@ fn size(a: &[[f64; 3]], b: &[[f64; 3]], pose: &Isometry3<f64>) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(std::env::var("CASES").map_or(400, |x| x.parse().unwrap())))]
+    #![proptest_config(ProptestConfig::with_cases(std::env::var("URDD_CASES").map_or(400, |x| x.parse().unwrap())))]
 
     #[test]
     fn agrees_with_trying_everything(a in points(), b in points(), pose in pose()) {
