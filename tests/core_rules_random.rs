@@ -15,6 +15,7 @@ use urdd::validate::code::Code;
 use urdd::validate::engine::Outcome;
 use urdd::validate::settings::Settings;
 
+use support::dice::Dice;
 use support::fixture::Fixture;
 use support::folder::Folder;
 use support::robot::{Robot, arbitrary_robot};
@@ -101,17 +102,6 @@ fn a_single_changed_value_is_found_by_one_rule() {
     println!("{by_code:?}");
     assert!(survivors.is_empty(), "not found: {survivors:#?}");
     assert!(several.is_empty(), "more than one message: {several:#?}");
-}
-
-/// Numbers that are the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, count: usize) -> usize {
-        self.0 = self.0.wrapping_add(1);
-        let drawn = urdd::kinematics::unit(self.0 >> 32, self.0 & 0xffff_ffff);
-        (drawn * count as f64) as usize
-    }
 }
 
 /// Changes one value of a document anywhere: each kind of place as likely as any other, however large

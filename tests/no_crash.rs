@@ -19,6 +19,7 @@ use urdd::validate::engine::Outcome;
 use urdd::validate::rule::Severity;
 use urdd::validate::settings::Settings;
 
+use support::dice::Dice;
 use support::fixture::{Fixture, ROOT};
 use support::folder::Folder;
 
@@ -99,21 +100,6 @@ fn examine(urdd: &Fixture, folder: &mut Folder, trial: u64) -> bool {
     }
     let report = Report::new(&run, Severity::Error);
     report.urdds.iter().any(|urdd| !urdd.findings.is_empty())
-}
-
-/// Numbers that are the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, count: usize) -> usize {
-        self.0 = self.0.wrapping_add(1);
-        let drawn = urdd::kinematics::unit(self.0 >> 32, self.0 & 0xffff_ffff);
-        (drawn * count as f64) as usize
-    }
-
-    fn word(&mut self) -> u16 {
-        self.below(1 << 16) as u16
-    }
 }
 
 /// Replaces a value of a document, such that it still fits its schema.

@@ -39,12 +39,12 @@ pub fn of(root: &Root, path: &str) -> Result<(u64, String), ReadError> {
         size += read as u64;
         hasher.update(&piece[..read]);
     }
-    let digits = hasher
-        .finalize()
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect();
-    Ok((size, digits))
+    Ok((size, digits(&hasher.finalize())))
+}
+
+/// A hash in lower-case hexadecimal digits, as `urdd.json` writes it.
+pub fn digits(hash: &[u8]) -> String {
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Every Git LFS pointer begins so, and is shorter than this.
@@ -140,12 +140,7 @@ fn hashes(file: &mut impl Read, converted: bool) -> Option<Hashes> {
         lf.update(b"\r");
         crlf.update(b"\r");
     }
-    let digits = |hash: Sha256| -> String {
-        hash.finalize()
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect()
-    };
+    let digits = |hash: Sha256| digits(&hash.finalize());
     Some(Hashes {
         plain: digits(plain),
         lf: converted.then(|| digits(lf)),

@@ -121,14 +121,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
     let mut visited = 0;
     let mut folders = vec![(path.to_owned(), String::new(), 0)];
     while let Some((folder, prefix, depth)) = folders.pop() {
-        let entries = match fs::read_dir(&folder) {
-            Ok(_) if depth >= MAX_FOLDER_DEPTH => Err(ReadError::Io(format!(
-                "it lies deeper than {MAX_FOLDER_DEPTH} folders; give its path to examine it"
-            ))),
-            Ok(entries) => Ok(entries),
-            Err(error) => Err(ReadError::from_io(&error)),
-        };
-        let entries = match entries {
+        let entries = match list(&folder, depth) {
             Ok(entries) => entries,
             Err(error) => {
                 found.push(Found {
@@ -173,4 +166,14 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
     }
     found.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(found)
+}
+
+fn list(folder: &Path, depth: usize) -> Result<fs::ReadDir, ReadError> {
+    let entries = fs::read_dir(folder).map_err(|error| ReadError::from_io(&error))?;
+    match depth < MAX_FOLDER_DEPTH {
+        true => Ok(entries),
+        false => Err(ReadError::Io(format!(
+            "it lies deeper than {MAX_FOLDER_DEPTH} folders; give its path to examine it"
+        ))),
+    }
 }

@@ -59,6 +59,19 @@ pub fn check(path: &str) -> Result<(), PathFault> {
     Ok(())
 }
 
+/// A name made one that may stand in a path: what SPEC 2.8 forbids in it becomes `_`.
+pub fn portable(name: &str) -> String {
+    let allowed = |c: char| match c {
+        '\\' | ':' | '/' => '_',
+        c if c.is_control() => '_',
+        c => c,
+    };
+    match name.chars().map(allowed).collect::<String>() {
+        dots if dots.is_empty() || dots == "." || dots == ".." => "_".to_owned(),
+        name => name,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -84,6 +97,21 @@ mod tests {
     fn dots_and_spaces_within_a_part_are_fine() {
         for path in ["a", "a/b.stl", "..a/b..", "ä b/c", ".gitattributes"] {
             assert_eq!(check(path), Ok(()), "{path:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_made_portable_is_one_sound_part() {
+        for (name, part) in [
+            ("a b.stl", "a b.stl"),
+            ("a\\b/c:d\n", "a_b_c_d_"),
+            ("", "_"),
+            (".", "_"),
+            ("..", "_"),
+            ("..a", "..a"),
+        ] {
+            assert_eq!(portable(name), part);
+            assert_eq!(check(part), Ok(()));
         }
     }
 }

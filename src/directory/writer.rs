@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
+use super::digest::digits;
 use super::document::Document;
 use super::staging::StagingError;
 use crate::format::index::Count;
@@ -176,6 +177,5 @@ fn entry(path: &str, size: u64, hash: &[u8]) -> FileEntry {
 
 /// A hash as `urdd.json` writes it.
 pub fn sha256(hash: &[u8]) -> root_metadata::Sha256 {
-    let digits: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
-    root_metadata::Sha256::new(digits).unwrap_or_else(|| unreachable!("64 digits"))
+    root_metadata::Sha256::new(digits(hash)).unwrap_or_else(|| unreachable!("64 digits"))
 }

@@ -8,13 +8,12 @@ use super::error::GenerateError;
 use super::meshes::names::mesh_files;
 use super::meshes::plain::link_geometries;
 use super::meshes::written::{WrittenMesh, files_of};
-use super::note::{Note, NoteKind};
+use super::shapes::MOST_PIECES_WITH_MATRICES;
 use super::shapes::approximations::approximations;
 use super::shapes::max_distances::max_distances;
 use super::shapes::simple_skips::simple_skips;
 use super::shapes::skips::skips;
 use super::shapes::statistics::statistics;
-use super::shapes::{MOST_PIECES_WITH_MATRICES, Solids};
 use super::stages::{Made, MadeFile, Work, document};
 use crate::format::convex_decomposition_meshes::{
     ConvexDecompositionMeshesModule, DecompositionMethod,
@@ -156,12 +155,8 @@ pub(super) fn pieces(work: &mut Work) -> Result<Made, GenerateError> {
 }
 
 pub(super) fn boxes_and_spheres(work: &mut Work) -> Result<Made, GenerateError> {
-    let (hulls, pieces) = (work.hoard.hulls()?, work.hoard.pieces()?);
-    let solids = Solids {
-        hulls: &hulls,
-        pieces: &pieces,
-    };
-    let module = approximations(solids).map_err(|error| GenerateError::Internal {
+    let solids = work.hoard.solids()?;
+    let module = approximations(&solids).map_err(|error| GenerateError::Internal {
         file: work.source.shown.clone(),
         reason: error.to_string(),
     })?;
@@ -171,13 +166,9 @@ pub(super) fn boxes_and_spheres(work: &mut Work) -> Result<Made, GenerateError> 
 }
 
 pub(super) fn distances_from_origin(work: &mut Work) -> Result<Made, GenerateError> {
-    let (hulls, pieces) = (work.hoard.hulls()?, work.hoard.pieces()?);
-    let solids = Solids {
-        hulls: &hulls,
-        pieces: &pieces,
-    };
+    let solids = work.hoard.solids()?;
     let approximations = work.hoard.approximations()?;
-    document(&max_distances(solids, &approximations))
+    document(&max_distances(&solids, &approximations))
 }
 
 pub(super) fn statistics_settings(work: &Work) -> Option<String> {
@@ -185,15 +176,11 @@ pub(super) fn statistics_settings(work: &Work) -> Option<String> {
 }
 
 pub(super) fn distance_statistics(work: &mut Work) -> Result<Made, GenerateError> {
-    let (hulls, pieces) = (work.hoard.hulls()?, work.hoard.pieces()?);
-    let solids = Solids {
-        hulls: &hulls,
-        pieces: &pieces,
-    };
+    let solids = work.hoard.solids()?;
     let approximations = work.hoard.approximations()?;
     let num_samples = work.settings.num_samples;
     let (dof, chain, bounds) = (&work.dof, &work.chain, &work.bounds);
-    let module = statistics(solids, &approximations, dof, chain, bounds, num_samples);
+    let module = statistics(&solids, &approximations, dof, chain, bounds, num_samples);
     let module = module.map_err(|reason| GenerateError::Geometry {
         file: work.source.shown.clone(),
         reason,
@@ -201,17 +188,12 @@ pub(super) fn distance_statistics(work: &mut Work) -> Result<Made, GenerateError
     let document = document(&module)?;
     if module.decomposition_convex_hulls.is_none() {
         let pieces = module.decomposition_shapes.len();
-        work.notes.push(Note {
-            kind: NoteKind::LeftOut,
-            file: work.source.shown.clone(),
-            line: 0,
-            column: 0,
-            problem: format!(
+        work.leave_out(
+            format!(
                 "the robot has {pieces} convex pieces, and matrices over more than {MOST_PIECES_WITH_MATRICES} grow too large"
             ),
-            assumed: "distances and skips between pieces are left out; those between links are there"
-                .to_owned(),
-        });
+            "distances and skips between pieces are left out; those between links are there",
+        );
     }
     work.hoard.statistics = Some(Arc::new(module));
     Ok(document)
@@ -226,43 +208,51 @@ pub(super) fn skips_by_distance(work: &mut Work) -> Result<Made, GenerateError> 
 }
 
 pub(super) fn skips_settings(work: &Work) -> Option<String> {
-    serde_json::to_string(&edits(work).0).ok()
+    serde_json::to_string(&edits(work).kept).ok()
 }
 
 pub(super) fn edited_skips(work: &mut Work) -> Result<Made, GenerateError> {
     let simple = work.hoard.simple_skips()?;
-    let (edits, lost) = edits(work);
+    let Edits { kept, lost } = edits(work).clone();
     for edit in lost {
-        work.notes.push(Note {
-            kind: NoteKind::LeftOut,
-            file: work.source.shown.clone(),
-            line: 0,
-            column: 0,
-            problem: format!(
+        work.leave_out(
+            format!(
                 "the URDD that was there has an edit of the skips between `{}` and `{}`, and the robot has no longer both links",
                 edit.link_a, edit.link_b
             ),
-            assumed: "the edit is left out".to_owned(),
-        });
+            "the edit is left out",
+        );
     }
-    document(&skips(&simple, edits, &work.chain))
+    document(&skips(&simple, kept, &work.chain))
 }
 
-/// A person's edits, which outlive a new run: those that still name links, and those that do not.
-fn edits(work: &Work) -> (Vec<SkipEdit>, Vec<SkipEdit>) {
-    let document = work
-        .old
-        .and_then(|old| old.document(ModuleKind::LinkShapesSkips));
-    let module: Option<LinkShapesSkipsModule> =
-        document.and_then(|document| serde_json::from_value(document).ok());
-    let edits = module.map(|module| module.edits).unwrap_or_default();
-    let is_link = |name: &str| {
-        let mut links = work.chain.links_in_chain.iter();
-        links.any(|link| link.name == name)
-    };
-    edits
-        .into_iter()
-        .partition(|edit| is_link(&edit.link_a) && is_link(&edit.link_b))
+/// A person's edits of the skips, which outlive a new run.
+#[derive(Clone)]
+pub(super) struct Edits {
+    /// Those that still name links.
+    kept: Vec<SkipEdit>,
+    /// The others.
+    lost: Vec<SkipEdit>,
+}
+
+/// The edits in the URDD that is replaced, read once: with them come matrices.
+fn edits<'a>(work: &'a Work) -> &'a Edits {
+    work.edits.get_or_init(|| {
+        let document = work
+            .old
+            .and_then(|old| old.document(ModuleKind::LinkShapesSkips));
+        let module: Option<LinkShapesSkipsModule> =
+            document.and_then(|document| serde_json::from_value(document).ok());
+        let edits = module.map(|module| module.edits).unwrap_or_default();
+        let is_link = |name: &str| {
+            let mut links = work.chain.links_in_chain.iter();
+            links.any(|link| link.name == name)
+        };
+        let (kept, lost) = edits
+            .into_iter()
+            .partition(|edit| is_link(&edit.link_a) && is_link(&edit.link_b));
+        Edits { kept, lost }
+    })
 }
 
 /// A link, the index of a piece, and the mesh.

@@ -4,6 +4,7 @@
 //! way about: both are written from SPEC.md.
 
 pub mod batch;
+mod bounded;
 mod bounds;
 mod carry_over;
 mod chain;

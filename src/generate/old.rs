@@ -66,8 +66,15 @@ impl Old {
 
     /// The document of a module.
     pub fn document(&self, kind: ModuleKind) -> Option<Value> {
-        let path = format!("{}/module.json", kind.folder());
-        let bytes = self.root.read(&path, MAX_DOCUMENT_BYTES).ok()?;
-        Some(json::read(&bytes).ok()?.value)
+        document(&self.root, kind).ok()
     }
+}
+
+/// The document of a module of a URDD, or in words why there is none.
+pub(super) fn document(root: &Root, kind: ModuleKind) -> Result<Value, String> {
+    let path = format!("{}/module.json", kind.folder());
+    let bytes = root.read(&path, MAX_DOCUMENT_BYTES);
+    let bytes = bytes.map_err(|error| error.to_string())?;
+    let read = json::read(&bytes).map_err(|error| error.to_string())?;
+    Ok(read.value)
 }

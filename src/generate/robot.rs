@@ -150,7 +150,9 @@ pub fn generate(
     )?;
     let text = canonical::json_string(&document);
     writer.file(ROOT_METADATA, text.as_bytes())?;
-    let changed = !old.as_ref().is_some_and(|old| is_same(old, &text));
+    let changed = !old
+        .as_ref()
+        .is_some_and(|old| is_same(old, &text, &modules));
     if changed {
         staging.commit()?;
     }
@@ -225,8 +227,9 @@ fn run(
     Ok((metadata::entry(kind, written, inputs), false))
 }
 
-/// Whether the URDD before is the same to the byte: its metadata, and each file as that says.
-fn is_same(old: &Old, text: &str) -> bool {
+/// Whether the URDD before is the same to the byte: its metadata, and each file as that says. Those
+/// of modules that were kept were looked at then.
+fn is_same(old: &Old, text: &str, made: &[MadeModule]) -> bool {
     let path = old.root.path().join(ROOT_METADATA);
     if fs::read(path).ok().as_deref() != Some(text.as_bytes()) {
         return false;
@@ -235,6 +238,10 @@ fn is_same(old: &Old, text: &str) -> bool {
         Some(crate::format::root_metadata::Source::Urdf(file)) => Some(file),
         _ => None,
     };
-    let files = old.metadata.modules.iter().flat_map(|module| &module.files);
+    let is_kept = |name: &str| made.iter().any(|of| of.kept && of.kind.name() == name);
+    let modules = old.metadata.modules.iter();
+    let files = modules
+        .filter(|module| !is_kept(&module.name))
+        .flat_map(|module| &module.files);
     files.chain(source).all(|file| old.is_intact(file))
 }

@@ -1,32 +1,32 @@
 //! What stages of meshes and shapes hand on to later ones: made in this run, or taken up from the
 //! files of an earlier one that still hold.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
 
 use super::error::GenerateError;
 use super::meshes::written::{WrittenMesh, take_up};
-use crate::directory::json;
-use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use super::old;
+use super::shapes::Solids;
 use crate::directory::root::Root;
 use crate::format::convex_decomposition_meshes::ConvexDecompositionMeshesModule;
 use crate::format::convex_hull_meshes::ConvexHullMeshesModule;
 use crate::format::link_shapes_approximations::LinkShapesApproximationsModule;
 use crate::format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule;
 use crate::format::link_shapes_simple_skips::LinkShapesSimpleSkipsModule;
-use crate::format::meshes::MeshFiles;
 use crate::format::plain_meshes::PlainMeshesModule;
 use crate::format::registry::ModuleKind;
 
 /// For each link its mesh.
-pub(super) type LinkMeshes = Arc<Vec<Option<WrittenMesh>>>;
+pub(crate) type LinkMeshes = Arc<Vec<Option<WrittenMesh>>>;
 /// For each link its pieces.
-pub(super) type LinkPieces = Arc<Vec<Vec<WrittenMesh>>>;
+pub(crate) type LinkPieces = Arc<Vec<Vec<WrittenMesh>>>;
 
 /// What was made so far.
 pub(super) struct Hoard {
-    root: std::path::PathBuf,
+    root: PathBuf,
     pub plain: Option<LinkMeshes>,
     pub hulls: Option<LinkMeshes>,
     pub pieces: Option<LinkPieces>,
@@ -38,7 +38,7 @@ pub(super) struct Hoard {
 impl Hoard {
     /// Of a new URDD that is written to `root`: the files of modules that were made, or kept, are
     /// there already.
-    pub fn new(root: &std::path::Path) -> Self {
+    pub fn new(root: &Path) -> Self {
         Hoard {
             root: root.to_owned(),
             plain: None,
@@ -52,64 +52,93 @@ impl Hoard {
 
     /// The plain meshes.
     pub fn plain(&mut self) -> Result<LinkMeshes, GenerateError> {
-        if self.plain.is_none() {
-            let module: PlainMeshesModule = self.document(ModuleKind::PlainMeshes)?;
-            let files = module.link_meshes.into_iter();
-            self.plain = Some(self.take(files.map(|link| link.map(|mesh| mesh.files)))?);
-        }
-        Ok(self.plain.clone().unwrap_or_default())
+        self.have(
+            |hoard| &mut hoard.plain,
+            |hoard| {
+                let module: PlainMeshesModule = hoard.document(ModuleKind::PlainMeshes)?;
+                let root = hoard.root()?;
+                let links = module.link_meshes.iter().map(Option::as_ref);
+                let meshes = links.map(|link| link.map(|mesh| take_up(&root, &mesh.files)));
+                meshes.map(Option::transpose).collect()
+            },
+        )
     }
 
     /// The hulls.
     pub fn hulls(&mut self) -> Result<LinkMeshes, GenerateError> {
-        if self.hulls.is_none() {
-            let module: ConvexHullMeshesModule = self.document(ModuleKind::ConvexHullMeshes)?;
-            self.hulls = Some(self.take(module.link_hulls.into_iter())?);
-        }
-        Ok(self.hulls.clone().unwrap_or_default())
+        self.have(
+            |hoard| &mut hoard.hulls,
+            |hoard| {
+                let module: ConvexHullMeshesModule =
+                    hoard.document(ModuleKind::ConvexHullMeshes)?;
+                let root = hoard.root()?;
+                let links = module.link_hulls.iter().map(Option::as_ref);
+                let meshes = links.map(|link| link.map(|files| take_up(&root, files)));
+                meshes.map(Option::transpose).collect()
+            },
+        )
     }
 
     /// The pieces.
     pub fn pieces(&mut self) -> Result<LinkPieces, GenerateError> {
-        if self.pieces.is_none() {
-            let module: ConvexDecompositionMeshesModule =
-                self.document(ModuleKind::ConvexDecompositionMeshes)?;
-            let root = self.root()?;
-            let links = module.link_pieces.iter();
-            let pieces = links.map(|link| link.iter().map(|files| take_up(&root, files)).collect());
-            self.pieces = Some(Arc::new(pieces.collect::<Result<_, _>>()?));
-        }
-        Ok(self.pieces.clone().unwrap_or_default())
+        self.have(
+            |hoard| &mut hoard.pieces,
+            |hoard| {
+                let module: ConvexDecompositionMeshesModule =
+                    hoard.document(ModuleKind::ConvexDecompositionMeshes)?;
+                let root = hoard.root()?;
+                let links = module.link_pieces.iter();
+                let pieces =
+                    links.map(|link| link.iter().map(|files| take_up(&root, files)).collect());
+                pieces.collect()
+            },
+        )
+    }
+
+    /// The hulls and the pieces, of which shapes are made.
+    pub fn solids(&mut self) -> Result<Solids, GenerateError> {
+        Ok(Solids {
+            hulls: self.hulls()?,
+            pieces: self.pieces()?,
+        })
     }
 
     /// The boxes and spheres.
     pub fn approximations(&mut self) -> Result<Arc<LinkShapesApproximationsModule>, GenerateError> {
-        if let Some(made) = &self.approximations {
-            return Ok(Arc::clone(made));
-        }
-        let module = Arc::new(self.document(ModuleKind::LinkShapesApproximations)?);
-        self.approximations = Some(Arc::clone(&module));
-        Ok(module)
+        self.have(
+            |hoard| &mut hoard.approximations,
+            |hoard| hoard.document(ModuleKind::LinkShapesApproximations),
+        )
     }
 
     /// The distance statistics.
     pub fn statistics(&mut self) -> Result<Arc<LinkShapesDistanceStatisticsModule>, GenerateError> {
-        if let Some(made) = &self.statistics {
-            return Ok(Arc::clone(made));
-        }
-        let module = Arc::new(self.document(ModuleKind::LinkShapesDistanceStatistics)?);
-        self.statistics = Some(Arc::clone(&module));
-        Ok(module)
+        self.have(
+            |hoard| &mut hoard.statistics,
+            |hoard| hoard.document(ModuleKind::LinkShapesDistanceStatistics),
+        )
     }
 
     /// The simple skips.
     pub fn simple_skips(&mut self) -> Result<Arc<LinkShapesSimpleSkipsModule>, GenerateError> {
-        if let Some(made) = &self.simple_skips {
+        self.have(
+            |hoard| &mut hoard.simple_skips,
+            |hoard| hoard.document(ModuleKind::LinkShapesSimpleSkips),
+        )
+    }
+
+    /// What is at a place: as it was made, or else taken up, once.
+    fn have<T>(
+        &mut self,
+        place: fn(&mut Hoard) -> &mut Option<Arc<T>>,
+        take_up: fn(&Hoard) -> Result<T, GenerateError>,
+    ) -> Result<Arc<T>, GenerateError> {
+        if let Some(made) = place(self) {
             return Ok(Arc::clone(made));
         }
-        let module = Arc::new(self.document(ModuleKind::LinkShapesSimpleSkips)?);
-        self.simple_skips = Some(Arc::clone(&module));
-        Ok(module)
+        let taken = Arc::new(take_up(self)?);
+        *place(self) = Some(Arc::clone(&taken));
+        Ok(taken)
     }
 
     fn root(&self) -> Result<Root, GenerateError> {
@@ -119,26 +148,12 @@ impl Hoard {
         })
     }
 
-    fn take(
-        &self,
-        links: impl Iterator<Item = Option<MeshFiles>>,
-    ) -> Result<LinkMeshes, GenerateError> {
-        let root = self.root()?;
-        let meshes = links.map(|files| files.map(|files| take_up(&root, &files)).transpose());
-        Ok(Arc::new(meshes.collect::<Result<_, _>>()?))
-    }
-
     fn document<T: DeserializeOwned>(&self, kind: ModuleKind) -> Result<T, GenerateError> {
-        let path = format!("{}/module.json", kind.folder());
         let internal = |reason: String| GenerateError::Internal {
-            file: path.clone(),
+            file: kind.folder().to_owned(),
             reason,
         };
-        let bytes = self
-            .root()?
-            .read(&path, MAX_DOCUMENT_BYTES)
-            .map_err(|error| internal(error.to_string()))?;
-        let read = json::read(&bytes).map_err(|error| internal(error.to_string()))?;
-        serde_json::from_value(read.value).map_err(|error| internal(error.to_string()))
+        let value = old::document(&self.root()?, kind).map_err(internal)?;
+        serde_json::from_value(value).map_err(|error| internal(error.to_string()))
     }
 }

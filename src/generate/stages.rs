@@ -5,14 +5,15 @@
 //! files, by whoever needs it.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use serde::Serialize;
 
 use super::error::GenerateError;
 use super::fault::{Fault, PlacedFault};
-use super::geometry_stages as geometry;
+use super::geometry_stages::{self as geometry, Edits};
 use super::meshes::original::{OriginalMeshes, original_meshes};
-use super::note::Note;
+use super::note::{Note, NoteKind};
 use super::old::Old;
 use super::robot::Settings;
 use super::solids::Hoard;
@@ -38,6 +39,8 @@ pub(super) struct Work<'a> {
     pub original: Option<OriginalMeshes>,
     /// Meshes and shapes.
     pub hoard: Hoard,
+    /// A person's edits of the skips, once they are read.
+    pub edits: OnceLock<Edits>,
     pub notes: Vec<Note>,
 }
 
@@ -74,10 +77,23 @@ impl<'a> Work<'a> {
             source,
             settings,
             hoard: Hoard::new(root),
+            edits: OnceLock::new(),
             old,
             original: None,
             notes: Vec::new(),
         })
+    }
+
+    /// Notes that something is not made of this robot.
+    pub fn leave_out(&mut self, problem: String, assumed: &str) {
+        self.notes.push(Note {
+            kind: NoteKind::LeftOut,
+            file: self.source.shown.clone(),
+            line: 0,
+            column: 0,
+            problem,
+            assumed: assumed.to_owned(),
+        });
     }
 }
 

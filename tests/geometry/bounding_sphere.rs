@@ -36,14 +36,6 @@ fn sphere_of(points: &[Point]) -> BoundingSphere {
     sphere
 }
 
-fn assert_near(actual: f64, expected: f64, relative: f64) {
-    let error = (actual - expected).abs();
-    assert!(
-        error <= relative * expected.abs(),
-        "{actual} is not {expected}"
-    );
-}
-
 #[test]
 fn two_three_or_four_points_carry_it() {
     // A segment: the third point is inside.

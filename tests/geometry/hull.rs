@@ -15,14 +15,6 @@ fn hull_of(points: &[Point]) -> ConvexHull {
     hull
 }
 
-fn assert_near(actual: f64, expected: f64, relative: f64) {
-    let error = (actual - expected).abs();
-    assert!(
-        error <= relative * expected.abs(),
-        "{actual} is not {expected}"
-    );
-}
-
 #[test]
 fn a_box_full_of_points_on_its_faces_has_eight_corners() {
     let n = 24;

@@ -32,14 +32,6 @@ fn box_of(points: &[Point]) -> OrientedBox {
     found
 }
 
-fn assert_near(actual: f64, expected: f64, relative: f64) {
-    let error = (actual - expected).abs();
-    assert!(
-        error <= relative * expected.abs(),
-        "{actual} is not {expected}"
-    );
-}
-
 /// The volume of the axis-aligned box of points that are turned back by a rotation.
 fn volume_across(points: &[Point], rotation: &Rotation3<f64>) -> f64 {
     let mut volume = 1.0;

@@ -63,6 +63,16 @@ pub fn prism(corners: u32, radius: f64, height: f64) -> Vec<Point> {
     end(-height / 2.0).chain(end(height / 2.0)).collect()
 }
 
+/// Near to what is expected, as a part of that.
+#[track_caller]
+pub fn assert_near(actual: f64, expected: f64, relative: f64) {
+    let error = (actual - expected).abs();
+    assert!(
+        error <= relative * expected.abs(),
+        "{actual} is not {expected}"
+    );
+}
+
 /// The volume inside a closed mesh.
 pub fn volume(mesh: &Mesh) -> f64 {
     let at = |i: u32| Vector3::from(mesh.vertices[i as usize]);

@@ -6,12 +6,14 @@
 //! - [`meshes`], [`shapes`]: robot of boxes -> documents and files of the other modules
 //! - [`fixture`]: a whole URDD in memory, to be edited, sealed and written
 //! - [`folder`]: a folder on disk, for many URDDs one after the other
+//! - [`dice`]: choices of a seeded test
 //! - [`emit`]: JSON and YAML text
 //! - [`difference`]: comparing two producers' documents
 
 #![allow(dead_code)] // Each test uses a part of this.
 
 pub mod core;
+pub mod dice;
 pub mod difference;
 pub mod emit;
 pub mod fixture;

@@ -14,18 +14,22 @@ def clean(value: float) -> float:
     return round(value, 6) + 0.0
 
 
-def lathe(profile: list[tuple[float, float]], segments: int = 20) -> list[Triangle]:
-    """A body of revolution about z: `profile` is (radius, z) from bottom to top, closed on the axis."""
-    rings = []
-    for radius, z in profile:
-        turns = [2 * math.pi * k / segments for k in range(segments)]
-        rings.append([(clean(radius * math.cos(t)), clean(radius * math.sin(t)), clean(z)) for t in turns])
+def turning(profile: list[tuple[float, float]], segments: int) -> tuple[list[list[Point]], list[Triangle]]:
+    """The ring that each (radius, z) makes about z, and the surface between the rings."""
+    turns = [2 * math.pi * k / segments for k in range(segments)]
+    rings = [[(clean(radius * math.cos(t)), clean(radius * math.sin(t)), clean(z)) for t in turns] for radius, z in profile]
     triangles: list[Triangle] = []
     for low, high in zip(rings, rings[1:]):
         for k in range(segments):
             a, b = low[k], low[(k + 1) % segments]
             c, d = high[(k + 1) % segments], high[k]
             triangles += [(a, b, c), (a, c, d)]
+    return rings, triangles
+
+
+def lathe(profile: list[tuple[float, float]], segments: int = 20) -> list[Triangle]:
+    """A body of revolution about z: `profile` is (radius, z) from bottom to top, closed on the axis."""
+    rings, triangles = turning(profile, segments)
     for ring, outward in ((rings[0], False), (rings[-1], True)):
         centre = (0.0, 0.0, ring[0][2])
         for k in range(segments):
@@ -38,17 +42,7 @@ def tube(inner: float, outer: float, length: float, segments: int = 20) -> list[
     """A pipe along z, centred."""
     half = length / 2
     outline = [(inner, -half), (outer, -half), (outer, half), (inner, half)]
-    rings = []
-    for radius, z in outline + outline[:1]:
-        turns = [2 * math.pi * k / segments for k in range(segments)]
-        rings.append([(clean(radius * math.cos(t)), clean(radius * math.sin(t)), clean(z)) for t in turns])
-    triangles: list[Triangle] = []
-    for low, high in zip(rings, rings[1:]):
-        for k in range(segments):
-            a, b = low[k], low[(k + 1) % segments]
-            c, d = high[(k + 1) % segments], high[k]
-            triangles += [(a, b, c), (a, c, d)]
-    return triangles
+    return turning(outline + outline[:1], segments)[1]
 
 
 def prism(outline: list[tuple[float, float]], width: float) -> list[Triangle]:

@@ -1,10 +1,10 @@
 //! Mesh files: what they hold, and what they need besides themselves.
 
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::generate::bounded::read_file;
 use crate::geometry::read::{NoteCode, Scene, read};
 
 /// What is known of a mesh file.
@@ -35,13 +35,13 @@ pub(crate) fn inspect(mesh: &Path) -> Inspected {
         missing: Vec::new(),
         remarks: Vec::new(),
     };
-    let bytes = match read_file(mesh) {
+    let bytes = match read_file(mesh, MAX_DOCUMENT_BYTES) {
         Ok(bytes) => bytes,
         Err(why) => return unusable(why),
     };
     let name = mesh.file_name().unwrap_or_default().to_string_lossy();
     let beside = |side: &str| side_file(mesh, side);
-    let mut fetch = |side: &str| read_file(&beside(side)?).ok();
+    let mut fetch = |side: &str| read_file(&beside(side)?, MAX_DOCUMENT_BYTES).ok();
     let scene = match read(&bytes, &name, &mut fetch) {
         Ok(scene) => scene,
         Err(error) => {
@@ -80,16 +80,6 @@ pub(crate) fn inspect(mesh: &Path) -> Inspected {
         missing,
         remarks,
     }
-}
-
-fn read_file(file: &Path) -> Result<Vec<u8>, String> {
-    let size = fs::metadata(file).map_err(|error| error.to_string())?.len();
-    if size > MAX_DOCUMENT_BYTES {
-        return Err(format!(
-            "it is {size} bytes long, and at most {MAX_DOCUMENT_BYTES} are read"
-        ));
-    }
-    fs::read(file).map_err(|error| error.to_string())
 }
 
 /// Where a file is that a mesh names.

@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
 use super::resolve::Home;
+use crate::directory::path::portable;
 
 /// The names of files, relative to `meshes/`, with forward slashes; for each file (of a home) one.
 pub(crate) fn lay_out(files: &BTreeMap<PathBuf, Home>) -> BTreeMap<PathBuf, String> {
@@ -20,7 +21,7 @@ pub(crate) fn lay_out(files: &BTreeMap<PathBuf, Home>) -> BTreeMap<PathBuf, Stri
     let mut names = BTreeMap::new();
     for (home, files) in by_home {
         let folder = match home {
-            Home::Package(name, _) => Some(part(name)),
+            Home::Package(name, _) => Some(portable(name)),
             Home::Urdf | Home::Elsewhere => None,
         };
         let base = match home {
@@ -37,7 +38,7 @@ pub(crate) fn lay_out(files: &BTreeMap<PathBuf, Home>) -> BTreeMap<PathBuf, Stri
         for file in files {
             let inside = file.strip_prefix(&base).unwrap_or(file);
             let parts = inside.components().filter_map(|component| match component {
-                Component::Normal(name) => Some(part(&name.to_string_lossy())),
+                Component::Normal(name) => Some(portable(&name.to_string_lossy())),
                 _ => None,
             });
             let parts: Vec<String> = folder.iter().cloned().chain(parts).collect();
@@ -55,19 +56,6 @@ fn common_folder(files: &[&Path]) -> PathBuf {
         while !folder.starts_with(&common) && common.pop() {}
     }
     common
-}
-
-/// A part of a path as SPEC 2.8 allows it.
-fn part(name: &str) -> String {
-    let safe = |c: char| match c {
-        '\\' | ':' | '/' => '_',
-        c if c.is_control() => '_',
-        c => c,
-    };
-    match name.chars().map(safe).collect::<String>() {
-        dots if dots.is_empty() || dots == "." || dots == ".." => "_".to_owned(),
-        name => name,
-    }
 }
 
 /// A path that differs from all others by more than case: not every file system tells case apart.

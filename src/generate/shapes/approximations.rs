@@ -15,7 +15,7 @@ use crate::geometry::oriented_box::OrientedBox;
 ///
 /// # Errors
 /// Where a mesh has no hull: a fault of what made it.
-pub(crate) fn approximations(solids: Solids) -> Result<LinkShapesApproximationsModule, HullError> {
+pub(crate) fn approximations(solids: &Solids) -> Result<LinkShapesApproximationsModule, HullError> {
     let full: Vec<Option<(Obb, BoundingSphere)>> = solids
         .hulls
         .par_iter()

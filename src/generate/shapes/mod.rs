@@ -8,30 +8,31 @@ pub(crate) mod statistics;
 
 use crate::format::index::{LinkIdx, PieceIdx};
 use crate::format::shapes::PieceShape;
-use crate::generate::meshes::written::WrittenMesh;
+use crate::generate::solids::{LinkMeshes, LinkPieces};
 
 /// Most pieces of a robot with matrices over pieces, which grow with the square of their number.
 pub(crate) const MOST_PIECES_WITH_MATRICES: usize = 500;
 
 /// The convex meshes that shapes are made of.
-#[derive(Clone, Copy)]
-pub(crate) struct Solids<'a> {
+pub(crate) struct Solids {
     /// For each link its hull.
-    pub hulls: &'a [Option<WrittenMesh>],
+    pub hulls: LinkMeshes,
     /// For each link its pieces.
-    pub pieces: &'a [Vec<WrittenMesh>],
+    pub pieces: LinkPieces,
 }
 
-impl Solids<'_> {
+impl Solids {
     /// What index i of a matrix over links stands for.
     pub fn full_shapes(&self) -> Vec<LinkIdx> {
-        let links = (0..).zip(self.hulls).filter(|(_, hull)| hull.is_some());
+        let links = (0..)
+            .zip(self.hulls.iter())
+            .filter(|(_, hull)| hull.is_some());
         links.map(|(link, _)| LinkIdx(link)).collect()
     }
 
     /// What index i of a matrix over pieces stands for.
     pub fn decomposition_shapes(&self) -> Vec<PieceShape> {
-        let links = (0..).zip(self.pieces);
+        let links = (0..).zip(self.pieces.iter());
         links
             .flat_map(|(link, pieces)| {
                 (0..).zip(pieces).map(move |(piece, _)| PieceShape {

@@ -24,7 +24,7 @@ use crate::kinematics::{ConfigurationSpace, ForwardKinematics};
 
 /// Makes the module, or says in words why there is none.
 pub(crate) fn statistics(
-    solids: Solids,
+    solids: &Solids,
     approximations: &LinkShapesApproximationsModule,
     dof: &DofModule,
     chain: &ChainModule,
@@ -47,11 +47,11 @@ pub(crate) fn statistics(
         num_samples: Count(num_samples),
         full_shapes: solids.full_shapes(),
         decomposition_shapes: pieces,
-        full_convex_hulls: pairs(solids.hulls, &motion, of_mesh).map_err(full)?,
+        full_convex_hulls: pairs(&solids.hulls, &motion, of_mesh).map_err(full)?,
         full_obbs: pairs(&of.full_obbs, &motion, of_box).map_err(full)?,
         full_bounding_spheres: pairs(&of.full_bounding_spheres, &motion, of_sphere)
             .map_err(full)?,
-        decomposition_convex_hulls: over(with_pieces, &|| pairs(solids.pieces, &motion, of_mesh))?,
+        decomposition_convex_hulls: over(with_pieces, &|| pairs(&solids.pieces, &motion, of_mesh))?,
         decomposition_obbs: over(with_pieces, &|| {
             pairs(&of.decomposition_obbs, &motion, of_box)
         })?,

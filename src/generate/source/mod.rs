@@ -6,9 +6,11 @@ mod xacro;
 
 use std::path::{Path, PathBuf};
 
+use super::bounded::read_file;
 use super::error::GenerateError;
 use super::note::{Note, NoteKind, Remark};
 use super::urdf::{self, Reading};
+use crate::directory::path::portable;
 use crate::directory::position::LineIndex;
 
 pub(crate) use repair::apply;
@@ -50,7 +52,7 @@ pub(crate) fn load(path: &Path) -> Result<Source, GenerateError> {
         file: shown.clone(),
         reason,
     };
-    let bytes = read_bounded(path).map_err(unreadable)?;
+    let bytes = read_file(path, MAX_SOURCE_BYTES).map_err(unreadable)?;
     let canonical = path
         .canonicalize()
         .map_err(|error| unreadable(error.to_string()))?;
@@ -145,26 +147,6 @@ fn place(remarks: &[Remark], text: &str, file: &str, first_line: u32, notes: &mu
     }));
 }
 
-fn read_bounded(path: &Path) -> Result<Vec<u8>, String> {
-    use std::io::Read;
-    let metadata = std::fs::metadata(path).map_err(|error| error.to_string())?;
-    if metadata.is_dir() {
-        return Err("it is a folder".to_owned());
-    }
-    if !metadata.is_file() {
-        return Err("it is not a regular file".to_owned());
-    }
-    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
-    let mut bytes = Vec::new();
-    file.take(MAX_SOURCE_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|error| error.to_string())?;
-    if bytes.len() as u64 > MAX_SOURCE_BYTES {
-        return Err(format!("it is longer than {} MiB", MAX_SOURCE_BYTES >> 20));
-    }
-    Ok(bytes)
-}
-
 /// The file's name without its extensions, and the name under which it is carried.
 fn names(path: &Path) -> (String, String) {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -173,11 +155,6 @@ fn names(path: &Path) -> (String, String) {
         stem = stem.strip_suffix(extension).unwrap_or(stem);
     }
     let stem = if stem.is_empty() { "robot" } else { stem };
-    let portable = |c: char| match c {
-        '\\' | ':' | '/' => '_',
-        c if c.is_control() => '_',
-        c => c,
-    };
-    let safe: String = stem.chars().map(portable).collect();
-    (stem.to_owned(), format!("{safe}.urdf"))
+    let file_name = portable(&format!("{stem}.urdf"));
+    (stem.to_owned(), file_name)
 }

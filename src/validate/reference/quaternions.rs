@@ -6,6 +6,8 @@ use std::collections::HashMap;
 use nalgebra::{Quaternion, UnitQuaternion};
 use roxmltree::{Document, Node, ParsingOptions};
 
+use crate::validate::pose::has_quaternions;
+
 /// For joints whose rotation is a quaternion: the rotation, by name. Empty where the URDF is of a
 /// version before 1.1.
 pub fn of_joints(urdf: &str) -> HashMap<String, UnitQuaternion<f64>> {
@@ -17,7 +19,7 @@ pub fn of_joints(urdf: &str) -> HashMap<String, UnitQuaternion<f64>> {
         return HashMap::new();
     };
     let robot = document.root_element();
-    if !counts(robot) {
+    if !has_quaternions(robot.attribute("version")) {
         return HashMap::new();
     }
     let joints = children(robot, "joint");
@@ -32,19 +34,6 @@ pub fn of_joints(urdf: &str) -> HashMap<String, UnitQuaternion<f64>> {
             Some((joint.attribute("name")?.to_owned(), unit))
         })
         .collect()
-}
-
-fn counts(robot: Node<'_, '_>) -> bool {
-    let Some((major, minor)) = robot
-        .attribute("version")
-        .and_then(|version| version.trim().split_once('.'))
-    else {
-        return false;
-    };
-    match (major.parse::<u32>(), minor.parse::<u32>()) {
-        (Ok(major), Ok(minor)) => major > 1 || (major == 1 && minor >= 1),
-        _ => false,
-    }
 }
 
 fn children<'a, 'input>(
