@@ -71,6 +71,12 @@ impl Pair {
         self.min <= self.mean + self.tolerance && self.mean <= self.max + self.tolerance
     }
 
+    /// Whether the three are one number, within a tolerance.
+    pub fn is_constant(&self, tolerance: f64) -> bool {
+        let least = self.min.min(self.mean).min(self.max);
+        self.min.max(self.mean).max(self.max) - least <= tolerance
+    }
+
     /// Whether the pair is always in contact; `None` where that hangs on the last digit.
     pub fn always(&self) -> Option<bool> {
         decided(self.max).then_some(self.max <= CONTACT)
