@@ -60,13 +60,13 @@ impl Distances {
             .document(ModuleKind::LinkShapesDistanceStatistics)
             .and_then(statistics)
             .ok_or("there are no usable statistics")?;
-        let poses = Poses::new(context)?;
-        let shapes = context.shapes().ok_or("there is no list of shapes")?;
         let num_samples = recorded.iter().flatten().find_map(|one| one.num_samples);
         let num_samples = num_samples.ok_or("the statistics do not say over how many samples")?;
         if num_samples == 0 {
             return Err("the statistics are over no samples".to_owned());
         }
+        let poses = Poses::new(context)?;
+        let shapes = context.shapes().ok_or("there is no list of shapes")?;
         let mut sets: Vec<Option<ShapeSet>> = Vec::with_capacity(KINDS.len());
         for (kind, recorded) in KINDS.into_iter().zip(&recorded) {
             let set = recorded.map(|_| ShapeSet::new(context, &shapes, kind, true));
@@ -116,6 +116,11 @@ impl Distances {
 }
 
 impl KindDistances {
+    /// The shapes.
+    pub fn shapes(&self) -> &ShapeSet {
+        &self.shapes
+    }
+
     /// What was found of a pair; `None` where one of the two shapes is not sound, which other rules tell.
     pub fn pair(&self, i: usize, j: usize) -> Option<Found> {
         let (i, j) = (self.shapes.place(i)?, self.shapes.place(j)?);

@@ -10,7 +10,7 @@ pub struct Work {
     pub each: u64,
 }
 
-/// What the distance of two boxes takes. Measured; see `tests/figures`.
+/// What the distance of two boxes takes, measured on links of robots.
 pub const BOX: u64 = 20;
 /// What the distance of two hulls takes.
 pub const HULL: u64 = 40;

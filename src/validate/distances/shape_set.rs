@@ -16,6 +16,7 @@ use crate::validate::views::shapes::{ShapeKind, Shapes, Volume, approximations};
 
 /// The shapes of a kind that are there, and sound.
 pub struct ShapeSet {
+    kind: ShapeKind,
     /// For each shape index its place in the list.
     places: Vec<Option<usize>>,
     list: List,
@@ -59,6 +60,7 @@ impl ShapeSet {
             of_volume(volume)
         };
         let mut set = ShapeSet {
+            kind,
             places: Vec::with_capacity(shapes.count(kind)),
             list: List::Hulls(Vec::new()),
         };
@@ -98,6 +100,11 @@ impl ShapeSet {
             Made::Box(shape) => push!(Boxes, shape),
             Made::Sphere(shape) => push!(Spheres, shape),
         }
+    }
+
+    /// Which kind.
+    pub fn kind(&self) -> ShapeKind {
+        self.kind
     }
 
     /// The place of a shape in the matrices of [`ShapeSet::statistics`], by its index.

@@ -44,8 +44,8 @@ fn check(context: &Context, findings: &mut Findings) {
         .into_par_iter()
         .filter(sound)
         .filter_map(|enclosure| {
-            let ratio = ratio(&enclosure)?;
-            (ratio > NEEDLESSLY_LARGE_BOX).then_some((enclosure, ratio))
+            let ratio = too_large(&enclosure)?;
+            Some((enclosure, ratio))
         })
         .collect();
     // The worst first: of many only a few are shown.
@@ -66,19 +66,42 @@ fn check(context: &Context, findings: &mut Findings) {
     }
 }
 
-/// The volume of a box over that of the least one; `None` for a sphere, or without a hull.
-fn ratio(enclosure: &Enclosure) -> Option<f64> {
+/// The volume of a box over that of the least one, where that is too large; `None` too for a sphere,
+/// or without a hull.
+fn too_large(enclosure: &Enclosure) -> Option<f64> {
     let Volume::Box { half_extents, .. } = enclosure.volume else {
         return None;
     };
     // A box has no thickness where its hull is flat.
     let thick = |half: [f64; 3]| {
-        half.map(|h| h + enclosure.tolerance)
-            .iter()
-            .product::<f64>()
+        let half = half.map(|h| h + enclosure.tolerance);
+        half.iter().product::<f64>()
     };
-    let volume = thick(half_extents);
-    let hull = ConvexHull::new(&enclosure.mesh.vertices).ok()?;
-    let least = OrientedBox::around(&hull);
-    Some(volume / thick(least.half_extents))
+    let ratio_to = |points: &[[f64; 3]]| {
+        let hull = ConvexHull::new(points).ok()?;
+        let least = OrientedBox::around(&hull);
+        Some(thick(half_extents) / thick(least.half_extents))
+    };
+    let vertices = &enclosure.mesh.vertices;
+    // No box about all is smaller than the least one about some, which is found much sooner.
+    if ratio_to(&outermost(vertices)).is_some_and(|ratio| ratio <= NEEDLESSLY_LARGE_BOX) {
+        return None;
+    }
+    ratio_to(vertices).filter(|ratio| *ratio > NEEDLESSLY_LARGE_BOX)
+}
+
+/// The vertices that are farthest in the directions of a coarse grid.
+fn outermost(vertices: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let steps = [-2.0, -1.0, 0.0, 1.0, 2.0];
+    let directions = steps
+        .into_iter()
+        .flat_map(|x| steps.into_iter().map(move |y| [x, y]))
+        .flat_map(|[x, y]| steps.into_iter().map(move |z| [x, y, z]));
+    let farthest = directions.filter_map(|[x, y, z]| {
+        let along = |p: &[f64; 3]| x * p[0] + y * p[1] + z * p[2];
+        let pairs = vertices.iter().map(|p| (along(p), *p));
+        let most = pairs.reduce(|best, next| if next.0 > best.0 { next } else { best });
+        most.map(|(_, p)| p)
+    });
+    farthest.collect()
 }

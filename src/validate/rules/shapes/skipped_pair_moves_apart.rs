@@ -94,11 +94,23 @@ fn check(context: &Context, findings: &mut Findings) {
         Ok(motion) => motion,
         Err(reason) => return findings.skip(reason),
     };
+    let known = context.distances().ok();
+    let known = |kind: ShapeKind| {
+        let of = known?.kinds().iter().flatten();
+        of.map(|of| of.shapes()).find(|set| set.kind() == kind)
+    };
     for (kind, pairs) in skipped {
         if pairs.is_empty() {
             continue;
         }
-        let set = ShapeSet::new(context, &shapes, kind, false);
+        let made;
+        let set = match known(kind) {
+            Some(set) => set,
+            None => {
+                made = ShapeSet::new(context, &shapes, kind, false);
+                &made
+            }
+        };
         let tolerances = Tolerances::new(context, &shapes, kind);
         let mut fold = Fold::new(findings);
         for (i, j) in pairs {
