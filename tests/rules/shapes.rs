@@ -1,8 +1,11 @@
 //! SHP.
 
+mod distances;
+mod fits;
+
 use serde_json::{Value, json};
 use urdd::format::link_shapes_skips::SkipEdit;
-use urdd::format::urdf::{Axis, JointType, Link};
+use urdd::format::urdf::Link;
 use urdd::validate::code::Code::*;
 
 use crate::legacy_robot::LegacyRobot;
@@ -66,8 +69,8 @@ fn edit(link_a: &str, link_b: &str, skip: bool) -> SkipEdit {
 
 pub fn cases() -> Vec<Case> {
     let mut cases = lists();
-    cases.extend(enclosures());
-    cases.extend(distances());
+    cases.extend(fits::cases());
+    cases.extend(distances::cases());
     cases.extend(matrices());
     cases.extend(skips());
     cases.extend(legacy_cases());
@@ -138,250 +141,6 @@ fn lists() -> Vec<Case> {
             let pointer = "/full_bounding_spheres_maximum_distances/0";
             scale(f, REACH, pointer, 1.0 - 1e-10);
         }),
-    ]
-}
-
-/// One box, of which the second link is a mere frame: nothing has a distance from it.
-fn lone_box() -> Fixture {
-    Fixture::full(&robot_of(vec![boxy("a"), link("b")]))
-}
-
-/// Half extents of the box that [`boxy`] shows.
-const BOXY: [f64; 3] = [0.05, 0.1, 0.15];
-
-/// Turns the box of the lone box about z, and makes it as large as it must be then.
-fn turn_box(f: &mut Fixture, angle: f64) {
-    let ([a, b, c], (sin, cos)) = (BOXY, angle.sin_cos());
-    let half = [a * cos + b * sin, a * sin + b * cos, c];
-    let reach = half.iter().map(|h| h * h).sum::<f64>().sqrt();
-    f.set(APPROXIMATIONS, "/full_obbs/0/half_extents", json!(half));
-    f.set(APPROXIMATIONS, "/full_obbs/0/offset_rpy/2", json!(angle));
-    f.set(REACH, "/full_obbs_maximum_distances/0", json!(reach));
-}
-
-/// Moves the centre of the sphere of the lone box along z, and makes it as large as it must be then.
-fn move_sphere(f: &mut Fixture, shift: f64) {
-    let [a, b, c] = BOXY;
-    let radius = (a * a + b * b + (c + shift) * (c + shift)).sqrt();
-    let sphere = json!({ "radius": radius, "offset_xyz": [0.0, 0.0, shift] });
-    f.set(APPROXIMATIONS, "/full_bounding_spheres/0", sphere);
-    f.set(
-        REACH,
-        "/full_bounding_spheres_maximum_distances/0",
-        json!(radius + shift),
-    );
-}
-
-/// Makes a sphere of the toy larger, and its distance from the origin with it.
-fn grow_sphere(f: &mut Fixture, factor: f64) {
-    let radius = number(f, APPROXIMATIONS, "/full_bounding_spheres/0/radius");
-    let reach = number(f, REACH, "/full_bounding_spheres_maximum_distances/0");
-    let more = radius * (factor - 1.0);
-    f.set(
-        APPROXIMATIONS,
-        "/full_bounding_spheres/0/radius",
-        json!(radius + more),
-    );
-    f.set(
-        REACH,
-        "/full_bounding_spheres_maximum_distances/0",
-        json!(reach + more),
-    );
-}
-
-/// SHP017 to SHP021.
-fn enclosures() -> Vec<Case> {
-    vec![
-        invalid(SHP017, "box-elsewhere", |f| {
-            scale(f, APPROXIMATIONS, "/full_obbs/0/offset_xyz/2", 1.01);
-        }),
-        invalid(SHP017, "box-too-small", |f| {
-            scale(
-                f,
-                APPROXIMATIONS,
-                "/decomposition_obbs/0/1/half_extents/2",
-                0.99,
-            );
-        }),
-        invalid(SHP017, "sphere-too-small", |f| {
-            scale(
-                f,
-                APPROXIMATIONS,
-                "/full_bounding_spheres/0/radius",
-                1.0 - 1e-4,
-            );
-        }),
-        legacy(SHP017, "legacy-box-too-small", true, || {
-            let mut robot = LegacyRobot::new("robot", 0.0).with_shapes(0.5);
-            robot.doc(APPROXIMATIONS)["full_obbs"][1]["half_extents"][0] = json!(0.1);
-            robot
-        }),
-        near_miss(SHP017, "rounded", |f| grow_sphere(f, 1.0 - 1e-7)),
-        invalid(SHP018, "box-with-a-margin", |f| {
-            scale(f, APPROXIMATIONS, "/full_obbs/0/half_extents/1", 1.01);
-        }),
-        invalid(SHP018, "sphere-with-a-margin", |f| {
-            grow_sphere(f, 1.0 + 1e-4)
-        }),
-        near_miss(SHP018, "rounded", |f| grow_sphere(f, 1.0 + 1e-7)),
-        legacy(SHP018, "legacy-margin", false, || {
-            let mut robot = LegacyRobot::new("robot", 0.0).with_shapes(0.5);
-            for list in [
-                "full_obbs_maximum_distances",
-                "full_bounding_spheres_maximum_distances",
-            ] {
-                robot.doc(REACH)[list][1] = json!(0.51);
-            }
-            robot.doc(APPROXIMATIONS)["full_bounding_spheres"][1]["radius"] = json!(0.51);
-            let half = [3.0, 4.0, 12.0].map(|h| h * 0.51 / 13.0);
-            robot.doc(APPROXIMATIONS)["full_obbs"][1]["half_extents"] = json!(half);
-            robot
-        }),
-        changed(SHP019, "turned", true, lone_box, |f| turn_box(f, 0.3)),
-        // 1 + sin(x) cos(x) (a / b + b / a) = 1.097 times the volume.
-        changed(SHP019, "turned-a-little", false, lone_box, |f| {
-            turn_box(f, 0.039)
-        }),
-        legacy(SHP019, "legacy-box-too-large", true, || {
-            let mut robot = LegacyRobot::new("robot", 0.0).with_shapes(0.5);
-            let wide: [f64; 3] = [3.4 / 26.0, 4.0 / 26.0, 12.0 / 26.0];
-            robot.doc(APPROXIMATIONS)["full_obbs"][1]["half_extents"] = json!(wide);
-            let reach = wide.iter().map(|h| h * h).sum::<f64>().sqrt();
-            robot.doc(REACH)["full_obbs_maximum_distances"][1] = json!(reach);
-            robot
-        }),
-        changed(SHP020, "aside", true, lone_box, |f| move_sphere(f, 0.02)),
-        // sqrt(0.0125 + 0.159^2) / sqrt(0.035) = 1.039 times the radius.
-        changed(SHP020, "a-little-aside", false, lone_box, |f| {
-            move_sphere(f, 0.009)
-        }),
-        invalid(SHP021, "nearer", |f| {
-            scale(
-                f,
-                REACH,
-                "/full_convex_hulls_maximum_distances/0",
-                1.0 - 1e-4,
-            );
-        }),
-        invalid(SHP021, "a-pieces", |f| {
-            let pointer = "/decomposition_convex_hulls_maximum_distances/0/0";
-            scale(f, REACH, pointer, 0.5);
-        }),
-        legacy(SHP021, "legacy-nearer", true, || {
-            let mut robot = LegacyRobot::new("robot", 0.0).with_shapes(0.5);
-            robot.doc(REACH)["full_convex_hulls_maximum_distances"][0] = json!(0.49);
-            robot
-        }),
-        near_miss(SHP021, "rounded", |f| {
-            scale(
-                f,
-                REACH,
-                "/full_convex_hulls_maximum_distances/0",
-                1.0 - 1e-7,
-            );
-        }),
-    ]
-}
-
-/// Two boxes, 1 m apart, of which one turns about its own middle.
-fn turning_boxes() -> Fixture {
-    let mut robot = robot_of(vec![boxy("a"), boxy("b")]);
-    robot.urdf.joints[0].joint_type = JointType::Revolute;
-    robot.urdf.joints[0].axis = Some(Axis {
-        xyz: Some([0.0, 1.0, 0.0]),
-    });
-    robot.urdf.joints[0].limit = limit(-1.0, 1.0);
-    Fixture::full_with_edits(&robot, Vec::new())
-}
-
-/// Sets how many samples the statistics are over to more than anybody looks at.
-fn of_a_billion(f: &mut Fixture) {
-    f.set(STATISTICS, "/num_samples", json!(1_000_000_000));
-}
-
-/// SHP022 to SHP025.
-fn distances() -> Vec<Case> {
-    let scale_pair = |f: &mut Fixture, matrix: &str, pair: (usize, usize), factor: f64| {
-        let old = number(f, STATISTICS, &format!("{matrix}/{}/{}", pair.0, pair.1));
-        assert_ne!(old, 0.0);
-        set_pair(f, STATISTICS, matrix, pair, json!(old * factor));
-    };
-    let skipped = [[true, true], [true, true]];
-    let sliding = |lower: f64, upper: f64| {
-        move || {
-            let robot = LegacyRobot::new("robot", 0.0).sliding(lower, upper);
-            robot.with_shapes(0.5).with_matrices(0.0, true, skipped)
-        }
-    };
-    vec![
-        changed(SHP022, "smallest-is-less", true, two_boxes, move |f| {
-            scale_pair(f, "/full_obbs/min_distances", (0, 1), 0.99);
-        }),
-        changed(SHP022, "rounded", false, two_boxes, move |f| {
-            scale_pair(f, "/full_obbs/min_distances", (0, 1), 1.0 - 1e-7);
-        }),
-        changed(SHP023, "of-few-samples", true, turning_boxes, of_a_billion),
-        changed(SHP023, "of-more-samples", false, turning_boxes, move |f| {
-            of_a_billion(f);
-            for kind in ["full", "decomposition"] {
-                for shapes in ["convex_hulls", "obbs", "bounding_spheres"] {
-                    let rows = f.get(STATISTICS, &format!("/{kind}_{shapes}/mean_distances"));
-                    let n = rows.as_array().map_or(0, Vec::len);
-                    for pair in (0..n).flat_map(|i| (0..i).map(move |j| (i, j))) {
-                        let at = |key: &str| format!("/{kind}_{shapes}/{key}_distances");
-                        let mean = format!("{}/{}/{}", at("mean"), pair.0, pair.1);
-                        if f.get(STATISTICS, &format!("{}/{}/{}", at("min"), pair.0, pair.1))
-                            != f.get(STATISTICS, &format!("{}/{}/{}", at("max"), pair.0, pair.1))
-                        {
-                            assert_ne!(number(f, STATISTICS, &mean), 0.0);
-                            scale_pair(f, &at("min"), pair, 0.5);
-                            scale_pair(f, &at("max"), pair, 2.0);
-                        }
-                    }
-                }
-            }
-        }),
-        invalid(SHP024, "mean", |f| {
-            let (i, j) = pair_that_is(f, "Never");
-            let at = |key: &str| format!("/full_convex_hulls/{key}_distances/{i}/{j}");
-            let [mean, max] = ["mean", "max"].map(|key| number(f, STATISTICS, &at(key)));
-            let matrix = "/full_convex_hulls/mean_distances";
-            set_pair(
-                f,
-                STATISTICS,
-                matrix,
-                (i, j),
-                json!(mean + 0.1 * (max - mean)),
-            );
-        }),
-        invalid(SHP024, "largest", move |f| {
-            let pair = pair_that_is(f, "Never");
-            scale_pair(f, "/full_obbs/max_distances", pair, 1.0 + 1e-4);
-        }),
-        invalid(SHP024, "smallest", move |f| {
-            let pair = pair_that_is(f, "Never");
-            scale_pair(f, "/full_bounding_spheres/min_distances", pair, 1.0 - 1e-4);
-        }),
-        invalid(SHP024, "a-sample-too-many", |f| {
-            f.set(STATISTICS, "/num_samples", json!(9));
-        }),
-        changed(SHP024, "rigid-and-elsewhere", true, two_boxes, move |f| {
-            for key in ["mean", "min", "max"] {
-                scale_pair(f, &format!("/full_obbs/{key}_distances"), (0, 1), 1.01);
-            }
-        }),
-        near_miss(SHP024, "rounded", move |f| {
-            let pair = pair_that_is(f, "Never");
-            scale_pair(f, "/full_obbs/max_distances", pair, 1.0 + 1e-7);
-        }),
-        legacy(SHP025, "legacy-stale", true, sliding(-1.0, 1.0)),
-        legacy(
-            SHP025,
-            "legacy-always-in-contact",
-            false,
-            sliding(-1.0, -0.95),
-        ),
-        legacy(SHP025, "legacy-always-apart", false, sliding(-0.5, 0.5)),
     ]
 }
 

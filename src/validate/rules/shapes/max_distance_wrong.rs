@@ -24,8 +24,8 @@ declare_rule! {
         NotFailed(SHP002),
         NotFailed(SHP003),
         // Of a box that does not fit, the distance may be that of the right one.
-        NotFailedInV1(SHP017),
-        NotFailedInV1(SHP018),
+        NotFailed(SHP017),
+        NotFailed(SHP018),
     ],
     check check,
 }
