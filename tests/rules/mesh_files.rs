@@ -257,7 +257,7 @@ fn sources() -> Vec<Case> {
             let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
             let obj = files.iter().filter_map(|file| file["path"].as_str());
             let obj = obj.filter(|path| path.ends_with(".obj")).map(str::to_owned);
-            let obj = obj.last().expect("an OBJ");
+            let obj = obj.max().expect("an OBJ");
             let text = String::from_utf8(f.file(&obj).to_vec()).expect("text");
             f.put_file(&obj, format!("mtllib gone.mtl\n{text}"));
         }),
