@@ -104,6 +104,14 @@ fn mimics() {
             };
             assert_near(&numbers(found), &numbers(expected), 1e-15, &robot.name);
         }
+        let own = module.joint_idx_to_dof_idxs_mapping.iter();
+        for (dofs, (expected, mimic)) in own.zip(robot.positions.iter().zip(&robot.resolved)) {
+            let found: Vec<f64> = dofs
+                .iter()
+                .map(|dof| robot.configuration[dof.get()])
+                .collect();
+            assert!(mimic.is_some() || found == *expected, "{}", robot.name);
+        }
         let reference = Reference::read(&urdf, MimicDofs::Follow).unwrap();
         let poses = reference.link_poses(&robot.configuration).unwrap();
         for ((joint, pose), expected) in robot.joints.iter().zip(&poses[1..]).zip(&robot.positions)
@@ -120,7 +128,7 @@ fn mimics() {
                     assert_eq!((pose.translation.vector.norm(), turn.norm()), (0.0, 0.0));
                     vec![]
                 }
-                // Joints with several DOFs are no mimics: forward_kinematics.json has them.
+                // Joints with several DOFs are no mimics; forward_kinematics.json has their motion.
                 _ => continue,
             };
             let place = format!("{}, joint {}", robot.name, joint.name);
