@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use super::distances::Distances;
 use super::load::{CarriedUrdf, Loaded, MetadataFile, Module};
 use super::solids::Solids;
+use super::solids::placed::{self, Misplaced};
 use super::urdf_text;
 use super::views::freedom::Freedom;
 use super::views::mimics::Mimics;
@@ -36,6 +37,7 @@ pub struct Context {
     rigid_groups: OnceLock<Option<RigidGroups>>,
     solids: Arc<OnceLock<Solids>>,
     distances: OnceLock<Result<Distances, String>>,
+    misplaced: OnceLock<Vec<Misplaced>>,
 }
 
 /// Which of the two descriptions of the robot rules judge by.
@@ -74,6 +76,7 @@ impl Context {
             rigid_groups: OnceLock::new(),
             solids,
             distances: OnceLock::new(),
+            misplaced: OnceLock::new(),
         }
     }
 
@@ -256,6 +259,16 @@ impl Context {
             .get_or_init(make)
             .as_ref()
             .map_err(String::as_str)
+    }
+
+    /// The links whose plain mesh is not what the robot shows there.
+    pub fn misplaced(&self) -> &[Misplaced] {
+        self.misplaced.get_or_init(|| placed::all(self))
+    }
+
+    /// Whether a link's plain mesh is not what the robot shows there: nothing is held to it then.
+    pub fn is_misplaced(&self, link: usize) -> bool {
+        self.misplaced().iter().any(|wrong| wrong.link == link)
     }
 
     /// What shape indices stand for, as follows from the hulls and the convex pieces.

@@ -48,7 +48,7 @@ impl ShapeSet {
             false => ModuleKind::ConvexDecompositionMeshes,
         };
         let make = |link: usize, piece: usize| -> Option<Made> {
-            let mesh = context.solids().mesh(meshes, link, piece);
+            let mesh = context.solids().sound(meshes, link, piece);
             if kind.hulls {
                 return ConvexShape::new(mesh?).ok().map(Made::Hull);
             }

@@ -29,7 +29,7 @@ impl Tolerances {
             let (link, piece) = shapes.place(kind, shape)?;
             match kind.hulls {
                 true => {
-                    let mesh = context.solids().mesh(meshes, link, piece)?;
+                    let mesh = context.solids().sound(meshes, link, piece)?;
                     Some(farthest::of_mesh(mesh))
                 }
                 false => Some(volumes.as_ref()?.links.get(link)?.get(piece)?.reach()),

@@ -148,7 +148,7 @@ pub fn enclosures(context: &Context) -> Vec<Enclosure<'_>> {
         };
         for (link, entry) in list.links.iter().enumerate() {
             for (piece, volume) in entry.iter().enumerate() {
-                let Some(mesh) = context.solids().mesh(meshes, link, piece) else {
+                let Some(mesh) = context.solids().sound(meshes, link, piece) else {
                     continue;
                 };
                 enclosures.push(Enclosure {

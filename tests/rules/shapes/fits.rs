@@ -102,7 +102,7 @@ pub fn cases() -> Vec<Case> {
                 robot.doc(REACH)[list][1] = json!(0.51);
             }
             robot.doc(APPROXIMATIONS)["full_bounding_spheres"][1]["radius"] = json!(0.51);
-            let half = [3.0, 4.0, 12.0].map(|h| h * 0.51 / 13.0);
+            let half = [0.3, 0.24, 0.32].map(|h| h * 1.02);
             robot.doc(APPROXIMATIONS)["full_obbs"][1]["half_extents"] = json!(half);
             robot
         }),
@@ -113,7 +113,7 @@ pub fn cases() -> Vec<Case> {
         }),
         legacy(SHP019, "legacy-box-too-large", true, || {
             let mut robot = LegacyRobot::new("robot", 0.0).with_shapes(0.5);
-            let wide: [f64; 3] = [3.4 / 26.0, 4.0 / 26.0, 12.0 / 26.0];
+            let wide: [f64; 3] = [0.34, 0.24, 0.32];
             robot.doc(APPROXIMATIONS)["full_obbs"][1]["half_extents"] = json!(wide);
             let reach = wide.iter().map(|h| h * h).sum::<f64>().sqrt();
             robot.doc(REACH)["full_obbs_maximum_distances"][1] = json!(reach);

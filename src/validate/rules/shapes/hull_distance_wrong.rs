@@ -22,6 +22,13 @@ declare_rule! {
         NotFailed(MSH004),
         NotFailed(MSH005),
         NotFailed(MSH007),
+        // What these find is wrong with the hulls and pieces themselves.
+        NotFailedInV1(MSH017),
+        NotFailedInV1(MSH018),
+        NotFailedInV1(MSH019),
+        NotFailedInV1(MSH020),
+        NotFailedInV1(MSH021),
+        NotFailedInV1(MSH022),
         NotFailed(SHP001),
         NotFailed(SHP002),
         // What reaches farther than the box and the sphere is told of already.
@@ -45,7 +52,7 @@ fn check(context: &Context, findings: &mut Findings) {
     ] {
         for (link, entry) in list.links.iter().enumerate() {
             for (piece, value) in entry.iter().enumerate() {
-                let Some(mesh) = context.solids().mesh(meshes, link, piece) else {
+                let Some(mesh) = context.solids().sound(meshes, link, piece) else {
                     continue;
                 };
                 let expected = farthest::of_mesh(mesh);

@@ -35,6 +35,7 @@ declare_rule! {
         NotFailed(BND001), NotFailed(BND002), NotFailed(BND003), NotFailed(BND006),
         // Shapes.
         NotFailed(MSH001), NotFailed(MSH004), NotFailed(MSH005), NotFailed(MSH007),
+        NotFailed(MSH017), NotFailed(MSH018), NotFailed(MSH019), NotFailed(MSH020), NotFailed(MSH021), NotFailed(MSH022),
         NotFailed(SHP001), NotFailed(SHP002), NotFailed(SHP003), Passed(SHP005), NotFailed(SHP010), NotFailed(SHP016),
     ],
     check check,
