@@ -79,16 +79,16 @@ pub fn cases() -> Vec<Case> {
                 STATISTICS,
                 matrix,
                 (i, j),
-                json!(mean + 0.1 * (max - mean)),
+                json!(mean + 0.5 * (max - mean)),
             );
         }),
         invalid(SHP024, "largest", move |f| {
             let pair = pair_that_is(f, "Never");
-            scale_pair(f, "/full_obbs/max_distances", pair, 1.0 + 1e-4);
+            scale_pair(f, "/full_obbs/max_distances", pair, 1.01);
         }),
         invalid(SHP024, "smallest", move |f| {
             let pair = pair_that_is(f, "Never");
-            scale_pair(f, "/full_bounding_spheres/min_distances", pair, 1.0 - 1e-4);
+            scale_pair(f, "/full_bounding_spheres/min_distances", pair, 0.99);
         }),
         invalid(SHP024, "a-sample-too-many", |f| {
             f.set(STATISTICS, "/num_samples", json!(9));
