@@ -1,0 +1,27 @@
+//! `urdd conformance`: a subcommand a file.
+
+mod export;
+
+use std::process::ExitCode;
+
+use clap::{Args, Subcommand};
+
+/// Arguments of `urdd conformance`.
+#[derive(Args)]
+pub struct ConformanceArguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Write the suite into a folder.
+    Export(export::ExportArguments),
+}
+
+/// Runs `urdd conformance`.
+pub fn run(arguments: &ConformanceArguments) -> ExitCode {
+    match &arguments.command {
+        Command::Export(arguments) => export::run(arguments),
+    }
+}
