@@ -1,6 +1,9 @@
 //! `urdd conformance`: a subcommand a file.
 
+mod common;
 mod export;
+mod producer;
+mod validator;
 
 use std::process::ExitCode;
 
@@ -17,11 +20,17 @@ pub struct ConformanceArguments {
 enum Command {
     /// Write the suite into a folder.
     Export(export::ExportArguments),
+    /// Run somebody's producer on our robots, and score what it makes.
+    Producer(producer::ProducerArguments),
+    /// Run somebody's validator on every case, and score its verdicts.
+    Validator(validator::ValidatorArguments),
 }
 
 /// Runs `urdd conformance`.
 pub fn run(arguments: &ConformanceArguments) -> ExitCode {
     match &arguments.command {
         Command::Export(arguments) => export::run(arguments),
+        Command::Producer(arguments) => producer::run(arguments),
+        Command::Validator(arguments) => validator::run(arguments),
     }
 }
