@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use include_dir::Dir;
 
 use super::case::Case;
+use super::catalogue::URDD;
 use super::data::{BASES, INVALID, SUITE};
 use super::seal;
 use super::tree::Tree;
@@ -40,7 +41,8 @@ impl Suite {
         let mut suite = Suite::default();
         for base in SUITE.get_dir(BASES).into_iter().flat_map(Dir::dirs) {
             let name = base.path().file_name().unwrap_or_default();
-            let mut tree = Tree::carried(&format!("{BASES}/{}", name.to_string_lossy()));
+            let mut tree =
+                Tree::carried_around(&format!("{BASES}/{}", name.to_string_lossy()), URDD);
             seal::add_mirrors(&mut tree);
             suite
                 .bases

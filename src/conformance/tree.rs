@@ -168,20 +168,26 @@ impl Tree {
 
     /// The files of a folder of the suite that the program carries; none where it has no such folder.
     pub fn carried(folder: &str) -> Tree {
+        Tree::carried_around(folder, "")
+    }
+
+    /// The same, named as they are from the folder `root`, which lies in it.
+    pub fn carried_around(folder: &str, root: &str) -> Tree {
         let mut tree = Tree::default();
         if let Some(folder) = SUITE.get_dir(folder) {
-            tree.take(folder, folder.path());
+            tree.take(folder, folder.path(), Path::new(root));
         }
         tree
     }
 
-    fn take(&mut self, folder: &Dir, root: &Path) {
+    fn take(&mut self, folder: &Dir, around: &Path, root: &Path) {
         for entry in folder.entries() {
             match entry {
-                DirEntry::Dir(inside) => self.take(inside, root),
+                DirEntry::Dir(inside) => self.take(inside, around, root),
                 DirEntry::File(file) => {
-                    let path = file.path().strip_prefix(root);
-                    if let Some(path) = path.ok().and_then(FilePath::from_os) {
+                    let path = file.path().strip_prefix(around);
+                    let path = path.map(|path| from_root(path, root));
+                    if let Some(path) = path.ok().as_deref().and_then(FilePath::from_os) {
                         self.put(path, file.contents());
                     }
                 }
@@ -212,11 +218,7 @@ impl Tree {
             let entry = entry.map_err(failed)?;
             any = true;
             let inside = inside.join(entry.file_name());
-            let from_root = match inside.strip_prefix(root) {
-                Ok(below) => below.to_owned(),
-                Err(_) => Path::new("..").join(&inside),
-            };
-            let name = FilePath::from_os(&from_root)
+            let name = FilePath::from_os(&from_root(&inside, root))
                 .ok_or_else(|| TreeError::Unsupported(inside.display().to_string()))?;
             let kind = entry.file_type().map_err(failed)?;
             let path = entry.path();
@@ -274,6 +276,14 @@ impl Tree {
             }
         }
         Ok(())
+    }
+}
+
+/// A path in the folder in which `root` lies, as it is from there.
+fn from_root(path: &Path, root: &Path) -> PathBuf {
+    match path.strip_prefix(root) {
+        Ok(below) => below.to_owned(),
+        Err(_) => Path::new("..").join(path),
     }
 }
 

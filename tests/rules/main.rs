@@ -38,14 +38,17 @@ use urdd::validate::rule::Severity;
 use urdd::validate::settings::Settings;
 use urdd::validate::{rules, validate};
 
+/// Writes a URDD into a folder.
+type Write = Box<dyn Fn(&Path)>;
+
 /// A URDD with one change, and what the validator should say of it. Cases are written here as code,
 /// and become the data in `conformance/` (see [`as_data`]), from which they are judged.
 pub struct Case {
     code: Code,
     name: &'static str,
-    write: Box<dyn Fn(&Path)>,
+    write: Write,
     /// The URDD before the change, where that is known.
-    base: Option<Box<dyn Fn(&Path)>>,
+    base: Option<Write>,
     caught: bool,
 }
 
@@ -86,7 +89,7 @@ pub fn changed(
         ..in_folder(code, name, caught, move |folder| {
             let mut fixture = base();
             change(&mut fixture);
-            fixture.seal();
+            let fixture = canonical(fixture);
             fixture.write_to(folder);
         })
     }

@@ -25,7 +25,7 @@ pub fn difference(old: &Tree, new: &Tree) -> Difference {
         tree: old.clone(),
         changes: Vec::new(),
     };
-    work.patch_documents(new);
+    work.patch_documents(old, new);
     work.change_files(new);
     work.add_and_delete(new);
     let kept = untrue_entries(new);
@@ -97,7 +97,7 @@ fn mark_right(tree: &Tree, metadata: &mut Value) {
 fn leave_out_kept(before: &mut Value, after: &mut Value) {
     let before = entries_mut(before);
     for entry in entries_mut(after) {
-        if before.iter().any(|old| *old == entry) {
+        if before.contains(&entry) {
             entry["size"] = Value::Null;
             entry["sha256"] = Value::Null;
         }
@@ -133,7 +133,7 @@ impl Work {
     }
 
     /// Documents that stay documents. Entries that `rehash` brings up to date are left to it.
-    fn patch_documents(&mut self, new: &Tree) {
+    fn patch_documents(&mut self, old: &Tree, new: &Tree) {
         let paths: Vec<FilePath> = self.tree.nodes.keys().cloned().collect();
         for path in paths.iter().filter(|path| is_document(path)) {
             if self.tree.nodes.get(path) == new.nodes.get(path) {
@@ -145,7 +145,7 @@ impl Work {
             };
             if path.as_str() == Some(ROOT) {
                 leave_out_kept(&mut before.clone(), &mut after);
-                mark_right(&self.tree, &mut before);
+                mark_right(old, &mut before);
                 mark_right(new, &mut after);
                 // Files that are new to `urdd.json` get an entry to be filled in.
                 for entry in entries_mut(&mut after) {
@@ -202,6 +202,15 @@ impl Work {
                 self.push(path, action);
             }
         }
+        for (path, node) in &new.nodes {
+            if self.tree.nodes.get(path) != Some(node) {
+                match node {
+                    Node::Link(target) => self.push(path, Action::LinkTo(target.clone())),
+                    Node::Folder => self.push(path, Action::Folder(Yes)),
+                    Node::File(_) => {}
+                }
+            }
+        }
         while let Some(path) = self
             .tree
             .nodes
@@ -211,15 +220,6 @@ impl Work {
         {
             let folder = widest_folder_without(&path, new);
             self.push(&folder, Action::Delete(Yes));
-        }
-        for (path, node) in &new.nodes {
-            if self.tree.nodes.get(path) != Some(node) {
-                match node {
-                    Node::Link(target) => self.push(path, Action::LinkTo(target.clone())),
-                    Node::Folder => self.push(path, Action::Folder(Yes)),
-                    Node::File(_) => {}
-                }
-            }
         }
     }
 }

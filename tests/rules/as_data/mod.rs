@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use urdd::conformance::case::{self, Expected, Kind, Verdict};
+use urdd::conformance::catalogue::URDD;
 use urdd::conformance::change::mirror_of;
 use urdd::conformance::data::{BASES, INVALID};
 use urdd::conformance::judge;
@@ -105,6 +106,9 @@ impl Bases {
             let mut nodes = tree.nodes.iter();
             nodes.all(|(path, node)| path.as_str().is_some() && matches!(node, Node::File(_)))
         };
+        // One that is far larger than the case is of no use to it.
+        let bytes = |tree: &Tree| stored(tree).map(|(_, bytes)| bytes.len()).sum::<usize>();
+        let base = base.filter(|base| bytes(base) <= 2 * bytes(&tree));
         let base = base.unwrap_or_else(|| tree.clone());
         assert!(is_plain(&base), "{}: a base has files only", case.name);
         let name = format!("{}-{}", case.code.as_str().to_lowercase(), case.name);
@@ -205,6 +209,10 @@ fn files() -> BTreeMap<String, Vec<u8>> {
     }
     for (name, tree) in &bases.0 {
         for (path, bytes) in stored(tree) {
+            let path = match path.strip_prefix("../") {
+                Some(beside) => beside.to_owned(),
+                None => format!("{URDD}/{path}"),
+            };
             files.insert(format!("{BASES}/{name}/{path}"), bytes.to_vec());
         }
     }
@@ -242,7 +250,11 @@ fn the_suite_is_what_the_closures_say() {
     let stale: Vec<(&String, &Vec<u8>)> = files.iter().filter(differs).collect();
     if update() {
         for path in stray {
-            fs::remove_file(suite().join(path)).expect("removed");
+            let path = suite().join(path);
+            fs::remove_file(&path).expect("removed");
+            // Its folders, as far as nothing else is in them.
+            let mut folders = path.ancestors().skip(1);
+            while folders.next().is_some_and(|folder| fs::remove_dir(folder).is_ok()) {}
         }
         for (path, bytes) in stale {
             let path = suite().join(path);
