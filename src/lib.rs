@@ -3,6 +3,7 @@
 
 #[doc(hidden)]
 pub mod cli;
+pub mod conformance;
 pub mod directory;
 pub mod format;
 pub mod generate;

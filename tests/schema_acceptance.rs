@@ -14,6 +14,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseError, TestRunner};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use urdd::format::conformance::{ProducerResult, ValidatorResult};
 use urdd::format::registry::ModuleDocument;
 use urdd::format::report::Report;
 use urdd::format::root_metadata::RootMetadata;
@@ -31,6 +32,8 @@ enum Document {
     Root(Box<RootMetadata>),
     Module(ModuleDocument),
     Report(Box<Report>),
+    ProducerResult(Box<ProducerResult>),
+    ValidatorResult(Box<ValidatorResult>),
 }
 
 fn read(subject: Subject, value: &Value) -> Result<Document, serde_json::Error> {
@@ -40,6 +43,12 @@ fn read(subject: Subject, value: &Value) -> Result<Document, serde_json::Error> 
         }
         Subject::Module(spec) => spec.read(value).map(Document::Module),
         Subject::Report => Report::deserialize(value).map(|r| Document::Report(Box::new(r))),
+        Subject::ProducerResult => {
+            ProducerResult::deserialize(value).map(|r| Document::ProducerResult(Box::new(r)))
+        }
+        Subject::ValidatorResult => {
+            ValidatorResult::deserialize(value).map(|r| Document::ValidatorResult(Box::new(r)))
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The command line: arguments in, text out. Everything else is in the library.
 
+mod conformance;
 mod explain;
 mod generate;
 mod generate_output;
@@ -33,6 +34,8 @@ enum Command {
     Info(info::InfoArguments),
     /// Bring the sizes and hashes in urdd.json up to date with the files.
     Rehash(rehash::RehashArguments),
+    /// The conformance suite: for people who write producers and validators.
+    Conformance(conformance::ConformanceArguments),
     /// Show, export or check the published JSON Schemas.
     Schema(schema::SchemaArguments),
 }
@@ -45,6 +48,7 @@ pub fn run() -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Rehash(arguments) => rehash::run(&arguments),
+        Command::Conformance(arguments) => conformance::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     }
 }

@@ -6,6 +6,7 @@
 
 pub mod bounds;
 pub mod chain;
+pub mod conformance;
 pub mod connections;
 pub mod convex_decomposition_meshes;
 pub mod convex_hull_meshes;

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
+use super::conformance::{ProducerResult, RESULT_VERSION, ValidatorResult};
 use super::registry::{MODULES, ModuleSpec};
 use super::report::{REPORT_VERSION, Report};
 use super::root_metadata::RootMetadata;
@@ -19,6 +20,10 @@ pub enum Subject {
     Module(&'static ModuleSpec),
     /// What `urdd validate --format json` writes.
     Report,
+    /// What `urdd conformance producer --format json` writes.
+    ProducerResult,
+    /// What `urdd conformance validator --format json` writes.
+    ValidatorResult,
 }
 
 /// Whom a schema is for.
@@ -88,12 +93,16 @@ pub fn released() -> Result<Vec<Release>, SchemaError> {
 }
 
 impl Subject {
-    /// Everything that has a published schema: the root metadata, the registry in its order, and the
-    /// report.
+    /// Everything that has a published schema: the root metadata, the registry in its order, the
+    /// report, and the results of the conformance commands.
     pub fn all() -> impl Iterator<Item = Subject> {
         std::iter::once(Subject::RootMetadata)
             .chain(MODULES.iter().map(Subject::Module))
-            .chain(std::iter::once(Subject::Report))
+            .chain([
+                Subject::Report,
+                Subject::ProducerResult,
+                Subject::ValidatorResult,
+            ])
     }
 
     /// The subject of an id such as `dof_module@1.0.0`.
@@ -119,6 +128,8 @@ impl Subject {
         match self {
             Subject::RootMetadata => "root_metadata",
             Subject::Report => "report",
+            Subject::ProducerResult => "producer_result",
+            Subject::ValidatorResult => "validator_result",
             Subject::Module(spec) => spec.kind.name(),
         }
     }
@@ -128,6 +139,7 @@ impl Subject {
         match self {
             Subject::RootMetadata => "1.0.0",
             Subject::Report => REPORT_VERSION,
+            Subject::ProducerResult | Subject::ValidatorResult => RESULT_VERSION,
             Subject::Module(spec) if spec.version.is_empty() => "unversioned",
             Subject::Module(spec) => spec.version,
         }
@@ -143,6 +155,8 @@ impl Subject {
         let schema = match self {
             Subject::RootMetadata => schemars::schema_for!(RootMetadata),
             Subject::Report => schemars::schema_for!(Report),
+            Subject::ProducerResult => schemars::schema_for!(ProducerResult),
+            Subject::ValidatorResult => schemars::schema_for!(ValidatorResult),
             Subject::Module(spec) => spec.schema(),
         };
         let suffix = match variant {

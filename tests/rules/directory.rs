@@ -4,7 +4,7 @@ use serde_json::json;
 use urdd::validate::code::Code::*;
 
 use crate::support::fixture::{Fixture, ROOT, URDF};
-use crate::{Case, in_folder, invalid, legacy, near_miss};
+use crate::{Case, in_folder, invalid, legacy, near_miss, toy};
 
 const VERSION: &str = "dof_module/VERSION";
 const YAML: &str = "dof_module/module.yaml";
@@ -48,9 +48,7 @@ fn on_disk(
     change: impl Fn(&Path) + 'static,
 ) -> Case {
     in_folder(code, name, caught, move |root| {
-        let mut toy = Fixture::toy();
-        toy.seal();
-        toy.write_to(root);
+        toy().write_to(root);
         change(root);
     })
 }
@@ -389,7 +387,8 @@ fn unix_cases() -> Vec<Case> {
             let outside = root.parent().expect("a parent").join(target);
             std::fs::copy(&path, &outside).expect("copied");
             std::fs::remove_file(&path).expect("removed");
-            symlink(&outside, &path).expect("a link");
+            let up = "../".repeat(file.split('/').count());
+            symlink(up + target, &path).expect("a link");
         }
     };
     vec![
@@ -405,7 +404,7 @@ fn unix_cases() -> Vec<Case> {
             let folder = root.join("link_shapes_modules/link_shapes_skips_module");
             let outside = root.parent().expect("a parent").join("out");
             std::fs::rename(&folder, &outside).expect("moved");
-            symlink(&outside, &folder).expect("a link");
+            symlink("../../out", &folder).expect("a link");
         }),
         on_disk(DIR016, "link-to-itself-inside", false, |root| {
             symlink("loop", root.join("loop")).expect("a link");
@@ -423,7 +422,7 @@ fn unix_cases() -> Vec<Case> {
             let file = root.join("dof_module/module.yaml");
             let outside = root.parent().expect("a parent").join("out");
             std::fs::rename(&file, &outside).expect("moved");
-            symlink(&outside, &file).expect("a link");
+            symlink("../../out", &file).expect("a link");
         }),
         on_disk(DIR024, "latin-1", true, |root| {
             let name = std::ffi::OsStr::from_bytes(b"dof_module/ger\xE4t.txt");

@@ -1,10 +1,10 @@
 use std::path::Path;
 
 use serde_json::{Value, json};
+use urdd::directory::canonical;
 use urdd::validate::code::Code::{self, *};
 
 use crate::legacy_robot::LegacyRobot;
-use crate::support::emit;
 use crate::{Case, in_folder};
 
 const MESH: &str = "mesh_modules/original_meshes_module/meshes/a.stl";
@@ -17,7 +17,7 @@ pub fn write_module(root: &Path, folder: &str, version: Option<&str>, document: 
         std::fs::write(folder.join(name), bytes).expect("written");
     };
     write("module.json", document.to_string().as_bytes());
-    write("module.yaml", &emit::yaml(document));
+    write("module.yaml", canonical::yaml_string(document).as_bytes());
     if let Some(version) = version {
         write("VERSION", version.as_bytes());
     }

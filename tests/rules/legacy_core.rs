@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::{Value, json};
+use urdd::directory::canonical;
 use urdd::validate::code::Code;
 use urdd::validate::code::Code::*;
 
-use crate::support::emit;
 use crate::{Case, in_folder};
 
 /// A legacy URDD: documents and versions by module.
@@ -163,8 +163,8 @@ impl Legacy {
             let write = |file: &str, bytes: Vec<u8>| {
                 std::fs::write(folder.join(file), bytes).expect("a file");
             };
-            write("module.json", emit::json(document));
-            write("module.yaml", emit::yaml(document));
+            write("module.json", canonical::json_string(document).into_bytes());
+            write("module.yaml", canonical::yaml_string(document).into_bytes());
             if let Some(version) = version {
                 write("VERSION", version.as_bytes().to_vec());
             }

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use serde_json::{Value, json};
+use urdd::directory::canonical;
 
-use crate::support::emit;
 use crate::support::meshes::{Point, TRIANGLES, glb, obj, stl};
 
 /// The corners of the mesh that both links show: a box as far out as half a metre.
@@ -236,8 +236,8 @@ impl LegacyRobot {
                 std::fs::write(folder.join(name), bytes).expect("a file");
             };
             put("VERSION", version.as_bytes().to_vec());
-            put("module.json", emit::json(document));
-            put("module.yaml", emit::yaml(document));
+            put("module.json", canonical::json_string(document).into_bytes());
+            put("module.yaml", canonical::yaml_string(document).into_bytes());
             each_path(document, &mut |path| {
                 let parent = root.parent().expect("a folder above");
                 let file = parent.join(path);

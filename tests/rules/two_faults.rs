@@ -156,7 +156,7 @@ fn every_fault_is_told_and_none_twice() {
             urdd.seal();
             urdd.write_to(folder);
         };
-        let found = findings(&write, None);
+        let found = findings(&write);
         let codes: BTreeSet<&str> = found.keys().map(String::as_str).collect();
         if codes != expected.iter().copied().collect() {
             wrong.push(format!("{name}: expected {expected:?}, found {found:#?}"));

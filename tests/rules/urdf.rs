@@ -421,7 +421,7 @@ fn legacy_urdd(root: &Path, inertial_of_a: &Value, axis: &Value) {
     std::fs::write(root.join("robot.urdf"), urdf).expect("the URDF");
     std::fs::write(folder.join("VERSION"), "0.0.3").expect("VERSION");
     std::fs::write(folder.join("module.json"), document.to_string()).expect("the document");
-    let yaml = crate::support::emit::yaml(&document);
+    let yaml = urdd::directory::canonical::yaml_string(&document);
     std::fs::write(folder.join("module.yaml"), yaml).expect("its mirror");
 }
 

@@ -13,6 +13,7 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
+use urdd::directory::canonical;
 use urdd::format::link_shapes_skips::SkipEdit;
 use urdd::format::registry::{ModuleKind, SPEC_VERSION};
 use urdd::format::urdf::*;
@@ -39,6 +40,8 @@ pub struct Fixture {
     by_hand: BTreeSet<String>,
     /// Entries of `urdd.json` that `seal` does not bring up to date.
     kept_hashes: Kept,
+    /// Whether `seal` writes the canonical emission of SPEC instead of that of [`emit`].
+    pub canonical: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -163,6 +166,7 @@ impl Fixture {
             documents,
             by_hand: BTreeSet::new(),
             kept_hashes: Kept::These(BTreeSet::new()),
+            canonical: false,
         };
         fixture.relist();
         fixture.seal();
@@ -369,8 +373,8 @@ impl Fixture {
                 .find_map(|entry| entry["version"].as_str());
             for (path, bytes) in [
                 (version, stated.unwrap_or("1.0.0").as_bytes().to_vec()),
-                (json, emit::json(document)),
-                (yaml, emit::yaml(document)),
+                (json, self.json(document)),
+                (yaml, self.yaml(document)),
             ] {
                 if !self.by_hand.contains(&path) {
                     self.files.insert(path, bytes);
@@ -389,9 +393,23 @@ impl Fixture {
             }
         }
         if !self.by_hand.contains(ROOT) {
-            self.files.insert(ROOT.to_owned(), emit::json(&root));
+            self.files.insert(ROOT.to_owned(), self.json(&root));
         }
         self.documents.insert(ROOT.to_owned(), root);
+    }
+
+    fn json(&self, document: &Value) -> Vec<u8> {
+        match self.canonical {
+            true => canonical::json_string(document).into_bytes(),
+            false => emit::json(document),
+        }
+    }
+
+    fn yaml(&self, document: &Value) -> Vec<u8> {
+        match self.canonical {
+            true => canonical::yaml_string(document).into_bytes(),
+            false => emit::yaml(document),
+        }
     }
 
     fn rehash(&self, entry: &mut Value) {

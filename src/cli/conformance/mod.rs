@@ -1,0 +1,36 @@
+//! `urdd conformance`: a subcommand a file.
+
+mod common;
+mod export;
+mod producer;
+mod validator;
+
+use std::process::ExitCode;
+
+use clap::{Args, Subcommand};
+
+/// Arguments of `urdd conformance`.
+#[derive(Args)]
+pub struct ConformanceArguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Write the suite into a folder.
+    Export(export::ExportArguments),
+    /// Run somebody's producer on our robots, and score what it makes.
+    Producer(producer::ProducerArguments),
+    /// Run somebody's validator on every case, and score its verdicts.
+    Validator(validator::ValidatorArguments),
+}
+
+/// Runs `urdd conformance`.
+pub fn run(arguments: &ConformanceArguments) -> ExitCode {
+    match &arguments.command {
+        Command::Export(arguments) => export::run(arguments),
+        Command::Producer(arguments) => producer::run(arguments),
+        Command::Validator(arguments) => validator::run(arguments),
+    }
+}

@@ -1,0 +1,145 @@
+//! `urdd conformance producer`.
+
+use std::fmt::Write;
+use std::process::ExitCode;
+
+use clap::Args;
+
+use super::common::{FAILED, PASSED, RunArguments, USAGE};
+use crate::cli::output;
+use crate::conformance::process::Template;
+use crate::conformance::producer::{Plan, SKIP_FORM, run as run_producer};
+use crate::format::conformance::{ModuleStatus, ProducerResult, RobotScore, ScoreStatus};
+use crate::validate::settings::parse_class;
+
+/// Arguments of `urdd conformance producer`.
+#[derive(Args)]
+#[command(
+    after_help = "In COMMAND, {urdf} stands for a URDF file and {out} for the folder that is to become its URDD; the \
+    command runs once for each robot.\n\nExit status: 0 every robot passed but those skipped; 1 some did not, or a \
+    skip is stale; 2 wrong usage."
+)]
+pub struct ProducerArguments {
+    /// The conformance class to ask for: core, geometry or shapes.
+    #[arg(long, value_name = "CLASS", default_value = "core")]
+    class: String,
+
+    /// Only this robot; may be given again.
+    #[arg(long = "robot", value_name = "NAME")]
+    robots: Vec<String>,
+
+    #[command(flatten)]
+    run: RunArguments,
+}
+
+/// Runs `urdd conformance producer`.
+pub fn run(arguments: &ProducerArguments) -> ExitCode {
+    match result(arguments) {
+        Ok(true) => ExitCode::from(PASSED),
+        Ok(false) => ExitCode::from(FAILED),
+        Err(message) => {
+            output::error(&message);
+            ExitCode::from(USAGE)
+        }
+    }
+}
+
+fn result(arguments: &ProducerArguments) -> Result<bool, String> {
+    let command = Template::new(&arguments.run.command, &["urdf", "out"])
+        .map_err(|error| error.to_string())?;
+    let plan = Plan {
+        command,
+        class: parse_class(&arguments.class).map_err(|error| format!("--class: {error}"))?,
+        robots: arguments.robots.clone(),
+        limit: arguments.run.limit(),
+        skips: arguments.run.skips(2, SKIP_FORM)?,
+    };
+    let result = run_producer(&plan).map_err(|error| error.to_string())?;
+    let mut text = String::new();
+    human(&result, &mut text).map_err(|error| error.to_string())?;
+    arguments.run.print(&result, &text)?;
+    Ok(result.passed)
+}
+
+fn human(result: &ProducerResult, out: &mut String) -> std::fmt::Result {
+    for robot in &result.robots {
+        one(robot, out)?;
+    }
+    writeln!(out)?;
+    for class in &result.classes {
+        let name = class.class.as_str();
+        writeln!(
+            out,
+            "class {name}: {} of {} robots",
+            class.passed.get(),
+            class.of.get()
+        )?;
+    }
+    for module in &result.modules {
+        let codes = match module.codes.is_empty() {
+            true => String::new(),
+            false => format!(": {}", module.codes.join(" ")),
+        };
+        writeln!(
+            out,
+            "  {} {} of {}{codes}",
+            module.name,
+            module.passed.get(),
+            module.of.get()
+        )?;
+    }
+    for stale in &result.stale_skips {
+        writeln!(out, "stale skip, take it out: {stale}")?;
+    }
+    let verdict = if result.passed { "passed" } else { "FAILED" };
+    writeln!(out, "{verdict}")
+}
+
+fn one(robot: &RobotScore, out: &mut String) -> std::fmt::Result {
+    match (robot.status, &robot.skipped_since) {
+        (ScoreStatus::Passed, _) => return writeln!(out, "{} passed", robot.robot),
+        (ScoreStatus::Failed, _) => writeln!(out, "{} FAILED", robot.robot)?,
+        (ScoreStatus::Skipped, reason) => {
+            let reason = reason.as_deref().unwrap_or_default();
+            writeln!(out, "{} skipped ({reason})", robot.robot)?;
+        }
+    }
+    if robot.end != "exit status 0" {
+        writeln!(out, "  {}", robot.end)?;
+        let said = robot.stderr.iter().flat_map(|text| text.lines());
+        for line in said {
+            writeln!(out, "    {line}")?;
+        }
+    }
+    if let Some(reason) = &robot.unreadable {
+        writeln!(out, "  {reason}")?;
+    }
+    if !robot.codes.is_empty() {
+        writeln!(out, "  the directory: {}", robot.codes.join(" "))?;
+    }
+    for module in &robot.modules {
+        let skipped = match &module.skipped_since {
+            Some(reason) => format!(" (skipped: {reason})"),
+            None => String::new(),
+        };
+        match module.status {
+            ModuleStatus::Passed => {}
+            // Where nothing is there, that was said above.
+            ModuleStatus::Missing if robot.unreadable.is_some() => {}
+            ModuleStatus::Missing if robot.end != "exit status 0" => {}
+            ModuleStatus::Missing => writeln!(out, "  {} is missing{skipped}", module.name)?,
+            ModuleStatus::Failed => {
+                writeln!(
+                    out,
+                    "  {}{skipped}: {}",
+                    module.name,
+                    module.codes.join(" ")
+                )?;
+                if let Some(first) = &module.first {
+                    writeln!(out, "    {first}")?;
+                }
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,114 @@
+//! `urdd conformance validator`.
+
+use std::fmt::Write;
+use std::process::ExitCode;
+
+use clap::Args;
+use semver::Version;
+
+use super::common::{FAILED, PASSED, RunArguments, USAGE};
+use crate::cli::output;
+use crate::conformance::process::Template;
+use crate::conformance::validator::{Plan, SKIP_FORM, run as run_validator};
+use crate::format::conformance::{CaseFault, CaseScore, ValidatorResult};
+use crate::format::registry::SPEC_VERSION;
+
+/// Arguments of `urdd conformance validator`.
+#[derive(Args)]
+#[command(
+    after_help = "In COMMAND, {dir} stands for the folder of a URDD; the command runs once for each case. Exit status 0 \
+    accepts, 1 rejects; everything else, a signal and the time limit too, is no verdict, and wrong.\n\nExit status: 0 \
+    every case was judged right but those skipped; 1 some were not, or a skip is stale; 2 wrong usage."
+)]
+pub struct ValidatorArguments {
+    /// The version of the specification that the validator judges by; cases of others are not run.
+    #[arg(long, value_name = "VERSION", default_value = SPEC_VERSION)]
+    spec_version: Version,
+
+    /// Only cases whose name begins so: `DOF`, `DOF003`, `valid/`; may be given again.
+    #[arg(long = "case", value_name = "START")]
+    only: Vec<String>,
+
+    #[command(flatten)]
+    run: RunArguments,
+}
+
+/// Runs `urdd conformance validator`.
+pub fn run(arguments: &ValidatorArguments) -> ExitCode {
+    match result(arguments) {
+        Ok(true) => ExitCode::from(PASSED),
+        Ok(false) => ExitCode::from(FAILED),
+        Err(message) => {
+            output::error(&message);
+            ExitCode::from(USAGE)
+        }
+    }
+}
+
+fn result(arguments: &ValidatorArguments) -> Result<bool, String> {
+    let command =
+        Template::new(&arguments.run.command, &["dir"]).map_err(|error| error.to_string())?;
+    let plan = Plan {
+        command,
+        spec_version: arguments.spec_version.clone(),
+        limit: arguments.run.limit(),
+        skips: arguments.run.skips(1, SKIP_FORM)?,
+        only: arguments.only.clone(),
+    };
+    let result = run_validator(&plan).map_err(|error| error.to_string())?;
+    let mut text = String::new();
+    human(&result, &mut text).map_err(|error| error.to_string())?;
+    arguments.run.print(&result, &text)?;
+    Ok(result.passed)
+}
+
+fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
+    for case in &result.wrong {
+        let fault = match case.fault {
+            CaseFault::Missed => "missed",
+            CaseFault::FalseAlarm => "FALSE ALARM",
+            CaseFault::Undecided => "no verdict",
+        };
+        let skipped = match &case.skipped_since {
+            Some(reason) => format!(" (skipped: {reason})"),
+            None => String::new(),
+        };
+        writeln!(
+            out,
+            "{} {fault}{skipped}: {}; {}",
+            case.id, case.title, case.end
+        )?;
+        if case.fault == CaseFault::Undecided {
+            for line in case.stderr.lines() {
+                writeln!(out, "    {line}")?;
+            }
+        }
+    }
+    for case in &result.not_run {
+        writeln!(out, "{case} not run: this operating system cannot have it")?;
+    }
+    for family in &result.families {
+        writeln!(out, "{}  {}", family.name, score(&family.score))?;
+    }
+    writeln!(out, "valid URDDs and near misses: {}", score(&result.sound))?;
+    writeln!(out, "all: {}", score(&result.totals))?;
+    for stale in &result.stale_skips {
+        writeln!(out, "stale skip, take it out: {stale}")?;
+    }
+    let verdict = if result.passed { "passed" } else { "FAILED" };
+    writeln!(out, "{verdict}")
+}
+
+fn score(score: &CaseScore) -> String {
+    let mut text = format!("{} of {} right", score.right.get(), score.of.get());
+    for (count, what) in [
+        (score.missed, "missed"),
+        (score.false_alarms, "false alarms"),
+        (score.undecided, "without a verdict"),
+    ] {
+        if count.get() > 0 {
+            let _ = write!(text, ", {} {what}", count.get());
+        }
+    }
+    text
+}

@@ -1,0 +1,163 @@
+//! Writing the whole suite into a folder, for programs in any language.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use super::case::CaseError;
+use super::catalogue::{CATALOGUE, Catalogue, ItemKind, items};
+use super::data::{INVALID, ROBOTS, SUITE, VALID, VECTORS};
+use super::suite::{Suite, SuiteError};
+use super::tree::{Tree, TreeError};
+use super::valid;
+use crate::format::registry::SPEC_VERSION;
+use crate::generate::GenerateError;
+
+/// Describes the suite.
+const README: &str = "README.md";
+
+/// Why the suite could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// Something is there already.
+    #[error("{}: this folder is not empty; give one that is new", .0.display())]
+    NotEmpty(PathBuf),
+    /// A file or folder cannot be written.
+    #[error("{}: cannot be written: {error}", path.display())]
+    Write {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+    /// The same.
+    #[error(transparent)]
+    Tree(#[from] TreeError),
+    /// The suite itself is damaged.
+    #[error("the suite is damaged: {0}")]
+    Suite(#[from] SuiteError),
+    /// A case of it is.
+    #[error("the suite is damaged: {0}")]
+    Case(#[from] CaseError),
+    /// A valid URDD cannot be made.
+    #[error("{robot}: {error}")]
+    Generate {
+        /// Of which robot.
+        robot: String,
+        /// Why.
+        error: Box<GenerateError>,
+    },
+}
+
+/// What was exported.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Exported {
+    /// Valid URDDs.
+    pub valid: usize,
+    /// Cases, near misses too.
+    pub cases: usize,
+    /// Cases that this operating system cannot have on disk.
+    pub left_out: Vec<String>,
+    /// Robots whose valid URDD is not, byte for byte, the one that the suite was checked with: numbers
+    /// differ in their last digits between platforms.
+    pub other_bytes: Vec<String>,
+}
+
+/// Writes the suite into `folder`, which is made where it is not there.
+///
+/// # Errors
+/// Where something is in the folder, or cannot be written.
+pub fn export(folder: &Path) -> Result<Exported, ExportError> {
+    let failed = |path: &Path| {
+        let path = path.to_owned();
+        move |error| ExportError::Write { path, error }
+    };
+    fs::create_dir_all(folder).map_err(failed(folder))?;
+    let mut inside = fs::read_dir(folder).map_err(failed(folder))?;
+    if inside.next().is_some() {
+        return Err(ExportError::NotEmpty(folder.to_owned()));
+    }
+    let suite = Suite::carried()?;
+    let robots = folder.join(ROBOTS);
+    valid::write_robots(&robots)?;
+    if SUITE.get_dir(VECTORS).is_some() {
+        Tree::carried(VECTORS).write(&folder.join(VECTORS))?;
+    }
+    let other_bytes = write_valid(&robots, &folder.join(VALID))?;
+    let left_out = write_cases(&suite, folder)?;
+
+    let mut items = items(&suite);
+    items.retain(|item| !left_out.contains(&item.id));
+    let count = |valid: bool| {
+        let matching = items
+            .iter()
+            .filter(|item| (item.kind == ItemKind::Valid) == valid);
+        matching.count()
+    };
+    let exported = Exported {
+        valid: count(true),
+        cases: count(false),
+        left_out: left_out.clone(),
+        other_bytes,
+    };
+    let catalogue = Catalogue {
+        spec_version: SPEC_VERSION.to_owned(),
+        urdd: env!("CARGO_PKG_VERSION").to_owned(),
+        cases: items,
+        left_out,
+    };
+    let path = folder.join(CATALOGUE);
+    let text = serde_json::to_string_pretty(&catalogue).map_err(io::Error::from);
+    let text = text.map_err(failed(&path))?;
+    fs::write(&path, text + "\n").map_err(failed(&path))?;
+    if let Some(readme) = SUITE.get_file(README) {
+        let path = folder.join(README);
+        fs::write(&path, readme.contents()).map_err(failed(&path))?;
+    }
+    Ok(exported)
+}
+
+/// Makes every valid URDD. Gives the robots of which it has other bytes than the suite was checked
+/// with.
+pub fn write_valid(robots: &Path, folder: &Path) -> Result<Vec<String>, ExportError> {
+    let mut other_bytes = Vec::new();
+    for robot in valid::robots() {
+        let target = folder.join(&robot);
+        valid::make(&robot, robots, &target).map_err(|error| ExportError::Generate {
+            robot: robot.clone(),
+            error: Box::new(error),
+        })?;
+        let made = Tree::read(&target, &target)?;
+        if valid::kept(&made) != valid::carried(&robot) {
+            other_bytes.push(robot);
+        }
+    }
+    Ok(other_bytes)
+}
+
+/// Writes every case. Gives those that cannot be had here.
+fn write_cases(suite: &Suite, folder: &Path) -> Result<Vec<String>, ExportError> {
+    let write = |case: &super::case::Case| -> Result<Option<String>, ExportError> {
+        let root = folder
+            .join(INVALID)
+            .join(case.id())
+            .join(super::catalogue::URDD);
+        match case.tree(suite)?.write(&root) {
+            Ok(()) => Ok(None),
+            Err(TreeError::Unsupported(_)) => {
+                let case_folder = folder.join(INVALID).join(case.id());
+                fs::remove_dir_all(&case_folder).map_err(|error| ExportError::Write {
+                    path: case_folder,
+                    error,
+                })?;
+                Ok(Some(case.id()))
+            }
+            Err(error) => Err(error.into()),
+        }
+    };
+    let written: Result<Vec<Option<String>>, ExportError> =
+        suite.cases.par_iter().map(write).collect();
+    Ok(written?.into_iter().flatten().collect())
+}

@@ -1,0 +1,239 @@
+//! Running somebody's program: with a time limit, and whatever it started ends with it.
+
+use std::collections::VecDeque;
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command, ExitStatus, Stdio};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use process_wrap::std::{ChildWrapper, CommandWrap};
+
+/// How much of what a program prints is kept, from its end, bytes.
+const TAIL: usize = 2000;
+/// How often a running program is looked at.
+const PAUSE: Duration = Duration::from_millis(5);
+/// How long the last words of a program are waited for, where something holds its output open.
+const LAST_WORDS: Duration = Duration::from_millis(500);
+
+/// How a program ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum End {
+    /// With an exit status.
+    Status(i32),
+    /// By a signal, as the system writes it.
+    Signal(String),
+    /// It was stopped at the time limit.
+    TimeLimit,
+    /// It could not be started.
+    NotStarted(String),
+}
+
+impl std::fmt::Display for End {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            End::Status(status) => write!(f, "exit status {status}"),
+            End::Signal(signal) => write!(f, "ended by {signal}"),
+            End::TimeLimit => f.write_str("stopped at the time limit"),
+            End::NotStarted(error) => write!(f, "could not be started: {error}"),
+        }
+    }
+}
+
+/// A program that ended, and what it printed last.
+#[derive(Debug, Clone)]
+pub struct Ran {
+    /// How it ended.
+    pub end: End,
+    /// The end of its standard output.
+    pub stdout: String,
+    /// The end of its standard error.
+    pub stderr: String,
+}
+
+/// A program with its arguments, in which `{word}`s stand for paths.
+#[derive(Debug, Clone)]
+pub struct Template {
+    words: Vec<String>,
+}
+
+/// Why a command cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum TemplateError {
+    /// There is none.
+    #[error("there is no command; give it after `--`")]
+    Empty,
+    /// A path is not asked for.
+    #[error("the command has no {{{0}}}; put it where the path belongs")]
+    Missing(&'static str),
+}
+
+impl Template {
+    /// A command in which each of `needed` stands at least once in braces.
+    ///
+    /// # Errors
+    /// Where there is no command, or one of `needed` is not in it.
+    pub fn new(words: &[String], needed: &[&'static str]) -> Result<Template, TemplateError> {
+        if words.is_empty() {
+            return Err(TemplateError::Empty);
+        }
+        for name in needed {
+            let place = format!("{{{name}}}");
+            if !words.iter().skip(1).any(|word| word.contains(&place)) {
+                return Err(TemplateError::Missing(name));
+            }
+        }
+        let words = words.to_vec();
+        Ok(Template { words })
+    }
+
+    /// As it was given.
+    pub fn words(&self) -> &[String] {
+        &self.words
+    }
+
+    /// Runs the command with these paths, for `limit` at most.
+    pub fn run(&self, paths: &[(&str, &Path)], limit: Duration) -> Ran {
+        let filled = |word: &String| {
+            paths.iter().fold(word.clone(), |word, (name, path)| {
+                word.replace(&format!("{{{name}}}"), &path.to_string_lossy())
+            })
+        };
+        let mut words = self.words.iter();
+        let program = words.next().cloned().unwrap_or_default();
+        let mut command = Command::new(program);
+        command
+            .args(words.map(filled))
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        let mut command = CommandWrap::from(command);
+        #[cfg(unix)]
+        command.wrap(process_wrap::std::ProcessGroup::leader());
+        #[cfg(windows)]
+        command.wrap(process_wrap::std::JobObject);
+        match command.spawn() {
+            Ok(child) => wait(child, limit),
+            Err(error) => Ran {
+                end: End::NotStarted(error.to_string()),
+                stdout: String::new(),
+                stderr: String::new(),
+            },
+        }
+    }
+}
+
+fn wait(mut child: Box<dyn ChildWrapper>, limit: Duration) -> Ran {
+    let stdout = child.stdout().take().map(Tail::of);
+    let stderr = child.stderr().take().map(Tail::of);
+    let start = Instant::now();
+    let end = loop {
+        match child.try_wait() {
+            Ok(Some(status)) => break end(status),
+            Ok(None) if start.elapsed() >= limit => break End::TimeLimit,
+            Ok(None) => thread::sleep(PAUSE),
+            Err(error) => break End::Signal(error.to_string()),
+        }
+    };
+    // What it started goes too; there may be nothing left, which is no error.
+    let _ = child.start_kill();
+    let _ = child.wait();
+    Ran {
+        end,
+        stdout: stdout.map(Tail::text).unwrap_or_default(),
+        stderr: stderr.map(Tail::text).unwrap_or_default(),
+    }
+}
+
+fn end(status: ExitStatus) -> End {
+    match status.code() {
+        Some(status) => End::Status(status),
+        None => End::Signal(status.to_string()),
+    }
+}
+
+/// The end of a stream, read beside the program so that it never waits for us.
+struct Tail {
+    kept: Arc<Mutex<VecDeque<u8>>>,
+    reader: JoinHandle<()>,
+}
+
+impl Tail {
+    fn of(mut stream: impl Read + Send + 'static) -> Tail {
+        let kept = Arc::new(Mutex::new(VecDeque::new()));
+        let shared = kept.clone();
+        let reader = thread::spawn(move || {
+            let mut piece = [0; 4096];
+            while let Ok(read @ 1..) = stream.read(&mut piece) {
+                let mut kept = shared.lock().unwrap_or_else(PoisonError::into_inner);
+                kept.extend(&piece[..read]);
+                let over = kept.len().saturating_sub(TAIL);
+                kept.drain(..over);
+            }
+        });
+        Tail { kept, reader }
+    }
+
+    fn text(self) -> String {
+        let start = Instant::now();
+        while !self.reader.is_finished() && start.elapsed() < LAST_WORDS {
+            thread::sleep(PAUSE);
+        }
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        String::from_utf8_lossy(kept.make_contiguous()).into_owned()
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    fn run(script: &str, limit: u64) -> Ran {
+        let words = ["sh", "-c", script, "sh", "{dir}"].map(str::to_owned);
+        let template = Template::new(&words, &["dir"]).unwrap();
+        template.run(
+            &[("dir", Path::new("/some/where"))],
+            Duration::from_millis(limit),
+        )
+    }
+
+    #[test]
+    fn tells_how_it_ended_and_what_it_said() {
+        let ran = run("echo \"got $1\"; echo bad >&2; exit 3", 20_000);
+        assert_eq!(ran.end, End::Status(3));
+        assert_eq!(
+            (ran.stdout.as_str(), ran.stderr.as_str()),
+            ("got /some/where\n", "bad\n")
+        );
+        assert!(matches!(run("kill -9 $$", 20_000).end, End::Signal(_)));
+        let long = run("yes | head -c 100000; echo end", 20_000);
+        assert!(long.stdout.len() <= TAIL && long.stdout.ends_with("end\n"));
+    }
+
+    #[test]
+    fn what_it_started_ends_with_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("late");
+        let shown = file.display();
+        let start = Instant::now();
+        let ran = run(&format!("(sleep 2; touch {shown}) & sleep 60"), 300);
+        assert_eq!(ran.end, End::TimeLimit);
+        assert!(start.elapsed() < Duration::from_secs(2));
+        thread::sleep(Duration::from_millis(2500));
+        assert!(!file.exists(), "a child outlived the time limit");
+    }
+
+    #[test]
+    fn commands_must_ask_for_their_paths() {
+        let words = ["a".to_owned(), "{dir}/b".to_owned()];
+        assert!(Template::new(&words, &["dir"]).is_ok());
+        let error = Template::new(&words, &["dir", "out"]).unwrap_err();
+        assert_eq!(error, TemplateError::Missing("out"));
+        assert_eq!(Template::new(&[], &[]).unwrap_err(), TemplateError::Empty);
+        let missing = ["/no/such/program".to_owned()];
+        let ran = Template::new(&missing, &[]).unwrap();
+        let end = ran.run(&[], Duration::from_secs(1)).end;
+        assert!(matches!(end, End::NotStarted(_)));
+    }
+}

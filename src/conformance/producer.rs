@@ -1,0 +1,347 @@
+//! Running somebody's producer on our robots, and scoring what it makes.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use super::process::{End, Ran, Template};
+use super::skips::{Skip, SkipError};
+use super::tree::TreeError;
+use super::valid;
+use crate::format::conformance::{
+    ClassScore, ModuleScore, ModuleStatus, ProducerResult, RobotModule, RobotScore, ScoreStatus,
+};
+use crate::format::index::Count;
+use crate::format::registry::{ModuleKind, SPEC_VERSION};
+use crate::format::report::{Finding, Severity, Tool, Urdd, Verdict};
+use crate::format::root_metadata::ConformanceClass;
+use crate::report::Report;
+use crate::validate::rule::Severity as RuleSeverity;
+use crate::validate::settings::Settings;
+use crate::validate::validate;
+
+/// How a producer is run.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The command, with `{urdf}` and `{out}`.
+    pub command: Template,
+    /// The class to ask for.
+    pub class: ConformanceClass,
+    /// The robots; all of ours where there is none.
+    pub robots: Vec<String>,
+    /// For how long it may run on one robot.
+    pub limit: Duration,
+    /// What it is known not to do yet: a robot, or a robot's module.
+    pub skips: Vec<Skip>,
+}
+
+/// Why a producer cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum ProducerError {
+    /// No such robot.
+    #[error("there is no robot `{0}`; the robots are {1}")]
+    UnknownRobot(String, String),
+    /// The skip list names what there is not.
+    #[error("the skip list: {0}")]
+    Skip(#[from] SkipError),
+    /// There is no place to work in.
+    #[error("no temporary folder: {0}")]
+    Folder(#[from] std::io::Error),
+    /// The robots cannot be written there.
+    #[error(transparent)]
+    Robots(#[from] TreeError),
+}
+
+/// How a line of a producer's skip list is written.
+pub const SKIP_FORM: &str = "`robot  # reason`, or `robot module  # reason`";
+
+/// Runs a producer on robots, one after the other.
+///
+/// # Errors
+/// Where a robot or a module does not exist, or there is no place to work in.
+pub fn run(plan: &Plan) -> Result<ProducerResult, ProducerError> {
+    let names = chosen(&plan.robots)?;
+    check_skips(&plan.skips)?;
+    let mut robots = Vec::new();
+    let mut used = BTreeSet::new();
+    for name in &names {
+        robots.push(robot(plan, name, &mut used)?);
+    }
+    let ran = |skip: &&Skip| {
+        skip.words
+            .first()
+            .is_some_and(|robot| names.contains(robot))
+    };
+    let unused = plan.skips.iter().filter(ran);
+    let unused = unused.filter(|skip| !used.contains(&skip.line));
+    let stale_skips: Vec<String> = unused.map(Skip::what).collect();
+    let failed = robots
+        .iter()
+        .any(|robot| robot.status == ScoreStatus::Failed);
+    Ok(ProducerResult {
+        tool: Tool {
+            name: env!("CARGO_PKG_NAME").to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        },
+        spec_version: SPEC_VERSION.to_owned(),
+        command: plan.command.words().to_vec(),
+        class: plan.class,
+        passed: !failed && stale_skips.is_empty(),
+        classes: classes(plan.class, &robots),
+        modules: modules(plan.class, &robots),
+        robots,
+        stale_skips,
+    })
+}
+
+fn chosen(asked: &[String]) -> Result<Vec<String>, ProducerError> {
+    let all = valid::robots();
+    if asked.is_empty() {
+        return Ok(all);
+    }
+    match asked.iter().find(|robot| !all.contains(robot)) {
+        Some(unknown) => Err(ProducerError::UnknownRobot(unknown.clone(), all.join(", "))),
+        None => Ok(all
+            .into_iter()
+            .filter(|robot| asked.contains(robot))
+            .collect()),
+    }
+}
+
+fn check_skips(skips: &[Skip]) -> Result<(), ProducerError> {
+    let robots = valid::robots();
+    let is_module = |word: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == word);
+    for skip in skips {
+        let known = match skip.words.as_slice() {
+            [robot] => robots.contains(robot),
+            [robot, module] => robots.contains(robot) && is_module(module),
+            _ => false,
+        };
+        if !known {
+            return Err(SkipError::Unknown(skip.line, skip.what()).into());
+        }
+    }
+    Ok(())
+}
+
+/// Whether a class asks for a module.
+fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
+    kind.class().is_some_and(|first| first <= class)
+}
+
+fn robot(plan: &Plan, name: &str, used: &mut BTreeSet<usize>) -> Result<RobotScore, ProducerError> {
+    let folder = tempfile::tempdir()?;
+    let robots = folder.path().join("robots");
+    valid::write_robots(&robots)?;
+    let urdf = robots.join(format!("{name}.urdf"));
+    let out = folder.path().join(name);
+    let ran = plan
+        .command
+        .run(&[("urdf", &urdf), ("out", &out)], plan.limit);
+    let examined = match ran.end {
+        End::Status(0) => examine(&out, plan.class),
+        _ => Err(None),
+    };
+    let mut score = score(plan, name, &ran, examined);
+    apply_skips(plan, &mut score, used);
+    if score.status == ScoreStatus::Passed {
+        (score.stdout, score.stderr) = (None, None);
+    }
+    Ok(score)
+}
+
+/// What the validator says; the error is why it cannot say anything.
+fn examine(out: &PathBuf, class: ConformanceClass) -> Result<Urdd, Option<String>> {
+    if !out.is_dir() {
+        return Err(Some("the command made no folder at {out}".to_owned()));
+    }
+    let settings = Settings {
+        class: Some(class),
+        ..Settings::default()
+    };
+    let run = validate(&[out], &settings).map_err(|error| {
+        let text = error.to_string();
+        Some(text.replace(&out.display().to_string(), "{out}"))
+    })?;
+    let mut urdds = Report::new(&run, RuleSeverity::Error).urdds;
+    match (urdds.pop(), urdds.is_empty()) {
+        (Some(urdd), true) if urdd.verdict == Verdict::Unreadable => Err(urdd.reason),
+        (Some(urdd), true) if urdd.path == folder_name(out) => Ok(urdd),
+        _ => Err(Some(
+            "{out} itself must be the URDD: no folder around it, and only one".to_owned(),
+        )),
+    }
+}
+
+fn folder_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
+}
+
+fn score(plan: &Plan, name: &str, ran: &Ran, examined: Result<Urdd, Option<String>>) -> RobotScore {
+    let (urdd, unreadable) = match examined {
+        Ok(urdd) => (Some(urdd), None),
+        Err(reason) => (None, reason),
+    };
+    let findings = urdd.iter().flat_map(|urdd| &urdd.findings);
+    let errors: Vec<&Finding> = findings
+        .filter(|finding| finding.severity == Severity::Error)
+        .collect();
+    let present: BTreeSet<&str> = urdd
+        .iter()
+        .flat_map(|urdd| &urdd.modules)
+        .map(|module| module.name.as_str())
+        .collect();
+    let mut modules = Vec::new();
+    for kind in ModuleKind::ALL {
+        let asked = is_asked_for(*kind, plan.class);
+        let there = present.contains(kind.name());
+        if !asked && !there {
+            continue;
+        }
+        let of_it = |finding: &&&Finding| finding.module.as_deref() == Some(kind.name());
+        let own: Vec<&Finding> = errors.iter().filter(of_it).copied().collect();
+        modules.push(RobotModule {
+            name: kind.name().to_owned(),
+            status: match (there, own.is_empty()) {
+                (false, _) => ModuleStatus::Missing,
+                (true, true) => ModuleStatus::Passed,
+                (true, false) => ModuleStatus::Failed,
+            },
+            skipped_since: None,
+            codes: codes(own.iter().copied()),
+            first: own.first().map(|finding| told(finding)),
+        });
+    }
+    let known = |module: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == module);
+    let of_none = errors
+        .iter()
+        .copied()
+        .filter(|finding| !finding.module.as_deref().is_some_and(known));
+    let passed = urdd
+        .as_ref()
+        .is_some_and(|urdd| urdd.verdict == Verdict::Pass);
+    RobotScore {
+        robot: name.to_owned(),
+        status: match passed {
+            true => ScoreStatus::Passed,
+            false => ScoreStatus::Failed,
+        },
+        skipped_since: None,
+        end: ran.end.to_string(),
+        stdout: Some(ran.stdout.clone()),
+        stderr: Some(ran.stderr.clone()),
+        unreadable,
+        codes: codes(of_none),
+        modules,
+    }
+}
+
+fn codes<'a>(findings: impl Iterator<Item = &'a Finding>) -> Vec<String> {
+    let codes: BTreeSet<&str> = findings.map(|finding| finding.code.as_str()).collect();
+    codes.into_iter().map(str::to_owned).collect()
+}
+
+/// An error in one line, with its place.
+fn told(finding: &Finding) -> String {
+    let Finding { code, message, .. } = finding;
+    let file = finding.file.as_deref().unwrap_or_default();
+    let pointer = finding.pointer.as_deref().unwrap_or_default();
+    format!("{code} {file} {pointer}: {message}")
+}
+
+/// A robot's skip covers all of it; the skips of its modules cover it where nothing else is wrong.
+fn apply_skips(plan: &Plan, score: &mut RobotScore, used: &mut BTreeSet<usize>) {
+    let own = |skip: &&Skip| skip.words.first() == Some(&score.robot);
+    for skip in plan.skips.iter().filter(own) {
+        match skip.words.get(1) {
+            None if score.status == ScoreStatus::Failed => {
+                score.status = ScoreStatus::Skipped;
+                score.skipped_since = Some(skip.reason.clone());
+                used.insert(skip.line);
+            }
+            None => {}
+            Some(name) => {
+                let mut modules = score.modules.iter_mut();
+                let module = modules.find(|module| module.name == *name);
+                if let Some(module) = module.filter(|m| m.status != ModuleStatus::Passed) {
+                    module.skipped_since = Some(skip.reason.clone());
+                    used.insert(skip.line);
+                }
+            }
+        }
+    }
+    let covered = |module: &RobotModule| {
+        module.status == ModuleStatus::Passed || module.skipped_since.is_some()
+    };
+    let any = score
+        .modules
+        .iter()
+        .any(|module| module.skipped_since.is_some());
+    // A module that is not there is an error of the directory besides.
+    let directory = score.codes.iter().all(|code| code == MODULE_MISSING);
+    if score.status == ScoreStatus::Failed
+        && any
+        && score.unreadable.is_none()
+        && directory
+        && score.modules.iter().all(covered)
+    {
+        score.status = ScoreStatus::Skipped;
+        score.skipped_since = Some("its modules are".to_owned());
+    }
+}
+
+/// The rule that finds that a module of the class is missing.
+const MODULE_MISSING: &str = "DIR019";
+
+fn count(number: usize) -> Count {
+    Count(u32::try_from(number).unwrap_or(u32::MAX))
+}
+
+fn classes(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ClassScore> {
+    let below = ConformanceClass::ALL.iter().copied();
+    below
+        .take_while(|class| *class <= asked)
+        .map(|class| {
+            let all = ModuleKind::ALL.iter().copied();
+            let needed = all.filter(|kind| is_asked_for(*kind, class));
+            let needed: Vec<&str> = needed.map(ModuleKind::name).collect();
+            let passes = |robot: &&RobotScore| {
+                let fine = |name: &&str| {
+                    let mut modules = robot.modules.iter();
+                    modules.any(|m| m.name == **name && m.status == ModuleStatus::Passed)
+                };
+                let directory = robot.codes.iter().all(|code| code == MODULE_MISSING);
+                directory && needed.iter().all(fine)
+            };
+            ClassScore {
+                class,
+                passed: count(robots.iter().filter(passes).count()),
+                of: count(robots.len()),
+            }
+        })
+        .collect()
+}
+
+fn modules(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ModuleScore> {
+    let mut scores = Vec::new();
+    for kind in ModuleKind::ALL {
+        let all = robots.iter().flat_map(|robot| &robot.modules);
+        let own: Vec<&RobotModule> = all.filter(|module| module.name == kind.name()).collect();
+        let of = |status: ModuleStatus| own.iter().filter(|m| m.status == status).count();
+        let (passed, failed) = (of(ModuleStatus::Passed), of(ModuleStatus::Failed));
+        if passed + failed == 0 && !is_asked_for(*kind, asked) {
+            continue;
+        }
+        let codes: BTreeSet<&String> = own.iter().flat_map(|module| &module.codes).collect();
+        scores.push(ModuleScore {
+            name: kind.name().to_owned(),
+            present: count(passed + failed),
+            passed: count(passed),
+            failed: count(failed),
+            of: count(robots.len()),
+            codes: codes.into_iter().cloned().collect(),
+        });
+    }
+    scores
+}

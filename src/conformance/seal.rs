@@ -1,0 +1,79 @@
+//! Bringing a URDD in memory up to date: mirrors, and the sizes and hashes in `urdd.json`.
+
+use std::collections::BTreeSet;
+
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+
+use super::change::mirror_of;
+use super::tree::{FilePath, Tree};
+use crate::directory::discover::ROOT_METADATA;
+use crate::directory::{canonical, digest, json};
+
+/// Gives every `module.json` that has no `module.yaml` beside it one, in the canonical emission.
+pub fn add_mirrors(tree: &mut Tree) {
+    let documents: Vec<FilePath> = tree.nodes.keys().cloned().collect();
+    for path in documents {
+        let Some(mirror) = mirror_of(&path) else {
+            continue;
+        };
+        if tree.nodes.contains_key(&mirror) {
+            continue;
+        }
+        let document = path.as_str().and_then(|path| tree.file(path));
+        if let Some(Ok(document)) = document.map(json::read) {
+            let text = canonical::yaml_string(&document.value);
+            tree.put(mirror, text.into_bytes());
+        }
+    }
+}
+
+/// Brings the size and the hash of every file that `urdd.json` lists up to date, but of those in
+/// `kept`, of files that are not there, and of symbolic links. Where `urdd.json` is no JSON, nothing
+/// is done.
+pub fn rehash(tree: &mut Tree, kept: &BTreeSet<String>) {
+    let Some(Ok(document)) = tree.file(ROOT_METADATA).map(json::read) else {
+        return;
+    };
+    let mut metadata = document.value;
+    let before = metadata.clone();
+    for entry in entries_mut(&mut metadata) {
+        let path = entry.get("path").and_then(Value::as_str);
+        let path = path.filter(|path| !kept.contains(*path));
+        if let Some(bytes) = path.and_then(|path| tree.file(path)) {
+            let (size, sha256) = size_and_hash(bytes);
+            entry["size"] = json!(size);
+            entry["sha256"] = json!(sha256);
+        }
+    }
+    if metadata != before {
+        let text = canonical::json_string(&metadata);
+        tree.put(ROOT_METADATA.into(), text.into_bytes());
+    }
+}
+
+/// Size and SHA-256 of a file, as `urdd.json` has them.
+pub fn size_and_hash(bytes: &[u8]) -> (usize, String) {
+    (bytes.len(), digest::digits(&Sha256::digest(bytes)))
+}
+
+/// The entries of `urdd.json` that describe a file.
+pub fn entries_mut(metadata: &mut Value) -> Vec<&mut Value> {
+    let mut entries = Vec::new();
+    let Some(root) = metadata.as_object_mut() else {
+        return entries;
+    };
+    for (key, value) in root {
+        match key.as_str() {
+            "source" => entries.extend(value.get_mut("Urdf")),
+            "modules" => {
+                let modules = value.as_array_mut().into_iter().flatten();
+                let files = modules.filter_map(|module| module.get_mut("files")?.as_array_mut());
+                entries.extend(files.flatten());
+            }
+            _ => {}
+        }
+    }
+    entries.retain(|entry| entry.is_object());
+    entries
+}

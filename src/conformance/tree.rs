@@ -1,0 +1,306 @@
+//! Files and folders in memory, as a case has them before they are written.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use include_dir::{Dir, DirEntry};
+use serde::{Deserialize, Serialize};
+
+use super::data::SUITE;
+
+/// A path with forward slashes, relative to the URDD's root; `../` leads to what lies beside it. On
+/// most systems a name is any bytes, so that one which is not UTF-8 must be possible.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FilePath(Vec<u8>);
+
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum Written {
+    Text(String),
+    Bytes { base64: String },
+}
+
+impl Serialize for FilePath {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match std::str::from_utf8(&self.0) {
+            Ok(text) => Written::Text(text.to_owned()),
+            Err(_) => Written::Bytes {
+                base64: STANDARD.encode(&self.0),
+            },
+        }
+        .serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for FilePath {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Ok(match Written::deserialize(deserializer)? {
+            Written::Text(text) => FilePath(text.into_bytes()),
+            Written::Bytes { base64 } => FilePath(
+                STANDARD
+                    .decode(base64)
+                    .map_err(<D::Error as serde::de::Error>::custom)?,
+            ),
+        })
+    }
+}
+
+impl From<&str> for FilePath {
+    fn from(text: &str) -> Self {
+        FilePath(text.as_bytes().to_vec())
+    }
+}
+
+impl std::fmt::Display for FilePath {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        String::from_utf8_lossy(&self.0).fmt(f)
+    }
+}
+
+impl FilePath {
+    /// From the operating system's form of it; `None` where this system cannot say it in bytes.
+    pub fn from_os(path: &Path) -> Option<Self> {
+        #[cfg(unix)]
+        {
+            use std::os::unix::ffi::OsStrExt;
+            Some(FilePath(path.as_os_str().as_bytes().to_vec()))
+        }
+        #[cfg(not(unix))]
+        {
+            let text = path.to_str()?.replace('\\', "/");
+            Some(FilePath(text.into_bytes()))
+        }
+    }
+
+    /// As the operating system has it; `None` where it has no such names.
+    fn to_os(&self) -> Option<PathBuf> {
+        #[cfg(unix)]
+        {
+            use std::os::unix::ffi::OsStrExt;
+            Some(std::ffi::OsStr::from_bytes(&self.0).into())
+        }
+        #[cfg(not(unix))]
+        {
+            std::str::from_utf8(&self.0).ok().map(PathBuf::from)
+        }
+    }
+
+    /// As text, where it is UTF-8.
+    pub fn as_str(&self) -> Option<&str> {
+        std::str::from_utf8(&self.0).ok()
+    }
+
+    /// Where it is when `from`, which it is or is below, is moved to `to`.
+    pub fn moved(&self, from: &FilePath, to: &FilePath) -> FilePath {
+        let rest = self.0.get(from.0.len()..).unwrap_or_default();
+        FilePath([&to.0, rest].concat())
+    }
+
+    /// Whether it is `folder` or below it.
+    pub fn is_within(&self, folder: &FilePath) -> bool {
+        match self.0.strip_prefix(folder.0.as_slice()) {
+            Some(rest) => rest.first().is_none_or(|next| *next == b'/'),
+            None => false,
+        }
+    }
+}
+
+/// What stands at a path.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Node {
+    /// A file.
+    File(Arc<[u8]>),
+    /// A symbolic link, and where it leads.
+    Link(FilePath),
+    /// A folder without anything in it. Other folders are there by what they hold.
+    Folder,
+}
+
+/// A URDD, and what lies beside it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Tree {
+    /// What is there.
+    pub nodes: BTreeMap<FilePath, Node>,
+}
+
+/// Why a tree could not be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum TreeError {
+    /// A file or folder could not be written.
+    #[error("{}: cannot be written: {error}", path.display())]
+    Write {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+    /// A file or folder could not be read.
+    #[error("{}: cannot be read: {error}", path.display())]
+    Read {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+    /// The operating system has no such names, or no symbolic links.
+    #[error("{0}: this operating system cannot have it")]
+    Unsupported(String),
+}
+
+impl Tree {
+    /// The bytes of a file.
+    pub fn file(&self, path: &str) -> Option<&[u8]> {
+        match self.nodes.get(&path.into()) {
+            Some(Node::File(bytes)) => Some(bytes),
+            _ => None,
+        }
+    }
+
+    /// Puts a file.
+    pub fn put(&mut self, path: FilePath, bytes: impl Into<Arc<[u8]>>) {
+        self.nodes.insert(path, Node::File(bytes.into()));
+    }
+
+    /// The files of a folder of the suite that the program carries; none where it has no such folder.
+    pub fn carried(folder: &str) -> Tree {
+        Tree::carried_around(folder, "")
+    }
+
+    /// The same, named as they are from the folder `root`, which lies in it.
+    pub fn carried_around(folder: &str, root: &str) -> Tree {
+        let mut tree = Tree::default();
+        if let Some(folder) = SUITE.get_dir(folder) {
+            tree.take(folder, folder.path(), Path::new(root));
+        }
+        tree
+    }
+
+    fn take(&mut self, folder: &Dir, around: &Path, root: &Path) {
+        for entry in folder.entries() {
+            match entry {
+                DirEntry::Dir(inside) => self.take(inside, around, root),
+                DirEntry::File(file) => {
+                    let path = file.path().strip_prefix(around);
+                    let path = path.map(|path| from_root(path, root));
+                    if let Some(path) = path.ok().as_deref().and_then(FilePath::from_os) {
+                        self.put(path, file.contents());
+                    }
+                }
+            }
+        }
+    }
+
+    /// Reads a folder: what lies in it is named as it is from `root`, which lies in it too.
+    ///
+    /// # Errors
+    /// Where something cannot be read.
+    pub fn read(folder: &Path, root: &Path) -> Result<Tree, TreeError> {
+        let mut tree = Tree::default();
+        let root_name = root.strip_prefix(folder).unwrap_or(Path::new(""));
+        tree.read_below(folder, Path::new(""), root_name)?;
+        Ok(tree)
+    }
+
+    /// Gives whether there is anything in the folder.
+    fn read_below(&mut self, folder: &Path, inside: &Path, root: &Path) -> Result<bool, TreeError> {
+        let path = folder.join(inside);
+        let failed = |error| TreeError::Read {
+            path: path.clone(),
+            error,
+        };
+        let mut any = false;
+        for entry in fs::read_dir(&path).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            any = true;
+            let inside = inside.join(entry.file_name());
+            let name = FilePath::from_os(&from_root(&inside, root))
+                .ok_or_else(|| TreeError::Unsupported(inside.display().to_string()))?;
+            let kind = entry.file_type().map_err(failed)?;
+            let path = entry.path();
+            let failed = |error| TreeError::Read {
+                path: path.clone(),
+                error,
+            };
+            if kind.is_symlink() {
+                let target = fs::read_link(&path).map_err(failed)?;
+                let target = FilePath::from_os(&target)
+                    .ok_or_else(|| TreeError::Unsupported(inside.display().to_string()))?;
+                self.nodes.insert(name, Node::Link(target));
+            } else if kind.is_dir() {
+                if !self.read_below(folder, &inside, root)? {
+                    self.nodes.insert(name, Node::Folder);
+                }
+            } else {
+                let bytes = fs::read(&path).map_err(failed)?;
+                self.put(name, bytes);
+            }
+        }
+        Ok(any)
+    }
+
+    /// Writes everything; `root` becomes the URDD's folder.
+    ///
+    /// # Errors
+    /// Where something cannot be written, or there can be no such thing on this operating system.
+    pub fn write(&self, root: &Path) -> Result<(), TreeError> {
+        make_folder(root)?;
+        for (name, node) in &self.nodes {
+            let unsupported = || TreeError::Unsupported(name.to_string());
+            let path = name.to_os().ok_or_else(unsupported)?;
+            let path = match path.strip_prefix("..") {
+                Ok(beside) => root.with_file_name("").join(beside),
+                Err(_) => root.join(&path),
+            };
+            if let Some(folder) = path.parent() {
+                make_folder(folder)?;
+            }
+            match node {
+                Node::Folder => make_folder(&path)?,
+                Node::File(bytes) => match fs::write(&path, bytes) {
+                    Ok(()) => {}
+                    // Some file systems have names in Unicode only.
+                    Err(_) if name.as_str().is_none() => return Err(unsupported()),
+                    Err(error) => return Err(TreeError::Write { path, error }),
+                },
+                Node::Link(target) => {
+                    let target = target.to_os().ok_or_else(unsupported)?;
+                    link(&target, &path)
+                        .ok_or_else(unsupported)?
+                        .map_err(|error| TreeError::Write { path, error })?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A path in the folder in which `root` lies, as it is from there.
+fn from_root(path: &Path, root: &Path) -> PathBuf {
+    match path.strip_prefix(root) {
+        Ok(below) => below.to_owned(),
+        Err(_) => Path::new("..").join(path),
+    }
+}
+
+#[cfg(unix)]
+fn link(target: &Path, path: &Path) -> Option<io::Result<()>> {
+    Some(std::os::unix::fs::symlink(target, path))
+}
+
+/// Symbolic links of files and of folders differ there, and need a privilege.
+#[cfg(not(unix))]
+fn link(_: &Path, _: &Path) -> Option<io::Result<()>> {
+    None
+}
+
+fn make_folder(path: &Path) -> Result<(), TreeError> {
+    fs::create_dir_all(path).map_err(|error| TreeError::Write {
+        path: path.to_owned(),
+        error,
+    })
+}

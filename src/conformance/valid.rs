@@ -1,0 +1,70 @@
+//! Valid URDDs: those that `urdd generate` makes of our robots. The repository keeps `urdd.json` and
+//! the documents that are not large; sizes and hashes of everything else are in `urdd.json`.
+
+use std::path::Path;
+
+use include_dir::Dir;
+
+use super::data::{ROBOTS, SUITE, VALID};
+use super::tree::{FilePath, Node, Tree, TreeError};
+use crate::directory::discover::ROOT_METADATA;
+use crate::generate::{GenerateError, Settings, generate};
+
+/// Sampled configurations of the distance statistics: few, so that making them takes seconds.
+pub const NUM_SAMPLES: u32 = 20;
+/// Documents up to this size are kept as bytes.
+pub const LARGEST_KEPT: usize = 64 * 1024;
+
+/// Names of our robots, sorted.
+pub fn robots() -> Vec<String> {
+    let files = SUITE.get_dir(ROBOTS).into_iter().flat_map(Dir::files);
+    let names = files.filter_map(|file| {
+        let name = file.path().file_name()?.to_str()?;
+        name.strip_suffix(".urdf").map(str::to_owned)
+    });
+    let mut names: Vec<String> = names.collect();
+    names.sort();
+    names
+}
+
+/// Writes the robots into a folder: the URDFs, and what they name.
+///
+/// # Errors
+/// Where something cannot be written.
+pub fn write_robots(folder: &Path) -> Result<(), TreeError> {
+    let mut tree = Tree::carried(ROBOTS);
+    // Scripts that make them are of no use there.
+    let scripts = FilePath::from("make");
+    tree.nodes.retain(|path, _| !path.is_within(&scripts));
+    tree.write(folder)
+}
+
+/// Makes the valid URDD of a robot in the folder `target`; the robots are in the folder `robots`.
+///
+/// # Errors
+/// Where the URDD cannot be written.
+pub fn make(robot: &str, robots: &Path, target: &Path) -> Result<(), GenerateError> {
+    let settings = Settings {
+        num_samples: NUM_SAMPLES,
+        ..Settings::default()
+    };
+    let source = robots.join(format!("{robot}.urdf"));
+    generate(&source, target, &settings, &()).map(|_| ())
+}
+
+/// The part of a URDD that is kept.
+pub fn kept(urdd: &Tree) -> Tree {
+    let is_kept = |path: &FilePath, node: &Node| {
+        let path = path.as_str().unwrap_or_default();
+        let small = matches!(node, Node::File(bytes) if bytes.len() <= LARGEST_KEPT);
+        path == ROOT_METADATA || small && path.ends_with("/module.json")
+    };
+    let mut kept = urdd.clone();
+    kept.nodes.retain(|path, node| is_kept(path, node));
+    kept
+}
+
+/// What is kept of the valid URDD of a robot, as the program carries it.
+pub fn carried(robot: &str) -> Tree {
+    Tree::carried(&format!("{VALID}/{robot}"))
+}

@@ -1,0 +1,248 @@
+//! Running somebody's validator on the suite, and scoring its verdicts.
+//!
+//! There is one channel: exit status 0 accepts, 1 rejects. Everything else is no verdict.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use rayon::prelude::*;
+use semver::Version;
+
+use super::case::{CaseError, Verdict};
+use super::catalogue::{Item, ItemKind, URDD, items};
+use super::data::{ROBOTS, VALID};
+use super::export::{ExportError, write_valid};
+use super::process::{End, Ran, Template};
+use super::skips::{Skip, SkipError};
+use super::suite::{Suite, SuiteError};
+use super::tree::TreeError;
+use super::valid;
+use crate::format::conformance::{CaseFault, CaseScore, GroupScore, ValidatorResult, WrongCase};
+use crate::format::index::Count;
+use crate::format::report::Tool;
+
+/// How a validator is run.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The command, with `{dir}`.
+    pub command: Template,
+    /// The version of the specification that it judges by.
+    pub spec_version: Version,
+    /// For how long it may look at one URDD.
+    pub limit: Duration,
+    /// What it is known not to do yet: a case, or all cases of a code or a family.
+    pub skips: Vec<Skip>,
+    /// Only cases whose id begins with one of these; all where there is none.
+    pub only: Vec<String>,
+}
+
+/// Why a validator cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum ValidatorError {
+    /// No case is of that version, or has such an id.
+    #[error("there is no case to run; `urdd conformance export` writes them all, and their list")]
+    NoCase,
+    /// The skip list names what there is not.
+    #[error("the skip list: {0}")]
+    Skip(#[from] SkipError),
+    /// There is no place to work in.
+    #[error("no temporary folder: {0}")]
+    Folder(#[from] std::io::Error),
+    /// The suite is damaged.
+    #[error("the suite is damaged: {0}")]
+    Suite(#[from] SuiteError),
+    /// A case of it is.
+    #[error("the suite is damaged: {0}")]
+    Case(#[from] CaseError),
+    /// A valid URDD cannot be made.
+    #[error(transparent)]
+    Valid(#[from] ExportError),
+    /// A case cannot be written.
+    #[error(transparent)]
+    Tree(#[from] TreeError),
+}
+
+/// How a line of a validator's skip list is written.
+pub const SKIP_FORM: &str = "`case  # reason`, `code  # reason`, or `family  # reason`";
+
+/// Runs a validator, on several URDDs at a time.
+///
+/// # Errors
+/// Where there is nothing to run, or no place to work in.
+pub fn run(plan: &Plan) -> Result<ValidatorResult, ValidatorError> {
+    let suite = Suite::carried()?;
+    let all = items(&suite);
+    check_skips(&plan.skips, &all)?;
+    let begins = |item: &Item| plan.only.iter().any(|start| item.id.starts_with(start));
+    let chosen = all.into_iter().filter(|item| {
+        item.spec_versions.matches(&plan.spec_version) && (plan.only.is_empty() || begins(item))
+    });
+    let chosen: Vec<Item> = chosen.collect();
+    if chosen.is_empty() {
+        return Err(ValidatorError::NoCase);
+    }
+    let folder = tempfile::tempdir()?;
+    if chosen.iter().any(|item| item.kind == ItemKind::Valid) {
+        let robots = folder.path().join(ROBOTS);
+        valid::write_robots(&robots)?;
+        write_valid(&robots, &folder.path().join(VALID))?;
+    }
+    let judge = |item| judge(plan, &suite, item, folder.path());
+    let ran: Result<Vec<Option<Ran>>, ValidatorError> = chosen.par_iter().map(judge).collect();
+    Ok(scored(plan, &chosen, ran?))
+}
+
+/// Runs the command on one URDD; `None` where this operating system cannot have it.
+fn judge(
+    plan: &Plan,
+    suite: &Suite,
+    item: &Item,
+    folder: &Path,
+) -> Result<Option<Ran>, ValidatorError> {
+    let path = folder.join(&item.folder);
+    let case = suite.cases.iter().find(|case| case.id() == item.id);
+    if let Some(case) = case {
+        match case.tree(suite)?.write(&path) {
+            Ok(()) => {}
+            Err(TreeError::Unsupported(_)) => return Ok(None),
+            Err(error) => return Err(error.into()),
+        }
+    }
+    let ran = plan.command.run(&[("dir", &path)], plan.limit);
+    if let (Some(_), Some(around)) = (case, path.parent()) {
+        debug_assert!(path.ends_with(URDD));
+        fs::remove_dir_all(around)?;
+    }
+    Ok(Some(ran))
+}
+
+/// What is wrong with how a URDD was judged.
+fn fault(expected: Verdict, end: &End) -> Option<CaseFault> {
+    match (expected, end) {
+        (Verdict::Accept, End::Status(0)) | (Verdict::Reject, End::Status(1)) => None,
+        (Verdict::Reject, End::Status(0)) => Some(CaseFault::Missed),
+        (Verdict::Accept, End::Status(1)) => Some(CaseFault::FalseAlarm),
+        _ => Some(CaseFault::Undecided),
+    }
+}
+
+fn covers(skip: &Skip, item: &Item) -> bool {
+    let code = item.code.as_deref().unwrap_or_default();
+    let what = skip.what();
+    what == item.id || what == code || (!code.is_empty() && what == family(code))
+}
+
+fn family(code: &str) -> &str {
+    code.get(..3).unwrap_or(code)
+}
+
+fn check_skips(skips: &[Skip], items: &[Item]) -> Result<(), SkipError> {
+    let unknown = |skip: &&Skip| !items.iter().any(|item| covers(skip, item));
+    match skips.iter().find(unknown) {
+        Some(skip) => Err(SkipError::Unknown(skip.line, skip.what())),
+        None => Ok(()),
+    }
+}
+
+/// Cases while they are counted.
+#[derive(Default, Clone, Copy)]
+struct Tally {
+    of: u32,
+    right: u32,
+    missed: u32,
+    false_alarms: u32,
+    undecided: u32,
+}
+
+impl Tally {
+    fn add(&mut self, fault: Option<CaseFault>) {
+        self.of += 1;
+        let place = match fault {
+            None => &mut self.right,
+            Some(CaseFault::Missed) => &mut self.missed,
+            Some(CaseFault::FalseAlarm) => &mut self.false_alarms,
+            Some(CaseFault::Undecided) => &mut self.undecided,
+        };
+        *place += 1;
+    }
+
+    fn score(self) -> CaseScore {
+        CaseScore {
+            of: Count(self.of),
+            right: Count(self.right),
+            missed: Count(self.missed),
+            false_alarms: Count(self.false_alarms),
+            undecided: Count(self.undecided),
+        }
+    }
+}
+
+fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult {
+    let (mut totals, mut sound) = (Tally::default(), Tally::default());
+    let mut families: BTreeMap<&str, Tally> = BTreeMap::new();
+    let mut codes: BTreeMap<&str, Tally> = BTreeMap::new();
+    let (mut wrong, mut not_run) = (Vec::new(), Vec::new());
+    let (mut relevant, mut used) = (BTreeSet::new(), BTreeSet::new());
+    for (item, ran) in items.iter().zip(ran) {
+        let Some(ran) = ran else {
+            not_run.push(item.id.clone());
+            continue;
+        };
+        let fault = fault(item.verdict, &ran.end);
+        totals.add(fault);
+        if item.kind != ItemKind::Invalid {
+            sound.add(fault);
+        }
+        if let Some(code) = item.code.as_deref() {
+            families.entry(family(code)).or_default().add(fault);
+            codes.entry(code).or_default().add(fault);
+        }
+        let mut reason = None;
+        for skip in plan.skips.iter().filter(|skip| covers(skip, item)) {
+            relevant.insert(skip.line);
+            if fault.is_some() {
+                used.insert(skip.line);
+                reason.get_or_insert_with(|| skip.reason.clone());
+            }
+        }
+        if let Some(fault) = fault {
+            wrong.push(WrongCase {
+                id: item.id.clone(),
+                title: item.title.clone(),
+                fault,
+                end: ran.end.to_string(),
+                stderr: ran.stderr,
+                skipped_since: reason,
+            });
+        }
+    }
+    // What was not run can be neither right nor wrong.
+    let stale = |skip: &&Skip| relevant.contains(&skip.line) && !used.contains(&skip.line);
+    let stale_skips: Vec<String> = plan.skips.iter().filter(stale).map(Skip::what).collect();
+    let groups = |tallies: BTreeMap<&str, Tally>| {
+        let group = |(name, tally): (&str, Tally)| GroupScore {
+            name: name.to_owned(),
+            score: tally.score(),
+        };
+        tallies.into_iter().map(group).collect()
+    };
+    let excused = wrong.iter().all(|case| case.skipped_since.is_some());
+    ValidatorResult {
+        tool: Tool {
+            name: env!("CARGO_PKG_NAME").to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        },
+        spec_version: plan.spec_version.to_string(),
+        command: plan.command.words().to_vec(),
+        passed: excused && stale_skips.is_empty(),
+        totals: totals.score(),
+        sound: sound.score(),
+        families: groups(families),
+        codes: groups(codes),
+        wrong,
+        not_run,
+        stale_skips,
+    }
+}

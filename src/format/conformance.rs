@@ -1,0 +1,211 @@
+//! What `urdd conformance producer` and `urdd conformance validator` write as JSON.
+
+use super::index::Count;
+use super::object::{module, object, string_enum};
+use super::report::Tool;
+use super::root_metadata::ConformanceClass;
+
+/// Version of the format of both results.
+pub const RESULT_VERSION: &str = "1.0.0";
+
+module! {
+    /// How somebody's producer did on our robots.
+    pub struct ProducerResult {
+        /// The program that judged.
+        pub tool: Tool,
+        /// Version of the specification that was judged by.
+        pub spec_version: String,
+        /// The command that was run, as it was given.
+        pub command: Vec<String>,
+        /// The conformance class that was asked for.
+        pub class: ConformanceClass,
+        /// Whether everything passed but what is skipped, and no skip is stale.
+        pub passed: bool,
+        /// Every robot, by name.
+        pub robots: Vec<RobotScore>,
+        /// The class that was asked for, and those below it.
+        pub classes: Vec<ClassScore>,
+        /// Every module that the class asks for or that a URDD has, in the specification's order.
+        pub modules: Vec<ModuleScore>,
+        /// Entries of the skip list that passed now, or name nothing that was run.
+        pub stale_skips: Vec<String>,
+    }
+}
+
+object! {
+    /// One robot.
+    pub struct RobotScore {
+        /// Its name: the URDF's, without `.urdf`.
+        pub robot: String,
+        /// What came of it.
+        pub status: ScoreStatus,
+        /// Why it is skipped; else null.
+        pub skipped_since: Option<String>,
+        /// How the command ended.
+        pub end: String,
+        /// The end of what it printed to standard output; null where the robot passed.
+        pub stdout: Option<String>,
+        /// The end of what it printed to standard error; null where the robot passed.
+        pub stderr: Option<String>,
+        /// Why the URDD could not be examined; else null.
+        pub unreadable: Option<String>,
+        /// Codes of the errors that are of no module, sorted.
+        pub codes: Vec<String>,
+        /// Its modules.
+        pub modules: Vec<RobotModule>,
+    }
+}
+
+object! {
+    /// A module of one robot.
+    pub struct RobotModule {
+        /// Its name.
+        pub name: String,
+        /// What came of it.
+        pub status: ModuleStatus,
+        /// Why it is skipped; else null.
+        pub skipped_since: Option<String>,
+        /// Codes of the errors, sorted.
+        pub codes: Vec<String>,
+        /// The first error, with its place; null where there is none.
+        pub first: Option<String>,
+    }
+}
+
+string_enum! {
+    /// What came of something.
+    pub enum ScoreStatus {
+        /// As it should be.
+        Passed = "passed",
+        /// Not as it should be.
+        Failed = "failed",
+        /// Not as it should be, and on the skip list.
+        Skipped = "skipped",
+    }
+}
+
+string_enum! {
+    /// What came of a module.
+    pub enum ModuleStatus {
+        /// It is there, without errors.
+        Passed = "passed",
+        /// It is there, with errors.
+        Failed = "failed",
+        /// It is not there, and the class asks for it.
+        Missing = "missing",
+    }
+}
+
+object! {
+    /// A conformance class.
+    pub struct ClassScore {
+        /// Which.
+        pub class: ConformanceClass,
+        /// Robots whose modules of this class are all there without errors.
+        pub passed: Count,
+        /// Robots that were run.
+        pub of: Count,
+    }
+}
+
+object! {
+    /// A module, over all robots.
+    pub struct ModuleScore {
+        /// Its name.
+        pub name: String,
+        /// Robots that have it.
+        pub present: Count,
+        /// Robots that have it without errors.
+        pub passed: Count,
+        /// Robots that have it with errors.
+        pub failed: Count,
+        /// Robots that were run.
+        pub of: Count,
+        /// Codes of the errors, sorted.
+        pub codes: Vec<String>,
+    }
+}
+
+module! {
+    /// How somebody's validator did on our cases.
+    pub struct ValidatorResult {
+        /// The program that judged.
+        pub tool: Tool,
+        /// The version of the specification whose cases were run.
+        pub spec_version: String,
+        /// The command that was run, as it was given.
+        pub command: Vec<String>,
+        /// Whether every case was judged right but those skipped, and no skip is stale.
+        pub passed: bool,
+        /// Sums over all cases.
+        pub totals: CaseScore,
+        /// Sums over valid URDDs and near misses: those of these that are rejected are false alarms.
+        pub sound: CaseScore,
+        /// Sums by family of rules; valid URDDs are of none.
+        pub families: Vec<GroupScore>,
+        /// Sums by code.
+        pub codes: Vec<GroupScore>,
+        /// Every case that was not judged right, by id.
+        pub wrong: Vec<WrongCase>,
+        /// Cases that this operating system cannot have on disk.
+        pub not_run: Vec<String>,
+        /// Entries of the skip list whose cases are judged right now, or that name no case that was run.
+        pub stale_skips: Vec<String>,
+    }
+}
+
+object! {
+    /// How many cases were judged how.
+    pub struct CaseScore {
+        /// All that were run.
+        pub of: Count,
+        /// As the suite does.
+        pub right: Count,
+        /// Accepted, and to be rejected.
+        pub missed: Count,
+        /// Rejected, and to be accepted.
+        pub false_alarms: Count,
+        /// Neither accepted nor rejected.
+        pub undecided: Count,
+    }
+}
+
+object! {
+    /// The score of a family or a code.
+    pub struct GroupScore {
+        /// The family's three letters, or the code.
+        pub name: String,
+        /// The score.
+        pub score: CaseScore,
+    }
+}
+
+object! {
+    /// A case that was not judged right.
+    pub struct WrongCase {
+        /// Its id.
+        pub id: String,
+        /// In words.
+        pub title: String,
+        /// How it was judged.
+        pub fault: CaseFault,
+        /// How the command ended.
+        pub end: String,
+        /// The end of what it printed to standard error.
+        pub stderr: String,
+        /// Why it is skipped; else null.
+        pub skipped_since: Option<String>,
+    }
+}
+
+string_enum! {
+    /// How a case was judged that was not judged right.
+    pub enum CaseFault {
+        /// Accepted, and to be rejected.
+        Missed = "missed",
+        /// Rejected, and to be accepted.
+        FalseAlarm = "false_alarm",
+        /// Neither accepted (exit status 0) nor rejected (1).
+        Undecided = "undecided",
+    }
+}

@@ -1,0 +1,39 @@
+//! The conformance suite: what its data say, and the commands that run it.
+
+mod cases;
+mod export;
+mod producer;
+mod valid;
+#[cfg(unix)]
+mod validator;
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+/// Runs `urdd conformance` in the repository's folder.
+fn conformance(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_urdd"))
+        .arg("conformance")
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("the program")
+}
+
+/// The result that a command writes as JSON, and its exit status.
+fn result(arguments: &[&str]) -> (i32, Value) {
+    let output = conformance(arguments);
+    let result = serde_json::from_slice(&output.stdout);
+    let result = result.unwrap_or_else(|e| panic!("{e}: {}", stderr(&output)));
+    (output.status.code().expect("an exit status"), result)
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn in_repository(path: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}

@@ -1,0 +1,128 @@
+//! `urdd conformance validator`, with ours as somebody's, and with some that are no good.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use crate::{conformance, result, stderr};
+
+const URDD: &str = env!("CARGO_BIN_EXE_urdd");
+
+fn run(cases: &[&str], more: &[&str], command: &[&str]) -> (i32, Value) {
+    let only: Vec<&str> = cases.iter().flat_map(|case| ["--case", case]).collect();
+    let start = ["validator", "--format", "json", "--timeout", "20"];
+    result(&[&start[..], &only, more, &["--"], command].concat())
+}
+
+fn shell(cases: &[&str], script: &str) -> (i32, Value) {
+    run(cases, &[], &["sh", "-c", script, "sh", "{dir}"])
+}
+
+#[test]
+fn ours_is_right() {
+    let command = [URDD, "validate", "{dir}"];
+    let cases = ["DOF", "LEG", "SRC00", "DIR016", "DIR024", "valid/gripper"];
+    let (status, result) = run(&cases, &[], &command);
+    assert_eq!((status, &result["passed"]), (0, &true.into()), "{result:#}");
+    assert_eq!(result["totals"]["right"], result["totals"]["of"]);
+    assert!(result["totals"]["of"].as_u64() > Some(50));
+    assert_eq!(result["families"][1]["name"], "DOF");
+}
+
+/// Every case, for `.ci/run`.
+#[test]
+#[ignore = "takes a minute; .ci/run runs it"]
+fn ours_is_right_everywhere() {
+    let (status, result) = run(&[], &[], &[URDD, "validate", "{dir}"]);
+    assert_eq!(status, 0, "{result:#}");
+    assert!(result["totals"]["of"].as_u64() > Some(500));
+}
+
+#[test]
+fn verdicts_are_told_apart() {
+    let cases = ["DOF001", "DOF002", "valid/single_link"];
+    let (_, right) = run(&cases, &[], &[URDD, "validate", "{dir}"]);
+    let of = right["totals"]["of"].as_u64().expect("a number");
+    let (status, all_accepted) = shell(&cases, "exit 0");
+    let missed = all_accepted["totals"]["missed"].as_u64().expect("a number");
+    assert_eq!(status, 1);
+    assert!(missed > 2 && missed < of);
+    assert_eq!(all_accepted["sound"]["false_alarms"], 0);
+    let (_, all_rejected) = shell(&cases, "exit 1");
+    assert_eq!(all_rejected["totals"]["false_alarms"], json!(of - missed));
+    assert_eq!(all_rejected["totals"]["missed"], 0);
+    assert_eq!(all_rejected["sound"]["false_alarms"], json!(of - missed));
+    // Neither another status, nor a signal, nor a program that is not there is a verdict.
+    for script in ["exit 2", "exit 101", "kill -9 $$"] {
+        let (status, none) = shell(&cases, script);
+        assert_eq!(
+            (status, &none["totals"]["undecided"]),
+            (1, &json!(of)),
+            "{script}"
+        );
+    }
+    let (_, none) = run(&cases, &[], &["/no/such/validator", "{dir}"]);
+    assert_eq!(none["totals"]["undecided"], json!(of));
+    let end = none["wrong"][0]["end"].as_str().expect("text");
+    assert!(end.contains("could not be started"), "{end}");
+}
+
+#[test]
+fn the_time_limit_is_no_verdict() {
+    let command = ["sh", "-c", "sleep 60; exit 1", "sh", "{dir}"];
+    let more = ["--timeout", "1"];
+    let start = [
+        "validator",
+        "--format",
+        "json",
+        "--case",
+        "valid/single_link",
+    ];
+    let (status, result) = result(&[&start[..], &more, &["--"], &command].concat());
+    assert_eq!(status, 1);
+    assert_eq!(result["wrong"][0]["fault"], "undecided");
+    assert_eq!(result["wrong"][0]["end"], "stopped at the time limit");
+}
+
+#[test]
+fn skips_excuse_and_go_stale() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("skips");
+    let skip = ["--skip", file.to_str().expect("UTF-8")];
+    let accept = ["sh", "-c", "exit 0", "sh", "{dir}"];
+    let cases = ["DOF001", "DOF002"];
+    fs::write(&file, "DOF001 # soon\nDOF002 # soon\nBND # not run here\n").expect("written");
+    let (status, result) = run(&cases, &skip, &accept);
+    assert_eq!((status, &result["passed"]), (0, &true.into()), "{result:#}");
+    assert_eq!(result["wrong"][0]["skipped_since"], "soon");
+    assert_eq!(result["stale_skips"], json!([]));
+    let (status, result) = run(&cases, &skip, &[URDD, "validate", "{dir}"]);
+    assert_eq!(status, 1);
+    assert_eq!(result["stale_skips"], json!(["DOF001", "DOF002"]));
+
+    fs::write(&file, "DOF999 # why\n").expect("written");
+    let start = ["validator", "--case", "DOF001"];
+    let output = conformance(&[&start[..], &skip, &["--"], &accept].concat());
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("there is no `DOF999`"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn cases_are_of_versions() {
+    let command = ["--", URDD, "validate", "{dir}"];
+    let newer = ["validator", "--spec-version", "2.0.0"];
+    let output = conformance(&[&newer[..], &command].concat());
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("no case to run"),
+        "{}",
+        stderr(&output)
+    );
+    let minor = ["validator", "--format", "json", "--spec-version", "1.4.0"];
+    let (status, _) = result(&[&minor[..], &["--case", "DOF001"], &command].concat());
+    assert_eq!(status, 0);
+}

@@ -1,0 +1,313 @@
+//! What makes one URDD of another, as changes that a case can list.
+
+use std::collections::BTreeSet;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::{Value, json};
+use urdd::conformance::change::{Action, Change, Yes, mirror_of, text_of};
+use urdd::conformance::seal::{entries_mut, rehash, size_and_hash};
+use urdd::conformance::tree::{FilePath, Node, Tree};
+use urdd::directory::{canonical, json as json_text};
+
+use super::patch::patch;
+use crate::support::fixture::ROOT;
+
+/// Changes, and the files whose entries in `urdd.json` do not follow them.
+pub type Difference = (Vec<Change>, BTreeSet<String>);
+
+/// Files shorter than this are written, even where the same is elsewhere.
+const SHORT: usize = 200;
+
+/// What makes `new` of `old`.
+pub fn difference(old: &Tree, new: &Tree) -> Difference {
+    let mut work = Work {
+        tree: old.clone(),
+        changes: Vec::new(),
+    };
+    work.patch_documents(old, new);
+    work.change_files(new);
+    work.add_and_delete(new);
+    let kept = untrue_entries(new);
+    rehash(&mut work.tree, &kept);
+    for path in new.nodes.keys().chain(work.tree.nodes.keys()) {
+        assert!(same(&work.tree, new, path), "{path}: the changes miss it");
+    }
+    (work.changes, kept)
+}
+
+struct Work {
+    tree: Tree,
+    changes: Vec<Change>,
+}
+
+fn document(tree: &Tree, path: &FilePath) -> Option<Value> {
+    let bytes = tree.file(path.as_str()?)?;
+    let read = json_text::read(bytes).ok()?;
+    // Text that says more than the document (a repeated key, a mark) is compared as text.
+    let same = |on_one_line| text_of(&read.value, on_one_line) == bytes;
+    (same(false) || same(true)).then_some(read.value)
+}
+
+fn is_document(path: &FilePath) -> bool {
+    path.as_str() == Some(ROOT) || mirror_of(path).is_some()
+}
+
+/// The document of which `path` is the mirror.
+fn mirrored(tree: &Tree, path: &FilePath) -> Option<Value> {
+    let folder = path.as_str()?.strip_suffix("module.yaml")?;
+    document(tree, &format!("{folder}module.json").as_str().into())
+}
+
+/// Whether both have the same there. The order of keys is not looked at, and hashes that are right
+/// are equal.
+fn same(ours: &Tree, theirs: &Tree, path: &FilePath) -> bool {
+    if ours.nodes.get(path) == theirs.nodes.get(path) {
+        return true;
+    }
+    if is_document(path) {
+        let both = (document(ours, path), document(theirs, path));
+        let (Some(mut our), Some(mut their)) = both else {
+            return false;
+        };
+        if path.as_str() == Some(ROOT) {
+            mark_right(ours, &mut our);
+            mark_right(theirs, &mut their);
+        }
+        return our == their;
+    }
+    let is_mirror = |tree: &Tree| {
+        let text = mirrored(tree, path).map(|document| canonical::yaml_string(&document));
+        text.is_some_and(|text| path.as_str().and_then(|p| tree.file(p)) == Some(text.as_bytes()))
+    };
+    is_mirror(ours) && is_mirror(theirs)
+}
+
+/// Entries with the right size and hash lose both.
+fn mark_right(tree: &Tree, metadata: &mut Value) {
+    for entry in entries_mut(metadata) {
+        if is_right(tree, entry) == Some(true) {
+            entry["size"] = Value::Null;
+            entry["sha256"] = Value::Null;
+        }
+    }
+}
+
+/// Entries that are as they were lose size and hash: where these are not right any more, they are kept.
+fn leave_out_kept(before: &mut Value, after: &mut Value) {
+    let before = entries_mut(before);
+    for entry in entries_mut(after) {
+        if before.contains(&entry) {
+            entry["size"] = Value::Null;
+            entry["sha256"] = Value::Null;
+        }
+    }
+}
+
+/// Whether an entry is true of its file; `None` where there is no such file.
+fn is_right(tree: &Tree, entry: &Value) -> Option<bool> {
+    let bytes = tree.file(entry["path"].as_str()?)?;
+    let (size, sha256) = size_and_hash(bytes);
+    Some(entry["size"] == json!(size) && entry["sha256"] == json!(sha256))
+}
+
+/// Files with an entry that is not true of them.
+fn untrue_entries(tree: &Tree) -> BTreeSet<String> {
+    let mut metadata = document(tree, &ROOT.into()).unwrap_or_default();
+    let entries = entries_mut(&mut metadata).into_iter();
+    let untrue = entries.filter(|entry| is_right(tree, entry) == Some(false));
+    untrue
+        .filter_map(|entry| entry["path"].as_str().map(str::to_owned))
+        .collect()
+}
+
+impl Work {
+    fn push(&mut self, file: &FilePath, action: Action) {
+        let change = Change {
+            file: file.clone(),
+            action,
+        };
+        let done = change.apply(&mut self.tree);
+        done.unwrap_or_else(|error| panic!("a change that does not fit: {error}"));
+        self.changes.push(change);
+    }
+
+    /// Documents that stay documents. Entries that `rehash` brings up to date are left to it.
+    fn patch_documents(&mut self, old: &Tree, new: &Tree) {
+        let paths: Vec<FilePath> = self.tree.nodes.keys().cloned().collect();
+        for path in paths.iter().filter(|path| is_document(path)) {
+            if self.tree.nodes.get(path) == new.nodes.get(path) {
+                continue;
+            }
+            let both = (document(&self.tree, path), document(new, path));
+            let (Some(mut before), Some(mut after)) = both else {
+                continue;
+            };
+            if path.as_str() == Some(ROOT) {
+                leave_out_kept(&mut before.clone(), &mut after);
+                mark_right(old, &mut before);
+                mark_right(new, &mut after);
+                // Files that are new to `urdd.json` get an entry to be filled in.
+                for entry in entries_mut(&mut after) {
+                    let known = entries_mut(&mut before)
+                        .iter()
+                        .any(|old| old["path"] == entry["path"]);
+                    if entry["size"].is_null() && !known {
+                        entry["size"] = json!(0);
+                        entry["sha256"] = json!("");
+                    }
+                }
+            }
+            let patch = patch(&before, &after);
+            if patch.0.is_empty() {
+                continue;
+            }
+            let mirror = mirror_of(path).filter(|mirror| self.tree.nodes.contains_key(mirror));
+            let stays = |mirror: FilePath| new.nodes.get(&mirror) == self.tree.nodes.get(&mirror);
+            match mirror.is_some_and(stays) {
+                true => self.push(path, Action::PatchAlone(patch)),
+                false => self.push(path, Action::Patch(patch)),
+            }
+        }
+    }
+
+    /// Files that are there before and after.
+    fn change_files(&mut self, new: &Tree) {
+        for (path, node) in &new.nodes {
+            if same(&self.tree, new, path) || path.as_str() == Some(ROOT) && self.root_follows(new)
+            {
+                continue;
+            }
+            if let (Some(Node::File(before)), Node::File(after)) =
+                (self.tree.nodes.get(path).cloned(), node)
+            {
+                self.push(path, edit(&before, after));
+            }
+        }
+    }
+
+    /// Whether what is left in `urdd.json` is for `rehash`.
+    fn root_follows(&self, new: &Tree) -> bool {
+        document(new, &ROOT.into()).is_some()
+    }
+
+    fn add_and_delete(&mut self, new: &Tree) {
+        for (path, node) in &new.nodes {
+            if let (None, Node::File(bytes)) = (self.tree.nodes.get(path), node) {
+                let alike = |(_, other): &(&FilePath, &Node)| *other == node;
+                let action = match self.tree.nodes.iter().find(alike) {
+                    Some((other, _)) if bytes.len() >= SHORT => Action::CopyOf(other.clone()),
+                    _ => written(bytes),
+                };
+                self.push(path, action);
+            }
+        }
+        for (path, node) in &new.nodes {
+            if self.tree.nodes.get(path) != Some(node) {
+                match node {
+                    Node::Link(target) => self.push(path, Action::LinkTo(target.clone())),
+                    Node::Folder => self.push(path, Action::Folder(Yes)),
+                    Node::File(_) => {}
+                }
+            }
+        }
+        while let Some(path) = self
+            .tree
+            .nodes
+            .keys()
+            .find(|path| !new.nodes.contains_key(path))
+            .cloned()
+        {
+            let folder = widest_folder_without(&path, new);
+            self.push(&folder, Action::Delete(Yes));
+        }
+    }
+}
+
+/// The highest folder around `path`, or that itself, in which `new` has nothing.
+fn widest_folder_without(path: &FilePath, new: &Tree) -> FilePath {
+    let text = path.as_str().expect("bases have names in UTF-8");
+    let ends = text.match_indices('/').map(|(end, _)| end);
+    let folders = ends.map(|end| FilePath::from(&text[..end]));
+    let empty = |folder: &FilePath| !new.nodes.keys().any(|other| other.is_within(folder));
+    let named = |folder: &FilePath| folder.as_str() != Some("..");
+    let found = folders.filter(named).find(empty);
+    found.unwrap_or_else(|| path.clone())
+}
+
+fn written(bytes: &[u8]) -> Action {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Action::Write(text.to_owned()),
+        Err(_) => Action::WriteBase64(STANDARD.encode(bytes)),
+    }
+}
+
+/// The shortest way to say that a file has other bytes.
+fn edit(before: &[u8], after: &[u8]) -> Action {
+    let mut ways = vec![written(after)];
+    if before.starts_with(after) {
+        ways.push(Action::CutTo(after.len()));
+    }
+    let start = before.iter().zip(after).take_while(|(a, b)| a == b).count();
+    let rest = before[start..]
+        .iter()
+        .rev()
+        .zip(after[start..].iter().rev());
+    let end = rest.take_while(|(a, b)| a == b).count();
+    let (gone, come) = (start..before.len() - end, start..after.len() - end);
+    ways.push(Action::Splice {
+        at: start,
+        remove: gone.len(),
+        insert_base64: STANDARD.encode(&after[come.clone()]),
+    });
+    if let (Ok(before), Ok(after)) = (std::str::from_utf8(before), std::str::from_utf8(after)) {
+        ways.extend(replacement(before, after, start, end));
+        for (from, by) in [("\n", "\r\n"), ("\n", " \t\r\n")] {
+            if before.replace(from, by) == after {
+                let (from, by) = (from.to_owned(), by.to_owned());
+                ways.push(Action::ReplaceAll { from, by });
+            }
+        }
+    }
+    // Text is easier to read than bytes, even where it is longer.
+    let cost = |way: &Action| {
+        let length = serde_json::to_string(way).map_or(usize::MAX, |text| text.len());
+        match way {
+            Action::Splice { .. } => length + 300,
+            _ => length,
+        }
+    };
+    ways.into_iter().min_by_key(cost).expect("a way")
+}
+
+/// The text between an equal start and end, taken so far to the left that it is found there first.
+fn replacement(before: &str, after: &str, start: usize, end: usize) -> Option<Action> {
+    let (mut start, mut end) = (start, end);
+    while !before.is_char_boundary(start) {
+        start -= 1;
+    }
+    while !before.is_char_boundary(before.len() - end) {
+        end -= 1;
+    }
+    // From the beginning of the word, for whoever reads it.
+    let word = before[..start].rfind(|c: char| c.is_whitespace());
+    start = word
+        .map_or(start, |space| space + 1)
+        .max(start.saturating_sub(60));
+    loop {
+        let from = before.get(start..before.len() - end);
+        let first = |from: &str| !from.is_empty() && before.find(from) == Some(start);
+        if let Some(from) = from.filter(|from| first(from)) {
+            let by = after.get(start..after.len() - end)?.to_owned();
+            return Some(Action::Replace {
+                from: from.to_owned(),
+                by,
+            });
+        }
+        match start {
+            0 if end == 0 => return None,
+            0 => end -= 1,
+            _ => start -= 1,
+        }
+    }
+}
