@@ -316,6 +316,9 @@ fn segment_to_segment(p: Point, q: Point, r: Point, s: Point) -> f64 {
 /// the distances that edges give.
 fn point_to_inside(p: Point, [a, b, c]: [Point; 3]) -> f64 {
     let normal = unit(cross(minus(b, a), minus(c, a)));
+    if norm(normal) == 0.0 {
+        return f64::INFINITY; // A side of a flat box.
+    }
     let inside = [(a, b), (b, c), (c, a)]
         .into_iter()
         .all(|(from, to)| dot(cross(minus(to, from), minus(p, from)), normal) >= 0.0);

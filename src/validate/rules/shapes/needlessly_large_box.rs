@@ -26,6 +26,13 @@ declare_rule! {
         NotFailed(MSH004),
         NotFailed(MSH005),
         NotFailed(MSH007),
+        // What these find is wrong with the hulls and pieces themselves.
+        NotFailedInV1(MSH017),
+        NotFailedInV1(MSH018),
+        NotFailedInV1(MSH019),
+        NotFailedInV1(MSH020),
+        NotFailedInV1(MSH021),
+        NotFailedInV1(MSH022),
         NotFailed(SHP001),
         NotFailed(SHP002),
         NotFailed(SHP003),
