@@ -118,7 +118,10 @@ fn primitives(
                 .iter()
                 .all(|p| primitive.distance(*p).abs() <= tolerance);
             let inside = -primitive.distance(middle);
-            if on && inside <= primitive.sag(PRIMITIVE_SAG) + tolerance {
+            if on
+                && inside <= primitive.sag(PRIMITIVE_SAG) + tolerance
+                && primitive.faces_outward(middle, (b - a).cross(&(c - a)))
+            {
                 on_any = true;
                 *sum += area;
             }
@@ -163,7 +166,7 @@ fn off_surface(expected: &Expected, corners: [[f64; 3]; 3], middle: [f64; 3]) ->
             }
         });
     format!(
-        "a triangle at {} is {} off the surface",
+        "a triangle at {} is {} off the surface, or faces inward",
         point(worst.0),
         metres(worst.1)
     )
@@ -297,6 +300,11 @@ mod tests {
             let mut moved = found.clone();
             moved.vertices[found.triangles[at][0] as usize][1] += 1e-3;
             assert!(fault(&expected, &moved).is_some(), "{at}");
+        }
+        for at in [0, 20, found.triangles.len() - 1] {
+            let mut turned = found.clone();
+            turned.triangles[at].swap(0, 1);
+            assert!(fault(&expected, &turned).is_some(), "{at}");
         }
         let (_, fewer) = of(&all[..4]);
         assert!(fault(&expected, &fewer).is_some());

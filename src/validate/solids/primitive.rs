@@ -60,6 +60,21 @@ impl Primitive {
         }
     }
 
+    /// Whether a face with this normal, through a point on or a little inside the surface, faces
+    /// outward. (Of a flat shape each face does.)
+    pub fn faces_outward(&self, point: [f64; 3], normal: Vector3<f64>) -> bool {
+        let length = normal.norm();
+        if length == 0.0 {
+            return true;
+        }
+        let step = normal / length * (self.extent() * 1e-3);
+        let point = Vector3::from(point);
+        let (ahead, behind) = (point + step, point - step);
+        // What is ahead is farther outside.
+        let rounding = self.extent() * 1e-9;
+        self.distance(ahead.into()) >= self.distance(behind.into()) - rounding
+    }
+
     /// The area of the true surface, m².
     pub fn area(&self) -> f64 {
         use std::f64::consts::PI;
