@@ -254,7 +254,10 @@ fn the_suite_is_what_the_closures_say() {
             fs::remove_file(&path).expect("removed");
             // Its folders, as far as nothing else is in them.
             let mut folders = path.ancestors().skip(1);
-            while folders.next().is_some_and(|folder| fs::remove_dir(folder).is_ok()) {}
+            while folders
+                .next()
+                .is_some_and(|folder| fs::remove_dir(folder).is_ok())
+            {}
         }
         for (path, bytes) in stale {
             let path = suite().join(path);
