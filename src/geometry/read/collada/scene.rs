@@ -15,6 +15,8 @@ use super::{material, transform};
 const DEEPEST: usize = 200;
 /// So many nodes are visited: `instance_node` can name more than a file holds.
 const MOST_NODES: usize = 100_000;
+/// So many bytes of nodes are gone through, each time that they are placed.
+const MOST_TEXT: usize = 1 << 30;
 
 /// Adds every geometry that the scene shows, at its place.
 ///
@@ -32,6 +34,7 @@ pub(super) fn walk(
         geometries: HashMap::new(),
         path: Vec::new(),
         visited: 0,
+        text: 0,
     };
     let named = child(document.root, "scene")
         .and_then(|scene| child(scene, "instance_visual_scene"))
@@ -71,6 +74,7 @@ struct Walker<'a, 'd> {
     /// The nodes around the present one.
     path: Vec<roxmltree::NodeId>,
     visited: usize,
+    text: usize,
 }
 
 impl<'a> Walker<'a, '_> {
@@ -103,6 +107,18 @@ impl<'a> Walker<'a, '_> {
             return Err(Fault::TooLarge {
                 what: "nodes inside one another",
                 limit: DEEPEST,
+            }
+            .into());
+        }
+        let parts = node.children().filter(Node::is_element);
+        self.text += parts
+            .filter(|part| part.tag_name().name() != "node")
+            .map(|part| part.range().len())
+            .sum::<usize>();
+        if self.text > MOST_TEXT {
+            return Err(Fault::TooLarge {
+                what: "bytes of nodes, counted as often as they are placed",
+                limit: MOST_TEXT,
             }
             .into());
         }
