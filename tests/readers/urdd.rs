@@ -1,4 +1,4 @@
-//! The validator as a whole: one file of a small URDD is replaced.
+//! The validator as a whole: one file of a small URDD is changed.
 
 use std::fs;
 use std::path::PathBuf;
@@ -25,7 +25,9 @@ const ROBOT: &str = r#"<robot name="r">
 <mimic joint="j" multiplier="0.5"/></joint>
 </robot>"#;
 
-/// The files that are replaced; the first byte of an input says which.
+/// The files that are changed; the first byte of an input says which, and whether as a whole.
+/// A file is put in its place, or a piece of it: then two bytes say where it begins, and one how
+/// long it is.
 const FILES: &[&str] = &[
     "urdd.json",
     "robot.urdf",
@@ -52,6 +54,9 @@ const FILES: &[&str] = &[
     "x_fuzz_extension_module/schema.json",
     "x_fuzz_extension_module/module.json",
 ];
+
+/// The bit of the first byte that says that a piece is replaced.
+const PIECE: u8 = 0x80;
 
 struct Small {
     folder: TempDir,
@@ -101,9 +106,13 @@ pub fn urdd(bytes: &[u8]) {
         return;
     };
     let small = &*SMALL;
-    let at = usize::from(*choice) % FILES.len();
+    let at = usize::from(choice & !PIECE) % FILES.len();
     let path = small.path(FILES[at]);
-    fs::write(&path, content).expect("the file is replaced");
+    let changed = match (choice & PIECE, small.contents[at].as_deref()) {
+        (PIECE, Some(whole)) => spliced(whole, content),
+        _ => content.to_owned(),
+    };
+    fs::write(&path, changed).expect("the file is changed");
     let run = validate(&[small.path("")], &Settings::default()).expect("a URDD is there");
     match &small.contents[at] {
         Some(content) => fs::write(&path, content).expect("the file is put back"),
@@ -120,4 +129,13 @@ pub fn urdd(bytes: &[u8]) {
     }
     let report = Report::new(&run, Severity::Error);
     report::json(&report).expect("a report");
+}
+
+/// A file with a piece of it replaced.
+fn spliced(whole: &[u8], edit: &[u8]) -> Vec<u8> {
+    let (place, piece) = edit.split_at(edit.len().min(3));
+    let byte = |at: usize| usize::from(place.get(at).copied().unwrap_or_default());
+    let start = (byte(0) + 256 * byte(1)) % (whole.len() + 1);
+    let end = (start + byte(2)).min(whole.len());
+    [&whole[..start], piece, &whole[end..]].concat()
 }
