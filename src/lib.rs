@@ -11,6 +11,7 @@ pub mod geometry;
 pub mod kinematics;
 pub mod report;
 pub mod validate;
+pub mod xml;
 
 /// The Rust code in README.md is compiled and run with the tests.
 #[cfg(doctest)]

@@ -12,15 +12,16 @@ use urdd::validate::rules;
 const ROOMS: &[(&str, &[&str])] = &[
     ("format", &[]),
     ("directory", &["format"]),
-    ("geometry", &[]),
+    ("xml", &[]),
+    ("geometry", &["xml"]),
     ("kinematics", &["format"]),
     (
         "generate",
-        &["format", "directory", "geometry", "kinematics"],
+        &["format", "directory", "geometry", "kinematics", "xml"],
     ),
     (
         "validate",
-        &["format", "directory", "geometry", "kinematics"],
+        &["format", "directory", "geometry", "kinematics", "xml"],
     ),
     ("report", &["format", "directory", "validate"]),
     (

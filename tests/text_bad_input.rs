@@ -32,6 +32,38 @@ fn nesting_is_bounded() {
 }
 
 #[test]
+fn a_key_in_braces_is_on_one_line_with_its_colon() {
+    let refused = [
+        "{k\n: [1]}",
+        "{k\r: [1]}",
+        "{é: é, k\r\n : [1]}",
+        "{'k'\n: [1]}",
+        "{\"k\" # why\n\n: [1]}",
+        "{\"k\n k\": [1]}",
+        "[{k\n: [1]}]",
+        "{a b\n: [1]}",
+    ];
+    // PyYAML and libyaml refuse these and read the others.
+    for yaml in refused {
+        let faults = faults_of(yaml, json!({"k": [1]}));
+        assert_eq!(faults.total(Kind::YamlSyntax), 1, "{yaml:?}: {faults}");
+    }
+    let read = [
+        "{k:\n [1]\n}",
+        "{\"k\" :\n [1]}",
+        "{? k\n: [1]}",
+        "{?\n k\n: [1]}",
+        "? k\n: [1]",
+        "{\n\n k: [1]\n,}",
+    ];
+    for yaml in read {
+        let faults = faults_of(yaml, json!({"k": [1]}));
+        assert!(faults.is_empty(), "{yaml:?}: {faults}");
+    }
+    assert!(faults_of("{k\n, l\n}", json!({"k": null, "l": null})).is_empty());
+}
+
+#[test]
 fn bad_files_have_a_kind_each() {
     let json = || json!({"a": [1]});
     let first = |bytes: &[u8]| check_mirror(bytes, &json()).iter().next().cloned().unwrap();

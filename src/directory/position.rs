@@ -24,7 +24,12 @@ impl fmt::Display for Position {
 pub struct LineIndex<'a> {
     text: &'a str,
     starts: Vec<usize>,
+    /// The scalar values before each block of the text: a whole file may be one line.
+    before_block: Vec<usize>,
 }
+
+/// Bytes of a block.
+const BLOCK: usize = 1024;
 
 impl<'a> LineIndex<'a> {
     /// Finds the lines of `text`. A line ends with `\n`, with `\r\n`, or with a `\r` alone.
@@ -36,7 +41,17 @@ impl<'a> LineIndex<'a> {
                 starts.push(at + 1);
             }
         }
-        Self { text, starts }
+        let mut before_block = vec![0];
+        let mut before = 0;
+        for block in bytes.chunks(BLOCK) {
+            before += scalars(block);
+            before_block.push(before);
+        }
+        Self {
+            text,
+            starts,
+            before_block,
+        }
     }
 
     /// The position of a byte offset; an offset beyond the text is the text's end.
@@ -46,8 +61,14 @@ impl<'a> LineIndex<'a> {
         let start = self.starts[line - 1];
         Position {
             line: count(line),
-            column: count(scalars(&self.text.as_bytes()[start..offset]) + 1),
+            column: count(self.scalars_before(offset) - self.scalars_before(start) + 1),
         }
+    }
+
+    /// How many scalar values begin before a byte offset.
+    fn scalars_before(&self, offset: usize) -> usize {
+        let block = offset / BLOCK;
+        self.before_block[block] + scalars(&self.text.as_bytes()[block * BLOCK..offset])
     }
 
     /// The byte offset at which a 1-based line begins.
@@ -100,6 +121,21 @@ mod tests {
         assert_eq!(index.position(text.find('y').unwrap()), at(2, 1));
         assert_eq!(index.position(text.find('z').unwrap()), at(3, 1));
         assert_eq!(index.position(usize::MAX), at(4, 1));
+    }
+
+    #[test]
+    fn long_lines_are_counted_as_short_ones() {
+        let text = format!("{}\n{}", "é".repeat(3000), "\u{1F916}x".repeat(2000));
+        let index = LineIndex::new(&text);
+        for (offset, _) in text.char_indices() {
+            let before = &text[..offset];
+            let line = before.rsplit('\n').next().unwrap();
+            let expected = at(
+                1 + u32::from(offset > 6000),
+                line.chars().count() as u32 + 1,
+            );
+            assert_eq!(index.position(offset), expected, "{offset}");
+        }
     }
 
     #[test]

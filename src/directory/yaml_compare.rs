@@ -8,8 +8,9 @@ use serde_json::Value;
 
 use super::json::DEPTH_LIMIT;
 use super::json_scan::push_segment;
-use super::position::Position;
+use super::position::{Position, position};
 use super::text_fault::{TextFault, TextFaultKind, TextFaults};
+use super::yaml_keys::{Keys, TORN};
 use super::yaml_message as message;
 use super::yaml_open::{Mapping, Member, Open, Shape, pointer};
 use super::yaml_scalar::{self, Reading};
@@ -19,10 +20,12 @@ use super::yaml_tag::{self, Forced, Node, Target};
 /// Reports how the YAML in `text` differs from `json`, and what is in it that JSON has not.
 pub fn compare(text: &str, json: &Value, faults: &mut TextFaults) {
     let mut comparison = Comparison {
+        text,
         root: json,
         open: Vec::new(),
         documents: 0,
         tabs: Tabs::find(text),
+        keys: Keys::new(text),
         faults,
     };
     let mut parser = Parser::new_from_str(text);
@@ -33,16 +36,18 @@ pub fn compare(text: &str, json: &Value, faults: &mut TextFaults) {
                     return;
                 }
             }
-            Err(error) => return comparison.stop(text, &error),
+            Err(error) => return comparison.stop(&error),
         }
     }
 }
 
 struct Comparison<'j, 'y, 'f> {
+    text: &'y str,
     root: &'j Value,
     open: Vec<Open<'j, 'y>>,
     documents: usize,
     tabs: Tabs,
+    keys: Keys<'y>,
     faults: &'f mut TextFaults,
 }
 
@@ -76,6 +81,9 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
                 Slot::Key => {
                     self.target(tag.as_deref(), anchor, None, Node::Scalar, at);
                     self.key(text, style, at);
+                    if self.open.last().is_some_and(|open| open.flow) && self.keys.is_torn(span) {
+                        self.report(at, TextFaultKind::YamlSyntax, TORN);
+                    }
                 }
                 Slot::Value(json) => {
                     let is_empty = text.is_empty() && style == ScalarStyle::Plain;
@@ -334,13 +342,13 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         target
     }
 
-    fn stop(&mut self, text: &str, error: &ScanError) {
+    fn stop(&mut self, error: &ScanError) {
         let at = place(*error.marker());
         // The scanner looks ahead in brackets, and has a limit of its own there.
         if error.info() == "recursion limit exceeded" {
             return self.too_deep(at);
         }
-        let message = message::unparsed(text, error);
+        let message = message::unparsed(self.text, error);
         self.report(at, TextFaultKind::YamlSyntax, &message);
     }
 
@@ -348,7 +356,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         let message = format!("the nesting is deeper than {DEPTH_LIMIT} levels: flatten it");
         // A pointer of a hundred segments helps nobody.
         self.faults
-            .push(TextFault::new(TextFaultKind::YamlTooDeep, message).at(at));
+            .push(TextFault::new(TextFaultKind::YamlTooDeep, message).at(in_text(self.text, at)));
     }
 
     fn report(&mut self, at: Position, kind: TextFaultKind, message: &str) {
@@ -361,8 +369,9 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
 
     /// Adds a fault of the node that is being read.
     fn add(&mut self, at: Position, kind: TextFaultKind, fault: impl FnOnce() -> TextFault) {
-        let open = &self.open;
-        self.faults.add(kind, || fault().at(at).of(pointer(open)));
+        let (open, text) = (&self.open, self.text);
+        self.faults
+            .add(kind, || fault().at(in_text(text, at)).of(pointer(open)));
     }
 }
 
@@ -371,6 +380,12 @@ fn scalar_kind(event: &Event<'_>) -> Option<ScalarStyle> {
         Event::Scalar(_, style, ..) => Some(*style),
         _ => None,
     }
+}
+
+/// The place, or the end of the text: where the last line does not end, the parser is at the start
+/// of one that is not there.
+fn in_text(text: &str, at: Position) -> Position {
+    at.min(position(text, text.len()))
 }
 
 fn place(marker: Marker) -> Position {

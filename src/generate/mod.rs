@@ -33,3 +33,4 @@ pub use kinematics_samples::NUM_SAMPLED;
 pub use meshes::{PackagePathError, Packages};
 pub use robot::{Generated, MadeModule, Progress, Settings, generate};
 pub use selection::{Selection, UnknownModule};
+pub use source::{SourceRobot, read_urdf};

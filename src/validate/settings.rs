@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use globset::{Glob, GlobMatcher};
+use globset::{Glob, GlobSet};
 use serde::Deserialize;
 use thiserror::Error;
 
@@ -33,7 +33,9 @@ pub struct Ignore {
     /// The rule.
     pub code: Code,
     /// Which files: matched against the URDD's name, a slash, and the file's path.
-    pub path: GlobMatcher,
+    pub path: GlobSet,
+    /// The same as it was written.
+    pub pattern: String,
     /// Why.
     pub reason: String,
 }
@@ -117,13 +119,10 @@ impl Settings {
             if ignore.reason.trim().is_empty() {
                 return Err(SettingsError::EmptyReason(ignore.code));
             }
-            let path = Glob::new(&ignore.path).map_err(|error| SettingsError::Pattern {
-                pattern: ignore.path.clone(),
-                reason: error.kind().to_string(),
-            })?;
             settings.ignores.push(Ignore {
                 code: code(&ignore.code)?,
-                path: path.compile_matcher(),
+                path: matcher(&ignore.path)?,
+                pattern: ignore.path,
                 reason: ignore.reason,
             });
         }
@@ -162,10 +161,30 @@ impl Settings {
             .filter(|(_, used)| !used)
             .map(|(ignore, _)| StaleIgnore {
                 code: ignore.code,
-                path: ignore.path.glob().to_string(),
+                path: ignore.pattern.clone(),
             })
             .collect()
     }
+}
+
+/// Longest pattern, bytes: one that nests a hundred thousand alternatives exhausts the stack.
+const LONGEST_PATTERN: usize = 1000;
+
+fn matcher(pattern: &str) -> Result<GlobSet, SettingsError> {
+    let refused = |reason: String| SettingsError::Pattern {
+        pattern: pattern.chars().take(LONGEST_PATTERN).collect(),
+        reason,
+    };
+    if pattern.len() > LONGEST_PATTERN {
+        return Err(refused(format!(
+            "it is longer than {LONGEST_PATTERN} bytes; write several ignores"
+        )));
+    }
+    // A set of one: a pattern that is beyond the bounds of the regex that it becomes is an error
+    // here, and a panic of `Glob::compile_matcher`.
+    Glob::new(pattern)
+        .and_then(|glob| GlobSet::builder().add(glob).build())
+        .map_err(|error| refused(error.kind().to_string()))
 }
 
 /// A severity by its word.

@@ -12,6 +12,7 @@ use super::note::{Note, NoteKind, Remark};
 use super::urdf::{self, Reading};
 use crate::directory::path::portable;
 use crate::directory::position::LineIndex;
+use crate::format::urdf::UrdfModule;
 
 pub(crate) use repair::apply;
 
@@ -82,9 +83,73 @@ pub(crate) fn load(path: &Path) -> Result<Source, GenerateError> {
         }
     }
     let (name, file_name) = names(&canonical);
+    let mended = mend(text, &name, &shown, &mut notes)?;
+    is_verbatim &= mended.is_verbatim;
+    Ok(Source {
+        folder,
+        file_name,
+        carried: match is_verbatim {
+            true => bytes.clone(),
+            false => mended.text.into_bytes(),
+        },
+        found: (!is_verbatim).then_some(bytes),
+        reading: mended.reading,
+        notes,
+        mesh_places: mended.mesh_places,
+        shown,
+    })
+}
+
+/// A robot as [`generate`](super::generate) reads it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SourceRobot {
+    /// What a `urdf_module` says of it.
+    pub robot: UrdfModule,
+    /// The URDF that a URDD carries: the one that was read, repaired where it had to be.
+    pub carried: Vec<u8>,
+    /// What is odd in it.
+    pub notes: Vec<Note>,
+}
+
+/// Reads a URDF from memory, and makes nothing. Macros of xacro are not expanded.
+///
+/// `name` names a robot that has no name, and stands for the file in notes and errors.
+///
+/// # Errors
+/// Where it cannot be read, or is no robot.
+pub fn read_urdf(bytes: &[u8], name: &str) -> Result<SourceRobot, GenerateError> {
+    let mut notes = Vec::new();
+    let (text, is_verbatim) = decode::decode(bytes, name, &mut notes)?;
+    let mended = mend(text, name, name, &mut notes)?;
+    Ok(SourceRobot {
+        robot: mended.reading.robot,
+        carried: match is_verbatim && mended.is_verbatim {
+            true => bytes.to_owned(),
+            false => mended.text.into_bytes(),
+        },
+        notes,
+    })
+}
+
+/// A text that says what was read of it.
+struct Mended {
+    text: String,
+    /// Whether nothing had to be repaired.
+    is_verbatim: bool,
+    reading: Reading,
+    mesh_places: Vec<(u32, u32)>,
+}
+
+/// Reads a robot, and repairs its text until that says what was read.
+fn mend(
+    text: String,
+    name: &str,
+    shown: &str,
+    notes: &mut Vec<Note>,
+) -> Result<Mended, GenerateError> {
     let (mut text, remarks, first_line) = repair::mend_xml(text);
-    is_verbatim &= remarks.is_empty();
-    place(&remarks, &text, &shown, first_line, &mut notes);
+    let mut is_verbatim = remarks.is_empty();
+    place(&remarks, &text, shown, first_line, notes);
 
     let mut mesh_places = None;
     for _ in 0..MOST_ROUNDS {
@@ -93,14 +158,14 @@ pub(crate) fn load(path: &Path) -> Result<Source, GenerateError> {
                 placed.line += first_line;
             }
             GenerateError::Refused {
-                file: shown.clone(),
+                file: shown.to_owned(),
                 faults,
             }
         };
-        let reading = urdf::read(&text, &name).map_err(refused)?;
+        let reading = urdf::read(&text, name).map_err(refused)?;
         if mesh_places.is_none() {
             // Later texts are repaired ones, and their places mean nothing to the user.
-            place(&reading.remarks, &text, &shown, first_line, &mut notes);
+            place(&reading.remarks, &text, shown, first_line, notes);
             let lines = LineIndex::new(&text);
             let places = reading.mesh_offsets.iter().map(|offset| {
                 let at = lines.position(*offset);
@@ -109,25 +174,18 @@ pub(crate) fn load(path: &Path) -> Result<Source, GenerateError> {
             mesh_places = Some(places.collect());
         }
         if reading.edits.is_empty() {
-            return Ok(Source {
-                folder,
-                file_name,
-                carried: match is_verbatim {
-                    true => bytes.clone(),
-                    false => text.into_bytes(),
-                },
-                found: (!is_verbatim).then_some(bytes),
+            return Ok(Mended {
+                text,
+                is_verbatim,
                 reading,
-                notes,
                 mesh_places: mesh_places.unwrap_or_default(),
-                shown,
             });
         }
         is_verbatim = false;
         text = apply(&text, reading.edits);
     }
     Err(GenerateError::Internal {
-        file: shown,
+        file: shown.to_owned(),
         reason: "the repaired URDF needs repairs again".to_owned(),
     })
 }

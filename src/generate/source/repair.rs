@@ -1,9 +1,10 @@
 //! Repairs of the text itself.
 
-use roxmltree::{Document, Error, ParsingOptions};
+use roxmltree::Error;
 
 use crate::generate::note::{NoteKind, Remark};
 use crate::generate::urdf::Edit;
+use crate::xml::{self, XmlError};
 
 /// Most prefixes that are declared for a file.
 const MOST_PREFIXES: usize = 32;
@@ -81,12 +82,8 @@ pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
 
 /// A prefix that the parser does not know, where that is what it stumbles over first.
 fn unknown_prefix(text: &str) -> Option<String> {
-    let options = ParsingOptions {
-        allow_dtd: true,
-        ..ParsingOptions::default()
-    };
-    match Document::parse_with_options(text, options) {
-        Err(Error::UnknownNamespace(prefix, _)) => Some(prefix),
+    match xml::parse(text, true) {
+        Err(XmlError::Parser(Error::UnknownNamespace(prefix, _))) => Some(prefix),
         _ => None,
     }
 }

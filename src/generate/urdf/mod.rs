@@ -22,9 +22,6 @@ use crate::format::urdf::UrdfModule;
 
 pub(crate) use tree::{Tree, has_axis, written_axis};
 
-/// Most XML nodes that are read: a robot of 2,000 links has some 100,000.
-const MAX_NODES: u32 = 4_000_000;
-
 /// A change of the text: the bytes of `range` become `text`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Edit {
@@ -78,14 +75,7 @@ pub(crate) fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFau
         let offset = text.find("<!ENTITY").unwrap_or_default();
         return Err(vec![placed(text, offset, Fault::Entities)]);
     }
-    let options = roxmltree::ParsingOptions {
-        // A mere `<!DOCTYPE robot>` does no harm: what it names is never fetched.
-        allow_dtd: true,
-        nodes_limit: MAX_NODES,
-        ..roxmltree::ParsingOptions::default()
-    };
-    let document = roxmltree::Document::parse_with_options(text, options)
-        .map_err(|error| vec![xml::fault(&error, text)])?;
+    let document = crate::xml::parse(text, true).map_err(|error| vec![xml::fault(&error, text)])?;
     let (reading, faults) = reader::read(&document, file_stem);
     if faults.is_empty() {
         return Ok(reading);

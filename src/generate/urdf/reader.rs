@@ -1,5 +1,6 @@
 //! From the XML to the robot.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use roxmltree::Document;
@@ -47,6 +48,8 @@ pub(super) struct Reader {
     pub(super) joint_places: Vec<JointPlace>,
     /// Every material, and where it stands.
     pub(super) materials: Vec<(usize, v1::Material)>,
+    /// Where attributes stand whose names are mended.
+    mended: HashSet<usize>,
 }
 
 impl Reader {
@@ -111,12 +114,7 @@ impl Reader {
             .find(|other| other.namespace().is_none() && other.name().eq_ignore_ascii_case(name))?;
         let offset = found.range().start;
         // Some attributes are asked for twice.
-        if !self
-            .reading
-            .edits
-            .iter()
-            .any(|edit| edit.range == found.range_qname())
-        {
+        if self.mended.insert(offset) {
             let element = xml::name(element);
             let problem = format!(
                 "`{}` of `<{element}>` is not as URDF writes it",

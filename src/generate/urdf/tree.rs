@@ -108,6 +108,7 @@ fn ends(reader: &mut Reader) {
     let links: HashMap<&str, usize> = names.map(|(idx, link)| (link.name.as_str(), idx)).collect();
     let mut moved_by: HashMap<usize, usize> = HashMap::new();
     let (mut tree, mut faults) = (Vec::new(), Vec::new());
+    let mut plain_names = None;
     for (idx, (joint, place)) in robot.joints.iter().zip(&reader.joint_places).enumerate() {
         let sides = [
             ("parent", &joint.parent.link, place.parent),
@@ -120,7 +121,12 @@ fn ends(reader: &mut Reader) {
                     joint: shortened(&joint.name),
                     end,
                     link: shortened(link),
-                    hint: hint(robot, link),
+                    hint: plain_names
+                        .get_or_insert_with(|| plain_names_of(robot))
+                        .get(&plain(link))
+                        .map_or_else(String::new, |meant| {
+                            format!(" (there is `{}`)", shortened(meant))
+                        }),
                 };
                 faults.push((offset, fault));
             }
@@ -143,16 +149,17 @@ fn ends(reader: &mut Reader) {
     reader.faults.extend(faults);
 }
 
-/// A link that may be meant: the same but for case and white space.
-fn hint(robot: &UrdfModule, link: &str) -> String {
-    let plain = |text: &str| text.trim().to_lowercase();
-    let near = robot
-        .links
-        .iter()
-        .find(|found| plain(&found.name) == plain(link));
-    near.map_or_else(String::new, |found| {
-        format!(" (there is `{}`)", shortened(&found.name))
-    })
+/// The links by their names without case and white space around them; the first of each.
+fn plain_names_of(robot: &UrdfModule) -> HashMap<String, &str> {
+    let mut names = HashMap::new();
+    for link in &robot.links {
+        names.entry(plain(&link.name)).or_insert(link.name.as_str());
+    }
+    names
+}
+
+fn plain(name: &str) -> String {
+    name.trim().to_lowercase()
 }
 
 fn one_root(reader: &mut Reader, robot_at: usize) {
@@ -294,18 +301,36 @@ fn mimics(reader: &mut Reader) {
         reader.edit(place, "");
         reader.reading.robot.joints[idx].mimic = None;
     }
-    for idx in 0..drivers.len() {
-        // Around more often than there are joints: a circle that this joint leads into.
-        let chain = std::iter::successors(drivers[idx], |joint| drivers[*joint]);
-        if chain.take(drivers.len() + 1).any(|joint| joint == idx) {
-            let name = shortened(&reader.reading.robot.joints[idx].name);
-            reader.fault(
-                reader.joint_places[idx].mimic.start,
-                Fault::MimicCircle(name),
-            );
-        }
+    for idx in in_circles(&drivers) {
+        let name = shortened(&reader.reading.robot.joints[idx].name);
+        let place = reader.joint_places[idx].mimic.start;
+        reader.fault(place, Fault::MimicCircle(name));
     }
     reader.reading.tree.drivers = drivers;
+}
+
+/// The joints that follow themselves, ascending; not those that only lead into a circle.
+fn in_circles(drivers: &[Option<usize>]) -> Vec<usize> {
+    // For each joint the walk that came by first; a walk that meets itself has found a circle.
+    let mut walk_of = vec![usize::MAX; drivers.len()];
+    let mut found = Vec::new();
+    for start in 0..drivers.len() {
+        let mut joint = start;
+        while walk_of[joint] == usize::MAX {
+            walk_of[joint] = start;
+            match drivers[joint] {
+                Some(driver) => joint = driver,
+                None => break,
+            }
+        }
+        if walk_of[joint] == start && drivers[joint].is_some() {
+            found.push(joint);
+            let around = std::iter::successors(drivers[joint], |joint| drivers[*joint]);
+            found.extend(around.take_while(|other| *other != joint));
+        }
+    }
+    found.sort_unstable();
+    found
 }
 
 fn missing_limits(reader: &mut Reader) {

@@ -4,6 +4,7 @@ use roxmltree::{Attribute, Error, Node};
 
 use crate::directory::position::LineIndex;
 use crate::generate::fault::{Fault, PlacedFault};
+use crate::xml::{MOST_NODES, XmlError};
 
 pub(super) type Element<'a> = Node<'a, 'a>;
 
@@ -39,17 +40,29 @@ pub(super) fn attribute<'a>(element: Element<'a>, name: &str) -> Option<Attribut
 }
 
 /// What the parser refused, in words and with its place.
-pub(super) fn fault(error: &Error, text: &str) -> PlacedFault {
+pub(super) fn fault(error: &XmlError, text: &str) -> PlacedFault {
     let at = error.pos();
     let start = LineIndex::new(text)
         .line_start(at.row as usize)
         .unwrap_or_default();
     let is_after_end = text[..start].contains("</robot>") || text.starts_with("<robot/>");
     let words = match error {
+        XmlError::TooMany { .. } => error.words(),
+        XmlError::Parser(error) => words(error, text, is_after_end),
+    };
+    PlacedFault {
+        line: at.row,
+        column: at.col,
+        fault: Fault::NotXml(words),
+    }
+}
+
+fn words(error: &Error, text: &str, is_after_end: bool) -> String {
+    match error {
         Error::UnexpectedDeclaration(_) => {
             "the declaration `<?xml …?>` may stand only at the very start of the file".to_owned()
         }
-        Error::NodesLimitReached => format!("it has more than {} nodes", super::MAX_NODES),
+        Error::NodesLimitReached => format!("it has more than {MOST_NODES} nodes"),
         Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream
             if text.trim().is_empty() =>
         {
@@ -81,10 +94,5 @@ pub(super) fn fault(error: &Error, text: &str) -> PlacedFault {
                 _ => words,
             }
         }
-    };
-    PlacedFault {
-        line: at.row,
-        column: at.col,
-        fault: Fault::NotXml(words),
     }
 }

@@ -50,13 +50,7 @@ impl Assembly {
             return Ok(());
         }
         self.triangles += mesh.triangles.len();
-        if self.triangles > self.limit {
-            return Err(Fault::TooLarge {
-                what: "triangles",
-                limit: self.limit,
-            }
-            .into());
-        }
+        self.check_triangles(self.triangles)?;
         let mut placed = mesh.clone();
         if *matrix != Matrix4::identity() {
             placed.transform(matrix);
@@ -87,6 +81,16 @@ impl Assembly {
         Ok(())
     }
 
+    /// Whether so many triangles may be held.
+    pub(super) fn check_triangles(&self, count: usize) -> Result<(), Failure> {
+        within("triangles", count, self.limit)
+    }
+
+    /// Whether so many vertices may be held: three for each triangle.
+    pub(super) fn check_vertices(&self, count: usize) -> Result<(), Failure> {
+        within("vertices", count, self.limit.saturating_mul(3))
+    }
+
     pub(super) fn add_side_file(&mut self, name: &str) {
         if !name.is_empty() {
             self.side_files.push(name.to_owned());
@@ -107,6 +111,13 @@ impl Assembly {
             notes: self.notes.0,
         }
     }
+}
+
+fn within(what: &'static str, count: usize, limit: usize) -> Result<(), Failure> {
+    if count > limit {
+        return Err(Fault::TooLarge { what, limit }.into());
+    }
+    Ok(())
 }
 
 /// Picks the vertices that some triangles use, from an array that several share.

@@ -20,9 +20,6 @@ use std::collections::HashMap;
 use crate::directory::position::{LineIndex, Position};
 use crate::format::urdf::UrdfModule;
 
-/// Most XML nodes of a URDF that are read: a robot of 2,000 links has some 100,000.
-const MAX_NODES: u32 = 4_000_000;
-
 /// A URDF, as far as it could be read.
 #[derive(Debug, Default)]
 pub struct Reading {
@@ -58,14 +55,7 @@ impl Reading {
 
 /// Reads a URDF.
 pub fn read(text: &str) -> Reading {
-    let options = roxmltree::ParsingOptions {
-        // A document's own entities are how small files grow large, and no robot needs them. A
-        // mere `<!DOCTYPE robot>` does no harm; what it names outside the file is never fetched.
-        allow_dtd: !text.contains("<!ENTITY"),
-        nodes_limit: MAX_NODES,
-        ..roxmltree::ParsingOptions::default()
-    };
-    match roxmltree::Document::parse_with_options(text, options) {
+    match crate::xml::parse(text, true) {
         Ok(document) => reader::read(&document),
         Err(error) => Reading {
             problems: vec![problem::not_xml(&error, text)],

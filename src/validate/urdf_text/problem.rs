@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::directory::position::LineIndex;
+use crate::xml::XmlError;
 
 /// A place that cannot be read.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,7 +93,7 @@ pub struct Repeated {
     pub parent: &'static str,
 }
 
-pub(super) fn not_xml(error: &roxmltree::Error, text: &str) -> Problem {
+pub(super) fn not_xml(error: &XmlError, text: &str) -> Problem {
     let place = error.pos();
     let start = LineIndex::new(text)
         .line_start(place.row as usize)
@@ -103,19 +104,18 @@ pub(super) fn not_xml(error: &roxmltree::Error, text: &str) -> Problem {
         .nth((place.col as usize).saturating_sub(1))
         .map_or(rest.len(), |(offset, _)| offset);
     let words = match error {
-        roxmltree::Error::DtdDetected => {
+        XmlError::Parser(roxmltree::Error::DtdDetected) => {
             "it declares entities of its own (DOCTYPE), which are not read".to_owned()
         }
-        roxmltree::Error::UnexpectedDeclaration(_) => {
+        XmlError::Parser(roxmltree::Error::UnexpectedDeclaration(_)) => {
             "the XML declaration `<?xml …?>` must stand at the very start of the file, once"
                 .to_owned()
         }
-        roxmltree::Error::NodesLimitReached => "it has too many elements".to_owned(),
+        XmlError::Parser(roxmltree::Error::NodesLimitReached) => {
+            "it has too many elements".to_owned()
+        }
         // The place stands beside the message already.
-        other => match other.to_string().rsplit_once(" at ") {
-            Some((words, _)) => words.to_owned(),
-            None => other.to_string(),
-        },
+        other => other.words(),
     };
     Problem {
         offset: start + column,

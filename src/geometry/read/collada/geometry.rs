@@ -6,7 +6,7 @@ use super::super::assembly::Picker;
 use super::super::error::{Failure, Fault, NoteCode, Notes};
 use super::super::number::Words;
 use super::document::{Document, child, children, text};
-use super::source::Positions;
+use super::source::{Positions, Read};
 use crate::geometry::mesh::Mesh;
 use crate::geometry::polygon::Splitter;
 
@@ -21,6 +21,7 @@ pub(super) struct Primitive<'a> {
 pub(super) struct Tools {
     picker: Picker,
     splitter: Option<Splitter>,
+    read: Read,
 }
 
 /// Reads a `geometry` element.
@@ -40,7 +41,12 @@ pub(super) fn read<'a>(
         );
         return Ok(Vec::new());
     };
-    let mut positions = Positions::new(document, mesh);
+    let Tools {
+        picker,
+        splitter,
+        read,
+    } = tools;
+    let mut positions = Positions::new(document, mesh, read);
     let mut primitives = Vec::new();
     for element in mesh.children().filter(Node::is_element) {
         let shape = match element.tag_name().name() {
@@ -65,10 +71,10 @@ pub(super) fn read<'a>(
         faces.read(
             element,
             vertices,
-            tools.splitter.get_or_insert_with(Splitter::new),
+            splitter.get_or_insert_with(Splitter::new),
             notes,
         );
-        let (mesh, left_out) = tools.picker.pick(vertices, &faces.triangles);
+        let (mesh, left_out) = picker.pick(vertices, &faces.triangles);
         let text = "a triangle was dropped: it names a vertex that is not there, or holds what is no index";
         notes.add_many(NoteCode::IndexOutOfRange, text, left_out + faces.bad);
         primitives.push(Primitive {

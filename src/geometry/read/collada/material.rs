@@ -2,11 +2,14 @@
 
 use std::collections::HashMap;
 
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
 
 use super::super::assembly::Material;
 use super::super::number::Words;
 use super::document::{Document, text};
+
+/// The colour of each effect that was read, by its element.
+pub(super) type Colors = HashMap<NodeId, Option<[f64; 4]>>;
 
 /// What an instance of a geometry binds: from symbol to the material's URL.
 pub(super) fn bindings<'a>(instance: Option<Node<'a, 'a>>) -> HashMap<&'a str, &'a str> {
@@ -31,6 +34,7 @@ pub(super) fn of_symbol(
     document: &Document<'_>,
     bindings: &HashMap<&str, &str>,
     symbol: Option<&str>,
+    colors: &mut Colors,
 ) -> Material {
     let Some(symbol) = symbol else {
         return Material::default();
@@ -44,7 +48,7 @@ pub(super) fn of_symbol(
     let color = material
         .and_then(|material| child_of(material, "instance_effect"))
         .and_then(|effect| document.find("effect", effect.attribute("url")?))
-        .and_then(diffuse);
+        .and_then(|effect| *colors.entry(effect.id()).or_insert_with(|| diffuse(effect)));
     Material {
         name: Some(name.unwrap_or(symbol).to_owned()),
         color,

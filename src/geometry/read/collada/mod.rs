@@ -10,6 +10,7 @@ mod transform;
 use super::assembly::Assembly;
 use super::error::{Failure, Fault, NoteCode, Place};
 use super::sniff;
+use crate::xml;
 pub(super) use document::path_of_url;
 use document::{Document, child, children};
 pub(super) use geometry::strip;
@@ -17,13 +18,10 @@ pub(super) use geometry::strip;
 /// Reads a document: the visual scene that it shows, every geometry where its nodes place it.
 pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
     let text = decode(bytes, assembly)?;
-    let options = roxmltree::ParsingOptions {
-        allow_dtd: false,
-        ..Default::default()
-    };
-    let xml = roxmltree::Document::parse_with_options(&text, options).map_err(|error| {
+    let xml = xml::parse(&text, false).map_err(|error| {
         let line = error.pos().row as usize;
-        Fault::malformed(format!("the XML is broken ({error})")).at(|| Place::Line(line))
+        let words = error.words();
+        Fault::malformed(format!("the XML is broken ({words})")).at(|| Place::Line(line))
     })?;
     let root = xml.root_element();
     if root.tag_name().name() != "COLLADA" {

@@ -9,12 +9,15 @@ use super::super::assembly::Assembly;
 use super::super::error::{Failure, Fault, NoteCode};
 use super::document::{Document, child, children};
 use super::geometry::{self, Primitive, Tools};
-use super::{material, transform};
+use super::material::{self, Colors};
+use super::transform;
 
 /// Nodes may lie so deep in one another.
 const DEEPEST: usize = 200;
 /// So many nodes are visited: `instance_node` can name more than a file holds.
 const MOST_NODES: usize = 100_000;
+/// So many bytes of nodes are gone through, each time that they are placed.
+const MOST_TEXT: usize = 1 << 28;
 
 /// Adds every geometry that the scene shows, at its place.
 ///
@@ -30,8 +33,10 @@ pub(super) fn walk(
         assembly,
         tools: Tools::default(),
         geometries: HashMap::new(),
+        colors: Colors::new(),
         path: Vec::new(),
         visited: 0,
+        text: 0,
     };
     let named = child(document.root, "scene")
         .and_then(|scene| child(scene, "instance_visual_scene"))
@@ -69,8 +74,11 @@ struct Walker<'a, 'd> {
     /// Each geometry is read once, however often it is placed.
     geometries: HashMap<roxmltree::NodeId, Vec<Primitive<'a>>>,
     /// The nodes around the present one.
+    /// The colour of each effect.
+    colors: Colors,
     path: Vec<roxmltree::NodeId>,
     visited: usize,
+    text: usize,
 }
 
 impl<'a> Walker<'a, '_> {
@@ -103,6 +111,18 @@ impl<'a> Walker<'a, '_> {
             return Err(Fault::TooLarge {
                 what: "nodes inside one another",
                 limit: DEEPEST,
+            }
+            .into());
+        }
+        let parts = node.children().filter(Node::is_element);
+        self.text += parts
+            .filter(|part| part.tag_name().name() != "node")
+            .map(|part| part.range().len())
+            .sum::<usize>();
+        if self.text > MOST_TEXT {
+            return Err(Fault::TooLarge {
+                what: "bytes of nodes, counted as often as they are placed",
+                limit: MOST_TEXT,
             }
             .into());
         }
@@ -192,7 +212,8 @@ impl<'a> Walker<'a, '_> {
         let primitives = &self.geometries[&geometry.id()];
         self.visited += primitives.len();
         for primitive in primitives {
-            let material = material::of_symbol(self.document, &bindings, primitive.symbol);
+            let material =
+                material::of_symbol(self.document, &bindings, primitive.symbol, &mut self.colors);
             self.assembly.add(&primitive.mesh, matrix, &material)?;
         }
         Ok(())

@@ -2,21 +2,25 @@
 
 use std::collections::HashMap;
 
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
 
 use super::super::error::{Failure, Fault};
 use super::super::number::{Words, float};
 use super::document::{Document, child, children, text};
 
-/// Vertex positions of one mesh, each source read once.
+/// The positions of each source that was read, whatever meshes share it.
+pub(super) type Read = HashMap<NodeId, Vec<[f64; 3]>>;
+
+/// Vertex positions of one mesh.
 pub(super) struct Positions<'a, 'd> {
     document: &'d Document<'a>,
     own: HashMap<(&'a str, &'a str), Node<'a, 'a>>,
-    read: HashMap<&'a str, Vec<[f64; 3]>>,
+    sources: HashMap<&'a str, NodeId>,
+    read: &'d mut Read,
 }
 
 impl<'a, 'd> Positions<'a, 'd> {
-    pub(super) fn new(document: &'d Document<'a>, mesh: Node<'a, 'a>) -> Self {
+    pub(super) fn new(document: &'d Document<'a>, mesh: Node<'a, 'a>, read: &'d mut Read) -> Self {
         let mut own = HashMap::new();
         for node in mesh.children().filter(Node::is_element) {
             if let Some(id) = node.attribute("id") {
@@ -26,25 +30,36 @@ impl<'a, 'd> Positions<'a, 'd> {
         Self {
             document,
             own,
-            read: HashMap::new(),
+            sources: HashMap::new(),
+            read,
         }
     }
 
     /// The positions that an input names, which is a `vertices` element or a `source`.
     pub(super) fn of(&mut self, url: &'a str) -> Result<&[[f64; 3]], Failure> {
-        if !self.read.contains_key(url) {
-            let source = match self.find("vertices", url) {
-                Some(vertices) => children(vertices, "input")
-                    .find(|input| input.attribute("semantic") == Some("POSITION"))
-                    .and_then(|input| self.find("source", input.attribute("source")?)),
-                None => self.find("source", url),
-            };
-            let source = source
-                .ok_or_else(|| Fault::malformed(format!("the positions '{url}' are not there")))?;
+        let id = match self.sources.get(url) {
+            Some(id) => *id,
+            None => self.find_source(url)?,
+        };
+        Ok(&self.read[&id])
+    }
+
+    /// Finds a source, and reads it where it was not read before.
+    fn find_source(&mut self, url: &'a str) -> Result<NodeId, Failure> {
+        let source = match self.find("vertices", url) {
+            Some(vertices) => children(vertices, "input")
+                .find(|input| input.attribute("semantic") == Some("POSITION"))
+                .and_then(|input| self.find("source", input.attribute("source")?)),
+            None => self.find("source", url),
+        };
+        let source = source
+            .ok_or_else(|| Fault::malformed(format!("the positions '{url}' are not there")))?;
+        if !self.read.contains_key(&source.id()) {
             let positions = self.read_source(source)?;
-            self.read.insert(url, positions);
+            self.read.insert(source.id(), positions);
         }
-        Ok(&self.read[url])
+        self.sources.insert(url, source.id());
+        Ok(source.id())
     }
 
     /// In this mesh first: some exporters use the same ids in each.

@@ -13,7 +13,7 @@ const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
 
 /// An accessor without data of its own, for sparse values, has at most so many elements.
-const MOST_ZEROS: usize = 1 << 24;
+const MOST_ZEROS: usize = 1 << 20;
 
 /// The vertex positions of an accessor.
 pub(super) fn positions(

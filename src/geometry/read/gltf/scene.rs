@@ -75,6 +75,9 @@ pub(super) fn walk<'r>(
         assembly,
         picker: Picker::default(),
         meshes: HashMap::new(),
+        positions: HashMap::new(),
+        num_positions: 0,
+        num_triangles: 0,
         path: Vec::new(),
         visited: 0,
     };
@@ -91,6 +94,11 @@ struct Walker<'r, 'b, 'f, 'a> {
     picker: Picker,
     /// Each mesh is read once, however often it is placed.
     meshes: HashMap<usize, Vec<(Mesh, Material)>>,
+    /// Each accessor of positions is read once, however many primitives share it.
+    positions: HashMap<usize, Vec<[f64; 3]>>,
+    /// Vertices and triangles that were read, placed or not: accessors may all name the same bytes.
+    num_positions: usize,
+    num_triangles: usize,
     path: Vec<usize>,
     visited: usize,
 }
@@ -186,8 +194,14 @@ impl Walker<'_, '_, '_, '_> {
                 .add(NoteCode::LeftOut, "faces without positions were left out");
             return Ok(None);
         };
-        let vertices = accessor::positions(self.root, position, self.buffers, self.assembly)
-            .map_err(|failure| failure.within("accessor", position))?;
+        if !self.positions.contains_key(&position) {
+            let read = accessor::positions(self.root, position, self.buffers, self.assembly)
+                .map_err(|failure| failure.within("accessor", position))?;
+            self.num_positions += read.len();
+            self.assembly.check_vertices(self.num_positions)?;
+            self.positions.insert(position, read);
+        }
+        let vertices = &self.positions[&position];
         let corners = match primitive.indices {
             Some(indices) => accessor::indices(self.root, indices, self.buffers, self.assembly)
                 .map_err(|failure| failure.within("accessor", indices))?,
@@ -206,7 +220,9 @@ impl Walker<'_, '_, '_, '_> {
                 .map(|three| [three[0], three[1], three[2]])
                 .collect(),
         };
-        let (mesh, left_out) = self.picker.pick(&vertices, &triangles);
+        self.num_triangles += triangles.len();
+        self.assembly.check_triangles(self.num_triangles)?;
+        let (mesh, left_out) = self.picker.pick(vertices, &triangles);
         let text = "a triangle was dropped: it names a vertex that is not there";
         self.assembly
             .notes

@@ -1,0 +1,17 @@
+//! What must hold of each reader, whatever the bytes: the bodies of the fuzz targets in `fuzz/`, and
+//! of `tests/fuzz_findings.rs`, which replays their seeds and findings.
+
+mod json;
+mod mesh;
+mod settings;
+mod text;
+mod urdd;
+mod urdf;
+mod yaml;
+
+pub use json::json;
+pub use mesh::{dae, glb, gltf, obj, stl};
+pub use settings::settings;
+pub use urdd::urdd;
+pub use urdf::urdf;
+pub use yaml::yaml;

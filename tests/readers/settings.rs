@@ -1,0 +1,27 @@
+//! The reader of `urdd.toml`.
+
+use urdd::validate::settings::Settings;
+
+/// What is accepted can be applied; what is not is told in words.
+pub fn settings(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return;
+    };
+    let settings = match Settings::from_toml(text) {
+        Ok(settings) => settings,
+        Err(error) => {
+            assert!(!error.to_string().is_empty());
+            return;
+        }
+    };
+    for ignore in &settings.ignores {
+        assert!(!ignore.reason.trim().is_empty());
+        ignore
+            .path
+            .is_match("arms/z1/mesh_modules/plain_meshes_module/meshes/0_base.stl");
+        ignore.path.is_match("");
+    }
+    // No URDD was examined, so no ignore matched.
+    let stale = settings.apply(std::iter::empty());
+    assert_eq!(stale.len(), settings.ignores.len());
+}
