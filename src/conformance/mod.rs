@@ -4,3 +4,4 @@
 
 pub mod data;
 pub mod export;
+pub mod kill_rate;

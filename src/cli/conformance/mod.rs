@@ -1,6 +1,7 @@
 //! `urdd conformance`: a subcommand a file.
 
 mod export;
+mod kill_rate;
 
 use std::process::ExitCode;
 
@@ -17,11 +18,14 @@ pub struct ConformanceArguments {
 enum Command {
     /// Write the suite into a folder.
     Export(export::ExportArguments),
+    /// Change valid URDDs one value at a time, and count what the validator notices.
+    KillRate(kill_rate::KillRateArguments),
 }
 
 /// Runs `urdd conformance`.
 pub fn run(arguments: &ConformanceArguments) -> ExitCode {
     match &arguments.command {
         Command::Export(arguments) => export::run(arguments),
+        Command::KillRate(arguments) => kill_rate::run(arguments),
     }
 }

@@ -1,0 +1,121 @@
+//! Whether a file still means the same after its bytes changed.
+
+use super::original::Original;
+use crate::directory::json;
+use crate::geometry::read::{self, GltfUp, Options, Part, Scene};
+
+/// Vertices of a carried mesh that moved by less than this part of its extent stand where they stood: ten times binary32,
+/// in which the link's mesh is written.
+const CARRIED_VERTEX: f64 = 1e-5;
+
+/// Whether a file of the URDD would mean the same with other bytes.
+pub(super) fn is_same(original: &Original, path: &str, after: &[u8]) -> bool {
+    let Some(before) = original.files.get(path) else {
+        return false;
+    };
+    if before == after {
+        return true;
+    }
+    let name = path.rsplit('/').next().unwrap_or(path);
+    match name.rsplit_once('.').map_or("", |(_, extension)| extension) {
+        "json" => match (json::read(before), json::read(after)) {
+            (Ok(a), Ok(b)) => a.value == b.value && b.faults == a.faults,
+            _ => false,
+        },
+        // A space within is a matter of the text around it: only the end of the file is surely of no meaning.
+        "yaml" => before.trim_ascii_end() == after.trim_ascii_end(),
+        _ if name == "VERSION" => without_newline(before) == without_newline(after),
+        _ if path.contains("/meshes/") => is_same_mesh(original, path, after),
+        _ => false,
+    }
+}
+
+fn without_newline(text: &[u8]) -> &[u8] {
+    text.strip_suffix(b"\n").unwrap_or(text)
+}
+
+fn is_same_mesh(original: &Original, path: &str, after: &[u8]) -> bool {
+    let carried = original
+        .module_of(path)
+        .is_some_and(|(name, _)| name == "original_meshes_module");
+    let mut meshes = vec![path.to_owned()];
+    let listed = original
+        .document("original_meshes_module")
+        .and_then(|document| document.value.get("files")?.as_array());
+    for file in listed.into_iter().flatten().filter(|_| carried) {
+        let sides = file.get("side_files").and_then(|sides| sides.as_array());
+        if let (Some(sides), Some(mesh)) = (sides, file["path"].as_str())
+            && sides.iter().any(|side| side == path)
+        {
+            meshes[0] = mesh.to_owned();
+        }
+    }
+    let unchanged = |mesh: &String| {
+        let tolerance = if carried { CARRIED_VERTEX } else { 0.0 };
+        let before = scene(original, mesh, None);
+        let after = scene(original, mesh, Some((path, after)));
+        match (before, after) {
+            (Some(before), Some(after)) => are_same(&before, &after, tolerance),
+            // Not a mesh before or after, as before.
+            (None, None) => true,
+            _ => false,
+        }
+    };
+    meshes.iter().all(unchanged)
+}
+
+/// A mesh of the URDD in the axes of its file, read with one file replaced; `None` where it is none.
+pub(super) fn scene(
+    original: &Original,
+    path: &str,
+    replaced: Option<(&str, &[u8])>,
+) -> Option<Scene> {
+    let bytes = |path: &str| match replaced {
+        Some((replaced, bytes)) if replaced == path => Some(bytes.to_vec()),
+        _ => original.files.get(path).cloned(),
+    };
+    let (folder, name) = path.rsplit_once('/')?;
+    let mut fetch = |side: &str| bytes(&format!("{folder}/{}", side.trim_start_matches("./")));
+    let options = Options {
+        gltf_up: GltfUp::Keep,
+        ..Options::default()
+    };
+    let scene = read::read_with(&bytes(path)?, name, &mut fetch, &options).ok()?;
+    scene
+        .parts
+        .iter()
+        .any(|part| !part.mesh.triangles.is_empty())
+        .then_some(scene)
+}
+
+/// Whether two scenes have the same triangles, in the same colours; corners within a part of the extent.
+fn are_same(a: &Scene, b: &Scene, tolerance: f64) -> bool {
+    let corners = |parts: &[Part]| -> Vec<[[f64; 3]; 3]> {
+        let triangles = parts.iter().flat_map(|part| {
+            let mesh = &part.mesh;
+            mesh.triangles
+                .iter()
+                .map(|triangle| mesh.corners(*triangle))
+        });
+        triangles.collect()
+    };
+    let colours = |scene: &Scene| -> Vec<(Option<[f64; 4]>, usize)> {
+        let of = |part: &Part| (part.color, part.mesh.triangles.len());
+        scene.parts.iter().map(of).collect()
+    };
+    let (here, there) = (corners(&a.parts), corners(&b.parts));
+    let extent = here
+        .iter()
+        .flatten()
+        .flatten()
+        .fold(0.0_f64, |extent, x| extent.max(x.abs()));
+    let near = |(p, q): (&f64, &f64)| (p - q).abs() <= tolerance * extent;
+    colours(a) == colours(b)
+        && here.len() == there.len()
+        && here
+            .iter()
+            .flatten()
+            .flatten()
+            .zip(there.iter().flatten().flatten())
+            .all(near)
+}
