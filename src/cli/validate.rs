@@ -47,6 +47,10 @@ pub struct ValidateArguments {
     #[arg(long, value_name = "CLASS")]
     class: Option<String>,
 
+    /// Recomputes sampled data (distance statistics) in full, however long it takes.
+    #[arg(long)]
+    deep: bool,
+
     /// The severity from which on a run fails: error, warning or info.
     #[arg(long, value_name = "SEVERITY")]
     fail_on: Option<String>,
@@ -151,6 +155,7 @@ fn read_settings(arguments: &ValidateArguments) -> Result<Settings, String> {
         settings.class =
             Some(settings::parse_class(class).map_err(|error| format!("--class: {error}"))?);
     }
+    settings.deep |= arguments.deep;
     if let Some(severity) = &arguments.fail_on {
         settings.fail_on = Some(
             settings::parse_severity(severity).map_err(|error| format!("--fail-on: {error}"))?,

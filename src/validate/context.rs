@@ -3,6 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use super::load::{CarriedUrdf, Loaded, MetadataFile, Module};
+use super::solids::Solids;
 use super::urdf_text;
 use super::views::freedom::Freedom;
 use super::views::mimics::Mimics;
@@ -24,6 +25,7 @@ use crate::format::root_metadata::{ConformanceClass, RootMetadata};
 pub struct Context {
     loaded: Arc<Loaded>,
     class: Option<ConformanceClass>,
+    deep: bool,
     robot_from: RobotFrom,
     robot: OnceLock<Option<Robot>>,
     tree: OnceLock<Option<Tree>>,
@@ -31,6 +33,7 @@ pub struct Context {
     freedom: OnceLock<Option<Freedom>>,
     urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
     rigid_groups: OnceLock<Option<RigidGroups>>,
+    solids: Arc<OnceLock<Solids>>,
 }
 
 /// Which of the two descriptions of the robot rules judge by.
@@ -44,19 +47,22 @@ impl Context {
     /// For a URDD that was read. `class` is the conformance class to hold it to, where that is
     /// not the one that it claims.
     pub fn new(loaded: Loaded, class: Option<ConformanceClass>) -> Self {
-        let urdf_text = Arc::new(OnceLock::new());
-        Context::over(Arc::new(loaded), urdf_text, class, RobotFrom::UrdfModule)
+        let (urdf_text, solids) = (Arc::default(), Arc::default());
+        let loaded = Arc::new(loaded);
+        Context::over(loaded, urdf_text, solids, class, RobotFrom::UrdfModule)
     }
 
     fn over(
         loaded: Arc<Loaded>,
         urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
+        solids: Arc<OnceLock<Solids>>,
         class: Option<ConformanceClass>,
         robot_from: RobotFrom,
     ) -> Self {
         Context {
             loaded,
             class,
+            deep: false,
             robot_from,
             robot: OnceLock::new(),
             tree: OnceLock::new(),
@@ -64,6 +70,7 @@ impl Context {
             freedom: OnceLock::new(),
             urdf_text,
             rigid_groups: OnceLock::new(),
+            solids,
         }
     }
 
@@ -76,8 +83,20 @@ impl Context {
                 .is_some_and(|reading| reading.problems.is_empty() && reading.robot.is_some());
         readable.then(|| {
             let (loaded, text) = (Arc::clone(&self.loaded), Arc::clone(&self.urdf_text));
-            Context::over(loaded, text, self.class, RobotFrom::CarriedUrdf)
+            let solids = Arc::clone(&self.solids);
+            Context::over(loaded, text, solids, self.class, RobotFrom::CarriedUrdf).deep(self.deep)
         })
+    }
+
+    /// Whether to take all the time that complete checks of sampled data need.
+    pub fn deep(mut self, deep: bool) -> Self {
+        self.deep = deep;
+        self
+    }
+
+    /// Whether sampled data is recomputed in full.
+    pub fn is_deep(&self) -> bool {
+        self.deep
     }
 
     /// Whether the robot is the carried URDF's.
@@ -219,6 +238,11 @@ impl Context {
     /// version 1, which is not a list by link.
     pub fn meshes(&self, kind: ModuleKind) -> Option<Meshes<'_>> {
         meshes::view(self.document(kind)?)
+    }
+
+    /// What the mesh files hold: all are read when this is first asked for.
+    pub fn solids(&self) -> &Solids {
+        self.solids.get_or_init(|| Solids::read(self))
     }
 
     /// What shape indices stand for, as follows from the hulls and the convex pieces.

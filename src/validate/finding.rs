@@ -111,6 +111,20 @@ impl Finding {
     }
 }
 
+/// A length for people: three digits.
+pub fn metres(length: f64) -> String {
+    match length.abs() {
+        0.0 => "0 m".to_owned(),
+        size if (1e-3..1e4).contains(&size) => format!("{length:.3} m"),
+        _ => format!("{length:.2e} m"),
+    }
+}
+
+/// A point for people, metres.
+pub fn point([x, y, z]: [f64; 3]) -> String {
+    format!("({x:.4}, {y:.4}, {z:.4})")
+}
+
 /// What one rule found in one URDD. Findings at the same kind of place (the same file, and the
 /// same pointer but for list indices) are folded into one with a count, so that a million of them
 /// cost no more memory than a few.

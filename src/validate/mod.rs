@@ -16,6 +16,7 @@ pub mod rule;
 pub mod rules;
 pub mod schema_check;
 pub mod settings;
+pub mod solids;
 pub mod tolerance;
 mod two_robots;
 pub mod urdf_text;
@@ -136,7 +137,7 @@ fn examine(
         return Err(error.clone());
     }
     let loaded = Loaded::read(&found.path)?;
-    let context = Context::new(loaded, settings.class);
+    let context = Context::new(loaded, settings.class).deep(settings.deep);
     let checks = engine::run(&context, rules);
     let modules = context
         .modules()

@@ -38,8 +38,12 @@ pub enum Phase {
     Schema,
     /// Values against each other, within and across modules.
     References,
+    /// Meshes, and the boxes and spheres about them.
+    Geometry,
     /// Poses.
     Kinematics,
+    /// Distances of shapes in many configurations.
+    Statistics,
 }
 
 /// What a rule needs before it can say anything.

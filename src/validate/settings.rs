@@ -17,6 +17,8 @@ use crate::format::root_metadata::ConformanceClass;
 pub struct Settings {
     /// The conformance class to hold every URDD to, instead of the one that it claims.
     pub class: Option<ConformanceClass>,
+    /// Whether to recompute sampled data in full (`--deep`).
+    pub deep: bool,
     /// From which severity on a run fails; `None` means from errors on.
     pub fail_on: Option<Severity>,
     /// Severities that replace those of the rules.

@@ -70,10 +70,20 @@ pub fn reach(robot: &Robot, tree: &Tree) -> f64 {
             (JointType::Prismatic | JointType::Planar | JointType::Floating, _) => 1.0,
             _ => 0.0,
         };
-        let offset = joint.xyz.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let offset = joint.origin.xyz.iter().map(|x| x * x).sum::<f64>().sqrt();
         reach[link] = reach[parent] + offset + travel;
     }
     reach.into_iter().fold(LEAST_REACH, f64::max)
+}
+
+/// Vertices of meshes agree within this part of the largest coordinate that took part in placing
+/// them: eight steps of binary32, in which files hold them, so that a producer may turn, scale and
+/// move in binary32 too, and write seven digits.
+pub const MESH_VERTEX: f64 = 8.0 * 1.1920929e-7;
+
+/// How far vertices of meshes may be apart, m, where `extent` is the largest coordinate, m.
+pub fn mesh_resolution(extent: f64) -> f64 {
+    extent * MESH_VERTEX
 }
 
 /// A hull or piece may reach this part farther than its box or sphere: eight steps of binary32, in

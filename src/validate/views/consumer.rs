@@ -42,10 +42,10 @@ pub fn modules(context: &Context) -> Option<ConsumerModules> {
         .iter()
         .zip(&robot.joints)
         .map(|(joint, source)| {
-            let [x, y, z] = source.xyz;
+            let [x, y, z] = source.origin.xyz;
             let isometry = nalgebra::Isometry3::from_parts(
                 nalgebra::Translation3::new(x, y, z),
-                rotation::from_rpy(source.rpy),
+                rotation::from_rpy(source.origin.rpy),
             );
             JointInChain {
                 joint_name: joint.joint_name.to_owned(),

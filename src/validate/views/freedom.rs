@@ -75,6 +75,7 @@ pub fn describe(joint_type: JointType, place: usize) -> Option<(&'static str, Qu
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::validate::views::robot::Origin;
 
     #[test]
     fn every_dof_of_every_joint_type_is_described() {
@@ -82,9 +83,7 @@ mod tests {
             let joint = Joint {
                 name: String::new(),
                 joint_type,
-                xyz: [0.0; 3],
-                rpy: [0.0; 3],
-                quat_xyzw: None,
+                origin: Origin::default(),
                 axis: [0.0; 3],
                 parent: String::new(),
                 child: String::new(),

@@ -31,10 +31,61 @@ pub struct Link {
     pub name: String,
     /// Its mass properties, where it has any.
     pub inertial: Option<Inertial>,
-    /// The shapes of its visual elements; `None` for an element without one.
-    pub visual: Vec<Option<v1::Geometry>>,
-    /// The shapes of its collision elements.
-    pub collision: Vec<Option<v1::Geometry>>,
+    /// Its visual elements.
+    pub visual: Vec<Element>,
+    /// Its collision elements.
+    pub collision: Vec<Element>,
+}
+
+/// A visual or collision element.
+#[derive(Debug, Clone)]
+pub struct Element {
+    /// Its shape, where it has one.
+    pub geometry: Option<v1::Geometry>,
+    /// Where the shape is in the link's frame.
+    pub origin: Origin,
+}
+
+/// A pose as a URDF writes it, with its defaults.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Origin {
+    /// Position, m.
+    pub xyz: [f64; 3],
+    /// Rotation: fixed-axis roll, pitch, yaw, rad.
+    pub rpy: [f64; 3],
+    /// The quaternion x, y, z, w that counts instead of `rpy`, where there is one (SPEC 6.1.9).
+    pub quat_xyzw: Option<[f64; 4]>,
+}
+
+impl Origin {
+    fn of_v1(origin: Option<&v1::Origin>, quaternions: bool) -> Self {
+        Origin {
+            xyz: origin.and_then(|origin| origin.xyz).unwrap_or_default(),
+            rpy: origin.and_then(|origin| origin.rpy).unwrap_or_default(),
+            quat_xyzw: origin
+                .and_then(|origin| origin.quat_xyzw)
+                .filter(|_| quaternions),
+        }
+    }
+
+    fn of_legacy(origin: &legacy::Origin) -> Self {
+        Origin {
+            xyz: origin.xyz,
+            rpy: origin.rpy,
+            quat_xyzw: None,
+        }
+    }
+
+    /// Its rotation.
+    pub fn rotation(&self) -> Matrix3<f64> {
+        let unit = self
+            .quat_xyzw
+            .and_then(|[x, y, z, w]| unit_quaternion([w, x, y, z]));
+        match unit {
+            Some(unit) => rotation_of_quaternion(unit),
+            None => rotation_of_rpy(self.rpy),
+        }
+    }
 }
 
 /// Mass properties.
@@ -53,12 +104,8 @@ pub struct Joint {
     pub name: String,
     /// How it moves.
     pub joint_type: JointType,
-    /// Position of its frame in the parent link's, m.
-    pub xyz: [f64; 3],
-    /// Rotation of its frame: fixed-axis roll, pitch, yaw, rad.
-    pub rpy: [f64; 3],
-    /// The quaternion x, y, z, w that counts instead of `rpy`, where there is one (SPEC 6.1.9).
-    pub quat_xyzw: Option<[f64; 4]>,
+    /// Its frame in the parent link's.
+    pub origin: Origin,
     /// Its axis as written, or (1, 0, 0).
     pub axis: [f64; 3],
     /// Name of the link that carries it.
@@ -128,17 +175,6 @@ impl Robot {
 }
 
 impl Joint {
-    /// The rotation of its frame.
-    pub fn rotation(&self) -> Matrix3<f64> {
-        match self
-            .quat_xyzw
-            .and_then(|[x, y, z, w]| unit_quaternion([w, x, y, z]))
-        {
-            Some(unit) => rotation_of_quaternion(unit),
-            None => rotation_of_rpy(self.rpy),
-        }
-    }
-
     /// Number of DOFs that a joint of this type has, mimic or not (SPEC 5.8).
     pub fn freedom(&self) -> usize {
         match self.joint_type {
@@ -195,15 +231,20 @@ pub fn view(document: &ModuleDocument) -> Option<Robot> {
 /// The robot of a URDF, or of the `urdf_module` of version 1, which keeps all of one.
 pub fn of_urdf(urdf: &v1::UrdfModule) -> Robot {
     let quaternions = has_quaternions(urdf.version.as_deref());
+    let link = |link| from_v1_link(link, quaternions);
     let joint = |joint| from_v1_joint(joint, quaternions);
     Robot::new(
         urdf.name.clone(),
-        urdf.links.iter().map(from_v1_link).collect(),
+        urdf.links.iter().map(link).collect(),
         urdf.joints.iter().map(joint).collect(),
     )
 }
 
-fn from_v1_link(link: &v1::Link) -> Link {
+fn from_v1_link(link: &v1::Link, quaternions: bool) -> Link {
+    let element = |geometry: &Option<v1::Geometry>, origin| Element {
+        geometry: geometry.clone(),
+        origin: Origin::of_v1(origin, quaternions),
+    };
     let inertial = link.inertial.as_ref().map(|inertial| Inertial {
         mass: inertial.mass.as_ref().map(|mass| mass.value),
         inertia: inertial.inertia.as_ref().map(|i| {
@@ -216,26 +257,21 @@ fn from_v1_link(link: &v1::Link) -> Link {
         visual: link
             .visual
             .iter()
-            .map(|visual| visual.geometry.clone())
+            .map(|visual| element(&visual.geometry, visual.origin.as_ref()))
             .collect(),
         collision: link
             .collision
             .iter()
-            .map(|collision| collision.geometry.clone())
+            .map(|collision| element(&collision.geometry, collision.origin.as_ref()))
             .collect(),
     }
 }
 
 fn from_v1_joint(joint: &v1::Joint, quaternions: bool) -> Joint {
-    let origin = joint.origin.as_ref();
     Joint {
         name: joint.name.clone(),
         joint_type: joint.joint_type,
-        xyz: origin.and_then(|origin| origin.xyz).unwrap_or_default(),
-        rpy: origin.and_then(|origin| origin.rpy).unwrap_or_default(),
-        quat_xyzw: origin
-            .and_then(|origin| origin.quat_xyzw)
-            .filter(|_| quaternions),
+        origin: Origin::of_v1(joint.origin.as_ref(), quaternions),
         axis: joint
             .axis
             .as_ref()
@@ -262,6 +298,10 @@ fn from_legacy_link(link: &legacy::Link) -> Link {
     let inertia = [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz];
     let mass = link.inertial.mass.value;
     let absent = mass == 0.0 && inertia == [0.0; 6];
+    let element = |geometry, origin| Element {
+        geometry: Some(from_legacy_geometry(geometry)),
+        origin: Origin::of_legacy(origin),
+    };
     Link {
         name: link.name.clone(),
         inertial: (!absent).then_some(Inertial {
@@ -271,12 +311,12 @@ fn from_legacy_link(link: &legacy::Link) -> Link {
         visual: link
             .visual
             .iter()
-            .map(|visual| Some(from_legacy_geometry(&visual.geometry)))
+            .map(|visual| element(&visual.geometry, &visual.origin))
             .collect(),
         collision: link
             .collision
             .iter()
-            .map(|collision| Some(from_legacy_geometry(&collision.geometry)))
+            .map(|collision| element(&collision.geometry, &collision.origin))
             .collect(),
     }
 }
@@ -317,9 +357,7 @@ fn from_legacy_joint(joint: &legacy::Joint) -> Joint {
             Old::Planar => JointType::Planar,
             Old::Spherical => JointType::Spherical,
         },
-        xyz: joint.origin.xyz,
-        rpy: joint.origin.rpy,
-        quat_xyzw: None,
+        origin: Origin::of_legacy(&joint.origin),
         axis: joint.axis.xyz,
         parent: joint.parent.link.clone(),
         child: joint.child.link.clone(),

@@ -62,19 +62,29 @@ impl<'a> UsableGeometry<'a> {
             GeometryKind::Visual => &named.visual,
             GeometryKind::Collision => &named.collision,
         };
-        elements.iter().enumerate().any(|(element, geometry)| {
-            let Some(geometry) = geometry else {
-                return false;
-            };
-            let lost = match (geometry, kind) {
-                (Geometry::Mesh(_), GeometryKind::Visual) => {
-                    self.lost_legacy.contains(&link) || self.lost.contains(&(link, kind, element))
-                }
-                (Geometry::Mesh(_), _) => self.lost.contains(&(link, kind, element)),
-                _ => false,
-            };
-            !lost && has_surface(geometry)
-        })
+        (0..elements.len()).any(|element| self.is_usable(link, kind, element))
+    }
+
+    /// Whether an element of a link is usable.
+    pub fn is_usable(&self, link: usize, kind: GeometryKind, element: usize) -> bool {
+        let Some(named) = self.context.robot().and_then(|robot| robot.links.get(link)) else {
+            return false;
+        };
+        let elements = match kind {
+            GeometryKind::Visual => &named.visual,
+            GeometryKind::Collision => &named.collision,
+        };
+        let Some(geometry) = elements.get(element).and_then(|e| e.geometry.as_ref()) else {
+            return false;
+        };
+        let lost = match (geometry, kind) {
+            (Geometry::Mesh(_), GeometryKind::Visual) => {
+                self.lost_legacy.contains(&link) || self.lost.contains(&(link, kind, element))
+            }
+            (Geometry::Mesh(_), _) => self.lost.contains(&(link, kind, element)),
+            _ => false,
+        };
+        !lost && has_surface(geometry)
     }
 }
 

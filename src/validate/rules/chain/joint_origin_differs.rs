@@ -33,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) {
     let position_tolerance = POSITION_OF_REACH * reach(robot, tree);
     for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
         let origin = &joint.origin;
-        let offset = (Vector3::from(origin.position) - Vector3::from(right.xyz)).norm();
+        let offset = (Vector3::from(origin.position) - Vector3::from(right.origin.xyz)).norm();
         if !within(offset, position_tolerance) {
             findings.report(
                 Finding::at(
@@ -44,12 +44,12 @@ fn check(context: &Context, findings: &mut Findings) {
                         right.name
                     ),
                 )
-                .expected(format!("{:?}", right.xyz))
+                .expected(format!("{:?}", right.origin.xyz))
                 .actual(format!("{:?}", origin.position))
                 .tolerance(position_tolerance),
             );
         }
-        let turned = right.rotation();
+        let turned = right.origin.rotation();
         let angle = rotation_distance(&turned, &rotation_of_quaternion(origin.quaternion_wxyz));
         if !within(angle, ROTATION) {
             findings.report(
@@ -61,9 +61,9 @@ fn check(context: &Context, findings: &mut Findings) {
                         right.name
                     ),
                 )
-                .expected(match right.quat_xyzw {
+                .expected(match right.origin.quat_xyzw {
                     Some(xyzw) => format!("the rotation of quat_xyzw {xyzw:?}"),
-                    None => format!("the rotation of rpy {:?}", right.rpy),
+                    None => format!("the rotation of rpy {:?}", right.origin.rpy),
                 })
                 .actual(format!("{:?}", origin.quaternion_wxyz))
                 .tolerance(ROTATION),

@@ -4,6 +4,7 @@ use crate::format::urdf::Geometry;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
+use crate::validate::views::robot::Element;
 use crate::validate::views::usable_geometry::UsableGeometry;
 
 declare_rule! {
@@ -73,8 +74,9 @@ fn check(context: &Context, findings: &mut Findings) {
 }
 
 /// The shapes of a link's elements, as `visual Box`.
-fn shapes(element: &str, geometries: &[Option<Geometry>]) -> Vec<String> {
-    let named = geometries.iter().flatten().map(|geometry| {
+fn shapes(element: &str, elements: &[Element]) -> Vec<String> {
+    let geometries = elements.iter().filter_map(|e| e.geometry.as_ref());
+    let named = geometries.map(|geometry| {
         let shape = match geometry {
             Geometry::Mesh(_) => "Mesh",
             Geometry::Box(_) => "Box",

@@ -52,13 +52,13 @@ fn check(context: &Context, findings: &mut Findings) {
 fn named(robot: &Robot) -> Vec<Named<'_>> {
     let mut named = Vec::new();
     for (link, elements) in robot.links.iter().enumerate() {
-        for (kind, geometries) in [
+        for (kind, elements) in [
             (GeometryKind::Visual, &elements.visual),
             (GeometryKind::Collision, &elements.collision),
         ] {
-            for (element, geometry) in geometries.iter().enumerate() {
-                if let Some(Geometry::Mesh(mesh)) = geometry {
-                    named.push((link, kind, element, mesh.filename.as_str()));
+            for (at, element) in elements.iter().enumerate() {
+                if let Some(Geometry::Mesh(mesh)) = &element.geometry {
+                    named.push((link, kind, at, mesh.filename.as_str()));
                 }
             }
         }

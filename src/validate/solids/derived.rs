@@ -1,0 +1,144 @@
+//! The meshes that are made for links: plain meshes, hulls, convex pieces; each in three formats.
+
+use rayon::prelude::*;
+
+use super::file::{self, MeshFault};
+use super::surface::{self, Difference, Likeness};
+use crate::format::registry::{ModuleKind, Profile};
+use crate::geometry::Mesh;
+use crate::geometry::read::Format as Content;
+use crate::validate::context::Context;
+use crate::validate::tolerance::mesh_resolution;
+use crate::validate::views::Meshes;
+use crate::validate::views::mesh_files::MeshFiles;
+use crate::validate::views::meshes::{Format, MeshPath};
+
+/// A mesh of a link, or one of its pieces.
+#[derive(Debug)]
+pub struct Derived {
+    /// The link.
+    pub link: usize,
+    /// The piece; 0 in modules that have one mesh per link.
+    pub piece: usize,
+    /// Its files, each with what is wrong with it.
+    pub files: Vec<DerivedFile>,
+    /// What its first sound file holds, or else its first readable one. Metres, in the link's frame.
+    pub mesh: Option<Mesh>,
+    /// Which of the files that is.
+    pub mesh_of: usize,
+    /// How the other files differ from it: which file, how.
+    pub differences: Vec<(usize, Difference)>,
+}
+
+/// A file of a mesh.
+#[derive(Debug)]
+pub struct DerivedFile {
+    /// As the document has it.
+    pub path: String,
+    /// Where it stands in the document.
+    pub pointer: String,
+    /// Which format it should be of.
+    pub format: Format,
+    /// Whether the content is of that format: binary STL, OBJ, binary glTF. `None` where it is no
+    /// mesh at all.
+    pub content: Option<Content>,
+    /// What is wrong with it.
+    pub fault: Option<MeshFault>,
+}
+
+/// Reads the meshes of a module: links in order, pieces in order.
+pub fn read_all(context: &Context, meshes: &Meshes) -> Vec<Derived> {
+    let mut places: Vec<(usize, usize, Vec<&MeshPath>)> = Vec::new();
+    for link in 0..meshes.num_links() {
+        let pieces = meshes.lists.iter().filter_map(|list| list.links.get(link));
+        let most = pieces.clone().map(Vec::len).max().unwrap_or(0);
+        for piece in 0..most {
+            // One list in version 1, and in legacy modules one for each format.
+            let paths = pieces.clone().filter_map(|list| list.get(piece));
+            let paths: Vec<&MeshPath> = paths.flat_map(|mesh| &mesh.paths).collect();
+            places.push((link, piece, paths));
+        }
+    }
+    let profile = meshes.profile;
+    places
+        .into_par_iter()
+        .map_init(
+            || MeshFiles::new(context),
+            |files, (link, piece, paths)| read(files, profile, link, piece, &paths),
+        )
+        .collect()
+}
+
+fn read(
+    files: &mut MeshFiles,
+    profile: Profile,
+    link: usize,
+    piece: usize,
+    paths: &[&MeshPath],
+) -> Derived {
+    let mut derived = Derived {
+        link,
+        piece,
+        files: Vec::with_capacity(paths.len()),
+        mesh: None,
+        mesh_of: 0,
+        differences: Vec::new(),
+    };
+    let mut meshes: Vec<(usize, Mesh)> = Vec::new();
+    for path in paths {
+        let Some(format) = path.format else {
+            continue;
+        };
+        let mut file = DerivedFile {
+            path: path.path.to_owned(),
+            pointer: path.pointer.clone(),
+            format,
+            content: None,
+            fault: None,
+        };
+        let read = file::bytes(files, profile, path.path)
+            .and_then(|bytes| file::derived(&bytes, path.path));
+        match read {
+            Err(fault) => file.fault = Some(fault),
+            Ok((scene, fault)) => {
+                file.content = Some(scene.format);
+                file.fault = fault.map(MeshFault::Broken);
+                if scene.triangle_count() > 0 {
+                    meshes.push((derived.files.len(), scene.merged()));
+                }
+            }
+        }
+        derived.files.push(file);
+    }
+    let sound = |(at, _): &(usize, Mesh)| derived.files[*at].fault.is_none();
+    let Some(first) = meshes.iter().position(sound).or(match meshes.len() {
+        0 => None,
+        _ => Some(0),
+    }) else {
+        return derived;
+    };
+    let (mesh_of, mesh) = meshes.swap_remove(first);
+    meshes.sort_by_key(|(at, _)| *at);
+    let tolerance = mesh_resolution(surface::extent(&mesh));
+    for (at, other) in &meshes {
+        // Of a file that is broken enough is said.
+        if derived.files[*at].fault.is_none()
+            && let Some(difference) =
+                surface::difference(&mesh, other, tolerance, Likeness::SameTriangles)
+        {
+            derived.differences.push((*at, difference));
+        }
+    }
+    derived.mesh_of = mesh_of;
+    derived.mesh = Some(mesh);
+    derived
+}
+
+/// What a module's meshes are called in messages.
+pub fn noun(kind: ModuleKind) -> &'static str {
+    match kind {
+        ModuleKind::ConvexHullMeshes => "hull",
+        ModuleKind::ConvexDecompositionMeshes => "piece",
+        _ => "mesh",
+    }
+}

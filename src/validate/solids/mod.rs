@@ -1,0 +1,66 @@
+//! What the mesh files of a URDD hold, read once for all rules: the derived meshes (for each link its
+//! mesh and hull, for each piece its own) and those that the URDF names.
+//!
+//! The three files of a mesh are compared while they are read, and one of them is kept.
+
+pub mod derived;
+pub mod expected;
+pub mod file;
+pub mod original;
+
+pub mod primitive;
+pub mod surface;
+
+use std::collections::HashMap;
+
+use self::derived::Derived;
+use self::original::Original;
+use super::context::Context;
+use crate::format::registry::ModuleKind;
+use crate::geometry::Mesh;
+
+/// What the mesh files of a URDD hold.
+#[derive(Debug, Default)]
+pub struct Solids {
+    derived: HashMap<ModuleKind, Vec<Derived>>,
+    by_place: HashMap<(ModuleKind, usize, usize), usize>,
+    originals: HashMap<String, Original>,
+}
+
+impl Solids {
+    /// Reads every mesh file that the modules name, in parallel.
+    pub fn read(context: &Context) -> Self {
+        let mut solids = Solids {
+            originals: original::read_all(context),
+            ..Solids::default()
+        };
+        for kind in super::views::meshes::DERIVED {
+            let Some(meshes) = context.meshes(*kind) else {
+                continue;
+            };
+            let read = derived::read_all(context, &meshes);
+            for (at, mesh) in read.iter().enumerate() {
+                solids.by_place.insert((*kind, mesh.link, mesh.piece), at);
+            }
+            solids.derived.insert(*kind, read);
+        }
+        solids
+    }
+
+    /// The meshes of a module of derived meshes: links in order, pieces in order.
+    pub fn derived(&self, kind: ModuleKind) -> &[Derived] {
+        self.derived.get(&kind).map_or(&[], Vec::as_slice)
+    }
+
+    /// The mesh of a link (piece 0), or one of its pieces; `None` where the module has none there,
+    /// or none of its files can be read.
+    pub fn mesh(&self, kind: ModuleKind, link: usize, piece: usize) -> Option<&Mesh> {
+        let at = *self.by_place.get(&(kind, link, piece))?;
+        self.derived(kind).get(at)?.mesh.as_ref()
+    }
+
+    /// A mesh that the URDF names, by its path in `original_meshes_module`.
+    pub fn original(&self, path: &str) -> Option<&Original> {
+        self.originals.get(path)
+    }
+}
