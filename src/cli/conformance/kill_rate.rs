@@ -45,6 +45,10 @@ pub struct KillRateArguments {
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     modules: Vec<String>,
 
+    /// Looks again, as `urdd validate --deep` does, at what is not noticed otherwise.
+    #[arg(long)]
+    deep: bool,
+
     /// What choices follow from.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -88,7 +92,10 @@ pub fn run(arguments: &KillRateArguments) -> ExitCode {
     let judge = Judge {
         rules: &rules,
         plain: Settings::default(),
-        deep: None,
+        deep: arguments.deep.then(|| Settings {
+            deep: true,
+            ..Settings::default()
+        }),
     };
     let bar = match std::io::stderr().is_terminal() {
         true => ProgressBar::new(0),

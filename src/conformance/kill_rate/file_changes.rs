@@ -14,16 +14,11 @@ use super::original::Original;
 use super::sample;
 use crate::directory::discover::ROOT_METADATA;
 
-/// Versions that a module does not have. The last two are newer ones of the same meaning.
-const OTHER_VERSIONS: [&str; 7] = [
-    "0.0.1",
-    "2.0.0",
-    "1.0",
-    "v1.0.0",
-    "1.0.0\n\n",
-    "1.0.1",
-    "1.1.0",
-];
+/// Versions that a module does not have.
+const OTHER_VERSIONS: [&str; 5] = ["0.0.1", "2.0.0", "1.0", "v1.0.0", "1.0.0\n\n"];
+
+/// Versions that are right where `VERSION` and the root metadata agree (SPEC 4.2).
+const NEWER_VERSIONS: [&str; 2] = ["1.0.1", "1.1.0"];
 
 /// Changes of files, a list for each kind of file of each module.
 pub(super) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> {
@@ -90,6 +85,10 @@ fn of_file(
         return out;
     }
     for (kind, listed) in [("missing", true), ("missing, and not listed", false)] {
+        // The mirror may be left out (SPEC 2.4: SHOULD).
+        if !listed && path.ends_with("/module.yaml") {
+            continue;
+        }
         let path = path.clone();
         out.push(mutation(
             kind,
@@ -114,7 +113,10 @@ fn of_file(
     }
     if path.ends_with("/VERSION") {
         for version in OTHER_VERSIONS {
-            out.extend(versions(original, path, version, &mutation));
+            out.extend(versions(original, path, version, true, &mutation));
+        }
+        for version in NEWER_VERSIONS {
+            out.extend(versions(original, path, version, false, &mutation));
         }
     }
     out
@@ -166,6 +168,7 @@ fn versions(
     original: &Original,
     path: &str,
     version: &'static str,
+    in_both: bool,
     mutation: &dyn Fn(&'static str, Change) -> Mutation,
 ) -> Vec<Mutation> {
     let folder = path.trim_end_matches("/VERSION");
@@ -189,7 +192,7 @@ fn versions(
         "another version",
         Change::Files(write(path.to_owned())),
     )];
-    if let Some(entry) = entry {
+    if let Some(entry) = entry.filter(|_| in_both) {
         let place = format!("/modules/{entry}/version");
         let edits = vec![Edit::Set(place, json!(version))];
         let change = Change::FilesAndMetadata(write(path.to_owned()), edits);

@@ -1,4 +1,5 @@
-//! What is no change: fields that SPEC.md leaves free, and steps below ten times the tolerance.
+//! What is no change that counts: of fields that SPEC.md leaves free, to another value that is right too, or by less than
+//! ten times the tolerance.
 
 use serde_json::Value;
 
@@ -30,6 +31,86 @@ pub const FREE_FIELDS: &[FreeField] = &[
         clause: "Annex A",
     },
 ];
+
+/// A change of a field to another value that SPEC.md lets it have.
+pub struct Permitted {
+    /// The module, or `urdd.json`.
+    pub module: &'static str,
+    /// The field.
+    pub field: &'static str,
+    /// Which change.
+    pub change: &'static str,
+    /// The clause that says so.
+    pub clause: &'static str,
+    permits: fn(&Value, &Value) -> bool,
+}
+
+/// Every change that is permitted.
+pub const PERMITTED: &[Permitted] = &[
+    Permitted {
+        module: "urdd.json",
+        field: "/conformance_class",
+        change: "to a lower class: more than is claimed may be there",
+        clause: "12.1",
+        permits: |from, to| {
+            let rank = |class: &Value| {
+                ["Core", "Geometry", "Shapes"]
+                    .iter()
+                    .position(|c| class == c)
+            };
+            rank(to).is_some() && rank(to) < rank(from)
+        },
+    },
+    Permitted {
+        module: "urdd.json",
+        field: "/urdd_version",
+        change: "to a newer minor or patch version",
+        clause: "4.2",
+        permits: |from, to| {
+            let version = |value: &Value| semver::Version::parse(value.as_str()?).ok();
+            match (version(from), version(to)) {
+                (Some(from), Some(to)) => to.major == from.major && to > from,
+                _ => false,
+            }
+        },
+    },
+    Permitted {
+        module: "urdd.json",
+        field: "/source",
+        change: "to null: a URDD need not name its source",
+        clause: "2.2",
+        permits: |_, to| to.is_null(),
+    },
+    Permitted {
+        module: "urdd.json",
+        field: "/modules/*/depends_on",
+        change: "of the order: it names modules in any",
+        clause: "2.10",
+        permits: |from, to| match (from.as_array(), to.as_array()) {
+            (Some(from), Some(to)) => {
+                from.len() == to.len() && from.iter().all(|name| to.contains(name))
+            }
+            _ => false,
+        },
+    },
+    Permitted {
+        module: "kinematics_samples_module",
+        field: "/samples",
+        change: "fewer sampled ones: how many there are is not said",
+        clause: "9.2",
+        permits: |from, to| match (from.as_array(), to.as_array()) {
+            (Some(from), Some(to)) => to.len() >= 4 && from.starts_with(to),
+            _ => false,
+        },
+    },
+];
+
+/// Whether a field may as well be something else.
+pub(super) fn is_permitted(module: &str, field: &str, from: &Value, to: &Value) -> bool {
+    PERMITTED.iter().any(|permitted| {
+        permitted.module == module && permitted.field == field && (permitted.permits)(from, to)
+    })
+}
 
 /// How large a difference a clause allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -200,6 +281,25 @@ mod tests {
         assert!(!copied.differs(&json!([[1.0]]), &json!([[1.0 + 5e-9]])));
         assert!(!copied.differs(&json!({"a": 1}), &json!({"a": 1.0})));
         assert!(copied.differs(&json!({"a": 1}), &json!({"b": 1})));
+    }
+
+    #[test]
+    fn what_is_right_too_is_no_change() {
+        let permitted = |field, from, to| is_permitted("urdd.json", field, &from, &to);
+        let class = "/conformance_class";
+        assert!(permitted(class, json!("Shapes"), json!("Core")));
+        assert!(!permitted(class, json!("Core"), json!("Shapes")));
+        assert!(!permitted(class, json!("Shapes"), json!("Cor")));
+        let version = "/urdd_version";
+        assert!(permitted(version, json!("1.0.0"), json!("1.1.0")));
+        assert!(!permitted(version, json!("1.0.0"), json!("2.0.0")));
+        let order = "/modules/*/depends_on";
+        assert!(permitted(order, json!(["a", "b"]), json!(["b", "a"])));
+        assert!(!permitted(order, json!(["a", "b"]), json!(["a", "a"])));
+        let samples = |from, to| is_permitted("kinematics_samples_module", "/samples", &from, &to);
+        assert!(samples(json!([0, 1, 2, 3, 4]), json!([0, 1, 2, 3])));
+        assert!(!samples(json!([0, 1, 2, 3, 4]), json!([1, 2, 3, 4])));
+        assert!(!samples(json!([0, 1, 2, 3]), json!([0, 1, 2])));
     }
 
     #[test]

@@ -22,12 +22,19 @@ pub(super) fn is_same(original: &Original, path: &str, after: &[u8]) -> bool {
             (Ok(a), Ok(b)) => a.value == b.value && b.faults == a.faults,
             _ => false,
         },
-        // A space within is a matter of the text around it: only the end of the file is surely of no meaning.
-        "yaml" => before.trim_ascii_end() == after.trim_ascii_end(),
+        "yaml" => is_same_but_for_space(before, after),
         _ if name == "VERSION" => without_newline(before) == without_newline(after),
         _ if path.contains("/meshes/") => is_same_mesh(original, path, after),
         _ => false,
     }
+}
+
+/// Whether YAML differs in space alone: at its end, or in one byte that was or is a space (which may well change the
+/// meaning; whether it does is not for this to say).
+fn is_same_but_for_space(before: &[u8], after: &[u8]) -> bool {
+    let space = |(a, b): (&u8, &u8)| a == b || a.is_ascii_whitespace() || b.is_ascii_whitespace();
+    before.trim_ascii_end() == after.trim_ascii_end()
+        || before.len() == after.len() && before.iter().zip(after).all(space)
 }
 
 fn without_newline(text: &[u8]) -> &[u8] {

@@ -33,7 +33,9 @@ mod text_changes;
 mod value_changes;
 mod workbench;
 
-pub use free::{FIELD_TOLERANCES, FREE_FIELDS, FieldTolerance, FreeField, Tolerance};
+pub use free::{
+    FIELD_TOLERANCES, FREE_FIELDS, FieldTolerance, FreeField, PERMITTED, Permitted, Tolerance,
+};
 pub use measure::{MeasureError, measure};
 pub use mutation::{Description, Target};
 pub use original::OriginalError;

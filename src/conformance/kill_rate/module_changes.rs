@@ -3,6 +3,7 @@
 use super::edit::Edit;
 use super::mutation::{Change, Description, FileChange, Files, Mutation, Target};
 use super::original::Original;
+use crate::format::registry::ModuleKind;
 
 /// How many other robots' modules are put in place of a module.
 const OTHERS: usize = 2;
@@ -10,7 +11,14 @@ const OTHERS: usize = 2;
 /// Changes of whole modules, a list for each.
 pub(super) fn mutations(original: &Original, others: &[&Original]) -> Vec<Vec<Mutation>> {
     let of = |(name, folder): &(&'static str, &'static str)| {
-        let mut list = vec![gone(original, name, folder)];
+        // A module of no class may be left out.
+        let needed = ModuleKind::ALL
+            .iter()
+            .any(|kind| kind.name() == *name && kind.class().is_some());
+        let mut list: Vec<Mutation> = needed
+            .then(|| gone(original, name, folder))
+            .into_iter()
+            .collect();
         let others = others
             .iter()
             .filter(|other| other.modules.contains(&(name, folder)));

@@ -97,7 +97,7 @@ impl Mutation {
                 changed(make(original)?, edits, original, &mut description)?
             }
         };
-        if let Some(mut metadata) = metadata {
+        if let Some(mut metadata) = metadata.filter(|_| !files.contains_key(ROOT_METADATA)) {
             original::rehash(&mut metadata, &files);
             files.insert(
                 ROOT_METADATA.to_owned(),

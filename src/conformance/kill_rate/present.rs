@@ -82,15 +82,15 @@ fn aligned(rows: &[Vec<String>]) -> String {
     text
 }
 
+/// The survivors by field: how many of which kinds, and the first few.
 fn survivors(urdd: &Measured) -> String {
-    let mut by_field: BTreeMap<(&str, &str, &str, &str), Vec<&Trial>> = BTreeMap::new();
+    let mut by_field: BTreeMap<(&str, &str, &str), Vec<&Trial>> = BTreeMap::new();
     for trial in urdd.survivors() {
         let change = &trial.change;
         let key = (
             change.module.as_str(),
             change.field.as_str(),
             change.target.as_str(),
-            change.kind,
         );
         by_field.entry(key).or_default().push(trial);
     }
@@ -98,11 +98,16 @@ fn survivors(urdd: &Measured) -> String {
     if !by_field.is_empty() {
         text += "  survivors\n";
     }
-    for ((module, field, target, kind), trials) in by_field {
-        text += &format!(
-            "    {module} {field} ({target}): {kind}, {}\n",
-            trials.len()
-        );
+    for ((module, field, target), trials) in by_field {
+        let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+        for trial in &trials {
+            *kinds.entry(trial.change.kind).or_default() += 1;
+        }
+        let kinds: Vec<String> = kinds
+            .iter()
+            .map(|(kind, count)| format!("{kind} ({count})"))
+            .collect();
+        text += &format!("    {module} {field} ({target}): {}\n", kinds.join(", "));
         for trial in trials.iter().take(SHOWN) {
             let change = &trial.change;
             let place = change.pointer.as_deref().unwrap_or(&change.file);

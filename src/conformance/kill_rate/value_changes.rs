@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::dice::Dice;
 use super::edit::Edit;
-use super::free::Ground;
+use super::free::{self, Ground};
 use super::original::{Document, Original};
 use super::{key_changes, list_changes, number_changes, schema, text_changes};
 
@@ -91,7 +91,9 @@ pub(super) fn changes(field: &Field, place: &str, dice: &mut Dice) -> Vec<ValueC
     let ground = field.ground();
     let mirrored = list_changes::mirrored(&field.document.value, place);
     for (kind, new) in to {
-        if !ground.differs(value, &new) {
+        if !ground.differs(value, &new)
+            || free::is_permitted(ground.module, ground.field, value, &new)
+        {
             continue;
         }
         let set = Edit::Set(place.to_owned(), new.clone());
