@@ -4,6 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::load::{CarriedUrdf, Loaded, MetadataFile, Module};
 use super::solids::Solids;
+use super::solids::placed::{self, Misplaced};
 use super::urdf_text;
 use super::views::freedom::Freedom;
 use super::views::mimics::Mimics;
@@ -34,6 +35,7 @@ pub struct Context {
     urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
     rigid_groups: OnceLock<Option<RigidGroups>>,
     solids: Arc<OnceLock<Solids>>,
+    misplaced: OnceLock<Vec<Misplaced>>,
 }
 
 /// Which of the two descriptions of the robot rules judge by.
@@ -71,6 +73,7 @@ impl Context {
             urdf_text,
             rigid_groups: OnceLock::new(),
             solids,
+            misplaced: OnceLock::new(),
         }
     }
 
@@ -243,6 +246,16 @@ impl Context {
     /// What the mesh files hold: all are read when this is first asked for.
     pub fn solids(&self) -> &Solids {
         self.solids.get_or_init(|| Solids::read(self))
+    }
+
+    /// The links whose plain mesh is not what the robot shows there.
+    pub fn misplaced(&self) -> &[Misplaced] {
+        self.misplaced.get_or_init(|| placed::all(self))
+    }
+
+    /// Whether a link's plain mesh is not what the robot shows there: nothing is held to it then.
+    pub fn is_misplaced(&self, link: usize) -> bool {
+        self.misplaced().iter().any(|wrong| wrong.link == link)
     }
 
     /// What shape indices stand for, as follows from the hulls and the convex pieces.

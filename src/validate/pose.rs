@@ -15,10 +15,16 @@ pub fn rotation_of_quaternion([w, x, y, z]: [f64; 4]) -> Matrix3<f64> {
         .into_inner()
 }
 
-/// A quaternion made a unit quaternion; `None` where the square of its length is 0, or not finite.
+/// A quaternion made a unit quaternion; `None` where it has no length, or not a finite one.
 pub fn unit_quaternion(q: [f64; 4]) -> Option<[f64; 4]> {
-    let square: f64 = q.iter().map(|x| x * x).sum();
-    (square > 0.0 && square.is_finite()).then(|| q.map(|x| x / square.sqrt()))
+    let largest = q.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let finite = q.iter().all(|x| x.is_finite());
+    (largest > 0.0 && finite).then(|| {
+        // Divided first, as in `unit`.
+        let q = q.map(|x| x / largest);
+        let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        q.map(|x| x / length)
+    })
 }
 
 /// Whether `quat_xyzw` counts in a URDF of this version: from 1.1 on (SPEC 6.1.9). One that is
@@ -77,6 +83,22 @@ mod tests {
         assert!(close(&turned, [0.0, 1.0, 0.0]));
         let same = rotation_of_quaternion([2.0 * half, 0.0, 0.0, 2.0 * half]) * Vector3::x();
         assert!(close(&same, [0.0, 1.0, 0.0]));
+    }
+
+    #[test]
+    fn quaternions_of_any_length_are_one_rotation() {
+        let half = (0.5_f64).sqrt();
+        for length in [2e-200, 1.0, 3e200] {
+            let unit = unit_quaternion([length, 0.0, 0.0, -length]).expect("a length");
+            let expected = [half, 0.0, 0.0, -half];
+            assert!(
+                unit.iter()
+                    .zip(expected)
+                    .all(|(a, b)| (a - b).abs() < 1e-15)
+            );
+        }
+        assert_eq!(unit_quaternion([0.0; 4]), None);
+        assert_eq!(unit_quaternion([f64::INFINITY, 0.0, 0.0, 1.0]), None);
     }
 
     #[test]

@@ -86,6 +86,22 @@ pub fn mesh_resolution(extent: f64) -> f64 {
     extent * MESH_VERTEX
 }
 
+/// A normal in an STL file may be this far from that of the triangle's corners: those who compute it
+/// before they round the corners, or in binary32, are off by some 1e-6, more on small triangles.
+pub const STL_NORMAL: f64 = 1e-3;
+
+/// The flat faces of a tessellated cylinder, capsule or sphere may lie inside the true surface by
+/// this part of the radius: a circle of 16 corners does (1 - cos(pi / 16) = 1.9 %).
+pub const PRIMITIVE_SAG: f64 = 0.02;
+
+/// And have this part of the true area at least: an end cap of 16 corners has 97.4 %, a sphere with
+/// faces 2 % inside 96 %.
+pub const PRIMITIVE_AREA: f64 = 0.95;
+
+/// Convex pieces that promise nothing cover a link's surface within this part of the diagonal of the
+/// box around it.
+pub const COVER_WITHOUT_PROMISE: f64 = 0.05;
+
 /// A hull or piece may reach this part farther than its box or sphere: eight steps of binary32, in
 /// which mesh vertices are written, so that boxes may be computed from either side of that rounding.
 pub const HULL_IN_VOLUME: f64 = 1e-6;

@@ -5,7 +5,21 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::support::emit;
-use crate::support::meshes::glb;
+use crate::support::meshes::{Point, TRIANGLES, glb, obj, stl};
+
+/// The corners of the mesh that both links show: a box as far out as half a metre.
+pub fn corners() -> [Point; 8] {
+    let half = [0.3, 0.24, 0.32].map(|x: f64| f64::from(x as f32));
+    std::array::from_fn(|corner| {
+        std::array::from_fn(|axis| {
+            if corner >> axis & 1 == 0 {
+                -half[axis]
+            } else {
+                half[axis]
+            }
+        })
+    })
+}
 
 /// A robot of two links that show the same mesh, one fixed to the other; the second at `shift` along x.
 pub struct LegacyRobot {
@@ -92,7 +106,7 @@ impl LegacyRobot {
     pub fn with_shapes(mut self, sphere: f64) -> Self {
         let zero = [0.0; 3];
         let cuboid =
-            json!({ "half_extents": [0.5, 0.0, 0.0], "offset_xyz": zero, "offset_rpy": zero });
+            json!({ "half_extents": [0.3, 0.24, 0.32], "offset_xyz": zero, "offset_rpy": zero });
         let ball = json!({ "radius": 0.5, "offset_xyz": zero, "offset_rpy": zero });
         let approximations = json!({
             "full_obbs": [cuboid, cuboid],
@@ -166,8 +180,8 @@ impl LegacyRobot {
         &mut found.expect("a module").2
     }
 
-    /// Writes the URDD to `root`, and every mesh file to where its path leads. Binary GLB, so that nothing
-    /// else is found.
+    /// Writes the URDD to `root`, and every mesh file to where its path leads; the `.glb` are binary, so
+    /// that nothing else is found.
     pub fn write(&self, root: &Path) {
         for (folder, version, document) in &self.modules {
             let folder = root.join(folder);
@@ -182,11 +196,41 @@ impl LegacyRobot {
                 let parent = root.parent().expect("a folder above");
                 let file = parent.join(path);
                 std::fs::create_dir_all(file.parent().expect("a folder")).expect("a folder");
-                let corners = [[0.0; 3]; 8];
-                std::fs::write(file, glb(&corners, None)).expect("a file");
+                let bytes = match path.rsplit('.').next() {
+                    Some("glb") => glb(&corners(), None),
+                    Some("obj") => obj(&corners(), None),
+                    Some("dae") => dae(&corners()),
+                    _ => stl(&corners()),
+                };
+                std::fs::write(file, bytes).expect("a file");
             });
         }
     }
+}
+
+/// COLLADA: one geometry on one node.
+fn dae(corners: &[Point; 8]) -> Vec<u8> {
+    let numbers: Vec<String> = corners.as_flattened().iter().map(f64::to_string).collect();
+    let indices: Vec<String> = TRIANGLES
+        .as_flattened()
+        .iter()
+        .map(u16::to_string)
+        .collect();
+    let (numbers, indices) = (numbers.join(" "), indices.join(" "));
+    format!(
+        r##"<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<library_geometries><geometry id="finger"><mesh>
+<source id="p"><float_array id="a" count="24">{numbers}</float_array>
+<technique_common><accessor source="#a" count="8" stride="3"/></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="12"><input semantic="VERTEX" source="#v" offset="0"/><p>{indices}</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#finger"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>
+"##
+    )
+    .into_bytes()
 }
 
 fn each_path(value: &Value, take: &mut impl FnMut(&str)) {

@@ -17,6 +17,7 @@ mod kinematics;
 mod legacy;
 mod legacy_core;
 mod legacy_robot;
+mod mesh_files;
 mod meshes;
 mod schema;
 mod shapes;
@@ -100,6 +101,7 @@ fn cases() -> Vec<Case> {
         connections::cases(),
         bounds::cases(),
         meshes::cases(),
+        mesh_files::cases(),
         shapes::cases(),
         kinematics::cases(),
         legacy::cases(),

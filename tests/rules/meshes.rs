@@ -9,10 +9,10 @@ use crate::support::fixture::{Fixture, ROOT, URDF};
 use crate::support::robot::*;
 use crate::{Case, changed, in_folder, invalid, near_miss};
 
-const ORIGINAL: &str = "original_meshes_module";
-const PLAIN: &str = "plain_meshes_module";
-const HULLS: &str = "convex_hull_meshes_module";
-const PIECES: &str = "convex_decomposition_meshes_module";
+pub const ORIGINAL: &str = "original_meshes_module";
+pub const PLAIN: &str = "plain_meshes_module";
+pub const HULLS: &str = "convex_hull_meshes_module";
+pub const PIECES: &str = "convex_decomposition_meshes_module";
 const APPROXIMATIONS: &str = "link_shapes_approximations_module";
 
 /// A robot of these links, each fixed to the first at one metre along x.
@@ -56,7 +56,7 @@ fn with_urdf_of(modules: &Robot, urdf: &Robot) -> Fixture {
     fixture
 }
 
-fn text(fixture: &Fixture, module: &str, pointer: &str) -> String {
+pub fn text(fixture: &Fixture, module: &str, pointer: &str) -> String {
     let text = fixture.get(module, pointer).as_str();
     text.expect("a string").to_owned()
 }
@@ -329,9 +329,6 @@ fn links() -> Vec<Case> {
             move || unseen(Geometry::Sphere(Sphere { radius: 0.0 })),
             |_| {},
         ),
-        invalid(MSH011, "mesh-said-to-be-unusable", |f| {
-            f.set(ORIGINAL, "/files/0/usable", json!(false));
-        }),
         changed(
             MSH011,
             "carried-file-without-a-surface",
@@ -368,18 +365,6 @@ fn links() -> Vec<Case> {
                 .position(|file| file["side_files"] != json!([]));
             let pointer = format!("/files/{}/side_files/0", with.expect("a side file"));
             f.remove(ORIGINAL, &pointer);
-        }),
-        near_miss(MSH012, "side-file-of-two-meshes", |f| {
-            let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
-            let with = files
-                .iter()
-                .position(|file| file["side_files"] != json!([]));
-            let without = files
-                .iter()
-                .position(|file| file["side_files"] == json!([]));
-            let (with, without) = (with.expect("a side file"), without.expect("none"));
-            let side = files[with]["side_files"].clone();
-            f.set(ORIGINAL, &format!("/files/{without}/side_files"), side);
         }),
         invalid(MSH012, "unsorted", |f| {
             let first = f.remove(ORIGINAL, "/files/0");

@@ -29,8 +29,12 @@ pub fn of_joints(urdf: &str) -> HashMap<String, UnitQuaternion<f64>> {
             let numbers = origin.attribute("quat_xyzw")?.split_ascii_whitespace();
             let numbers: Result<Vec<f64>, _> = numbers.map(str::parse).collect();
             let [x, y, z, w] = numbers.ok()?.try_into().ok()?;
-            // Without a length it is no rotation, and so none at all.
-            let unit = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 0.0)?;
+            // Without a length it is no rotation, and so none at all. Divided by the largest number
+            // first, so that the squares of tiny or huge ones are neither lost nor infinite.
+            let largest = [w, x, y, z]
+                .into_iter()
+                .fold(0.0_f64, |most, n| most.max(n.abs()));
+            let unit = UnitQuaternion::try_new(Quaternion::new(w, x, y, z) / largest, 0.0)?;
             Some((joint.attribute("name")?.to_owned(), unit))
         })
         .collect()
@@ -79,6 +83,11 @@ mod tests {
         // A quarter turn about x, of any length and sign.
         turned("version='1.1'", "quat_xyzw='3 0 0 3'", [x, z, minus(y)]);
         turned("version='1.2'", "quat_xyzw='-1 0 0 -1'", [x, z, minus(y)]);
+        turned(
+            "version='1.1'",
+            "quat_xyzw='2e-200 0 0 2e-200'",
+            [x, z, minus(y)],
+        );
         // A third of a turn about (1, 1, 1): x to y to z to x.
         turned("version='1.1'", "quat_xyzw='.5 .5 .5 .5'", [y, z, x]);
         // Before 1.1 it has no meaning.

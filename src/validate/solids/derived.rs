@@ -3,6 +3,8 @@
 use rayon::prelude::*;
 
 use super::file::{self, MeshFault};
+use super::glb_header::{HEADER, header_fault};
+use super::stl_records;
 use super::surface::{self, Difference, Likeness};
 use crate::format::registry::{ModuleKind, Profile};
 use crate::geometry::Mesh;
@@ -30,6 +32,21 @@ pub struct Derived {
     pub differences: Vec<(usize, Difference)>,
 }
 
+impl Derived {
+    /// The mesh, where all of its files are sound and hold the same.
+    pub fn sound(&self) -> Option<&Mesh> {
+        let sound = self.differences.is_empty() && self.files.iter().all(|f| f.fault.is_none());
+        self.mesh.as_ref().filter(|_| sound)
+    }
+
+    /// Where it stands in the document.
+    pub fn pointer(&self) -> &str {
+        self.files
+            .get(self.mesh_of)
+            .map_or("", |file| &file.pointer)
+    }
+}
+
 /// A file of a mesh.
 #[derive(Debug)]
 pub struct DerivedFile {
@@ -42,8 +59,10 @@ pub struct DerivedFile {
     /// Whether the content is of that format: binary STL, OBJ, binary glTF. `None` where it is no
     /// mesh at all.
     pub content: Option<Content>,
-    /// What is wrong with it.
+    /// What is wrong with it. Of a `.glb` that does not begin as one nothing is said here (MSH010).
     pub fault: Option<MeshFault>,
+    /// Whether it is a `.glb` that does not begin as one.
+    pub not_glb: bool,
 }
 
 /// Reads the meshes of a module: links in order, pieces in order.
@@ -95,9 +114,16 @@ fn read(
             format,
             content: None,
             fault: None,
+            not_glb: false,
         };
-        let read = file::bytes(files, profile, path.path)
-            .and_then(|bytes| file::derived(&bytes, path.path));
+        let read = file::bytes(files, profile, path.path).and_then(|bytes| {
+            file.not_glb = format == Format::Glb
+                && header_fault(&bytes[..bytes.len().min(HEADER)], bytes.len() as u64).is_some();
+            let (scene, fault) = file::derived(&bytes, path.path)?;
+            let of_stl = profile == Profile::V1 && scene.format == Content::StlBinary;
+            let fault = fault.or_else(|| stl_records::fault(&bytes).filter(|_| of_stl));
+            Ok((scene, fault))
+        });
         match read {
             Err(fault) => file.fault = Some(fault),
             Ok((scene, fault)) => {

@@ -65,6 +65,11 @@ pub fn of_link(
 }
 
 impl Expected {
+    /// Whether the link shows nothing.
+    pub fn is_empty(&self) -> bool {
+        self.mesh.triangles.is_empty() && self.primitives.is_empty()
+    }
+
     /// Adds a mesh, placed.
     fn add(&mut self, mesh: &Mesh, element: &Element, geometry: &Geometry) {
         let scale = match geometry {

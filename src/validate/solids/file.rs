@@ -65,6 +65,9 @@ pub fn without_name(error: &MeshError) -> String {
 fn is_fault(code: NoteCode) -> bool {
     !matches!(
         code,
-        NoteCode::SideFileMissing | NoteCode::TurnedToZUp | NoteCode::Assumed
+        NoteCode::SideFileMissing
+            | NoteCode::TurnedToZUp
+            | NoteCode::Assumed
+            | NoteCode::WrongExtension
     )
 }

@@ -6,9 +6,13 @@
 pub mod derived;
 pub mod expected;
 pub mod file;
+pub mod glb_header;
 pub mod original;
+pub mod placed;
+pub mod polytope;
 
 pub mod primitive;
+pub mod stl_records;
 pub mod surface;
 
 use std::collections::HashMap;
@@ -57,6 +61,12 @@ impl Solids {
     pub fn mesh(&self, kind: ModuleKind, link: usize, piece: usize) -> Option<&Mesh> {
         let at = *self.by_place.get(&(kind, link, piece))?;
         self.derived(kind).get(at)?.mesh.as_ref()
+    }
+
+    /// The same, where all of its files are sound and hold the same.
+    pub fn sound(&self, kind: ModuleKind, link: usize, piece: usize) -> Option<&Mesh> {
+        let at = *self.by_place.get(&(kind, link, piece))?;
+        self.derived(kind).get(at)?.sound()
     }
 
     /// A mesh that the URDF names, by its path in `original_meshes_module`.

@@ -276,11 +276,11 @@ impl<'a> Matching<'a> {
     fn farthest(&self, lost: &[Vec<[u32; 3]>; 2]) -> Option<([f64; 3], f64)> {
         const MOST_CORNERS: usize = 64;
         let mut farthest: Option<([f64; 3], f64)> = None;
-        for which in 0..2 {
+        for (which, lost) in lost.iter().enumerate() {
             let other = self.meshes[1 - which];
             let known: std::collections::HashSet<u32> =
                 self.places[1 - which].iter().copied().collect();
-            let corners = lost[which].iter().flatten().copied();
+            let corners = lost.iter().flatten().copied();
             let alone: Vec<u32> = corners
                 .filter(|vertex| !known.contains(&self.places[which][*vertex as usize]))
                 .collect();

@@ -19,6 +19,7 @@ declare_rule! {
     /// only geometry is meshes that could not be found.
     MSH011 "link-without-mesh", Error, clause "7.2", since "0.1.0",
     phase References, needs [
+        NotFailed(MSH016),
         Module(Kind::Urdf),
         Module(Kind::PlainMeshes),
         NotFailed(URD004),

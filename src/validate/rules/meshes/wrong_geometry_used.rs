@@ -24,6 +24,7 @@ declare_rule! {
         NotFailed(MSH009),
         NotFailed(MSH012),
         NotFailed(MSH011),
+        NotFailed(MSH016),
         // The entry of another link has the geometry of another link.
         NotFailed(MSH006),
         NotFailed(MSH007),

@@ -1,0 +1,82 @@
+use std::collections::HashSet;
+
+use rayon::prelude::*;
+
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::rule::declare_rule;
+use crate::validate::solids::polytope::{bits, distinct};
+use crate::validate::solids::surface::{extent, nearest};
+use crate::validate::tolerance::mesh_resolution;
+
+declare_rule! {
+    /// A vertex of a convex hull is no vertex of its link's mesh.
+    ///
+    /// The hull of a mesh has some of the mesh's vertices and no others. Here one stands elsewhere: the
+    /// hull is larger than its link (then programs see collisions that are none), or it was computed from
+    /// another mesh, in other coordinates, or from rounded ones.
+    ///
+    /// Compute the hull from the vertices of the plain mesh as its files have them.
+    MSH019 "hull-vertex-off-mesh", Error, clause "7.9", since "0.1.0",
+    phase Geometry, needs [
+        Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NotFailed(MSH003), NotFailed(MSH007),
+        NotFailed(MSH017), NotFailed(MSH018),
+    ],
+    check check,
+}
+
+/// So many vertices of a hull that are not exactly the mesh's are looked for near by.
+const MOST_LOOKED_FOR: usize = 2_000;
+
+fn check(context: &Context, findings: &mut Findings) {
+    let Some(module) = context.module(ModuleKind::ConvexHullMeshes) else {
+        return;
+    };
+    let hulls = context.solids().derived(ModuleKind::ConvexHullMeshes);
+    let off: Vec<_> = hulls
+        .par_iter()
+        .map(|hull| farthest_off(context, hull.link))
+        .collect();
+    for (hull, off) in hulls.iter().zip(off) {
+        let Some((place, distance, tolerance)) = off else {
+            continue;
+        };
+        findings.report(
+            Finding::at(
+                module.file("module.json"),
+                hull.pointer(),
+                format!(
+                    "the hull of {} has a vertex at {} that is no vertex of its mesh: the nearest is {} away",
+                    context.link_label(hull.link),
+                    point(place),
+                    metres(distance)
+                ),
+            )
+            .expected("vertices of the plain mesh only")
+            .actual(format!("a vertex {} off", metres(distance)))
+            .tolerance(tolerance),
+        );
+    }
+}
+
+/// The vertex of a link's hull that is farthest from the vertices of its mesh, how far, and the
+/// tolerance.
+fn farthest_off(context: &Context, link: usize) -> Option<([f64; 3], f64, f64)> {
+    let solids = context.solids();
+    let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
+    if context.is_misplaced(link) {
+        return None;
+    }
+    let hull = solids.sound(ModuleKind::ConvexHullMeshes, link, 0)?;
+    let known: HashSet<[u64; 3]> = mesh.vertices.iter().copied().map(bits).collect();
+    let unknown = distinct(hull)
+        .into_iter()
+        .filter(|vertex| !known.contains(&bits(*vertex)));
+    let worst = unknown
+        .take(MOST_LOOKED_FOR)
+        .map(|vertex| (vertex, nearest(mesh, vertex)))
+        .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    let tolerance = mesh_resolution(extent(mesh));
+    (worst.1 > tolerance).then_some((worst.0, worst.1, tolerance))
+}

@@ -1,0 +1,119 @@
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::geometry::Mesh;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::rule::declare_rule;
+use crate::validate::solids::polytope::{Polytope, step};
+use crate::validate::solids::surface::extent;
+use crate::validate::tolerance::{COVER_WITHOUT_PROMISE, mesh_resolution};
+
+declare_rule! {
+    /// The convex pieces of a link leave out a part of its surface.
+    ///
+    /// Together the pieces cover the link: no point of the plain mesh is farther outside of all of them
+    /// than `surface_tolerance` promises, or, without a promise, than 5 % of the diagonal of the box
+    /// around the link. Here a part of it sticks out, which a program that checks collisions with the
+    /// pieces does not see. Often a piece was lost, or belongs to another link.
+    ///
+    /// Decompose the link's plain mesh again, or promise less.
+    MSH022 "pieces-leave-surface", Error, clause "7.10", since "0.1.0",
+    phase Geometry, needs [
+        Module(Kind::PlainMeshes), Module(Kind::ConvexDecompositionMeshes),
+        NotFailed(MSH003),
+        NotFailed(MSH004), NotFailed(MSH007), NotFailed(MSH020),
+    ],
+    check check,
+}
+
+/// A part of a link that no piece covers.
+struct Bare {
+    place: [f64; 3],
+    distance: f64,
+    tolerance: f64,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let kind = ModuleKind::ConvexDecompositionMeshes;
+    let (Some(module), Some(meshes)) = (context.module(kind), context.meshes(kind)) else {
+        return;
+    };
+    let promised = match context.document(kind) {
+        Some(ModuleDocument::ConvexDecompositionMeshes(module)) => module.method.surface_tolerance,
+        _ => None,
+    };
+    let bare: Vec<Option<Bare>> = (0..meshes.num_links())
+        .into_par_iter()
+        .map(|link| bare(context, link, meshes.count(link), promised))
+        .collect();
+    for (link, bare) in bare.into_iter().enumerate() {
+        let Some(bare) = bare else {
+            continue;
+        };
+        findings.report(
+            Finding::at(
+                module.file("module.json"),
+                meshes.pointer(link),
+                format!(
+                    "the pieces of {} leave out its surface at {}, {} outside of all of them",
+                    context.link_label(link),
+                    point(bare.place),
+                    metres(bare.distance)
+                ),
+            )
+            .expected("the whole surface of the plain mesh inside the pieces")
+            .actual(format!("{} outside", metres(bare.distance)))
+            .tolerance(bare.tolerance),
+        );
+    }
+}
+
+/// Where a link's surface is farthest outside of its pieces, if it is so by more than it may be.
+fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) -> Option<Bare> {
+    let solids = context.solids();
+    let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
+    if context.is_misplaced(link) {
+        return None;
+    }
+    let kind = ModuleKind::ConvexDecompositionMeshes;
+    let pieces: Option<Vec<Polytope>> = (0..pieces)
+        .map(|piece| Polytope::new(solids.sound(kind, link, piece)?))
+        .collect();
+    let pieces = pieces.filter(|pieces| !pieces.is_empty())?;
+    let bounds = mesh.bounds()?;
+    let diagonal = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
+    let most = diagonal * COVER_WITHOUT_PROMISE;
+    let tolerance =
+        promised.map_or(most, |promised| promised.clamp(0.0, most)) + mesh_resolution(extent(mesh));
+    let faces: usize = pieces.iter().map(Polytope::num_faces).sum();
+    let points = 4 * mesh.triangles.len();
+    let worst = points_of(mesh)
+        .step_by(step(points, faces))
+        .filter(|point| !pieces.iter().any(|piece| piece.holds(*point, tolerance)))
+        .map(|point| {
+            let outside = pieces.iter().map(|piece| piece.outside(point));
+            (point, outside.fold(f64::INFINITY, f64::min))
+        })
+        .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    (worst.1 > tolerance).then_some(Bare {
+        place: worst.0,
+        distance: worst.1,
+        tolerance,
+    })
+}
+
+/// Points of a surface: corners, and the middles of triangles.
+fn points_of(mesh: &Mesh) -> impl Iterator<Item = [f64; 3]> {
+    let corners = mesh
+        .triangles
+        .iter()
+        .flatten()
+        .map(|at| mesh.vertices[*at as usize]);
+    let middles = mesh.triangles.iter().map(|triangle| {
+        let [a, b, c] = mesh.corners(*triangle);
+        std::array::from_fn(|i| (a[i] + b[i] + c[i]) / 3.0)
+    });
+    corners.chain(middles)
+}

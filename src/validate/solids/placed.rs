@@ -1,0 +1,313 @@
+//! Whether plain meshes are what the robot's elements show, in their places (SPEC 7.8).
+
+use rayon::prelude::*;
+
+use super::derived::Derived;
+use super::expected::{self, Expected};
+use super::surface::{self, Difference, Likeness};
+use crate::format::meshes::GeometryKind;
+use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::geometry::Mesh;
+use crate::validate::context::Context;
+use crate::validate::finding::{metres, point};
+use crate::validate::tolerance::{PRIMITIVE_AREA, PRIMITIVE_SAG, mesh_resolution};
+use crate::validate::views::usable_geometry::UsableGeometry;
+
+/// A link whose mesh is not what it should be.
+#[derive(Debug)]
+pub struct Misplaced {
+    /// The link.
+    pub link: usize,
+    /// Where its mesh stands in the document.
+    pub pointer: String,
+    /// What is wrong with it.
+    pub what: String,
+    /// What it should be.
+    pub expected: String,
+    /// What it is.
+    pub actual: String,
+    /// How far corners may be apart, m.
+    pub tolerance: f64,
+}
+
+/// Every link whose mesh is not what it should be, in link order. A mesh whose files differ or are
+/// broken is not judged, nor is one of which a source is missing.
+pub fn all(context: &Context) -> Vec<Misplaced> {
+    let solids = context.solids();
+    let usable = UsableGeometry::new(context);
+    let judge = |mesh: &Derived| {
+        let found = mesh.sound()?;
+        let kind = kind_of(context, mesh.link)?;
+        let expected = expected::of_link(context, solids, &usable, mesh.link, kind)?;
+        // A mesh of nothing is what MSH011 tells.
+        let (what, tolerance) = fault(&expected, found).filter(|_| !expected.is_empty())?;
+        let file = mesh.files.get(mesh.mesh_of)?;
+        Some(Misplaced {
+            link: mesh.link,
+            pointer: file.pointer.clone(),
+            what,
+            expected: in_words(&expected),
+            actual: format!("`{}`: {} triangles", file.path, found.triangles.len()),
+            tolerance,
+        })
+    };
+    let meshes = solids.derived(ModuleKind::PlainMeshes).par_iter();
+    meshes.filter_map(judge).collect()
+}
+
+/// Which geometry a link's mesh was made from. Legacy modules used what is visual.
+fn kind_of(context: &Context, link: usize) -> Option<GeometryKind> {
+    match context.document(ModuleKind::PlainMeshes)? {
+        ModuleDocument::PlainMeshes(module) => {
+            Some(module.link_meshes.get(link)?.as_ref()?.geometry)
+        }
+        _ => Some(GeometryKind::Visual),
+    }
+}
+
+/// The other link whose geometry in its place a link's mesh is.
+pub fn owner(context: &Context, link: usize) -> Option<usize> {
+    let solids = context.solids();
+    let usable = UsableGeometry::new(context);
+    let mesh = solids.mesh(ModuleKind::PlainMeshes, link, 0)?;
+    let others = context.robot()?.links.len();
+    (0..others).filter(|other| *other != link).find(|other| {
+        let expected = kind_of(context, *other)
+            .and_then(|kind| expected::of_link(context, solids, &usable, *other, kind));
+        expected.is_some_and(|expected| !expected.is_empty() && fault(&expected, mesh).is_none())
+    })
+}
+
+/// What is wrong with a mesh, and the tolerance; `None` where it is what it should be.
+fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
+    let tolerance = mesh_resolution(expected.extent.max(surface::extent(found)));
+    let difference = surface::difference(&expected.mesh, found, tolerance, Likeness::SameSurface)
+        .unwrap_or_default();
+    let told = |difference: &Difference| Some((difference.in_words(), tolerance));
+    if difference.missing > 0 || difference.turned > 0 {
+        return told(&difference);
+    }
+    if expected.primitives.is_empty() {
+        return match difference.extra.is_empty() {
+            true => None,
+            false => told(&difference),
+        };
+    }
+    primitives(expected, found, &difference.extra, tolerance).map(|what| (what, tolerance))
+}
+
+/// Whether triangles are those of the primitives: corners on a surface, faces not far inside of it, and
+/// the area of all.
+fn primitives(
+    expected: &Expected,
+    found: &Mesh,
+    triangles: &[usize],
+    tolerance: f64,
+) -> Option<String> {
+    let mut areas = vec![0.0; expected.primitives.len()];
+    let mut total = 0.0;
+    for at in triangles {
+        let corners = found.corners(found.triangles[*at]);
+        let [a, b, c] = corners.map(nalgebra::Vector3::from);
+        let area = (b - a).cross(&(c - a)).norm() / 2.0;
+        let middle: [f64; 3] = ((a + b + c) / 3.0).into();
+        total += area;
+        let mut on_any = false;
+        for (primitive, sum) in expected.primitives.iter().zip(&mut areas) {
+            let on = corners
+                .iter()
+                .all(|p| primitive.distance(*p).abs() <= tolerance);
+            let inside = -primitive.distance(middle);
+            if on && inside <= primitive.sag(PRIMITIVE_SAG) + tolerance {
+                on_any = true;
+                *sum += area;
+            }
+        }
+        if !on_any {
+            return Some(off_surface(expected, corners, middle));
+        }
+    }
+    let most: f64 = expected.primitives.iter().map(|p| p.area()).sum();
+    let rounding = |area: f64| tolerance * area.sqrt() * 8.0 + area * 1e-9;
+    for (primitive, area) in expected.primitives.iter().zip(areas) {
+        let whole = primitive.area();
+        let least = match primitive.sag(PRIMITIVE_SAG) {
+            0.0 => whole,
+            _ => whole * PRIMITIVE_AREA,
+        };
+        if area < least - rounding(whole) {
+            return Some(format!(
+                "{area:.6} m² of the {whole:.6} m² of its {} are there",
+                primitive.name()
+            ));
+        }
+    }
+    (total > most + rounding(most))
+        .then(|| format!("{total:.6} m² of surface where its shapes have {most:.6} m²"))
+}
+
+/// A triangle that is on no primitive, in words.
+fn off_surface(expected: &Expected, corners: [[f64; 3]; 3], middle: [f64; 3]) -> String {
+    let nearest = |p: [f64; 3]| {
+        let distances = expected.primitives.iter().map(|one| one.distance(p).abs());
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let worst = corners
+        .into_iter()
+        .fold((middle, nearest(middle)), |worst, corner| {
+            let distance = nearest(corner);
+            if distance > worst.1 {
+                (corner, distance)
+            } else {
+                worst
+            }
+        });
+    format!(
+        "a triangle at {} is {} off the surface",
+        point(worst.0),
+        metres(worst.1)
+    )
+}
+
+/// What a link should look like, in words.
+fn in_words(expected: &Expected) -> String {
+    let mut parts = Vec::new();
+    if !expected.mesh.triangles.is_empty() {
+        parts.push(format!(
+            "{} triangles of its meshes",
+            expected.mesh.triangles.len()
+        ));
+    }
+    parts.extend(
+        expected
+            .primitives
+            .iter()
+            .map(|one| format!("a {}", one.name())),
+    );
+    match parts.is_empty() {
+        true => "nothing".to_owned(),
+        false => parts.join(", "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Rotation3};
+
+    use super::super::primitive::Primitive;
+    use super::*;
+    use crate::format::urdf::{Capsule, Cuboid, Cylinder, Geometry, Sphere};
+    use crate::geometry::primitives;
+
+    /// A cylinder's triangles with this many corners a circle.
+    fn coarse(corners: usize, radius: f64, length: f64) -> Mesh {
+        let mut mesh = Mesh::default();
+        for end in [-0.5, 0.5] {
+            for i in 0..corners {
+                let angle = std::f64::consts::TAU * i as f64 / corners as f64;
+                mesh.vertices
+                    .push([radius * angle.cos(), radius * angle.sin(), end * length]);
+            }
+        }
+        let n = corners as u32;
+        for i in 0..n {
+            let next = (i + 1) % n;
+            mesh.triangles
+                .extend([[i, next, next + n], [i, next + n, i + n]]);
+            if i > 0 && next > 0 {
+                mesh.triangles.extend([[0, next, i], [n, i + n, next + n]]);
+            }
+        }
+        mesh
+    }
+
+    fn of(geometries: &[(Geometry, Mesh, [f64; 3])]) -> (Expected, Mesh) {
+        let turn = Rotation3::from_euler_angles(0.3, -1.1, 2.4).into_inner();
+        let rows = [0, 1, 2].map(|r| [0, 1, 2].map(|c| turn[(r, c)]));
+        let mut expected = Expected::default();
+        let mut found = Mesh::default();
+        for (geometry, mesh, at) in geometries {
+            let primitive = Primitive::new(geometry, turn, *at).expect("no mesh");
+            expected.extent = expected.extent.max(primitive.extent());
+            expected.primitives.push(primitive);
+            let mut placed = mesh.clone();
+            placed.transform(&crate::geometry::mesh::placement([1.0; 3], rows, *at));
+            placed.round_to_f32();
+            found.append(&placed);
+        }
+        (expected, found)
+    }
+
+    fn shapes() -> Vec<(Geometry, Mesh, [f64; 3])> {
+        let cylinder = Cylinder {
+            radius: 0.1,
+            length: 0.4,
+        };
+        vec![
+            (
+                Geometry::Box(Cuboid {
+                    size: [0.1, 0.2, 0.3],
+                }),
+                primitives::cuboid([0.1, 0.2, 0.3]),
+                [0.0; 3],
+            ),
+            (
+                Geometry::Cylinder(cylinder.clone()),
+                primitives::cylinder(0.1, 0.4),
+                [0.3, 0.0, 0.0],
+            ),
+            (
+                Geometry::Cylinder(cylinder),
+                coarse(17, 0.1, 0.4),
+                [0.0, 0.9, 0.0],
+            ),
+            (
+                Geometry::Capsule(Capsule {
+                    radius: 0.1,
+                    length: 0.4,
+                }),
+                primitives::capsule(0.1, 0.4),
+                [0.0, 0.1, 0.2],
+            ),
+            (
+                Geometry::Sphere(Sphere { radius: 0.25 }),
+                primitives::sphere(0.25),
+                [-0.4, 0.0, 0.1],
+            ),
+        ]
+    }
+
+    #[test]
+    fn tessellated_shapes_pass_alone_and_together() {
+        let all = shapes();
+        for one in &all {
+            let (expected, found) = of(std::slice::from_ref(one));
+            assert_eq!(fault(&expected, &found), None, "{:?}", one.0);
+        }
+        let (expected, found) = of(&all);
+        assert_eq!(fault(&expected, &found), None);
+    }
+
+    #[test]
+    fn what_is_missing_coarse_or_moved_does_not() {
+        let all = shapes();
+        let (expected, found) = of(&all);
+        for at in [0, 20, found.triangles.len() - 1] {
+            // A corner moved by a millimetre.
+            let mut moved = found.clone();
+            moved.vertices[found.triangles[at][0] as usize][1] += 1e-3;
+            assert!(fault(&expected, &moved).is_some(), "{at}");
+        }
+        let (_, fewer) = of(&all[..4]);
+        assert!(fault(&expected, &fewer).is_some());
+        let (one, mut twice) = of(&all[..1]);
+        let again = twice.clone();
+        twice.append(&again);
+        assert!(fault(&one, &twice).is_some());
+        let rough = (all[2].0.clone(), coarse(12, 0.1, 0.4), [0.0; 3]);
+        let (expected, found) = of(&[rough]);
+        assert!(fault(&expected, &found).is_some());
+        let inside = Primitive::new(&all[4].0, Matrix3::identity(), [0.0; 3]).expect("a sphere");
+        assert!(inside.distance([0.0, 0.0, 0.2]) < 0.0);
+    }
+}

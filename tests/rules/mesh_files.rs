@@ -1,0 +1,341 @@
+//! MSH013 to MSH022: what mesh files hold.
+
+use serde_json::{Value, json};
+use urdd::geometry::Mesh;
+use urdd::geometry::hull::ConvexHull;
+use urdd::geometry::read::Part;
+use urdd::geometry::write;
+use urdd::validate::code::Code::*;
+
+use crate::legacy_robot::LegacyRobot;
+use crate::meshes::{HULLS, ORIGINAL, PIECES, PLAIN, boxy, legacy, robot_of, text};
+use crate::support::fixture::{Fixture, ROOT};
+use crate::support::robot::*;
+use crate::{Case, changed, in_folder, invalid, near_miss};
+
+/// The base: a box of 0.4 by 0.4 by 0.1 m about its link's origin, which is its own only piece.
+const BASE: usize = 1;
+
+/// Where the entry of a link stands, or of its first piece.
+fn entry(module: &str, link: usize) -> String {
+    match module {
+        PLAIN => format!("/link_meshes/{link}/files"),
+        HULLS => format!("/link_hulls/{link}"),
+        _ => format!("/link_pieces/{link}/0"),
+    }
+}
+
+fn path(f: &Fixture, module: &str, link: usize, format: &str) -> String {
+    text(f, module, &format!("{}/{format}", entry(module, link)))
+}
+
+/// A mesh, as its OBJ file has it.
+fn read(f: &Fixture, module: &str, link: usize) -> Mesh {
+    let obj = String::from_utf8(f.file(&path(f, module, link, "obj")).to_vec()).expect("text");
+    let mut mesh = Mesh::default();
+    for line in obj.lines() {
+        let mut words = line.split(' ');
+        let kind = words.next();
+        match kind {
+            Some("v") => {
+                let numbers: Vec<f64> = words.map(|w| w.parse().expect("a number")).collect();
+                mesh.vertices
+                    .push(numbers.try_into().expect("three numbers"));
+            }
+            Some("f") => {
+                let corners: Vec<u32> = words.map(|w| w.parse().expect("an index")).collect();
+                let [a, b, c]: [u32; 3] = corners.try_into().expect("three corners");
+                mesh.triangles.push([a - 1, b - 1, c - 1]);
+            }
+            _ => {}
+        }
+    }
+    mesh
+}
+
+fn put(f: &mut Fixture, module: &str, link: usize, format: &str, mesh: &Mesh) {
+    let parts = [Part::from(mesh.clone())];
+    let bytes = match format {
+        "stl" => write::stl(&parts),
+        "obj" => write::obj(&parts),
+        _ => write::glb(&parts),
+    };
+    let path = path(f, module, link, format);
+    f.put_file(&path, bytes.expect("a mesh that can be written"));
+}
+
+/// Changes a mesh in some of its formats.
+fn rewrite(f: &mut Fixture, module: &str, formats: &[&str], change: impl Fn(&mut Mesh)) {
+    let mut mesh = read(f, module, BASE);
+    change(&mut mesh);
+    for format in formats {
+        put(f, module, BASE, format, &mesh);
+    }
+}
+
+const ALL: &[&str] = &["stl", "obj", "glb"];
+
+/// The next binary32.
+fn up(x: f64) -> f64 {
+    f64::from((x as f32).next_up())
+}
+
+/// Two boxes, the second of which names a file without a surface.
+fn bare() -> Fixture {
+    let mut bare = link("b");
+    bare.visual
+        .push(visual(None, mesh("package://robot/bare.stl", None)));
+    let mut fixture = Fixture::full(&robot_of(vec![boxy("a"), bare]));
+    let path = format!("mesh_modules/{ORIGINAL}/meshes/bare.stl");
+    fixture.put_file(&path, vec![0; 84]);
+    fixture.set(ORIGINAL, "/references/0/path", json!(path));
+    let file = json!({"path": path, "side_files": [], "usable": false});
+    fixture.set(ORIGINAL, "/files/-", file);
+    let entry = json!({"path": path, "size": 0, "sha256": ""});
+    let listed = fixture.doc_mut(ROOT).pointer_mut("/modules/6/files");
+    let listed = listed.and_then(Value::as_array_mut).expect("a list");
+    listed.insert(1, entry);
+    fixture
+}
+
+pub fn cases() -> Vec<Case> {
+    let mut cases = files();
+    cases.extend(sources());
+    cases.extend(bodies());
+    cases
+}
+
+/// MSH013 and MSH014.
+fn files() -> Vec<Case> {
+    vec![
+        invalid(MSH013, "stl-cut-off", |f| {
+            let path = path(f, HULLS, BASE, "stl");
+            let bytes = f.file(&path).to_vec();
+            f.put_file(&path, &bytes[..bytes.len() - 1]);
+        }),
+        invalid(MSH013, "obj-names-a-vertex-that-is-not-there", |f| {
+            let path = path(f, PLAIN, BASE, "obj");
+            let obj = String::from_utf8(f.file(&path).to_vec()).expect("text");
+            f.put_file(&path, obj.replacen("f 1 5 3", "f 1 5 9", 1));
+        }),
+        invalid(MSH013, "coordinate-not-finite", |f| {
+            let path = path(f, PIECES, BASE, "stl");
+            let mut bytes = f.file(&path).to_vec();
+            bytes[96..100].copy_from_slice(&f32::NAN.to_le_bytes());
+            f.put_file(&path, bytes);
+        }),
+        invalid(MSH013, "stl-as-text", |f| {
+            let mesh = read(f, PLAIN, BASE);
+            let mut text = "solid base\n".to_owned();
+            for triangle in &mesh.triangles {
+                text.push_str("facet normal 0 0 0\nouter loop\n");
+                for [x, y, z] in mesh.corners(*triangle) {
+                    text.push_str(&format!("vertex {x} {y} {z}\n"));
+                }
+                text.push_str("endloop\nendfacet\n");
+            }
+            text.push_str("endsolid base\n");
+            let path = path(f, PLAIN, BASE, "stl");
+            f.put_file(&path, text);
+        }),
+        invalid(MSH013, "normal-of-another-triangle", |f| {
+            let path = path(f, HULLS, BASE, "stl");
+            let mut bytes = f.file(&path).to_vec();
+            bytes[84 + 3] ^= 0x80;
+            f.put_file(&path, bytes);
+        }),
+        invalid(MSH013, "obj-holds-stl", |f| {
+            let stl = f.file(&path(f, HULLS, BASE, "stl")).to_vec();
+            let path = path(f, HULLS, BASE, "obj");
+            f.put_file(&path, stl);
+        }),
+        near_miss(MSH013, "what-formats-leave-open", |f| {
+            let stl = path(f, HULLS, BASE, "stl");
+            let mut bytes = f.file(&stl).to_vec();
+            bytes[..20].copy_from_slice(b"solid, but binary   ");
+            f.put_file(&stl, bytes);
+            let obj = path(f, HULLS, BASE, "obj");
+            let text = String::from_utf8(f.file(&obj).to_vec()).expect("text");
+            f.put_file(&obj, format!("# a hull\no base\n{text}\n"));
+        }),
+        invalid(MSH014, "vertex-moved-in-the-obj", |f| {
+            rewrite(f, PLAIN, &["obj"], |mesh| mesh.vertices[3][0] += 1e-4);
+        }),
+        invalid(MSH014, "glb-turned-to-y-up", |f| {
+            rewrite(f, HULLS, &["glb"], |mesh| {
+                for [_, y, z] in &mut mesh.vertices {
+                    (*y, *z) = (*z, -*y);
+                }
+            });
+        }),
+        invalid(MSH014, "triangle-turned-round-in-the-stl", |f| {
+            rewrite(f, PIECES, &["stl"], |mesh| mesh.triangles[4].swap(0, 1));
+        }),
+        near_miss(MSH014, "another-order", |f| {
+            rewrite(f, PLAIN, &["obj"], |mesh| {
+                mesh.triangles.reverse();
+                for triangle in &mut mesh.triangles {
+                    triangle.rotate_left(1);
+                }
+            });
+        }),
+        near_miss(MSH014, "rounded-otherwise", |f| {
+            rewrite(f, PLAIN, &["glb"], |mesh| {
+                mesh.vertices[5] = mesh.vertices[5].map(up);
+            });
+        }),
+    ]
+}
+
+/// MSH015 and MSH016.
+fn sources() -> Vec<Case> {
+    vec![
+        invalid(MSH015, "moved", |f| {
+            rewrite(f, PLAIN, ALL, |mesh| {
+                for vertex in &mut mesh.vertices {
+                    vertex[2] += 1e-3;
+                }
+            });
+        }),
+        invalid(MSH015, "corner-moved", |f| {
+            rewrite(f, PLAIN, ALL, |mesh| mesh.vertices[6][1] += 1e-4);
+        }),
+        invalid(MSH015, "scale-left-out", |f| {
+            // The tool's mesh is in millimetres.
+            let mut mesh = read(f, PLAIN, 6);
+            for vertex in &mut mesh.vertices {
+                *vertex = vertex.map(|x| x * 1000.0);
+            }
+            for format in ALL {
+                put(f, PLAIN, 6, format, &mesh);
+            }
+        }),
+        invalid(MSH015, "another-links-mesh", |f| {
+            // The turret's, which is a mesh too, in place of the tool's.
+            let mesh = read(f, PLAIN, 2);
+            for format in ALL {
+                put(f, PLAIN, 6, format, &mesh);
+            }
+        }),
+        invalid(MSH015, "triangle-missing", |f| {
+            rewrite(f, PLAIN, ALL, |mesh| {
+                mesh.triangles.pop();
+            });
+        }),
+        in_folder(MSH015, "legacy-origin-left-out", true, |root| {
+            let mut robot = LegacyRobot::new("robot", 0.0);
+            for link in [0, 1] {
+                robot.doc("urdf_module")["links"][link]["visual"][0]["origin"]["xyz"] =
+                    json!([0.0, 0.25, 0.0]);
+            }
+            robot.write(root);
+        }),
+        near_miss(MSH015, "computed-in-binary32", |f| {
+            rewrite(f, PLAIN, ALL, |mesh| {
+                for vertex in &mut mesh.vertices {
+                    *vertex = vertex.map(up);
+                }
+            });
+        }),
+        legacy(MSH015, "legacy", false, || LegacyRobot::new("robot", 0.0)),
+        invalid(MSH016, "called-unusable", |f| {
+            f.set(ORIGINAL, "/files/0/usable", json!(false));
+        }),
+        changed(MSH016, "called-usable", true, bare, |f| {
+            f.set(ORIGINAL, "/files/0/usable", json!(true));
+        }),
+        invalid(MSH016, "side-file-that-is-not-named", |f| {
+            let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
+            let sides = |file: &Value| file["side_files"] != json!([]);
+            let with = files.iter().position(sides).expect("a side file");
+            let without = files.iter().position(|file| !sides(file)).expect("none");
+            let side = files[with]["side_files"].clone();
+            f.set(ORIGINAL, &format!("/files/{without}/side_files"), side);
+        }),
+        changed(MSH016, "without-a-surface", false, bare, |_| {}),
+        near_miss(MSH016, "names-what-is-not-carried", |f| {
+            let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
+            let obj = files.iter().filter_map(|file| file["path"].as_str());
+            let obj = obj.filter(|path| path.ends_with(".obj")).map(str::to_owned);
+            let obj = obj.max().expect("an OBJ");
+            let text = String::from_utf8(f.file(&obj).to_vec()).expect("text");
+            f.put_file(&obj, format!("mtllib gone.mtl\n{text}"));
+        }),
+    ]
+}
+
+/// MSH017 to MSH022.
+fn bodies() -> Vec<Case> {
+    vec![
+        invalid(MSH017, "open", |f| {
+            rewrite(f, HULLS, ALL, |mesh| {
+                mesh.triangles.pop();
+            });
+        }),
+        invalid(MSH017, "inward", |f| rewrite(f, HULLS, ALL, Mesh::flip)),
+        changed(
+            MSH017,
+            "flat",
+            false,
+            || {
+                let mut flat = link("flat");
+                flat.visual.push(visual(None, cuboid([0.3, 0.2, 0.0])));
+                Fixture::full(&robot_of(vec![flat, boxy("b")]))
+            },
+            |_| {},
+        ),
+        invalid(MSH018, "corner-cut-off", |f| {
+            rewrite(f, HULLS, ALL, |mesh| {
+                let seven = &mesh.vertices[..7];
+                *mesh = ConvexHull::new(seven).expect("a hull").into_mesh();
+            });
+        }),
+        near_miss(MSH018, "rounded-otherwise", |f| {
+            rewrite(f, HULLS, ALL, |mesh| {
+                mesh.vertices[0] = mesh.vertices[0].map(up);
+            });
+        }),
+        invalid(MSH019, "vertex-that-is-not-the-meshs", |f| {
+            rewrite(f, HULLS, ALL, |mesh| {
+                let mut points = mesh.vertices.clone();
+                points.push([0.0, 0.0, 0.0625]);
+                *mesh = ConvexHull::new(&points).expect("a hull").into_mesh();
+            });
+        }),
+        near_miss(MSH019, "rounded-otherwise", |f| {
+            rewrite(f, HULLS, ALL, |mesh| {
+                mesh.vertices[7] = mesh.vertices[7].map(up);
+            });
+        }),
+        invalid(MSH020, "open", |f| {
+            rewrite(f, PIECES, ALL, |mesh| {
+                mesh.triangles.remove(0);
+            });
+        }),
+        near_miss(MSH020, "another-order", |f| {
+            rewrite(f, PIECES, ALL, |mesh| mesh.triangles.reverse());
+        }),
+        invalid(MSH021, "larger-than-the-link", |f| {
+            rewrite(f, PIECES, ALL, |mesh| {
+                for vertex in &mut mesh.vertices {
+                    *vertex = vertex.map(|x| f64::from((x * 1.01) as f32));
+                }
+            });
+        }),
+        near_miss(MSH021, "rounded-otherwise", |f| {
+            rewrite(f, PIECES, ALL, |mesh| {
+                mesh.vertices[7] = mesh.vertices[7].map(up);
+            });
+        }),
+        invalid(MSH022, "part-of-the-link", |f| {
+            rewrite(f, PIECES, ALL, |mesh| {
+                for vertex in &mut mesh.vertices {
+                    vertex[0] = vertex[0].min(0.1);
+                }
+            });
+        }),
+        near_miss(MSH022, "no-promise", |f| {
+            f.set(PIECES, "/method/surface_tolerance", Value::Null);
+        }),
+    ]
+}
