@@ -14,11 +14,11 @@ use super::sample;
 
 const MODULE: &str = "original_meshes_module";
 
-/// How much a coordinate is changed, in parts of the mesh's extent or of the coordinate.
+/// How much a coordinate is changed, in parts of the mesh's size.
 const STEPS: [(&str, f64); 3] = [
-    ("a vertex moved by 1e-4 of the extent", 1e-4),
-    ("a vertex moved by 1e-2 of the extent", 1e-2),
-    ("a vertex moved by the extent", 1.0),
+    ("a vertex moved by 1e-4 of its size", 1e-4),
+    ("a vertex moved by 1e-2 of its size", 1e-2),
+    ("a vertex moved by its size", 1.0),
 ];
 
 /// Changes of carried meshes, in one list.

@@ -119,10 +119,10 @@ pub enum Tolerance {
     Copied,
     /// This part of the robot's reach.
     OfReach(f64),
+    /// This part of the largest shape's size.
+    OfShapes(f64),
     /// So much, in the number's own unit.
     Absolute(f64),
-    /// This part of the larger absolute value.
-    Relative(f64),
 }
 
 /// The tolerance of the numbers of a field.
@@ -175,6 +175,24 @@ pub const FIELD_TOLERANCES: &[FieldTolerance] = &[
         tolerance: Tolerance::Absolute(4e-9),
         clause: "5.6, of the bounds' size",
     },
+    FieldTolerance {
+        module: "link_shapes_approximations_module",
+        field: "",
+        tolerance: Tolerance::OfShapes(1e-6),
+        clause: "7.6",
+    },
+    FieldTolerance {
+        module: "link_shapes_max_distance_from_origin_module",
+        field: "/full_convex_hulls_maximum_distances",
+        tolerance: Tolerance::OfShapes(1e-6),
+        clause: "7.6, 8.3",
+    },
+    FieldTolerance {
+        module: "link_shapes_max_distance_from_origin_module",
+        field: "/decomposition_convex_hulls_maximum_distances",
+        tolerance: Tolerance::OfShapes(1e-6),
+        clause: "7.6, 8.3",
+    },
 ];
 
 /// What a change must exceed, in tolerances.
@@ -202,6 +220,8 @@ pub(super) struct Ground<'a> {
     pub field: &'a str,
     /// The robot's reach, m.
     pub reach: f64,
+    /// The largest shape's size, m.
+    pub shapes: f64,
 }
 
 impl Ground<'_> {
@@ -214,8 +234,8 @@ impl Ground<'_> {
         match listed.map_or(Tolerance::Copied, |listed| listed.tolerance) {
             Tolerance::Copied => (1e-9 * larger).max(1e-12),
             Tolerance::OfReach(part) => part * self.reach,
+            Tolerance::OfShapes(part) => part * self.shapes,
             Tolerance::Absolute(tolerance) => tolerance,
-            Tolerance::Relative(part) => part * larger,
         }
     }
 
@@ -269,6 +289,7 @@ mod tests {
             module: "chain_module",
             field: "/joints_in_chain/*/origin/position",
             reach: 2.0,
+            shapes: 1.0,
         };
         assert!(!ground.differs(&json!([1.0, 0.0]), &json!([1.0, 1.9e-8])));
         assert!(ground.differs(&json!([1.0, 0.0]), &json!([1.0, 2.1e-8])));
@@ -276,6 +297,7 @@ mod tests {
             module: "bounds_module",
             field: "/bounds",
             reach: 2.0,
+            shapes: 1.0,
         };
         assert!(copied.differs(&json!([[1.0]]), &json!([[1.0 + 2e-8]])));
         assert!(!copied.differs(&json!([[1.0]]), &json!([[1.0 + 5e-9]])));

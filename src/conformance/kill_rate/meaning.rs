@@ -4,9 +4,9 @@ use super::original::Original;
 use crate::directory::json;
 use crate::geometry::read::{self, GltfUp, Options, Part, Scene};
 
-/// Vertices of a carried mesh that moved by less than this part of its extent stand where they stood: ten times binary32,
-/// in which the link's mesh is written.
-const CARRIED_VERTEX: f64 = 1e-5;
+/// Vertices that moved by less than this part of the largest coordinate stand where they stood: ten times the resolution
+/// of meshes (SPEC 7.6: 8 * 2^-23).
+pub(super) const SAME_VERTEX: f64 = 10.0 * 8.0 / 8_388_608.0;
 
 /// Whether a file of the URDD would mean the same with other bytes.
 pub(super) fn is_same(original: &Original, path: &str, after: &[u8]) -> bool {
@@ -29,10 +29,12 @@ pub(super) fn is_same(original: &Original, path: &str, after: &[u8]) -> bool {
     }
 }
 
-/// Whether YAML differs in space alone: at its end, or in one byte that was or is a space (which may well change the
-/// meaning; whether it does is not for this to say).
+/// Whether YAML differs in what may well have no meaning: the space at its end, a byte that was or is a space, the case
+/// of a letter (`null` is `Null` too).
 fn is_same_but_for_space(before: &[u8], after: &[u8]) -> bool {
-    let space = |(a, b): (&u8, &u8)| a == b || a.is_ascii_whitespace() || b.is_ascii_whitespace();
+    let space = |(a, b): (&u8, &u8)| {
+        a.eq_ignore_ascii_case(b) || a.is_ascii_whitespace() || b.is_ascii_whitespace()
+    };
     before.trim_ascii_end() == after.trim_ascii_end()
         || before.len() == after.len() && before.iter().zip(after).all(space)
 }
@@ -58,11 +60,10 @@ fn is_same_mesh(original: &Original, path: &str, after: &[u8]) -> bool {
         }
     }
     let unchanged = |mesh: &String| {
-        let tolerance = if carried { CARRIED_VERTEX } else { 0.0 };
         let before = scene(original, mesh, None);
         let after = scene(original, mesh, Some((path, after)));
         match (before, after) {
-            (Some(before), Some(after)) => are_same(&before, &after, tolerance),
+            (Some(before), Some(after)) => are_same(&before, &after),
             // Not a mesh before or after, as before.
             (None, None) => true,
             _ => false,
@@ -95,8 +96,8 @@ pub(super) fn scene(
         .then_some(scene)
 }
 
-/// Whether two scenes have the same triangles, in the same colours; corners within a part of the extent.
-fn are_same(a: &Scene, b: &Scene, tolerance: f64) -> bool {
+/// Whether two scenes have the same triangles, in the same colours.
+fn are_same(a: &Scene, b: &Scene) -> bool {
     let corners = |parts: &[Part]| -> Vec<[[f64; 3]; 3]> {
         let triangles = parts.iter().flat_map(|part| {
             let mesh = &part.mesh;
@@ -111,12 +112,12 @@ fn are_same(a: &Scene, b: &Scene, tolerance: f64) -> bool {
         scene.parts.iter().map(of).collect()
     };
     let (here, there) = (corners(&a.parts), corners(&b.parts));
-    let extent = here
+    let largest = here
         .iter()
         .flatten()
         .flatten()
-        .fold(0.0_f64, |extent, x| extent.max(x.abs()));
-    let near = |(p, q): (&f64, &f64)| (p - q).abs() <= tolerance * extent;
+        .fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    let near = |(p, q): (&f64, &f64)| (p - q).abs() <= SAME_VERTEX * largest;
     colours(a) == colours(b)
         && here.len() == there.len()
         && here

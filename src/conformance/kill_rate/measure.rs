@@ -1,5 +1,6 @@
 //! Makes the changes of each URDD, one after the other, and lets the validator look.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 use std::sync::Mutex;
@@ -104,13 +105,17 @@ fn mutations(original: &Original, others: &[&Original], plan: &Plan) -> Vec<Muta
     lists.extend(file_changes::mutations(original, plan));
     lists.extend(mesh_changes::mutations(original, plan));
     lists.extend(module_changes::mutations(original, others));
-    let wanted = |mutation: &Mutation| {
-        plan.modules.is_empty() || plan.modules.contains(&mutation.description.module)
-    };
-    for list in &mut lists {
-        list.retain(wanted);
+    let mut by_module: BTreeMap<String, Vec<Vec<Mutation>>> = BTreeMap::new();
+    for list in lists {
+        let Some(first) = list.first() else { continue };
+        let module = &first.description.module;
+        if plan.modules.is_empty() || plan.modules.contains(module) {
+            by_module.entry(module.clone()).or_default().push(list);
+        }
     }
-    let mut chosen = sample::in_turn(lists, plan.limit.unwrap_or(usize::MAX));
+    let of_module = |lists| sample::in_turn(lists, usize::MAX);
+    let modules = by_module.into_values().map(of_module).collect();
+    let mut chosen = sample::in_turn(modules, plan.limit.unwrap_or(usize::MAX));
     // Stable: changes of a field keep the order in which they were drawn.
     chosen.sort_by(|a, b| {
         let key = |mutation: &Mutation| {

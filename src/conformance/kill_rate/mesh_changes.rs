@@ -99,7 +99,7 @@ fn of_mesh(
         change,
     };
     let mut out = Vec::new();
-    for (kind, edit) in MeshEdit::each(scope.len() == FORMATS.len(), dice) {
+    for (kind, edit) in MeshEdit::each(dice) {
         let entry = entry.clone();
         let make = move |original: &Original| edited(original, &entry, scope, &edit);
         out.push(mutation(kind, Change::Files(Box::new(make))));
@@ -129,6 +129,10 @@ fn edited(
     let spot = edit.spot(&first.merged())?;
     let mut files = Files::new();
     for format in scope {
+        // Of all formats alike, .glb alone has colours.
+        if edit.is_colour() && FORMATS[*format] != "glb" {
+            continue;
+        }
         let path = &entry.files[*format];
         let parts = meaning::scene(original, path, None)?.parts;
         let after = edit.applied(&spot, parts, FORMATS[*format])?;
@@ -137,7 +141,7 @@ fn edited(
         }
         files.insert(path.clone(), Some(after));
     }
-    Some(FileChange {
+    (!files.is_empty()).then(|| FileChange {
         files,
         unlisted: Vec::new(),
         from: spot.from,

@@ -8,13 +8,13 @@ use crate::geometry::write;
 /// An edit. Numbers are drawn, and become a triangle, a corner or an axis of the mesh at hand.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum MeshEdit {
-    /// A vertex is moved along an axis, by this part of the mesh's extent.
+    /// A vertex is moved along an axis, by this part of the mesh's size.
     MoveVertex(f64, usize),
     /// A triangle is left out.
     LeaveOut(usize),
     /// A triangle is turned round.
     Turn(usize),
-    /// All vertices are moved along an axis, by this part of the mesh's extent.
+    /// All vertices are moved along an axis, by this part of the mesh's size.
     MoveAll(f64, usize),
     /// All vertices are this much farther from the origin.
     Scale(f64),
@@ -32,51 +32,46 @@ pub(super) struct Spot {
 }
 
 impl MeshEdit {
-    /// Every kind of edit. Of all formats alike only what is more than the rounding of binary32 is a change (ten times
-    /// of it); of one format, which then differs from the others, anything.
-    pub(super) fn each(all_formats: bool, dice: &mut Dice) -> Vec<(&'static str, MeshEdit)> {
+    /// Every kind of edit.
+    pub(super) fn each(dice: &mut Dice) -> Vec<(&'static str, MeshEdit)> {
         let mut drawn = || dice.below(1 << 30);
-        let mut edits = vec![
+        vec![
             (
-                "a vertex moved by 1e-5 of the extent",
-                MeshEdit::MoveVertex(1e-5, drawn()),
+                "a vertex moved by 2e-5 of its size",
+                MeshEdit::MoveVertex(2e-5, drawn()),
             ),
             (
-                "a vertex moved by 1e-3 of the extent",
+                "a vertex moved by 1e-3 of its size",
                 MeshEdit::MoveVertex(1e-3, drawn()),
             ),
             (
-                "a vertex moved by 0.1 of the extent",
+                "a vertex moved by 0.1 of its size",
                 MeshEdit::MoveVertex(0.1, drawn()),
             ),
             ("a triangle left out", MeshEdit::LeaveOut(drawn())),
             ("a triangle turned round", MeshEdit::Turn(drawn())),
             (
-                "moved by 1e-3 of the extent",
+                "moved by 1e-3 of its size",
                 MeshEdit::MoveAll(1e-3, drawn()),
             ),
-            (
-                "moved by 0.1 of the extent",
-                MeshEdit::MoveAll(0.1, drawn()),
-            ),
+            ("moved by 0.1 of its size", MeshEdit::MoveAll(0.1, drawn())),
             ("larger by 1e-3", MeshEdit::Scale(1.001)),
             ("in other units", MeshEdit::Scale(1000.0)),
-        ];
-        if !all_formats {
-            edits.push((
-                "a vertex moved by 1e-6 of the extent",
-                MeshEdit::MoveVertex(1e-6, drawn()),
-            ));
-            edits.push(("another colour", MeshEdit::Colour));
-        }
-        edits
+            ("another colour", MeshEdit::Colour),
+        ]
+    }
+
+    /// Whether it is of colours alone.
+    pub(super) fn is_colour(&self) -> bool {
+        matches!(self, MeshEdit::Colour)
     }
 
     /// Where a mesh is edited; `None` for one without triangles.
     pub(super) fn spot(&self, mesh: &Mesh) -> Option<Spot> {
+        // The largest coordinate, of which the resolution is a part, and no less than half the extent.
         let bounds = mesh.bounds()?;
-        let sides = (0..3).map(|axis| bounds.max[axis] - bounds.min[axis]);
-        let extent = sides.fold(0.0_f64, f64::max);
+        let coordinates = bounds.min.iter().chain(&bounds.max);
+        let extent = coordinates.fold(0.0_f64, |largest, x| largest.max(x.abs()));
         let (drawn, step) = match *self {
             MeshEdit::MoveVertex(step, drawn) | MeshEdit::MoveAll(step, drawn) => (drawn, step),
             MeshEdit::LeaveOut(drawn) | MeshEdit::Turn(drawn) => (drawn, 0.0),

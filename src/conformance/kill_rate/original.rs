@@ -61,6 +61,8 @@ pub(super) struct Original {
     pub documents: Vec<Document>,
     /// The robot's reach (SPEC 5.6), m.
     pub reach: f64,
+    /// The largest number of the shapes' positions and sizes, m.
+    pub shapes: f64,
 }
 
 impl Original {
@@ -112,8 +114,9 @@ impl Original {
         Ok(Original {
             modules: known.iter().map(|k| (k.name(), k.folder())).collect(),
             files,
-            documents,
+            shapes: of("link_shapes_approximations_module").map_or(0.0, |d| largest(&d.value)),
             reach,
+            documents,
         })
     }
 
@@ -139,6 +142,19 @@ impl Original {
             path.strip_prefix(folder)
                 .is_some_and(|rest| rest.starts_with('/'))
         })
+    }
+}
+
+/// The largest absolute number of a document, angles left out.
+fn largest(value: &Value) -> f64 {
+    match value {
+        Value::Number(number) => number.as_f64().map_or(0.0, f64::abs),
+        Value::Array(list) => list.iter().map(largest).fold(0.0, f64::max),
+        Value::Object(object) => {
+            let lengths = object.iter().filter(|(key, _)| *key != "offset_rpy");
+            lengths.map(|(_, value)| largest(value)).fold(0.0, f64::max)
+        }
+        _ => 0.0,
     }
 }
 

@@ -176,6 +176,7 @@ fn changed(reach: f64, value: &str, numbers: bool, dice: &mut Dice) -> Vec<(&'st
         module: "urdf_module",
         field: "",
         reach,
+        shapes: reach,
     };
     let mut out: Vec<(&'static str, String)> = number_changes::numbers(&ground, from, dice)
         .into_iter()

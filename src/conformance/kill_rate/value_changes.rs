@@ -36,6 +36,7 @@ impl<'a> Field<'a> {
             module: &self.document.name,
             field: self.field,
             reach: self.original.reach,
+            shapes: self.original.shapes,
         }
     }
 
