@@ -9,7 +9,9 @@ use super::dice::Dice;
 use super::edit::Edit;
 use super::file_bytes::Damage;
 use super::meaning;
-use super::mutation::{Change, Description, FileChange, Files, Mutation, Target, shortened};
+use super::mutation::{
+    Change, Description, FileChange, Files, MakeFiles, Mutation, Target, shortened,
+};
 use super::original::Original;
 use super::sample;
 use crate::directory::discover::ROOT_METADATA;
@@ -122,10 +124,7 @@ fn of_file(
     out
 }
 
-fn damaged(
-    path: &str,
-    damage: Damage,
-) -> Box<dyn Fn(&Original) -> Option<FileChange> + Send + Sync> {
+fn damaged(path: &str, damage: Damage) -> MakeFiles {
     let path = path.to_owned();
     Box::new(move |original| {
         let bytes = original.files.get(&path)?;
@@ -139,11 +138,7 @@ fn damaged(
     })
 }
 
-fn exchanged(
-    path: &str,
-    other: &str,
-    both: bool,
-) -> Box<dyn Fn(&Original) -> Option<FileChange> + Send + Sync> {
+fn exchanged(path: &str, other: &str, both: bool) -> MakeFiles {
     let (path, other) = (path.to_owned(), other.to_owned());
     Box::new(move |original| {
         let (a, b) = (original.files.get(&path)?, original.files.get(&other)?);
@@ -177,7 +172,7 @@ fn versions(
         .into_iter()
         .flatten()
         .position(|entry| entry["path"] == folder);
-    let write = |path: String| -> Box<dyn Fn(&Original) -> Option<FileChange> + Send + Sync> {
+    let write = |path: String| -> MakeFiles {
         Box::new(move |original| {
             let before = String::from_utf8_lossy(original.files.get(&path)?).into_owned();
             Some(FileChange {

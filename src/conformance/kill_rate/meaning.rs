@@ -1,6 +1,9 @@
 //! Whether a file still means the same after its bytes changed.
 
+use serde_json::Value;
+
 use super::original::Original;
+use super::pointer;
 use crate::directory::json;
 use crate::geometry::read::{self, GltfUp, Options, Part, Scene};
 
@@ -19,13 +22,25 @@ pub(super) fn is_same(original: &Original, path: &str, after: &[u8]) -> bool {
     let name = path.rsplit('/').next().unwrap_or(path);
     match name.rsplit_once('.').map_or("", |(_, extension)| extension) {
         "json" => match (json::read(before), json::read(after)) {
-            (Ok(a), Ok(b)) => a.value == b.value && b.faults == a.faults,
+            (Ok(a), Ok(b)) => fields(a.value) == fields(b.value) && b.faults == a.faults,
             _ => false,
         },
         "yaml" => is_same_but_for_space(before, after),
         _ if name == "VERSION" => without_newline(before) == without_newline(after),
         _ if path.contains("/meshes/") => is_same_mesh(original, path, after),
         _ => false,
+    }
+}
+
+/// A document without what is nobody's field.
+fn fields(value: Value) -> Value {
+    match value {
+        Value::Object(object) => {
+            let members = object.into_iter().filter(|(key, _)| pointer::is_field(key));
+            members.map(|(key, value)| (key, fields(value))).collect()
+        }
+        Value::Array(list) => list.into_iter().map(fields).collect(),
+        other => other,
     }
 }
 
@@ -47,29 +62,26 @@ fn is_same_mesh(original: &Original, path: &str, after: &[u8]) -> bool {
     let carried = original
         .module_of(path)
         .is_some_and(|(name, _)| name == "original_meshes_module");
-    let mut meshes = vec![path.to_owned()];
+    let mut mesh = path.to_owned();
     let listed = original
         .document("original_meshes_module")
         .and_then(|document| document.value.get("files")?.as_array());
     for file in listed.into_iter().flatten().filter(|_| carried) {
         let sides = file.get("side_files").and_then(|sides| sides.as_array());
-        if let (Some(sides), Some(mesh)) = (sides, file["path"].as_str())
+        if let (Some(sides), Some(listed)) = (sides, file["path"].as_str())
             && sides.iter().any(|side| side == path)
         {
-            meshes[0] = mesh.to_owned();
+            mesh = listed.to_owned();
         }
     }
-    let unchanged = |mesh: &String| {
-        let before = scene(original, mesh, None);
-        let after = scene(original, mesh, Some((path, after)));
-        match (before, after) {
-            (Some(before), Some(after)) => are_same(&before, &after),
-            // Not a mesh before or after, as before.
-            (None, None) => true,
-            _ => false,
-        }
-    };
-    meshes.iter().all(unchanged)
+    let before = scene(original, &mesh, None);
+    let after = scene(original, &mesh, Some((path, after)));
+    match (before, after) {
+        (Some(before), Some(after)) => are_same(&before, &after),
+        // Not a mesh before or after, as before.
+        (None, None) => true,
+        _ => false,
+    }
 }
 
 /// A mesh of the URDD in the axes of its file, read with one file replaced; `None` where it is none.

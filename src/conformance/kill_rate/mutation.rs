@@ -67,7 +67,8 @@ pub(super) struct FileChange {
     pub to: String,
 }
 
-type MakeFiles = Box<dyn Fn(&Original) -> Option<FileChange> + Send + Sync>;
+/// Makes the files of a change; `None` where that would change nothing that has a meaning.
+pub(super) type MakeFiles = Box<dyn Fn(&Original) -> Option<FileChange> + Send + Sync>;
 
 /// How a change is made.
 pub(super) enum Change {
