@@ -1,5 +1,5 @@
-//! Kinematics held to figures that Pinocchio, MuJoCo and plain Python made: see
-//! `tests/figures/README.md`.
+//! Kinematics held to figures that Pinocchio, MuJoCo and plain Python made: those of our robots are in
+//! `conformance/vectors`, those of others in `tests/figures`.
 
 #[path = "support/core_modules.rs"]
 mod core_modules;
@@ -11,15 +11,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use core_modules::{Joint, chain_of, core_modules, dof_count};
-use nalgebra::UnitQuaternion;
+use nalgebra::{Isometry3, UnitQuaternion};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use urdd::format::bounds::BoundsModule;
 use urdd::format::pose::Pose;
-use urdd::format::urdf::JointType::{Prismatic, Spherical};
 use urdd::kinematics::pose::{position_distance, to_isometry};
 use urdd::kinematics::rotation::{rotation_distance, to_rotation_vector, uniform_rotation};
 use urdd::kinematics::{ConfigurationSpace, ForwardKinematics, unit};
+use urdd::validate::reference::{MimicDofs, Reference};
+
+const VECTORS: &str = "conformance/vectors";
 
 /// The peers themselves differ by 2e-15.
 const TOLERANCE: f64 = 1e-13;
@@ -43,6 +45,8 @@ struct Robot {
 struct Configuration {
     label: String,
     joints: HashMap<String, Vec<f64>>,
+    /// The same in DOF order: in the vectors.
+    configuration: Option<Vec<f64>>,
     links: HashMap<String, Pose>,
 }
 
@@ -50,14 +54,18 @@ fn repository() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn figures<T: for<'de> Deserialize<'de>>(name: &str) -> T {
-    let path = repository().join("tests/figures").join(name);
+fn figures<T: for<'de> Deserialize<'de>>(folder: &str, name: &str) -> T {
+    let path = repository().join(folder).join(name);
     serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
 }
 
 /// Compares every robot of `source`, whose files are below `folder`.
 fn compare(source: &str, folder: &Path) {
-    let figures: Figures = figures("forward_kinematics.json");
+    let place = match source {
+        "urdd" => VECTORS,
+        _ => "tests/figures",
+    };
+    let figures: Figures = figures(place, "forward_kinematics.json");
     let mut compared = 0;
     for robot in figures.robots.iter().filter(|robot| robot.source == source) {
         let path = folder.join(&robot.path);
@@ -90,22 +98,43 @@ fn compare_robot(robot: &Robot, text: &str) {
         let q: Vec<f64> = moving
             .flat_map(|joint| configuration.joints[&joint.name].clone())
             .collect();
-        let poses = kinematics.link_poses(&q).unwrap();
-        for (name, pose) in &configuration.links {
-            let found = &poses[links.iter().position(|link| link == name).unwrap()];
-            let expected = to_isometry(pose).unwrap();
-            let place = format!(
-                "{}, {}, link {name}",
-                robot.path.display(),
-                configuration.label
+        if let Some(in_dof_order) = &configuration.configuration {
+            assert_eq!(&q, in_dof_order, "{}", robot.path.display());
+            // The validator's reference too, which shares no code with the consumer's kinematics.
+            let reference = Reference::read(text, MimicDofs::Follow).unwrap();
+            compare_poses(
+                robot,
+                configuration,
+                &links,
+                &reference.link_poses(&q).unwrap(),
             );
-            let (position, rotation) = (
-                position_distance(found, &expected),
-                rotation_distance(&found.rotation, &expected.rotation),
-            );
-            assert!(position < TOLERANCE, "{place}: {position:e} m off");
-            assert!(rotation < TOLERANCE, "{place}: turned by {rotation:e}");
+            assert_eq!(configuration.links.len(), links.len());
         }
+        let poses = kinematics.link_poses(&q).unwrap();
+        compare_poses(robot, configuration, &links, &poses);
+    }
+}
+
+fn compare_poses(
+    robot: &Robot,
+    configuration: &Configuration,
+    links: &[String],
+    poses: &[Isometry3<f64>],
+) {
+    for (name, pose) in &configuration.links {
+        let found = &poses[links.iter().position(|link| link == name).unwrap()];
+        let expected = to_isometry(pose).unwrap();
+        let place = format!(
+            "{}, {}, link {name}",
+            robot.path.display(),
+            configuration.label
+        );
+        let (position, rotation) = (
+            position_distance(found, &expected),
+            rotation_distance(&found.rotation, &expected.rotation),
+        );
+        assert!(position < TOLERANCE, "{place}: {position:e} m off");
+        assert!(rotation < TOLERANCE, "{place}: turned by {rotation:e}");
     }
 }
 
@@ -150,6 +179,21 @@ fn example_robot_data() {
 struct Samples {
     u: Vec<Unit>,
     rotations: Vec<Rotation>,
+    joints: Vec<SampledJoint>,
+    configurations: Vec<SampledConfiguration>,
+}
+
+#[derive(Deserialize)]
+struct SampledJoint {
+    joint_type: String,
+    bounds: Vec<[f64; 2]>,
+}
+
+#[derive(Deserialize)]
+struct SampledConfiguration {
+    name: String,
+    sample_idx: Option<u64>,
+    configuration: Vec<f64>,
 }
 
 #[derive(Deserialize)]
@@ -169,7 +213,7 @@ struct Rotation {
 
 #[test]
 fn units() {
-    let samples: Samples = figures("sampled_configurations.json");
+    let samples: Samples = figures(VECTORS, "sampled_configurations.json");
     assert!(!samples.u.is_empty());
     for figure in samples.u {
         let found = unit(figure.k, figure.i);
@@ -180,7 +224,7 @@ fn units() {
 
 #[test]
 fn uniform_rotations() {
-    let samples: Samples = figures("sampled_configurations.json");
+    let samples: Samples = figures(VECTORS, "sampled_configurations.json");
     assert!(!samples.rotations.is_empty());
     for figure in samples.rotations {
         let q: UnitQuaternion<f64> = uniform_rotation(figure.u);
@@ -190,31 +234,42 @@ fn uniform_rotations() {
     }
 }
 
-/// As [`uniform_rotations`], by way of a robot: a ball whose first DOF is 3.
+/// Joints of every type, a ball whose first DOF is not 0 among them.
 #[test]
-fn sampled_balls() {
-    let samples: Samples = figures("sampled_configurations.json");
-    let joints: Vec<Joint> = [Prismatic, Prismatic, Prismatic, Spherical]
-        .into_iter()
-        .enumerate()
-        .map(|(i, joint_type)| Joint::after(i, joint_type, [1.0, 0.0, 0.0]))
-        .collect();
+fn whole_configurations() {
+    let samples: Samples = figures(VECTORS, "sampled_configurations.json");
+    let joint = |(i, joint): (usize, &SampledJoint)| {
+        let joint_type = serde_json::from_value(joint.joint_type.clone().into()).unwrap();
+        Joint::after(i, joint_type, [1.0, 0.0, 0.0])
+    };
+    let joints: Vec<Joint> = samples.joints.iter().enumerate().map(joint).collect();
     let (chain, dof) = chain_of(&joints);
+    let bounds: Vec<[f64; 2]> = samples
+        .joints
+        .iter()
+        .flat_map(|j| j.bounds.clone())
+        .collect();
     let bounds = BoundsModule {
-        bounds: vec![[-1.0, 1.0]; 6],
-        dof_lower_bounds: vec![-1.0; 6],
-        dof_upper_bounds: vec![1.0; 6],
-        dof_limited: vec![false; 6],
-        dof_velocity_limits: vec![None; 6],
-        dof_effort_limits: vec![None; 6],
+        dof_lower_bounds: bounds.iter().map(|[lower, _]| *lower).collect(),
+        dof_upper_bounds: bounds.iter().map(|[_, upper]| *upper).collect(),
+        dof_limited: vec![true; bounds.len()],
+        dof_velocity_limits: vec![None; bounds.len()],
+        dof_effort_limits: vec![None; bounds.len()],
+        bounds,
     };
     let space = ConfigurationSpace::new(&dof, &chain, &bounds).unwrap();
-    let figure = samples
-        .rotations
-        .iter()
-        .find(|figure| figure.u[0] == unit(2, 3))
-        .unwrap();
-    assert_near(&space.sampled(2)[3..], &figure.rotation_vector);
+    assert!(samples.configurations.len() > 6);
+    for figure in &samples.configurations {
+        let found = match (figure.name.as_str(), figure.sample_idx) {
+            ("Zero", None) => space.zero(),
+            ("Middle", None) => space.middle(),
+            ("Lower", None) => space.lower(),
+            ("Upper", None) => space.upper(),
+            ("Sampled", Some(k)) => space.sampled(k),
+            other => panic!("{other:?}"),
+        };
+        assert_near(&found, &figure.configuration);
+    }
 }
 
 #[track_caller]

@@ -51,6 +51,14 @@ fn the_report_on_the_examples() {
 }
 
 #[test]
+fn the_report_on_the_examples_for_other_programs() {
+    for format in ["sarif", "junit"] {
+        let report = urdd(&["validate", "examples/urdds", "--format", format]);
+        insta::assert_snapshot!(format!("examples_{format}"), report);
+    }
+}
+
+#[test]
 fn an_explanation() {
     insta::assert_snapshot!("explain_DOF003", urdd(&["explain", "DOF003"]));
 }

@@ -3,6 +3,8 @@
 
 #[path = "spec/annex.rs"]
 mod annex;
+#[path = "spec/values.rs"]
+mod values;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -152,36 +154,4 @@ fn the_tables_of_fields_are_the_schemas() {
         text[begin..end] == expected,
         "annex A of SPEC.md is not what the schemas say: run URDD_UPDATE=1 cargo test --test spec_agrees"
     );
-}
-
-/// The figures of clause 9.3 are those that a second implementation made (tests/figures).
-#[test]
-fn the_sampled_numbers_are_the_figures() {
-    let figures = fs::read_to_string(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/tests/figures/sampled_configurations.json"
-    ));
-    let figures: serde_json::Value =
-        serde_json::from_str(&figures.expect("figures")).expect("JSON");
-    let text = spec();
-    let rows: Vec<Vec<f64>> = text
-        .lines()
-        .skip_while(|line| !line.starts_with("| k | i | u(k, i) |"))
-        .skip(2)
-        .take_while(|line| line.starts_with('|'))
-        .map(|line| {
-            line.trim_matches('|')
-                .split('|')
-                .map(|cell| cell.trim().parse().expect("a number"))
-                .collect()
-        })
-        .collect();
-    assert!(rows.len() >= 6, "{} rows", rows.len());
-    for row in rows {
-        let known = figures["u"].as_array().into_iter().flatten();
-        let known =
-            known.filter(|u| u["k"].as_f64() == Some(row[0]) && u["i"].as_f64() == Some(row[1]));
-        let known: Vec<Option<f64>> = known.map(|u| u["u"].as_f64()).collect();
-        assert_eq!(known, [Some(row[2])], "k {} i {}", row[0], row[1]);
-    }
 }

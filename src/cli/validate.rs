@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::IsTerminal;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
@@ -10,6 +10,7 @@ use clap::{Args, ValueEnum};
 use super::output;
 use crate::report::human::{self, Style};
 use crate::report::model::Verdict;
+use crate::report::place::places;
 use crate::report::{self, Report};
 use crate::validate::rule::Severity;
 use crate::validate::settings::{self, Settings};
@@ -39,9 +40,10 @@ pub struct ValidateArguments {
     #[arg(long, value_enum, default_value_t = Format::Human)]
     format: Format,
 
-    /// Writes the report as JSON to a file too.
+    /// Writes the report to a file too, in the format of the file's ending: .sarif, .xml (JUnit),
+    /// otherwise JSON. May be given several times.
     #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    output: Vec<PathBuf>,
 
     /// The conformance class to hold every URDD to: core, geometry or shapes.
     #[arg(long, value_name = "CLASS")]
@@ -75,6 +77,24 @@ enum Format {
     Human,
     /// As JSON; its schema is `urdd schema show report@1.0.0`.
     Json,
+    /// As SARIF 2.1.0, for GitHub code scanning and editors. Run at the root of the repository.
+    Sarif,
+    /// As JUnit XML, for what shows tests: a suite for each URDD, a case for each rule.
+    Junit,
+}
+
+impl Format {
+    /// The format that the name of a file asks for.
+    fn of_file(file: &Path) -> Format {
+        let name = file.to_string_lossy().to_ascii_lowercase();
+        if name.ends_with(".sarif") || name.ends_with(".sarif.json") {
+            Format::Sarif
+        } else if name.ends_with(".xml") {
+            Format::Junit
+        } else {
+            Format::Json
+        }
+    }
 }
 
 /// Runs `urdd validate`.
@@ -100,15 +120,24 @@ fn validate(arguments: &ValidateArguments) -> Result<u8, String> {
     let run = validate::validate_with(&arguments.paths, &settings, &rules)
         .map_err(|error| error.to_string());
     let _ = std::panic::take_hook();
-    let report = Report::new(&run?, fail_on);
+    let run = run?;
+    let report = Report::new(&run, fail_on);
+    let status = status(&report);
+    let current = std::env::current_dir().unwrap_or_default();
+    let places = places(&run, &current);
 
     let style = Style {
         color: output::color(std::io::stdout().is_terminal()),
         quiet: arguments.quiet,
     };
-    let render = |format: Format, style: Style| -> Result<String, String> {
+    let render = |format: Format| -> Result<String, String> {
         match format {
             Format::Json => report::json(&report).map_err(|error| error.to_string()),
+            Format::Sarif => {
+                report::sarif(&run, &report, &places, status).map_err(|error| error.to_string())
+            }
+            Format::Junit => report::junit(&run, &report, &places, fail_on.into())
+                .map_err(|error| error.to_string()),
             Format::Human => {
                 let mut text = String::new();
                 human::write(&report, style, &mut text).map_err(|error| error.to_string())?;
@@ -116,16 +145,16 @@ fn validate(arguments: &ValidateArguments) -> Result<u8, String> {
             }
         }
     };
-    match &arguments.output {
-        None => output::print(&render(arguments.format, style)?),
-        Some(file) => {
-            let text = render(Format::Json, Style::default())?;
-            fs::write(file, text)
-                .map_err(|error| format!("{}: cannot be written: {error}", file.display()))?;
-            output::print(&render(arguments.format, style)?);
-        }
+    for file in &arguments.output {
+        fs::write(file, render(Format::of_file(file))?)
+            .map_err(|error| format!("{}: cannot be written: {error}", file.display()))?;
     }
-    Ok(if report.count(Verdict::Incomplete) > 0 {
+    output::print(&render(arguments.format)?);
+    Ok(status)
+}
+
+fn status(report: &Report) -> u8 {
+    if report.count(Verdict::Incomplete) > 0 {
         INTERNAL
     } else if report.count(Verdict::Unreadable) == report.urdds.len() {
         USAGE
@@ -133,7 +162,7 @@ fn validate(arguments: &ValidateArguments) -> Result<u8, String> {
         CONFORMING
     } else {
         FINDINGS
-    })
+    }
 }
 
 fn read_settings(arguments: &ValidateArguments) -> Result<Settings, String> {

@@ -6,7 +6,7 @@ use std::f64::consts::{SQRT_2, TAU};
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 
 /// Below this distance from the z axis, the arc from z to a planar joint's axis has no direction
-/// that numbers could tell; MuJoCo has the same limit.
+/// that numbers as URDFs have them could tell.
 const PLANAR_AXIS_EPSILON: f64 = 1e-10;
 
 /// The vector scaled to length 1, without negative zeros; `None` if it has no direction (zero, or

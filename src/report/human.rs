@@ -128,7 +128,8 @@ fn describe(urdd: &Urdd) -> String {
     parts.join(", ")
 }
 
-fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::Result {
+/// Writes one finding.
+pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::Result {
     let (color, word) = match finding.severity {
         Severity::Error => (RED, "error"),
         Severity::Warning => (YELLOW, "warning"),

@@ -2,9 +2,14 @@
 
 pub mod human;
 pub mod info;
+pub mod junit;
 pub mod model;
+pub mod place;
+pub mod sarif;
 
+pub use junit::junit;
 pub use model::Report;
+pub use sarif::sarif;
 
 /// The report as JSON, indented, with a newline at its end.
 ///

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::distances::Distances;
 use super::load::{CarriedUrdf, Loaded, MetadataFile, Module};
 use super::solids::Solids;
 use super::solids::placed::{self, Misplaced};
@@ -35,6 +36,7 @@ pub struct Context {
     urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
     rigid_groups: OnceLock<Option<RigidGroups>>,
     solids: Arc<OnceLock<Solids>>,
+    distances: OnceLock<Result<Distances, String>>,
     misplaced: OnceLock<Vec<Misplaced>>,
 }
 
@@ -73,6 +75,7 @@ impl Context {
             urdf_text,
             rigid_groups: OnceLock::new(),
             solids,
+            distances: OnceLock::new(),
             misplaced: OnceLock::new(),
         }
     }
@@ -246,6 +249,16 @@ impl Context {
     /// What the mesh files hold: all are read when this is first asked for.
     pub fn solids(&self) -> &Solids {
         self.solids.get_or_init(|| Solids::read(self))
+    }
+
+    /// The distances between shapes, computed again when this is first asked for; or why they cannot
+    /// be.
+    pub fn distances(&self) -> Result<&Distances, &str> {
+        let make = || Distances::new(self);
+        self.distances
+            .get_or_init(make)
+            .as_ref()
+            .map_err(String::as_str)
     }
 
     /// The links whose plain mesh is not what the robot shows there.

@@ -6,6 +6,7 @@
 pub mod carried_urdf;
 pub mod code;
 pub mod context;
+pub mod distances;
 pub mod engine;
 pub mod finding;
 pub mod fold;

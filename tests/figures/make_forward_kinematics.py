@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes forward_kinematics.json: link poses computed by peers (Pinocchio, MuJoCo, yourdfpy), never by urdd itself.
+"""Writes both files forward_kinematics.json: link poses computed by peers (Pinocchio, MuJoCo, yourdfpy), never by urdd itself.
+That in conformance/vectors is of this repository's robots, with every link; that beside this script of the others.
 
 To reproduce, with Python 3.11:
 
@@ -9,7 +10,8 @@ To reproduce, with Python 3.11:
     peers/bin/python tests/figures/make_forward_kinematics.py --corpus CORPUS --robots ROBOTS
 
 CORPUS is a folder of the published URDDs (ur5, robotiq_140, z1); ROBOTS is the folder of the robots of the paper's timing table
-(b1, h1, orca, ur5, xarm7). Neither is part of this repository: a robot is known by source, path and SHA-256. Last run: 2026-11-20, Linux x86-64.
+(b1, h1, orca, ur5, xarm7). Neither is part of this repository: a robot is known by source, path and SHA-256. Without them only
+the file in conformance/vectors is written. Last run: 2026-11-20, Linux x86-64.
 
 Conventions (SPEC's): a planar joint takes x, y, angle about its axis, x and y in the basis that the shortest arc from +z to the
 axis makes of x and y (axis -z: half a turn about x); floating takes x, y, z and a rotation vector; spherical a rotation
@@ -40,15 +42,12 @@ import yourdfpy
 HERE = pathlib.Path(__file__).resolve().parent
 REPOSITORY = HERE.parent.parent
 EXAMPLE_ROBOT_DATA = pathlib.Path(pin.__file__).resolve().parents[4] / "share" / "example-robot-data"
+VECTORS = REPOSITORY / "conformance" / "vectors"
 MAX_LINKS = 25
 
+OUR_ROBOTS = [("urdd", f"conformance/robots/{path.name}") for path in sorted((REPOSITORY / "conformance" / "robots").glob("*.urdf"))]
 # source, path below the source's folder
-ROBOTS = [
-    ("urdd", "conformance/robots/gripper.urdf"),
-    ("urdd", "conformance/robots/planar_base_arm.urdf"),
-    ("urdd", "conformance/robots/single_link.urdf"),
-    ("urdd", "conformance/robots/six_axis_arm.urdf"),
-    ("urdd", "conformance/robots/toy_all_joints.urdf"),
+OTHER_ROBOTS = [
     ("corpus", "robotiq_140/robotiq_140.urdf"),
     ("corpus", "ur5/ur5.urdf"),
     ("corpus", "z1/z1.urdf"),
@@ -449,7 +448,7 @@ def quiet():
         os.close(null)
 
 
-def figures(robot):
+def figures(robot, most_links):
     evaluators, unavailable = {"closed forms": closed_forms(robot)}, {}
     for name, peer in PEERS.items():
         try:
@@ -458,8 +457,8 @@ def figures(robot):
         except Exception as error:  # a peer that cannot read the robot is a fact to record
             unavailable[name] = " ".join(str(error).split())
     reference = "pinocchio (URDF)" if "pinocchio (URDF)" in evaluators else "closed forms"
-    step = max(1.0, (len(robot.links) - 1) / (MAX_LINKS - 1))
-    shown = sorted({round(step * n) for n in range(MAX_LINKS) if round(step * n) < len(robot.links)})
+    step = max(1.0, (len(robot.links) - 1) / (most_links - 1))
+    shown = sorted({round(step * n) for n in range(most_links) if round(step * n) < len(robot.links)})
     agreement = {name: [0.0, 0.0] for name in evaluators if name != reference}
     written = []
     for label, listed in configurations(robot):
@@ -482,7 +481,8 @@ def figures(robot):
 
 def lines(value, indent, depth):
     """JSON with `depth` levels of one item a line, and what is below on one line."""
-    if depth == 0 or not isinstance(value, (dict, list)) or not value:
+    plain = isinstance(value, list) and not any(isinstance(item, (dict, list)) for item in value)
+    if depth == 0 or plain or not isinstance(value, (dict, list)) or not value:
         return json.dumps(value, ensure_ascii=False)
     pad = "\n" + " " * (indent + 1)
     if isinstance(value, dict):
@@ -493,26 +493,38 @@ def lines(value, indent, depth):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("--corpus", type=pathlib.Path, required=True)
-    parser.add_argument("--robots", type=pathlib.Path, required=True)
-    parser.add_argument("--output", type=pathlib.Path, default=HERE / "forward_kinematics.json")
+    parser.add_argument("--corpus", type=pathlib.Path)
+    parser.add_argument("--robots", type=pathlib.Path)
     arguments = parser.parse_args()
     folders = {"urdd": REPOSITORY, "corpus": arguments.corpus, "robots": arguments.robots, "example-robot-data": EXAMPLE_ROBOT_DATA}
+    write(VECTORS / "forward_kinematics.json", OUR_ROBOTS, folders, ["example-robot-data"])
+    if arguments.corpus and arguments.robots:
+        write(HERE / "forward_kinematics.json", OTHER_ROBOTS, folders, [])
+
+
+def write(file, sources, folders, not_used):
     robots = []
-    for source, path in ROBOTS:
+    for source, path in sources:
         text = (folders[source] / path).read_bytes()
-        result = figures(Robot(text))
+        robot = Robot(text)
+        ours = source == "urdd"
+        result = figures(robot, most_links=len(robot.links) + 1 if ours else MAX_LINKS)
+        for configuration in result["configurations"] if ours else []:
+            joints = configuration.pop("joints")
+            in_dof_order = [value for joint in robot.joints for value in joints.get(joint.name, [])]
+            configuration |= {"joints": joints, "configuration": in_dof_order, "links": configuration.pop("links")}
         robots.append({"source": source, "path": path, "sha256": hashlib.sha256(text).hexdigest(), **result})
         print(f"{source} {path}: {result['links_in_robot']} links, reference {result['reference']}")
         for peer, found in result["peers"].items():
             print("    ", peer, found.get("not_used") or "{max_position_difference:.1e} {max_rotation_difference:.1e}".format(**found))
     packages = ["pin", "libpinocchio", "cmeel-urdfdom", "mujoco", "yourdfpy", "numpy", "example-robot-data"]
+    packages = [name for name in packages if name not in not_used]
     document = {
         "made_by": "tests/figures/make_forward_kinematics.py",
         "versions": {"python": sys.version.split()[0]} | {name: importlib.metadata.version(name) for name in packages},
         "robots": robots,
     }
-    arguments.output.write_text(lines(document, 0, 6) + "\n", encoding="utf-8")
+    file.write_text(lines(document, 0, 6) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes sampled_configurations.json: the numbers u(k, i) that sampled configurations are made of, and uniform rotations from them.
+"""Writes conformance/vectors/sampled_configurations.json: the numbers u(k, i) that sampled configurations are made of, uniform
+rotations from them, and whole configurations of a robot.
 
 To reproduce, with any Python 3.9 or newer and nothing else:  python3 tests/figures/make_sampled_configurations.py
 
@@ -47,6 +48,32 @@ def rotation_vector(quaternion):
     return tuple(scale * x + 0.0 for x in xyz)
 
 
+# Joints of a robot, with the bounds of their DOFs: one joint of each kind, limited or not, and one that is locked.
+JOINTS = [
+    ("revolute", [(-1.5, 2.25)]),
+    ("prismatic", [(0.125, 0.125)]),
+    ("spherical", [(-math.pi, math.pi)] * 3),
+    ("fixed", []),
+    ("planar", [(-1.0, 1.0), (-1.0, 1.0), (-math.pi, math.pi)]),
+    ("continuous", [(-math.pi, math.pi)]),
+    ("floating", [(-1.0, 1.0)] * 3 + [(-math.pi, math.pi)] * 3),
+    ("prismatic", [(-2e-3, 0.9)]),
+]
+
+
+def configuration(label, k=None):
+    q = []
+    for kind, bounds in JOINTS:
+        ball = 3 if kind in ("spherical", "floating") else 0
+        for lower, upper in bounds[:len(bounds) - ball]:
+            q.append({"Zero": 0.0, "Middle": lower / 2 + upper / 2, "Lower": lower, "Upper": upper}.get(label) if k is None else lower + u(k, len(q)) * (upper - lower))
+        if ball and k is None:
+            q += {"Lower": (-math.pi, 0.0, 0.0), "Upper": (math.pi, 0.0, 0.0)}.get(label, (0.0, 0.0, 0.0))
+        elif ball:
+            q += rotation_vector(quaternion_wxyz(*(u(k, len(q) + n) for n in range(3))))
+    return {"name": label} | ({} if k is None else {"sample_idx": k}) | {"configuration": q}
+
+
 def main():
     # The stream of SplitMix64 with seed 0, as its author's C program prints it: u(0, 0), u(0, 1), … are its top 53 bits.
     assert [mix(n * GAMMA & MASK) for n in (1, 2, 3)] == [0xE220A8397B1DCDAF, 0x6E789E6AA1B965F4, 0x06C45D188009454F]
@@ -60,12 +87,17 @@ def main():
             {"u": three, "quaternion_wxyz": quaternion_wxyz(*three), "rotation_vector": rotation_vector(quaternion_wxyz(*three))}
             for three in triples
         ],
+        "joints": [{"joint_type": kind.capitalize(), "bounds": bounds} for kind, bounds in JOINTS],
+        "configurations": [configuration(label) for label in ("Zero", "Middle", "Lower", "Upper")]
+        + [configuration("Sampled", k) for k in (0, 1, 2, 3, 999, 2**32 - 1)],
     }
-    lines = json.dumps(document | {"u": 0, "rotations": 1}, indent=1)
-    for key, number in (("u", 0), ("rotations", 1)):
+    lists = [key for key in document if key != "made_by"]
+    lines = json.dumps(document | {key: number for number, key in enumerate(lists)}, indent=1)
+    for number, key in enumerate(lists):
         body = ",\n  ".join(json.dumps(item) for item in document[key])
         lines = lines.replace(f'"{key}": {number}', f'"{key}": [\n  {body}\n ]')
-    pathlib.Path(__file__).with_name("sampled_configurations.json").write_text(lines + "\n")
+    vectors = pathlib.Path(__file__).resolve().parents[2] / "conformance" / "vectors"
+    (vectors / "sampled_configurations.json").write_text(lines + "\n")
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use urdd::geometry::convex::{
     ConvexShape, Motion, MotionError, PairStatistics, PlacedShape, Sphere, distance,
-    pair_statistics,
+    pair_distances, pair_statistics,
 };
 
 /// Numbers from 0 to 1, the same in each run (SplitMix64).
@@ -144,6 +144,27 @@ fn spheres_on_a_circle() {
         [found.mean[0][1], found.min[0][1], found.max[0][1]],
         [0.5, 0.0, 1.25]
     );
+}
+
+#[test]
+fn the_distance_in_each_sample() {
+    // Three spheres of radius 0.25: one goes away from the first, the last goes with it, 1 above.
+    let at = |x: f64| {
+        vec![
+            Isometry3::identity(),
+            Isometry3::translation(x, 0.0, 0.0),
+            Isometry3::translation(x, 0.0, 1.0),
+        ]
+    };
+    let motion = Motion::new(&[at(0.25), at(1.0), at(3.0)], &[0, 1, 1]).expect("a motion");
+    let on = |body| PlacedShape {
+        body,
+        shape: Sphere::new(Vector3::zeros(), 0.25).expect("a sphere"),
+    };
+    let pair = |a, b| pair_distances(&on(a), &on(b), &motion);
+    assert_eq!(pair(0, 1), Some(vec![0.0, 0.5, 2.5]));
+    assert_eq!(pair(1, 2), Some(vec![0.5; 3]));
+    assert_eq!(pair(0, 3), None);
 }
 
 #[test]

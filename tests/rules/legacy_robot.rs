@@ -101,6 +101,52 @@ impl LegacyRobot {
         }
     }
 
+    /// With a joint that slides along x within these limits, and the core modules that say so.
+    pub fn sliding(mut self, lower: f64, upper: f64) -> Self {
+        let joint = &mut self.doc("urdf_module")["joints"][0];
+        joint["joint_type"] = json!("Prismatic");
+        joint["limit"] = json!({ "lower": lower, "upper": upper, "effort": 1.0, "velocity": 1.0 });
+        let dof = json!({
+            "num_dofs": 1,
+            "dof_idx_to_joint_idx_mapping": [0],
+            "joint_idx_to_dof_idxs_mapping": [[0]],
+        });
+        let link = |name: &str, at: u32| {
+            let (above, below) = match at {
+                0 => (Value::Null, json!([1])),
+                _ => (json!(0), json!([])),
+            };
+            let joint = |links: &Value| match links.as_array() {
+                Some(links) => json!(vec![0; links.len()]),
+                None => links.clone(),
+            };
+            json!({
+                "name": name, "link_idx": at,
+                "parent_joint_idx": above, "parent_link_idx": above,
+                "children_joint_idxs": joint(&below), "children_link_idxs": below,
+            })
+        };
+        let chain = json!({
+            "links_in_chain": [link("left", 0), link("right", 1)],
+            "joints_in_chain": [{
+                "joint_name": "joint", "joint_idx": 0,
+                "parent_link_name": "left", "parent_link_idx": 0,
+                "child_link_name": "right", "child_link_idx": 1,
+            }],
+            "kinematic_hierarchy": [[0], [1]],
+            "root_idx": 0,
+        });
+        let bounds = json!({
+            "bounds": [[lower, upper]], "dof_lower_bounds": [lower], "dof_upper_bounds": [upper],
+        });
+        self.modules.extend([
+            ("dof_module", "0.0.2", dof),
+            ("chain_module", "0.0.1", chain),
+            ("bounds_module", "0.0.1", bounds),
+        ]);
+        self
+    }
+
     /// With boxes and spheres of half a metre about both links, and how far they reach: the spheres as
     /// far as `sphere`.
     pub fn with_shapes(mut self, sphere: f64) -> Self {
@@ -137,7 +183,7 @@ impl LegacyRobot {
         self
     }
 
-    /// With statistics of two links at this largest distance, and skips edited to these.
+    /// With statistics of two links at this distance, and skips edited to these.
     pub fn with_matrices(mut self, max: f64, simple: bool, skips: [[bool; 2]; 2]) -> Self {
         let kinds = ["convex_hulls", "obbs", "bounding_spheres"];
         let names = ["full", "decomposition"].into_iter();
@@ -148,7 +194,7 @@ impl LegacyRobot {
         let (mut statistics, mut simples, mut edited) = (json!({}), json!({}), json!({}));
         for name in &names {
             statistics[name] = json!({
-                "averages": matrix(max - 0.02), "maximums": matrix(max), "minimums": matrix(max - 0.05),
+                "averages": matrix(max), "maximums": matrix(max), "minimums": matrix(max),
             });
             simples[format!("{name}_simple_skips")] = json!([[true, simple], [simple, true]]);
             edited[format!("{name}_skips")] = json!(skips);

@@ -81,6 +81,26 @@ pub fn pair_statistics<T: Shape>(
     Some(statistics)
 }
 
+/// The distance of two shapes in each sample, metres; 0 in contact. `None` if a shape is on a body that the
+/// motion does not have.
+pub fn pair_distances<T: Shape>(
+    a: &PlacedShape<T>,
+    b: &PlacedShape<T>,
+    motion: &Motion,
+) -> Option<Vec<f64>> {
+    if a.body.max(b.body) >= motion.num_bodies() {
+        return None;
+    }
+    let poses = motion.relative(a.body, b.body);
+    let mut distances = vec![0.0; poses.num_samples().next_multiple_of(LANES)];
+    T::distances(Level::new(), &a.shape, &b.shape, &poses, &mut distances);
+    distances.truncate(poses.num_samples());
+    // Of bodies that do not move with respect to each other one sample stands for all.
+    let first = distances.first().copied()?;
+    distances.resize(motion.num_samples(), first);
+    Some(distances)
+}
+
 /// The pairs of shape `i` with others, all on one body.
 fn row<T: Shape>(
     level: Level,

@@ -6,6 +6,7 @@ pub mod chain;
 pub mod connections;
 pub mod consumer;
 pub mod dofs;
+pub mod enclosure;
 pub mod entries;
 pub mod extension_schema;
 pub mod freedom;

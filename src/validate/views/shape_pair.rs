@@ -71,6 +71,13 @@ impl Pair {
         self.min <= self.mean + self.tolerance && self.mean <= self.max + self.tolerance
     }
 
+    /// Whether the three are one number, within a tolerance. Depths, which legacy modules have, count
+    /// as contact: libraries do not agree on them.
+    pub fn is_constant(&self, tolerance: f64) -> bool {
+        let [mean, min, max] = [self.mean, self.min, self.max].map(|d| d.max(0.0));
+        min.max(mean).max(max) - min.min(mean).min(max) <= tolerance
+    }
+
     /// Whether the pair is always in contact; `None` where that hangs on the last digit.
     pub fn always(&self) -> Option<bool> {
         decided(self.max).then_some(self.max <= CONTACT)

@@ -21,20 +21,22 @@ pub struct ShapeKind {
     pub name: &'static str,
     /// Whether the shapes are links; else they are pieces.
     pub full: bool,
+    /// Whether they are the hulls or pieces themselves; else boxes or spheres about these.
+    pub hulls: bool,
 }
 
 /// The six kinds, in the order of the documents.
 pub const KINDS: [ShapeKind; 6] = [
-    kind("full_convex_hulls", true),
-    kind("full_obbs", true),
-    kind("full_bounding_spheres", true),
-    kind("decomposition_convex_hulls", false),
-    kind("decomposition_obbs", false),
-    kind("decomposition_bounding_spheres", false),
+    kind("full_convex_hulls", true, true),
+    kind("full_obbs", true, false),
+    kind("full_bounding_spheres", true, false),
+    kind("decomposition_convex_hulls", false, true),
+    kind("decomposition_obbs", false, false),
+    kind("decomposition_bounding_spheres", false, false),
 ];
 
-const fn kind(name: &'static str, full: bool) -> ShapeKind {
-    ShapeKind { name, full }
+const fn kind(name: &'static str, full: bool, hulls: bool) -> ShapeKind {
+    ShapeKind { name, full, hulls }
 }
 
 /// What shape indices stand for (SPEC 8.1).
@@ -74,6 +76,14 @@ impl Shapes {
         match kind.full {
             true => self.full.get(shape).copied(),
             false => self.pieces.get(shape).map(|(link, _)| *link),
+        }
+    }
+
+    /// The link and the piece of a shape; the piece of a full shape is 0.
+    pub fn place(&self, kind: ShapeKind, shape: usize) -> Option<(usize, usize)> {
+        match kind.full {
+            true => self.full.get(shape).map(|link| (*link, 0)),
+            false => self.pieces.get(shape).copied(),
         }
     }
 

@@ -1,0 +1,109 @@
+//! How many configurations are looked at.
+
+/// What it takes to compute the distances of one kind of shapes. The unit is the distance of two
+/// spheres, about a nanosecond.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Once.
+    pub once: u64,
+    /// In each configuration.
+    pub each: u64,
+}
+
+/// What the distance of two boxes takes, measured on links of robots.
+pub const BOX: u64 = 20;
+/// What the distance of two hulls takes.
+pub const HULL: u64 = 40;
+/// What the pose of a link takes.
+pub const POSE: u64 = 50;
+
+/// The work that a validation does by default: about a quarter of a second of one core.
+const DEFAULT: u64 = 250_000_000;
+/// The work with `--deep`: minutes. It bounds what a number in a document can ask for.
+const DEEP: u64 = 2_000_000_000_000;
+
+/// Configurations are treated eight at a time, and it takes as long for fewer.
+const LEAST: u32 = 8;
+
+/// The work that there is.
+pub fn budget(deep: bool) -> u64 {
+    match deep {
+        true => DEEP,
+        false => DEFAULT,
+    }
+}
+
+/// For each kind, how many of `num_samples` configurations are looked at, from the first. Kinds that
+/// take least are looked at in full, as long as the budget lasts; what is left of it goes to equal
+/// numbers of configurations of the others, and eight of each in any case.
+pub fn configurations(kinds: &[Option<Work>], num_samples: u32, budget: u64) -> Vec<u32> {
+    let in_full = |work: &Work| {
+        let moving = work.each.saturating_mul(u64::from(num_samples));
+        moving.saturating_add(work.once)
+    };
+    let mut order: Vec<(u64, usize)> = kinds
+        .iter()
+        .enumerate()
+        .filter_map(|(at, work)| Some((in_full(work.as_ref()?), at)))
+        .collect();
+    order.sort_unstable();
+    let mut planned = vec![0; kinds.len()];
+    let mut left = budget;
+    let mut others = Work::default();
+    for (cost, at) in order {
+        match left.checked_sub(cost) {
+            Some(rest) => {
+                left = rest;
+                planned[at] = num_samples;
+            }
+            None => {
+                let work = kinds[at].unwrap_or_default();
+                others.once = others.once.saturating_add(work.once);
+                others.each = others.each.saturating_add(work.each);
+                planned[at] = LEAST;
+            }
+        }
+    }
+    let each = others.each.max(1).saturating_mul(u64::from(LEAST));
+    let eights = left.saturating_sub(others.once) / each;
+    let some = u32::try_from(eights).unwrap_or(u32::MAX).max(1);
+    let some = some.saturating_mul(LEAST).min(super::AT_ONCE);
+    for n in &mut planned {
+        if *n != num_samples {
+            *n = some.min(num_samples) * u32::from(*n > 0);
+        }
+    }
+    planned
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kinds() -> [Option<Work>; 4] {
+        let work = |each| Some(Work { once: 0, each });
+        [work(10), None, work(1), work(30)]
+    }
+
+    #[test]
+    fn all_in_full_where_there_is_time() {
+        assert_eq!(configurations(&kinds(), 100, 4_100), [100, 0, 100, 100]);
+    }
+
+    #[test]
+    fn the_cheap_ones_in_full_and_the_others_in_part() {
+        // 1,100 for the first two; 2,400 are left, and eight configurations of the last take 240.
+        assert_eq!(configurations(&kinds(), 100, 3_500), [100, 0, 100, 80]);
+        assert_eq!(configurations(&kinds(), 100, 1_100), [100, 0, 100, 8]);
+    }
+
+    #[test]
+    fn eight_at_least_and_never_more_than_there_are() {
+        assert_eq!(configurations(&kinds(), 100, 0), [8, 0, 8, 8]);
+        assert_eq!(configurations(&kinds(), 5, 0), [5, 0, 5, 5]);
+        assert_eq!(
+            configurations(&kinds(), u32::MAX, u64::MAX),
+            [u32::MAX, 0, u32::MAX, u32::MAX]
+        );
+    }
+}

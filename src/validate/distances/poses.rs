@@ -1,0 +1,97 @@
+//! Where links are in the sampled configurations.
+
+use std::ops::Range;
+
+use nalgebra::Isometry3;
+use rayon::prelude::*;
+
+use crate::format::bounds::BoundsModule;
+use crate::format::registry::Profile;
+use crate::format::urdf::JointType;
+use crate::geometry::convex::Motion;
+use crate::kinematics::{ConfigurationSpace, ForwardKinematics};
+use crate::validate::context::Context;
+use crate::validate::views::consumer;
+
+/// The poses of a robot's links, as a consumer computes them.
+pub struct Poses {
+    space: ConfigurationSpace,
+    kinematics: ForwardKinematics,
+    /// For each link, its rigid group.
+    groups: Vec<usize>,
+}
+
+impl Poses {
+    /// From the modules, whatever their versions.
+    ///
+    /// # Errors
+    /// In words: why there are none.
+    pub fn new(context: &Context) -> Result<Self, String> {
+        let open = "the modules leave the kinematics open";
+        let modules = consumer::modules(context).ok_or(open)?;
+        let groups = context.rigid_groups().ok_or(open)?;
+        let bounds = context.bounds().ok_or(open)?;
+        let unlike = |joint: JointType| matches!(joint, JointType::Planar | JointType::Floating);
+        let mut joints = modules.chain.joints_in_chain.iter();
+        if context.profile() == Profile::Legacy && joints.any(|joint| unlike(joint.joint_type)) {
+            return Err(
+                "planar and floating joints of legacy URDDs have other coordinates (SPEC 5.11)"
+                    .to_owned(),
+            );
+        }
+        let bounds = match bounds.v1 {
+            Some(module) => module.clone(),
+            None => of_legacy(bounds.bounds),
+        };
+        let space = ConfigurationSpace::new(&modules.dof, &modules.chain, &bounds)
+            .map_err(|error| error.to_string())?;
+        let kinematics = ForwardKinematics::new(&modules.chain, &modules.dof)
+            .map_err(|error| error.to_string())?;
+        if groups.of_link.len() != kinematics.num_links() {
+            return Err("chain_module has another number of links than urdf_module".to_owned());
+        }
+        Ok(Poses {
+            space,
+            kinematics,
+            groups: groups.of_link.clone(),
+        })
+    }
+
+    /// Number of links.
+    pub fn num_links(&self) -> usize {
+        self.groups.len()
+    }
+
+    /// Whether only fixed joints are between two links.
+    pub fn is_rigid(&self, a: usize, b: usize) -> bool {
+        self.groups.get(a) == self.groups.get(b)
+    }
+
+    /// The poses in some of the sampled configurations.
+    ///
+    /// # Errors
+    /// In words: where numbers go beyond 64 bits.
+    pub fn motion(&self, samples: Range<u32>) -> Result<Motion, String> {
+        let poses: Vec<Vec<Isometry3<f64>>> = samples
+            .into_par_iter()
+            .map(|sample| {
+                let configuration = self.space.sampled(u64::from(sample));
+                let poses = self.kinematics.link_poses(&configuration);
+                poses.map_err(|error| format!("sampled configuration {sample}: {error}"))
+            })
+            .collect::<Result<_, _>>()?;
+        Motion::new(&poses, &self.groups).map_err(|error| error.to_string())
+    }
+}
+
+/// The bounds alone, which sampling needs.
+fn of_legacy(bounds: &[[f64; 2]]) -> BoundsModule {
+    BoundsModule {
+        bounds: bounds.to_vec(),
+        dof_lower_bounds: Vec::new(),
+        dof_upper_bounds: Vec::new(),
+        dof_limited: Vec::new(),
+        dof_velocity_limits: Vec::new(),
+        dof_effort_limits: Vec::new(),
+    }
+}

@@ -1,0 +1,64 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::rule::declare_rule;
+use crate::validate::views::enclosure::enclosures;
+
+declare_rule! {
+    /// A box or sphere leaves out a part of the hull or piece that it should hold.
+    ///
+    /// Programs test boxes and spheres first, and look no further where these are apart: a part that
+    /// sticks out is never tested, and collisions with it are missed. Most often the box or sphere was
+    /// made of another mesh, or its rotation is taken the other way round.
+    ///
+    /// Make it again from the vertices of the hull or piece, as its file has them.
+    SHP017 "shape-leaves-out-part", Error, clause "8.2", since "0.1.0",
+    phase Geometry, needs [
+        Module(Kind::LinkShapesApproximations),
+        AnyModule(&[Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
+        NotFailed(MSH001),
+        NotFailed(MSH004),
+        NotFailed(MSH005),
+        NotFailed(MSH007),
+        // What these find is wrong with the hulls and pieces themselves.
+        NotFailedInV1(MSH017),
+        NotFailedInV1(MSH018),
+        NotFailedInV1(MSH019),
+        NotFailedInV1(MSH020),
+        NotFailedInV1(MSH021),
+        NotFailedInV1(MSH022),
+        NotFailed(SHP001),
+        NotFailed(SHP002),
+        NotFailed(SHP003),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let Some(module) = context.module(ModuleKind::LinkShapesApproximations) else {
+        return;
+    };
+    for enclosure in enclosures(context) {
+        if enclosure.holds() {
+            continue;
+        }
+        let (vertex, away) = enclosure.fit.outside;
+        let place = enclosure.mesh.vertices.get(vertex).copied();
+        findings.report(
+            Finding::at(
+                module.file("module.json"),
+                &enclosure.pointer,
+                format!(
+                    "the {} leaves out a part of {}: the vertex at {} is {} outside",
+                    enclosure.noun(),
+                    enclosure.of_what(context),
+                    point(place.unwrap_or_default()),
+                    metres(away),
+                ),
+            )
+            .expected("every vertex inside")
+            .actual(format!("{away} m outside"))
+            .tolerance(enclosure.tolerance),
+        );
+    }
+}

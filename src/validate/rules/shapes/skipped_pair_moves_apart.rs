@@ -1,0 +1,186 @@
+use std::collections::HashSet;
+
+use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::validate::context::Context;
+use crate::validate::distances::plan;
+use crate::validate::distances::poses::Poses;
+use crate::validate::distances::shape_set::ShapeSet;
+use crate::validate::distances::tolerances::Tolerances;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::fold::Fold;
+use crate::validate::rule::declare_rule;
+use crate::validate::views::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
+use crate::validate::views::shape_pair::CONTACT;
+use crate::validate::views::shapes::{KINDS, ShapeKind, Shapes};
+use crate::validate::views::tangled::Tangled;
+
+declare_rule! {
+    /// A pair of shapes is skipped, and is in contact in some configurations and apart in others.
+    ///
+    /// A skip says that contact of the two means nothing, since they always are in contact. Where they
+    /// come apart and meet again, contact is a collision, and nobody will see it: a robot is driven into
+    /// itself. Most often the module is stale, or was sampled with joints that stood still.
+    ///
+    /// The first 96 sampled configurations are looked at, or fewer where that is much work. Sample again,
+    /// and write the skips from the statistics. What a person decides is recorded in `edits` of
+    /// `link_shapes_skips_module`, and is free.
+    SHP025 "skipped-pair-moves-apart", Error, clause "8.6", since "0.1.0",
+    phase Statistics, needs [
+        AnyModule(&[Kind::LinkShapesSimpleSkips, Kind::LinkShapesSkips]),
+        Module(Kind::Urdf),
+        Module(Kind::Dof),
+        Module(Kind::Chain),
+        Module(Kind::Bounds),
+        Module(Kind::ConvexHullMeshes),
+        Module(Kind::ConvexDecompositionMeshes),
+        Module(Kind::LinkShapesApproximations),
+        // Poses.
+        Passed(URD004), Passed(URD006), NotFailed(DOF003), NotFailed(DOF004), NotFailed(DOF005), NotFailed(DOF007),
+        NotFailed(CHN001), NotFailed(CHN002), NotFailed(CHN003), NotFailed(CHN006), NotFailed(CHN007), NotFailed(CHN008),
+        NotFailed(CHN009), NotFailed(CHN010), NotFailed(KIN001), NotFailed(BND001),
+        NotFailedInV1(BND002), NotFailedInV1(BND003), NotFailedInV1(BND006),
+        // Shapes.
+        NotFailed(MSH001), NotFailed(MSH004), NotFailedInV1(MSH005), NotFailed(MSH007),
+        NotFailed(SHP001), NotFailed(SHP002), NotFailed(SHP003), Passed(SHP005), NotFailed(SHP010),
+        // What these find makes skips wrong too.
+        NotFailedInV1(SHP017), NotFailed(SHP011), NotFailed(SHP013), NotFailed(SHP023), NotFailed(SHP024),
+    ],
+    check check,
+}
+
+/// How many configurations are looked at, eight at a time; with less work each, about a tenth of a
+/// second in all.
+const CONFIGURATIONS: u64 = 96;
+const WORK: u64 = 100_000_000;
+
+fn check(context: &Context, findings: &mut Findings) {
+    // Where there are no simple skips, those that no edit is about are in the other module.
+    let modules = [
+        ModuleKind::LinkShapesSimpleSkips,
+        ModuleKind::LinkShapesSkips,
+    ];
+    let usable = modules.into_iter().find_map(|kind| {
+        let document = context.document(kind)?;
+        Some((context.module(kind)?, document, skips(document)?))
+    });
+    let (Some((module, document, six)), Some(shapes)) = (usable, context.shapes()) else {
+        return;
+    };
+    let Some(edited) = edited(context, document) else {
+        return findings.skip("the edits of legacy skips are not recorded");
+    };
+    let poses = match Poses::new(context) {
+        Ok(poses) => poses,
+        Err(reason) => return findings.skip(reason),
+    };
+    let statistics = context
+        .document(ModuleKind::LinkShapesDistanceStatistics)
+        .and_then(statistics);
+    let sampled = statistics.and_then(|six| six.iter().flatten().find_map(|one| one.num_samples));
+    let mut skipped = Vec::new();
+    for (kind, rows) in KINDS.into_iter().zip(six) {
+        let Some(rows) = rows else {
+            continue;
+        };
+        skipped.push((kind, pairs(rows, &shapes, kind, &poses, &edited)));
+    }
+    let work: u64 = skipped
+        .iter()
+        .map(|(_, pairs)| pairs.len() as u64 * plan::HULL)
+        .sum();
+    let eights = (WORK / (8 * work.max(1))).clamp(1, CONFIGURATIONS / 8);
+    let n = u32::try_from(8 * eights).unwrap_or(8);
+    let motion = match poses.motion(0..sampled.map_or(n, |sampled| n.min(sampled.max(1)))) {
+        Ok(motion) => motion,
+        Err(reason) => return findings.skip(reason),
+    };
+    let known = context.distances().ok();
+    let known = |kind: ShapeKind| {
+        let of = known?.kinds().iter().flatten();
+        of.map(|of| of.shapes()).find(|set| set.kind() == kind)
+    };
+    for (kind, pairs) in skipped {
+        if pairs.is_empty() {
+            continue;
+        }
+        let made;
+        let set = match known(kind) {
+            Some(set) => set,
+            None => {
+                made = ShapeSet::new(context, &shapes, kind, false);
+                &made
+            }
+        };
+        let tolerances = Tolerances::new(context, &shapes, kind);
+        let mut fold = Fold::new(findings);
+        for (i, j) in pairs {
+            let Some(distances) = set.pair(i, j, &motion) else {
+                continue;
+            };
+            let apart = CONTACT + tolerances.pair(i, j);
+            let met = distances.iter().position(|distance| *distance <= CONTACT);
+            let mut numbered = distances.iter().enumerate();
+            let farthest = numbered.by_ref().max_by(|a, b| a.1.total_cmp(b.1));
+            let (Some(met), Some((parted, most))) = (met, farthest.filter(|(_, d)| **d > apart))
+            else {
+                continue;
+            };
+            fold.add(|| {
+                Finding::at(
+                    module.file("module.json"),
+                    format!("{}/{i}/{j}", skips_pointer(document, kind)),
+                    format!(
+                        "shapes {} and {} are skipped, and are in contact in sampled configuration {met} and {most:.3} m \
+                         apart in {parted}",
+                        shapes.describe(context, kind, i),
+                        shapes.describe(context, kind, j)
+                    ),
+                )
+                .expected(false)
+                .actual(true)
+            });
+        }
+        fold.finish();
+    }
+}
+
+/// The pairs of links that a person's edits are about; `None` where these are not recorded.
+fn edited(context: &Context, document: &ModuleDocument) -> Option<HashSet<(usize, usize)>> {
+    let ModuleDocument::LinkShapesSkips(module) = document else {
+        let recorded = !matches!(document, ModuleDocument::LegacyLinkShapesSkips(_));
+        return recorded.then(HashSet::new);
+    };
+    let robot = context.robot()?;
+    let links = module.edits.iter().filter_map(|edit| {
+        let (a, b) = (robot.link(&edit.link_a)?, robot.link(&edit.link_b)?);
+        Some((a.min(b), a.max(b)))
+    });
+    Some(links.collect())
+}
+
+/// The pairs that are skipped and can move against each other, but for those of edits.
+fn pairs(
+    rows: &[Vec<bool>],
+    shapes: &Shapes,
+    kind: ShapeKind,
+    poses: &Poses,
+    edited: &HashSet<(usize, usize)>,
+) -> Vec<(usize, usize)> {
+    let tangled = Tangled::new(Elements::Skips(rows));
+    let mut pairs = Vec::new();
+    for i in 0..rows.len() {
+        for j in i + 1..rows.len() {
+            // A pair whose two elements differ is SHP006's.
+            if at(rows, i, j) != Some(true) || at(rows, j, i) != Some(true) || tangled.pair(i, j) {
+                continue;
+            }
+            if let (Some(a), Some(b)) = (shapes.link(kind, i), shapes.link(kind, j))
+                && !poses.is_rigid(a, b)
+                && !edited.contains(&(a.min(b), a.max(b)))
+            {
+                pairs.push((i, j));
+            }
+        }
+    }
+    pairs
+}

@@ -1,0 +1,117 @@
+use crate::format::registry::ModuleKind;
+use crate::validate::context::Context;
+use crate::validate::distances::tolerances::Tolerances;
+use crate::validate::finding::{Finding, Findings};
+use crate::validate::fold::Fold;
+use crate::validate::rule::declare_rule;
+use crate::validate::views::shape_matrices::statistics;
+use crate::validate::views::shape_pair::{Pair, Pairs};
+use crate::validate::views::shapes::KINDS;
+
+declare_rule! {
+    /// The mean, smallest or largest distance of two shapes is not that of the sampled configurations.
+    ///
+    /// The configurations are defined, so that the numbers can be computed again, and they were. Skips
+    /// follow from them, and by them programs decide in which order pairs are tested.
+    ///
+    /// Matrices that would take too long are left to `--deep`, and looked at in the first configurations
+    /// only (SHP023). Where all pairs differ, look at `num_samples`, at the formulas of SPEC 9.3, and at the
+    /// poses in `kinematics_samples_module`; where those of one shape do, at its mesh, box or sphere.
+    SHP024 "statistics-differ", Error, clause "8.5", since "0.1.0",
+    phase Statistics, needs [
+        Version1,
+        Module(Kind::Urdf),
+        Module(Kind::Dof),
+        Module(Kind::Chain),
+        Module(Kind::Bounds),
+        Module(Kind::ConvexHullMeshes),
+        Module(Kind::ConvexDecompositionMeshes),
+        Module(Kind::LinkShapesApproximations),
+        Module(Kind::LinkShapesDistanceStatistics),
+        // Poses.
+        Passed(URD004), Passed(URD006), NotFailed(DOF003), NotFailed(DOF004), NotFailed(DOF005), NotFailed(DOF007),
+        NotFailed(CHN001), NotFailed(CHN002), NotFailed(CHN003), NotFailed(CHN006), NotFailed(CHN007), NotFailed(CHN008),
+        NotFailed(CHN009), NotFailed(CHN010), NotFailed(KIN001),
+        NotFailed(BND001), NotFailed(BND002), NotFailed(BND003), NotFailed(BND006),
+        // Shapes.
+        NotFailed(MSH001), NotFailed(MSH004), NotFailed(MSH005), NotFailed(MSH007),
+        NotFailed(MSH017), NotFailed(MSH018), NotFailed(MSH019), NotFailed(MSH020), NotFailed(MSH021), NotFailed(MSH022),
+        NotFailed(SHP001), NotFailed(SHP002), NotFailed(SHP003), Passed(SHP005), NotFailed(SHP010), NotFailed(SHP016),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let kind = ModuleKind::LinkShapesDistanceStatistics;
+    let (Some(module), Some(six), Some(shapes), Some(groups)) = (
+        context.module(kind),
+        context.document(kind).and_then(statistics),
+        context.shapes(),
+        context.rigid_groups(),
+    ) else {
+        return;
+    };
+    let distances = match context.distances() {
+        Ok(distances) => distances,
+        Err(reason) => return findings.skip(reason),
+    };
+    let mut left = Vec::new();
+    for ((kind, one), found) in KINDS.into_iter().zip(six).zip(distances.kinds()) {
+        let (Some(one), Some(found)) = (one, found) else {
+            continue;
+        };
+        if !found.complete {
+            left.push(kind.name);
+            continue;
+        }
+        let pairs = Pairs::new(&one);
+        let tolerances = Tolerances::new(context, &shapes, kind);
+        let group = |shape: usize| groups.of_link.get(shapes.link(kind, shape)?);
+        let mut fold = Fold::new(findings);
+        for i in 0..one.min.len() {
+            for j in i + 1..one.min.len() {
+                let pair = pairs.read(i, j).filter(Pair::in_order);
+                let (Some(pair), Some(found)) = (pair, found.pair(i, j)) else {
+                    continue;
+                };
+                let tolerance = tolerances.pair(i, j);
+                // What should be constant, and is not, SHP022 tells.
+                if group(i) == group(j) && !pair.is_constant(tolerance) {
+                    continue;
+                }
+                let three = [
+                    (pair.mean, found.mean),
+                    (pair.min, found.min),
+                    (pair.max, found.max),
+                ];
+                let mut keyed = one.keys.into_iter().zip(three);
+                let differs =
+                    |(actual, expected): (f64, f64)| (actual - expected).abs() > tolerance;
+                let Some((key, (actual, expected))) = keyed.find(|(_, pair)| differs(*pair)) else {
+                    continue;
+                };
+                fold.add(|| {
+                    Finding::at(
+                        module.file("module.json"),
+                        format!("/{}/{key}/{i}/{j}", kind.name),
+                        format!(
+                            "for shapes {} and {} this is not what the sampled configurations give",
+                            shapes.describe(context, kind, i),
+                            shapes.describe(context, kind, j)
+                        ),
+                    )
+                    .expected(expected)
+                    .actual(actual)
+                    .tolerance(tolerance)
+                });
+            }
+        }
+        fold.finish();
+    }
+    if findings.is_empty() && !left.is_empty() {
+        findings.skip(format!(
+            "{} would take long to compute again, and are looked at in the first configurations only; --deep does it",
+            left.join(", ")
+        ));
+    }
+}

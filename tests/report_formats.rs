@@ -1,0 +1,316 @@
+//! The reports for other programs: SARIF against its schema and its Rust types by others, JUnit XML
+//! by what its readers count. (`.ci/run` holds JUnit to the schema that Jenkins has.)
+
+mod support;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::{Value, json};
+use support::fixture::{Fixture, ROOT};
+
+fn validate(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
+    command.arg("validate").args(arguments).current_dir(folder);
+    command.output().expect("the program")
+}
+
+fn text(folder: &Path, format: &str, arguments: &[&str]) -> String {
+    let output = validate(folder, &[&["--format", format], arguments].concat());
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+fn sarif(folder: &Path, arguments: &[&str]) -> Value {
+    serde_json::from_str(&text(folder, "sarif", arguments)).expect("JSON")
+}
+
+fn results(log: &Value) -> &Vec<Value> {
+    log["runs"][0]["results"].as_array().expect("a list")
+}
+
+fn uri(result: &Value) -> &str {
+    result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+        .as_str()
+        .expect("a URI")
+}
+
+/// A repository with robots in it: one that is right; one that is wrong, and whose name every format
+/// must escape; and one with a warning.
+fn repository() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |path: &str, change: &dyn Fn(&mut Fixture)| {
+        let mut toy = Fixture::toy();
+        change(&mut toy);
+        toy.seal();
+        toy.write_to(&folder.path().join(path));
+    };
+    write("robots/good", &|_| {});
+    write("robots/né #1\u{1} <\"&'>", &|f| {
+        f.set(ROOT, "/robot_name", json!("a\u{1}<b>&\"]]>\u{fffe}[x](y)"));
+    });
+    write("robots/arms/odd", &|f| {
+        f.remove_file("dof_module/module.yaml");
+        f.unlist("dof_module/module.yaml");
+    });
+    folder
+}
+
+/// The schema of SARIF 2.1.0, as OASIS published it. It is not ours to keep here: the package of
+/// serde-sarif brings it.
+fn sarif_schema() -> Value {
+    let output = Command::new(env!("CARGO"))
+        .args(["metadata", "--format-version=1", "--locked", "--offline"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("cargo");
+    let metadata: Value = serde_json::from_slice(&output.stdout).expect("cargo's metadata");
+    let packages = metadata["packages"].as_array().expect("a list");
+    let package = packages
+        .iter()
+        .find(|package| package["name"] == "serde-sarif")
+        .expect("serde-sarif");
+    let manifest = PathBuf::from(package["manifest_path"].as_str().expect("a path"));
+    let file = manifest.with_file_name("src").join("schema.json");
+    let mut schema: Value = serde_json::from_str(&fs::read_to_string(file).expect("the schema"))
+        .expect("the schema is JSON");
+    // The pattern for a language, as published, is no regular expression.
+    for place in ["run", "toolComponent"] {
+        let language = schema.pointer_mut(&format!("/definitions/{place}/properties/language"));
+        let language = language.and_then(Value::as_object_mut).expect("an object");
+        assert!(language.remove("pattern").is_some());
+    }
+    assert!(
+        schema["title"]
+            .as_str()
+            .is_some_and(|t| t.contains("2.1.0"))
+    );
+    schema
+}
+
+#[test]
+fn sarif_fits_its_schema() {
+    let schema = jsonschema::draft7::options()
+        .should_validate_formats(true)
+        .build(&sarif_schema())
+        .expect("a schema");
+    let repository = repository();
+    let stale = "[[ignore]]\ncode = \"DIR020\"\npath = \"nobody/**\"\nreason = \"x\"";
+    fs::write(repository.path().join("urdd.toml"), stale).expect("written");
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (folder, arguments) in [
+        (repository.path(), &["robots"] as &[&str]),
+        (repository.path(), &["robots/good"]),
+        (repository.path(), &["robots", "--with-crashing-rule"]),
+        (examples, &["examples/urdds"]),
+    ] {
+        let log = sarif(folder, arguments);
+        let errors: Vec<String> = schema.iter_errors(&log).map(|e| e.to_string()).collect();
+        assert_eq!(errors, [""; 0], "{arguments:?}");
+        // And other people's types take it.
+        let _: serde_sarif::sarif::Sarif = serde_json::from_value(log).expect("SARIF");
+    }
+}
+
+#[test]
+fn sarif_finds_the_files_in_the_repository() {
+    let repository = repository();
+    let root = repository.path();
+    let absolute = root.join("robots");
+    let absolute = absolute.to_str().expect("UTF-8");
+    let expected = sarif(root, &["robots"]);
+    assert_eq!(results(&expected).len(), 2);
+    for path in ["./robots/", absolute, "robots/../robots"] {
+        assert_eq!(sarif(root, &[path]), expected, "{path}");
+    }
+    assert_eq!(results(&sarif(root, &["."])), results(&expected));
+    for result in results(&expected) {
+        let path = percent_encoding::percent_decode_str(uri(result));
+        let path = path.decode_utf8().expect("UTF-8").into_owned();
+        // The folder of a mirror that is not there is; the file of a value is.
+        let region = &result["locations"][0]["physicalLocation"]["region"];
+        let on_disk = root.join(&path);
+        assert!(on_disk.exists() || region.is_null(), "{path}");
+        assert!(!uri(result).contains([' ', '#', '<', '"']), "{path}");
+        assert_eq!(
+            result["locations"][0]["physicalLocation"]["artifactLocation"]["uriBaseId"],
+            "%SRCROOT%"
+        );
+    }
+    // From within a URDD, and from beside the repository.
+    let within = root.join("robots/arms/odd");
+    assert!(uri(&results(&sarif(&within, &["."]))[0]).starts_with("dof_module"));
+    let beside = root.join("robots/good");
+    let log = sarif(&beside, &[within.to_str().expect("UTF-8")]);
+    assert!(
+        uri(&results(&log)[0]).starts_with("odd/"),
+        "no absolute path"
+    );
+}
+
+#[test]
+fn sarif_says_what_the_report_says() {
+    let repository = repository();
+    let log = sarif(repository.path(), &["robots", "--with-crashing-rule"]);
+    let run = &log["runs"][0];
+    let report: Value =
+        serde_json::from_str(&text(repository.path(), "json", &["robots"])).expect("JSON");
+    let findings: Vec<&Value> = report["urdds"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .flat_map(|urdd| urdd["findings"].as_array().expect("a list"))
+        .collect();
+    assert_eq!(findings.len(), results(&log).len());
+    for (finding, result) in findings.iter().zip(results(&log)) {
+        assert_eq!(finding["code"], result["ruleId"]);
+        let rule = &run["tool"]["driver"]["rules"]
+            [result["ruleIndex"].as_u64().expect("an index") as usize];
+        assert_eq!(rule["id"], result["ruleId"]);
+        assert_eq!(finding["severity"], result["level"]);
+        assert_eq!(finding["count"], result["occurrenceCount"]);
+        let place = &result["locations"][0];
+        assert_eq!(
+            finding["line"],
+            place["physicalLocation"]["region"]["startLine"]
+        );
+        assert_eq!(
+            finding["column"],
+            place["physicalLocation"]["region"]["startColumn"]
+        );
+        let pointer = &place["logicalLocations"][0]["fullyQualifiedName"];
+        assert_eq!(&finding["pointer"], pointer);
+        let message = result["message"]["text"].as_str().expect("a text");
+        assert!(!message.contains("]("), "a link made of a name: {message}");
+    }
+    let invocation = &run["invocations"][0];
+    assert_eq!(invocation["exitCode"], 101);
+    assert_eq!(invocation["executionSuccessful"], false);
+    let crashes = invocation["toolExecutionNotifications"]
+        .as_array()
+        .expect("a list");
+    assert_eq!(crashes.len(), 3);
+    assert_eq!(crashes[0]["associatedRule"]["id"], "TST001");
+    let invocation = &sarif(repository.path(), &["robots"])["runs"][0]["invocations"][0];
+    assert_eq!(
+        (&invocation["exitCode"], &invocation["executionSuccessful"]),
+        (&json!(1), &json!(true))
+    );
+}
+
+#[test]
+fn fingerprints_outlive_shifted_lines() {
+    let fingerprints = |folder: &Path| -> BTreeSet<String> {
+        let log = sarif(folder, &["robots"]);
+        let of = |result: &Value| result["partialFingerprints"].to_string() + uri(result);
+        results(&log)
+            .iter()
+            .filter(|result| result["ruleId"] == "DIR020")
+            .map(of)
+            .collect()
+    };
+    let repository = repository();
+    let before = fingerprints(repository.path());
+    assert_eq!(before.len(), 1);
+    for entry in fs::read_dir(repository.path().join("robots")).expect("a folder") {
+        let file = entry.expect("an entry").path().join(ROOT);
+        if let Ok(text) = fs::read_to_string(&file) {
+            fs::write(&file, format!("\n\n{text}")).expect("written");
+        }
+    }
+    assert_eq!(fingerprints(repository.path()), before);
+}
+
+#[test]
+fn junit_counts_what_it_holds() {
+    let repository = repository();
+    for (arguments, failures, errors) in [
+        (&["robots"] as &[&str], 1, 0),
+        (&["robots", "--fail-on", "info"], 2, 0),
+        (&["robots", "--with-crashing-rule"], 1, 3),
+        (&["robots/good"], 0, 0),
+    ] {
+        let xml = text(repository.path(), "junit", arguments);
+        let document = roxmltree::Document::parse(&xml).expect("XML");
+        let root = document.root_element();
+        let of = |node: roxmltree::Node, name: &str| {
+            node.descendants().filter(|n| n.has_tag_name(name)).count()
+        };
+        let said = |node: roxmltree::Node, name: &str| -> usize {
+            node.attribute(name)
+                .expect("a total")
+                .parse()
+                .expect("a number")
+        };
+        for node in document
+            .descendants()
+            .filter(|n| n.has_tag_name("testsuite") || *n == root)
+        {
+            assert_eq!(said(node, "tests"), of(node, "testcase"));
+            assert_eq!(said(node, "failures"), of(node, "failure"));
+            assert_eq!(said(node, "errors"), of(node, "error"));
+            if node != root {
+                assert_eq!(said(node, "skipped"), of(node, "skipped"));
+            }
+        }
+        assert_eq!(
+            (of(root, "failure"), of(root, "error")),
+            (failures, errors),
+            "{arguments:?}"
+        );
+        // The suite fails exactly when the run does.
+        let status = validate(repository.path(), arguments).status.code();
+        assert_eq!(status != Some(0), failures + errors > 0);
+    }
+}
+
+#[test]
+fn junit_says_hostile_names_as_far_as_xml_can() {
+    let repository = repository();
+    let xml = text(repository.path(), "junit", &["robots"]);
+    let document = roxmltree::Document::parse(&xml).expect("XML");
+    let names: BTreeSet<&str> = document
+        .descendants()
+        .filter(|n| n.has_tag_name("testsuite"))
+        .filter_map(|n| n.attribute("name"))
+        .collect();
+    assert_eq!(
+        names,
+        BTreeSet::from(["robots/arms/odd", "robots/good", "robots/né #1 <\"&'>"])
+    );
+    let failure = document
+        .descendants()
+        .find(|n| n.has_tag_name("failure"))
+        .expect("a failure");
+    let text = failure.text().expect("a text");
+    assert!(text.contains("a\\u{1}<b>&\\\"]]>\\u{fffe}[x](y)"), "{text}");
+    // A case has the same name whether it passes or not, so that it can be followed through runs.
+    let cases = |suite: &str| -> Vec<String> {
+        document
+            .descendants()
+            .filter(|n| n.has_tag_name("testcase") && n.attribute("classname") == Some(suite))
+            .filter_map(|n| n.attribute("name").map(str::to_owned))
+            .collect()
+    };
+    assert_eq!(cases("robots/good"), cases("robots/né #1 <\"&'>"));
+    assert!(cases("robots/good").contains(&"DOF003 dof-mappings-disagree".to_owned()));
+}
+
+#[test]
+fn files_get_the_format_of_their_ending() {
+    let repository = repository();
+    let root = repository.path();
+    let files = ["a.sarif", "b.sarif.json", "c.xml", "d.json", "e"];
+    let mut arguments = vec!["robots"];
+    for file in files {
+        arguments.extend(["--output", file]);
+    }
+    let output = validate(root, &arguments);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("3 URDDs: 2 passed, 1 failed."));
+    let formats = ["sarif", "sarif", "junit", "json", "json"];
+    for (file, format) in files.into_iter().zip(formats) {
+        let written = fs::read_to_string(root.join(file)).expect("a report");
+        assert_eq!(written, text(root, format, &["robots"]), "{file}");
+    }
+}

@@ -1,0 +1,114 @@
+//! SHP022 to SHP025: distances in the sampled configurations.
+
+use serde_json::json;
+use urdd::format::urdf::{Axis, JointType};
+use urdd::validate::code::Code::*;
+
+use super::{STATISTICS, number, pair_that_is, set_pair, two_boxes};
+use crate::legacy_robot::LegacyRobot;
+use crate::meshes::{boxy, legacy, robot_of};
+use crate::support::fixture::Fixture;
+use crate::support::robot::*;
+use crate::{Case, changed, invalid, near_miss};
+
+/// Two boxes, 1 m apart, of which one turns about its own middle.
+fn turning_boxes() -> Fixture {
+    let mut robot = robot_of(vec![boxy("a"), boxy("b")]);
+    robot.urdf.joints[0].joint_type = JointType::Revolute;
+    robot.urdf.joints[0].axis = Some(Axis {
+        xyz: Some([0.0, 1.0, 0.0]),
+    });
+    robot.urdf.joints[0].limit = limit(-1.0, 1.0);
+    Fixture::full_with_edits(&robot, Vec::new())
+}
+
+/// Sets how many samples the statistics are over to more than anybody looks at.
+fn of_a_billion(f: &mut Fixture) {
+    f.set(STATISTICS, "/num_samples", json!(1_000_000_000));
+}
+
+/// SHP022 to SHP025.
+pub fn cases() -> Vec<Case> {
+    let scale_pair = |f: &mut Fixture, matrix: &str, pair: (usize, usize), factor: f64| {
+        let old = number(f, STATISTICS, &format!("{matrix}/{}/{}", pair.0, pair.1));
+        assert_ne!(old, 0.0);
+        set_pair(f, STATISTICS, matrix, pair, json!(old * factor));
+    };
+    let skipped = [[true, true], [true, true]];
+    let sliding = |lower: f64, upper: f64| {
+        move || {
+            let robot = LegacyRobot::new("robot", 0.0).sliding(lower, upper);
+            robot.with_shapes(0.5).with_matrices(0.0, true, skipped)
+        }
+    };
+    vec![
+        changed(SHP022, "smallest-is-less", true, two_boxes, move |f| {
+            scale_pair(f, "/full_obbs/min_distances", (0, 1), 0.99);
+        }),
+        changed(SHP022, "rounded", false, two_boxes, move |f| {
+            scale_pair(f, "/full_obbs/min_distances", (0, 1), 1.0 - 1e-7);
+        }),
+        changed(SHP023, "of-few-samples", true, turning_boxes, of_a_billion),
+        changed(SHP023, "of-more-samples", false, turning_boxes, move |f| {
+            of_a_billion(f);
+            for kind in ["full", "decomposition"] {
+                for shapes in ["convex_hulls", "obbs", "bounding_spheres"] {
+                    let rows = f.get(STATISTICS, &format!("/{kind}_{shapes}/mean_distances"));
+                    let n = rows.as_array().map_or(0, Vec::len);
+                    for pair in (0..n).flat_map(|i| (0..i).map(move |j| (i, j))) {
+                        let at = |key: &str| format!("/{kind}_{shapes}/{key}_distances");
+                        let mean = format!("{}/{}/{}", at("mean"), pair.0, pair.1);
+                        if f.get(STATISTICS, &format!("{}/{}/{}", at("min"), pair.0, pair.1))
+                            != f.get(STATISTICS, &format!("{}/{}/{}", at("max"), pair.0, pair.1))
+                        {
+                            assert_ne!(number(f, STATISTICS, &mean), 0.0);
+                            scale_pair(f, &at("min"), pair, 0.5);
+                            scale_pair(f, &at("max"), pair, 2.0);
+                        }
+                    }
+                }
+            }
+        }),
+        invalid(SHP024, "mean", |f| {
+            let (i, j) = pair_that_is(f, "Never");
+            let at = |key: &str| format!("/full_convex_hulls/{key}_distances/{i}/{j}");
+            let [mean, max] = ["mean", "max"].map(|key| number(f, STATISTICS, &at(key)));
+            let matrix = "/full_convex_hulls/mean_distances";
+            set_pair(
+                f,
+                STATISTICS,
+                matrix,
+                (i, j),
+                json!(mean + 0.5 * (max - mean)),
+            );
+        }),
+        invalid(SHP024, "largest", move |f| {
+            let pair = pair_that_is(f, "Never");
+            scale_pair(f, "/full_obbs/max_distances", pair, 1.01);
+        }),
+        invalid(SHP024, "smallest", move |f| {
+            let pair = pair_that_is(f, "Never");
+            scale_pair(f, "/full_bounding_spheres/min_distances", pair, 0.99);
+        }),
+        invalid(SHP024, "a-sample-too-many", |f| {
+            f.set(STATISTICS, "/num_samples", json!(9));
+        }),
+        changed(SHP024, "rigid-and-elsewhere", true, two_boxes, move |f| {
+            for key in ["mean", "min", "max"] {
+                scale_pair(f, &format!("/full_obbs/{key}_distances"), (0, 1), 1.01);
+            }
+        }),
+        near_miss(SHP024, "rounded", move |f| {
+            let pair = pair_that_is(f, "Never");
+            scale_pair(f, "/full_obbs/max_distances", pair, 1.0 + 1e-7);
+        }),
+        legacy(SHP025, "legacy-stale", true, sliding(-1.0, 1.0)),
+        legacy(
+            SHP025,
+            "legacy-always-in-contact",
+            false,
+            sliding(-1.0, -0.95),
+        ),
+        legacy(SHP025, "legacy-always-apart", false, sliding(0.1, 0.5)),
+    ]
+}
