@@ -9,6 +9,7 @@ pub mod change;
 pub mod data;
 pub mod export;
 pub mod judge;
+pub mod kill_rate;
 pub mod process;
 pub mod producer;
 pub mod seal;

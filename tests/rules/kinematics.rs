@@ -75,6 +75,21 @@ pub fn cases() -> Vec<Case> {
                 json!([2.0, 0.0, 0.0, 0.0]),
             );
         }),
+        // Longer by more than SPEC 9.2 lets pass; what is read of it is the same rotation.
+        invalid(KIN003, "quaternion-too-long", |f| {
+            f.set(
+                SAMPLES,
+                "/samples/2/link_poses/1/quaternion_wxyz",
+                json!([1.0 + 1e-8, 0.0, 0.0, 0.0]),
+            );
+        }),
+        near_miss(KIN003, "quaternion-too-long-by-rounding", |f| {
+            f.set(
+                SAMPLES,
+                "/samples/2/link_poses/1/quaternion_wxyz",
+                json!([1.0 + 1e-12, 0.0, 0.0, 0.0]),
+            );
+        }),
         near_miss(KIN003, "link-moved-by-rounding", |f| {
             nudge(f, "/samples/0/link_poses/1/position/0", 1e-13)
         }),

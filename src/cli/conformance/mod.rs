@@ -2,6 +2,7 @@
 
 mod common;
 mod export;
+mod kill_rate;
 mod producer;
 mod validator;
 
@@ -24,6 +25,8 @@ enum Command {
     Producer(producer::ProducerArguments),
     /// Run somebody's validator on every case, and score its verdicts.
     Validator(validator::ValidatorArguments),
+    /// Change valid URDDs one value at a time, and count what the validator notices.
+    KillRate(kill_rate::KillRateArguments),
 }
 
 /// Runs `urdd conformance`.
@@ -32,5 +35,6 @@ pub fn run(arguments: &ConformanceArguments) -> ExitCode {
         Command::Export(arguments) => export::run(arguments),
         Command::Producer(arguments) => producer::run(arguments),
         Command::Validator(arguments) => validator::run(arguments),
+        Command::KillRate(arguments) => kill_rate::run(arguments),
     }
 }

@@ -76,6 +76,21 @@ fn check(context: &Context, findings: &mut Findings) {
                 }
             };
             let [w, ..] = stored.quaternion_wxyz;
+            let norm = stored.quaternion_wxyz.iter().map(|x| x * x).sum::<f64>();
+            let norm = norm.sqrt();
+            if (norm - 1.0).abs() > UNIT_NORM {
+                let message = format!(
+                    "the quaternion of link {name:?} in {} has length {norm:?}; divide it by that",
+                    sample.kind
+                );
+                findings.report(
+                    Finding::at(module.file("module.json"), pointer, message)
+                        .expected("length 1")
+                        .actual(norm)
+                        .tolerance(UNIT_NORM),
+                );
+                continue;
+            }
             if w < -UNIT_NORM {
                 let message = format!(
                     "the quaternion of link {name:?} in {} has w < 0; write its opposite, the same rotation",
