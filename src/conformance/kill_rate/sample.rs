@@ -25,8 +25,13 @@ pub(super) fn draw(
                 .push(change);
         }
     }
-    let kinds: Vec<_> = by_kind.into_values().collect();
-    in_turn(kinds, most)
+    // Where few are taken of each field, they are of other kinds in each.
+    let mut kinds: Vec<_> = by_kind.into_values().collect();
+    let order = dice.choose(kinds.len(), kinds.len());
+    let kinds = order
+        .into_iter()
+        .map(|kind| std::mem::take(&mut kinds[kind]));
+    in_turn(kinds.collect(), most)
 }
 
 /// One of each list in turn, up to `most` in all.
