@@ -82,13 +82,16 @@ fn check_counts(text: &str) -> Result<(), XmlError> {
     let mut at = 0;
     while let Some(found) = find(bytes, at, b"<") {
         let rest = &bytes[found..];
-        let end_of = |mark: &[u8]| find(bytes, found, mark).map(|end| end + mark.len());
+        // `<!-->` begins a comment and does not end it.
+        let end_of = |start: &[u8], mark: &[u8]| {
+            find(bytes, found + start.len(), mark).map(|end| end + mark.len())
+        };
         let end = if rest.starts_with(b"<!--") {
-            end_of(b"-->")
+            end_of(b"<!--", b"-->")
         } else if rest.starts_with(b"<![CDATA[") {
-            end_of(b"]]>")
+            end_of(b"<![CDATA[", b"]]>")
         } else if rest.starts_with(b"<?") {
-            end_of(b"?>")
+            end_of(b"<?", b"?>")
         } else {
             let tag = Tag::read(bytes, found);
             let too_many = |what, limit| XmlError::TooMany {
@@ -131,26 +134,30 @@ impl<'t> Tag<'t> {
             end: bytes.len(),
         };
         let mut quote = None;
-        let mut name = start + 1;
+        // Where the last word began, and whether it has ended.
+        let (mut word, mut ended) = (start + 1, false);
         for (offset, byte) in bytes[start + 1..].iter().enumerate() {
             let at = start + 1 + offset;
             match (quote, byte) {
                 (Some(open), byte) if *byte == open => {
                     quote = None;
-                    name = at + 1;
+                    ended = true;
                 }
                 (Some(_), _) => {}
                 (None, b'"' | b'\'') => quote = Some(*byte),
                 (None, b'=') => {
                     tag.attributes += 1;
-                    let prefix = bytes[name..at].trim_ascii().strip_prefix(b"xmlns:");
-                    tag.prefixes.extend(prefix);
+                    let name = bytes[word..at].trim_ascii();
+                    tag.prefixes.extend(name.strip_prefix(b"xmlns:"));
+                    ended = true;
                 }
-                (None, b'>') => {
+                // A declaration of a DOCTYPE holds others.
+                (None, b'>' | b'[') => {
                     tag.end = at + 1;
                     break;
                 }
-                (None, _) if byte.is_ascii_whitespace() => name = at,
+                (None, _) if byte.is_ascii_whitespace() => ended = true,
+                (None, _) if ended => (word, ended) = (at, false),
                 (None, _) => {}
             }
             if tag.attributes > MOST_ATTRIBUTES {
@@ -218,6 +225,23 @@ mod tests {
         assert_eq!(result(&format!("<r>{most}{most}</r>")), Ok(()));
         let more = declared(0, MOST_PREFIXES + 1) + &ends(MOST_PREFIXES + 1);
         assert!(result(&more).unwrap_err().contains("more than 64 prefixes"));
+    }
+
+    #[test]
+    fn quotes_elsewhere_hide_no_attributes() {
+        let many = format!("<a{}/>", attributes(MOST_ATTRIBUTES + 1));
+        let before = [
+            "<r><!--> <b ' -->",
+            "<r><?p <b '?>",
+            "<r><![CDATA[<b ']]>",
+            "<r>'",
+            "<!DOCTYPE r [ <!-- ' --> <!ATTLIST r a CDATA \"<b '\"> <?p '?> ]><r>",
+        ];
+        for before in before {
+            assert_eq!(result(&format!("{before}<a/>'</r>")), Ok(()), "{before}");
+            let error = result(&format!("{before}{many}'</r>")).unwrap_err();
+            assert!(error.contains("256 attributes"), "{before}: {error}");
+        }
     }
 
     #[test]
