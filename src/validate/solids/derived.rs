@@ -39,11 +39,14 @@ impl Derived {
         self.mesh.as_ref().filter(|_| sound)
     }
 
-    /// Where it stands in the document.
+    /// Where it stands in the document: in version 1 around its files, in legacy modules in the list
+    /// of the first format.
     pub fn pointer(&self) -> &str {
-        self.files
-            .get(self.mesh_of)
-            .map_or("", |file| &file.pointer)
+        let first = self.files.first().map_or("", |file| &file.pointer);
+        match first.rsplit_once('/') {
+            Some((entry, "stl")) => entry,
+            _ => first,
+        }
     }
 }
 
@@ -137,10 +140,11 @@ fn read(
         derived.files.push(file);
     }
     let sound = |(at, _): &(usize, Mesh)| derived.files[*at].fault.is_none();
-    let Some(first) = meshes.iter().position(sound).or(match meshes.len() {
-        0 => None,
-        _ => Some(0),
-    }) else {
+    // Of sound ones the one with the fewest vertices, among those that hold binary32 as it is: an STL
+    // file has three for each triangle.
+    let exact = |(at, _): &(usize, Mesh)| derived.files[*at].format != Format::Obj;
+    let order = |(_, of): &(usize, &(usize, Mesh))| (!sound(of), !exact(of), of.1.vertices.len());
+    let Some((first, _)) = meshes.iter().enumerate().min_by_key(order) else {
         return derived;
     };
     let (mesh_of, mesh) = meshes.swap_remove(first);

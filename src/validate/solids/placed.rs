@@ -44,7 +44,7 @@ pub fn all(context: &Context) -> Vec<Misplaced> {
         let file = mesh.files.get(mesh.mesh_of)?;
         Some(Misplaced {
             link: mesh.link,
-            pointer: file.pointer.clone(),
+            pointer: mesh.pointer().to_owned(),
             what,
             expected: in_words(&expected),
             actual: format!("`{}`: {} triangles", file.path, found.triangles.len()),

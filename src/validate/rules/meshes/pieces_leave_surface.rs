@@ -88,7 +88,7 @@ fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) ->
     let tolerance =
         promised.map_or(most, |promised| promised.clamp(0.0, most)) + mesh_resolution(extent(mesh));
     let faces: usize = pieces.iter().map(Polytope::num_faces).sum();
-    let points = 4 * mesh.triangles.len();
+    let points = mesh.vertices.len() + mesh.triangles.len();
     let worst = points_of(mesh)
         .step_by(step(points, faces))
         .filter(|point| !pieces.iter().any(|piece| piece.holds(*point, tolerance)))
@@ -106,11 +106,12 @@ fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) ->
 
 /// Points of a surface: corners, and the middles of triangles.
 fn points_of(mesh: &Mesh) -> impl Iterator<Item = [f64; 3]> {
-    let corners = mesh
-        .triangles
-        .iter()
-        .flatten()
-        .map(|at| mesh.vertices[*at as usize]);
+    let mut used = vec![false; mesh.vertices.len()];
+    for corner in mesh.triangles.iter().flatten() {
+        used[*corner as usize] = true;
+    }
+    let vertices = mesh.vertices.iter().zip(used);
+    let corners = vertices.filter_map(|(vertex, used)| used.then_some(*vertex));
     let middles = mesh.triangles.iter().map(|triangle| {
         let [a, b, c] = mesh.corners(*triangle);
         std::array::from_fn(|i| (a[i] + b[i] + c[i]) / 3.0)
