@@ -224,6 +224,7 @@ fn the_page_lists_what_does_not_count() {
             Tolerance::Copied => "as copies".to_owned(),
             Tolerance::OfReach(part) => format!("{part:e} of the reach"),
             Tolerance::OfShapes(part) => format!("{part:e} of the largest shape"),
+            Tolerance::OfSpan(part) => format!("{part:e} of what two points may be apart"),
             Tolerance::Absolute(tolerance) => format!("{tolerance:e}"),
         };
         let (module, field, clause) = (listed.module, listed.field, listed.clause);

@@ -121,6 +121,8 @@ pub enum Tolerance {
     OfReach(f64),
     /// This part of the largest shape's size.
     OfShapes(f64),
+    /// This part of twice the reach and twice the largest shape's size: how far apart two points may be.
+    OfSpan(f64),
     /// So much, in the number's own unit.
     Absolute(f64),
 }
@@ -179,19 +181,25 @@ pub const FIELD_TOLERANCES: &[FieldTolerance] = &[
         module: "link_shapes_approximations_module",
         field: "",
         tolerance: Tolerance::OfShapes(1e-6),
-        clause: "7.6",
+        clause: "8.2",
     },
     FieldTolerance {
         module: "link_shapes_max_distance_from_origin_module",
         field: "/full_convex_hulls_maximum_distances",
         tolerance: Tolerance::OfShapes(1e-6),
-        clause: "7.6, 8.3",
+        clause: "8.3",
     },
     FieldTolerance {
         module: "link_shapes_max_distance_from_origin_module",
         field: "/decomposition_convex_hulls_maximum_distances",
         tolerance: Tolerance::OfShapes(1e-6),
-        clause: "7.6, 8.3",
+        clause: "8.3",
+    },
+    FieldTolerance {
+        module: "link_shapes_distance_statistics_module",
+        field: "",
+        tolerance: Tolerance::OfSpan(1e-5),
+        clause: "8.5",
     },
 ];
 
@@ -235,6 +243,7 @@ impl Ground<'_> {
             Tolerance::Copied => (1e-9 * larger).max(1e-12),
             Tolerance::OfReach(part) => part * self.reach,
             Tolerance::OfShapes(part) => part * self.shapes,
+            Tolerance::OfSpan(part) => part * 2.0 * (self.reach + self.shapes),
             Tolerance::Absolute(tolerance) => tolerance,
         }
     }
