@@ -33,6 +33,8 @@ fn check(context: &Context, findings: &mut Findings) {
     let Some(module) = context.module(ModuleKind::ConvexHullMeshes) else {
         return;
     };
+    // Before threads ask for it: who works it out shares the work with them.
+    context.misplaced();
     let hulls = context.solids().derived(ModuleKind::ConvexHullMeshes);
     let off: Vec<_> = hulls
         .par_iter()

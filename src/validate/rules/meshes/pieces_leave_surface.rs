@@ -44,6 +44,8 @@ fn check(context: &Context, findings: &mut Findings) {
         Some(ModuleDocument::ConvexDecompositionMeshes(module)) => module.method.surface_tolerance,
         _ => None,
     };
+    // Before threads ask for it: who works it out shares the work with them.
+    context.misplaced();
     let bare: Vec<Option<Bare>> = (0..meshes.num_links())
         .into_par_iter()
         .map(|link| bare(context, link, meshes.count(link), promised))
