@@ -64,6 +64,34 @@ fn a_key_in_braces_is_on_one_line_with_its_colon() {
 }
 
 #[test]
+fn a_text_that_ends_with_the_file() {
+    // To saphyr each ends with one line break more than to PyYAML.
+    for yaml in [
+        "k: |\n  é",
+        "k: >\n  é",
+        "k: |+\n  é",
+        "k: |\n  é\n  ",
+        "k: |\r\n  é",
+        "a: |\n  b\nk: |\n  é",
+    ] {
+        for text in ["é", "é\n"] {
+            let faults = faults_of(yaml, json!({"k": text}));
+            let total = faults.total(Kind::YamlAmbiguousScalar);
+            assert_eq!(total, 1, "{yaml:?}: {faults}");
+        }
+    }
+    let clear = ["k: |\n  é\n", "k: |\n  é\n# why", "{k: \"é\\n\"}"];
+    for yaml in clear {
+        let faults = faults_of(yaml, json!({"k": "é\n"}));
+        assert!(faults.is_empty(), "{yaml:?}: {faults}");
+    }
+    for yaml in ["k: |-\n  é", "k: é"] {
+        let faults = faults_of(yaml, json!({"k": "é"}));
+        assert!(faults.is_empty(), "{yaml:?}: {faults}");
+    }
+}
+
+#[test]
 fn bad_files_have_a_kind_each() {
     let json = || json!({"a": [1]});
     let first = |bytes: &[u8]| check_mirror(bytes, &json()).iter().next().cloned().unwrap();

@@ -21,6 +21,7 @@ pub mod text_fault;
 pub mod writer;
 pub mod yaml;
 mod yaml_compare;
+mod yaml_end;
 mod yaml_keys;
 mod yaml_message;
 mod yaml_open;

@@ -8,8 +8,9 @@ use serde_json::Value;
 
 use super::json::DEPTH_LIMIT;
 use super::json_scan::push_segment;
-use super::position::{Position, position};
+use super::position::Position;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults};
+use super::yaml_end::{DISPUTED, End};
 use super::yaml_keys::{Keys, TORN};
 use super::yaml_message as message;
 use super::yaml_open::{Mapping, Member, Open, Shape, pointer};
@@ -20,12 +21,12 @@ use super::yaml_tag::{self, Forced, Node, Target};
 /// Reports how the YAML in `text` differs from `json`, and what is in it that JSON has not.
 pub fn compare(text: &str, json: &Value, faults: &mut TextFaults) {
     let mut comparison = Comparison {
-        text,
         root: json,
         open: Vec::new(),
         documents: 0,
         tabs: Tabs::find(text),
         keys: Keys::new(text),
+        end: End::new(text),
         faults,
     };
     let mut parser = Parser::new_from_str(text);
@@ -36,18 +37,18 @@ pub fn compare(text: &str, json: &Value, faults: &mut TextFaults) {
                     return;
                 }
             }
-            Err(error) => return comparison.stop(&error),
+            Err(error) => return comparison.stop(text, &error),
         }
     }
 }
 
 struct Comparison<'j, 'y, 'f> {
-    text: &'y str,
     root: &'j Value,
     open: Vec<Open<'j, 'y>>,
     documents: usize,
     tabs: Tabs,
     keys: Keys<'y>,
+    end: End<'y>,
     faults: &'f mut TextFaults,
 }
 
@@ -77,21 +78,28 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
                 }
             }
             Event::Alias(_) => self.alias(at),
-            Event::Scalar(text, style, anchor, tag) => match self.slot() {
-                Slot::Key => {
-                    self.target(tag.as_deref(), anchor, None, Node::Scalar, at);
-                    self.key(text, style, at);
-                    if self.open.last().is_some_and(|open| open.flow) && self.keys.is_torn(span) {
-                        self.report(at, TextFaultKind::YamlSyntax, TORN);
+            Event::Scalar(text, style, anchor, tag) => {
+                let is_disputed = self.end.is_disputed(&text, style, span);
+                match self.slot() {
+                    Slot::Key => {
+                        self.target(tag.as_deref(), anchor, None, Node::Scalar, at);
+                        self.key(text, style, at);
+                        if self.open.last().is_some_and(|open| open.flow) && self.keys.is_torn(span)
+                        {
+                            self.report(at, TextFaultKind::YamlSyntax, TORN);
+                        }
+                    }
+                    Slot::Value(json) => {
+                        let is_empty = text.is_empty() && style == ScalarStyle::Plain;
+                        let node = if is_empty { Node::Empty } else { Node::Scalar };
+                        let target = self.target(tag.as_deref(), anchor, json, node, at);
+                        self.scalar(&text, style, &target, tag.is_some(), at);
                     }
                 }
-                Slot::Value(json) => {
-                    let is_empty = text.is_empty() && style == ScalarStyle::Plain;
-                    let node = if is_empty { Node::Empty } else { Node::Scalar };
-                    let target = self.target(tag.as_deref(), anchor, json, node, at);
-                    self.scalar(&text, style, &target, tag.is_some(), at);
+                if is_disputed {
+                    self.report(at, TextFaultKind::YamlAmbiguousScalar, DISPUTED);
                 }
-            },
+            }
             Event::SequenceStart(anchor, tag) => {
                 return self.begin(Node::List, anchor, tag.as_deref(), span);
             }
@@ -342,13 +350,13 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         target
     }
 
-    fn stop(&mut self, error: &ScanError) {
+    fn stop(&mut self, text: &str, error: &ScanError) {
         let at = place(*error.marker());
         // The scanner looks ahead in brackets, and has a limit of its own there.
         if error.info() == "recursion limit exceeded" {
             return self.too_deep(at);
         }
-        let message = message::unparsed(self.text, error);
+        let message = message::unparsed(text, error);
         self.report(at, TextFaultKind::YamlSyntax, &message);
     }
 
@@ -356,7 +364,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         let message = format!("the nesting is deeper than {DEPTH_LIMIT} levels: flatten it");
         // A pointer of a hundred segments helps nobody.
         self.faults
-            .push(TextFault::new(TextFaultKind::YamlTooDeep, message).at(in_text(self.text, at)));
+            .push(TextFault::new(TextFaultKind::YamlTooDeep, message).at(self.end.at_most(at)));
     }
 
     fn report(&mut self, at: Position, kind: TextFaultKind, message: &str) {
@@ -369,9 +377,9 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
 
     /// Adds a fault of the node that is being read.
     fn add(&mut self, at: Position, kind: TextFaultKind, fault: impl FnOnce() -> TextFault) {
-        let (open, text) = (&self.open, self.text);
+        let (open, end) = (&self.open, &self.end);
         self.faults
-            .add(kind, || fault().at(in_text(text, at)).of(pointer(open)));
+            .add(kind, || fault().at(end.at_most(at)).of(pointer(open)));
     }
 }
 
@@ -380,12 +388,6 @@ fn scalar_kind(event: &Event<'_>) -> Option<ScalarStyle> {
         Event::Scalar(_, style, ..) => Some(*style),
         _ => None,
     }
-}
-
-/// The place, or the end of the text: where the last line does not end, the parser is at the start
-/// of one that is not there.
-fn in_text(text: &str, at: Position) -> Position {
-    at.min(position(text, text.len()))
 }
 
 fn place(marker: Marker) -> Position {
