@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use urdd::directory::canonical;
 use urdd::directory::text_fault::{KEPT_PER_KIND, TextFault, TextFaultKind as Kind, TextFaults};
 use urdd::directory::yaml::check_mirror;
-use urdd::directory::yaml_scalar::{Reading, classify};
+use urdd::directory::yaml::scalar::{Reading, classify};
 
 // What other readers say.
 

@@ -55,7 +55,7 @@ const LONGEST_SIMPLE_KEY: usize = 1000;
 /// Writes the canonical JSON of `value`.
 ///
 /// It follows the nesting of `value` with its own stack: keep what comes from outside to
-/// [`super::json::DEPTH_LIMIT`].
+/// [`super::limits::DEPTH_LIMIT`].
 ///
 /// # Errors
 /// Only those of `out`.
@@ -75,7 +75,7 @@ pub fn json_string(value: &Value) -> String {
 /// Writes the canonical YAML of `value`.
 ///
 /// It follows the nesting of `value` with its own stack: keep what comes from outside to
-/// [`super::json::DEPTH_LIMIT`].
+/// [`super::limits::DEPTH_LIMIT`].
 ///
 /// # Errors
 /// Only those of `out`.

@@ -7,10 +7,8 @@ use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
 
 use super::json_fault::{EncodingKinds, decode, explain, report_repeated_keys};
+use super::limits::DEPTH_LIMIT;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults, UnreadableText};
-
-/// How many containers may stand in one another, in JSON and in YAML.
-pub const DEPTH_LIMIT: usize = 100;
 
 /// A JSON file that has a value.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! Why bytes are not text, and text is not JSON: in words, and with the place.
 
-use super::json::DEPTH_LIMIT;
 use super::json_scan;
+use super::limits::DEPTH_LIMIT;
 use super::position::LineIndex;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults};
 

@@ -8,3 +8,6 @@ pub const MAX_FILES: usize = 100_000;
 
 /// Deepest folder below a URDD's root, and below a searched folder.
 pub const MAX_FOLDER_DEPTH: usize = 32;
+
+/// How many containers may stand in one another, in JSON and in YAML.
+pub const DEPTH_LIMIT: usize = 100;

@@ -214,7 +214,7 @@ pub fn validating_part(schema: &Value) -> Value {
 /// lower-case hexadecimal digits.
 pub fn validating_hash(schema: &Value) -> String {
     let digest = Sha256::digest(validating_part(schema).to_string());
-    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+    format!("{digest:x}")
 }
 
 fn published(mut schema: Schema, id: String, variant: Variant) -> Value {

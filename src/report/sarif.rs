@@ -221,10 +221,7 @@ fn kind(finding: &Finding, place: &str) -> [String; 3] {
 
 fn fingerprint(kind: &[String; 3], nth: u32) -> String {
     let digest = Sha256::digest(format!("{}\n{nth}", kind.join("\n")));
-    digest[..16]
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect()
+    format!("{digest:x}").chars().take(32).collect()
 }
 
 fn here(finding: &Finding) -> Place {

@@ -1,5 +1,14 @@
 //! Checking that a YAML file is the mirror of a JSON document.
 
+mod compare;
+mod end;
+mod keys;
+mod message;
+mod open;
+pub mod scalar;
+mod tabs;
+mod tag;
+
 use std::fmt;
 
 use serde_json::Value;
@@ -8,8 +17,7 @@ use super::canonical;
 use super::json_fault::{EncodingKinds, decode};
 use super::position::LineIndex;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults};
-use super::yaml_compare;
-use super::yaml_message::excerpt;
+use message::excerpt;
 
 const YAML_KINDS: EncodingKinds = EncodingKinds {
     not_utf8: TextFaultKind::YamlNotUtf8,
@@ -36,7 +44,7 @@ pub fn check_mirror(yaml: &[u8], json: &Value) -> TextFaults {
     };
     if check_characters(text, &mut faults) {
         check_directives(text, &mut faults);
-        yaml_compare::compare(text, json, &mut faults);
+        compare::compare(text, json, &mut faults);
     }
     faults
 }

@@ -3,11 +3,10 @@
 use saphyr_parser::ScanError;
 use serde_json::Value;
 
-use super::canonical;
-use super::string_text::yaml_quoted;
-use super::text_fault::{TextFault, TextFaultKind};
-use super::yaml_scalar::{Reading, Readings};
-use super::yaml_tag::Instead;
+use super::super::canonical;
+use super::super::string_text::yaml_quoted;
+use super::super::text_fault::{TextFault, TextFaultKind};
+use super::scalar::{Reading, Readings};
 
 /// Longer excerpts are cut, so that a message stays a message.
 const LONGEST_EXCERPT: usize = 80;
@@ -105,25 +104,6 @@ pub fn not_a_string(text: &str, reading: Reading) -> TextFault {
         excerpt(&yaml_quoted(text))
     );
     TextFault::new(TextFaultKind::YamlNonStringKey, message)
-}
-
-/// A tag, with what to write instead.
-pub fn tag(tag: &str, name: &str, instead: Instead) -> TextFault {
-    let instead = match instead {
-        Instead::String => format!("write `{name}` as a string"),
-        Instead::Key => format!("write `{name}:` as a key, with the value below it"),
-        Instead::Nothing => "remove it".to_owned(),
-    };
-    TextFault {
-        found: Some(excerpt(tag)),
-        ..TextFault::new(
-            TextFaultKind::YamlTag,
-            format!(
-                "`{}` is a tag, which plain readers refuse: {instead}",
-                excerpt(tag)
-            ),
-        )
-    }
 }
 
 /// A key that the JSON has not.

@@ -5,8 +5,8 @@ use std::collections::HashSet;
 
 use serde_json::{Map, Value, map};
 
-use super::json_scan::push_segment;
-use super::position::Position;
+use super::super::json_scan::push_segment;
+use super::super::position::Position;
 
 /// A list or mapping that has begun and not ended.
 pub struct Open<'j, 'y> {

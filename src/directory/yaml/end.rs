@@ -2,7 +2,7 @@
 
 use saphyr_parser::{ScalarStyle, Span};
 
-use super::position::{Position, position};
+use super::super::position::{Position, position};
 
 /// What is wrong with a text that ends there, and what to do.
 pub const DISPUTED: &str = "readers disagree about the end of this text, since the file's last line does not end: end it with a line break";

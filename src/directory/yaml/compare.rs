@@ -6,17 +6,17 @@ use std::ops::ControlFlow;
 use saphyr_parser::{Event, Marker, Parser, ScalarStyle, ScanError, Span, Tag};
 use serde_json::Value;
 
-use super::json::DEPTH_LIMIT;
-use super::json_scan::push_segment;
-use super::position::Position;
-use super::text_fault::{TextFault, TextFaultKind, TextFaults};
-use super::yaml_end::{DISPUTED, End};
-use super::yaml_keys::{Keys, TORN};
-use super::yaml_message as message;
-use super::yaml_open::{Mapping, Member, Open, Shape, pointer};
-use super::yaml_scalar::{self, Reading};
-use super::yaml_tabs::Tabs;
-use super::yaml_tag::{self, Forced, Node, Target};
+use super::super::json_scan::push_segment;
+use super::super::limits::DEPTH_LIMIT;
+use super::super::position::Position;
+use super::super::text_fault::{TextFault, TextFaultKind, TextFaults};
+use super::end::{DISPUTED, End};
+use super::keys::{Keys, TORN};
+use super::message;
+use super::open::{Mapping, Member, Open, Shape, pointer};
+use super::scalar::{self, Reading};
+use super::tabs::Tabs;
+use super::tag::{self, Forced, Node, Target};
 
 /// Reports how the YAML in `text` differs from `json`, and what is in it that JSON has not.
 pub fn compare(text: &str, json: &Value, faults: &mut TextFaults) {
@@ -182,7 +182,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
 
     /// Reports what is wrong with how a key is written.
     fn plain_key(&mut self, text: &str, flow: bool, at: Position) {
-        let readings = yaml_scalar::classify(text);
+        let readings = scalar::classify(text);
         let kind = TextFaultKind::YamlAmbiguousScalar;
         if readings.ambiguous {
             self.add(at, kind, || message::ambiguous(text, readings, None));
@@ -207,7 +207,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             Some(Forced::Text) => Reading::Text,
             None if !plain => Reading::Text,
             _ => {
-                let readings = yaml_scalar::classify(text);
+                let readings = scalar::classify(text);
                 if readings.ambiguous && plain && !tagged {
                     let fault = || message::ambiguous(text, readings, target.json);
                     self.add(at, TextFaultKind::YamlAmbiguousScalar, fault);
@@ -225,7 +225,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             });
         }
         if let Some(json) = target.json
-            && !yaml_scalar::agrees(reading, text, json)
+            && !scalar::agrees(reading, text, json)
         {
             self.differs(at, || {
                 message::differs(&message::found(text, reading), json)
@@ -345,8 +345,8 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         let Some(tag) = tag else {
             return target;
         };
-        let variant = yaml_tag::apply(tag, node, &mut target);
-        self.add(at, TextFaultKind::YamlTag, || yaml_tag::fault(tag, variant));
+        let variant = tag::apply(tag, node, &mut target);
+        self.add(at, TextFaultKind::YamlTag, || tag::fault(tag, variant));
         target
     }
 

@@ -3,8 +3,8 @@
 use saphyr_parser::Tag;
 use serde_json::Value;
 
-use super::text_fault::TextFault;
-use super::yaml_message as message;
+use super::super::text_fault::{TextFault, TextFaultKind};
+use super::message::excerpt;
 
 /// What a node is held against, once its tag is taken into account.
 pub struct Target<'j> {
@@ -81,5 +81,17 @@ pub fn fault(tag: &Tag, instead: Instead) -> TextFault {
     } else {
         format!("!{}", name.trim_start_matches('!'))
     };
-    message::tag(&written, name, instead)
+    let instead = match instead {
+        Instead::String => format!("write `{name}` as a string"),
+        Instead::Key => format!("write `{name}:` as a key, with the value below it"),
+        Instead::Nothing => "remove it".to_owned(),
+    };
+    let written = excerpt(&written);
+    TextFault {
+        found: Some(written.clone()),
+        ..TextFault::new(
+            TextFaultKind::YamlTag,
+            format!("`{written}` is a tag, which plain readers refuse: {instead}"),
+        )
+    }
 }

@@ -2,8 +2,8 @@
 
 use saphyr_parser::{ScalarStyle, Span};
 
-use super::position::Position;
-use super::text_fault::{TextFault, TextFaultKind, TextFaults};
+use super::super::position::Position;
+use super::super::text_fault::{TextFault, TextFaultKind, TextFaults};
 
 struct Tab {
     /// From 1, as the parser counts.
