@@ -8,7 +8,8 @@ use sha2::{Digest, Sha256};
 use super::change::mirror_of;
 use super::tree::{FilePath, Tree};
 use crate::directory::discover::ROOT_METADATA;
-use crate::directory::{canonical, digest, json};
+use crate::directory::{canonical, json};
+use crate::format::hexadecimal::hexadecimal;
 
 /// Gives every `module.json` that has no `module.yaml` beside it one, in the canonical emission.
 pub fn add_mirrors(tree: &mut Tree) {
@@ -54,7 +55,7 @@ pub fn rehash(tree: &mut Tree, kept: &BTreeSet<String>) {
 
 /// Size and SHA-256 of a file, as `urdd.json` has them.
 pub fn size_and_hash(bytes: &[u8]) -> (usize, String) {
-    (bytes.len(), digest::digits(&Sha256::digest(bytes)))
+    (bytes.len(), hexadecimal(&Sha256::digest(bytes)))
 }
 
 /// The entries of `urdd.json` that describe a file.

@@ -5,6 +5,7 @@ use std::io::Read;
 use sha2::{Digest, Sha256};
 
 use super::root::{ReadError, Root};
+use crate::format::hexadecimal::hexadecimal;
 
 /// How a file differs from what was said of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,12 +40,7 @@ pub fn of(root: &Root, path: &str) -> Result<(u64, String), ReadError> {
         size += read as u64;
         hasher.update(&piece[..read]);
     }
-    Ok((size, digits(&hasher.finalize())))
-}
-
-/// A hash in lower-case hexadecimal digits, as `urdd.json` writes it.
-pub fn digits(hash: &[u8]) -> String {
-    hash.iter().map(|byte| format!("{byte:02x}")).collect()
+    Ok((size, hexadecimal(&hasher.finalize())))
 }
 
 /// Every Git LFS pointer begins so, and is shorter than this.
@@ -140,7 +136,7 @@ fn hashes(file: &mut impl Read, converted: bool) -> Option<Hashes> {
         lf.update(b"\r");
         crlf.update(b"\r");
     }
-    let digits = |hash: Sha256| digits(&hash.finalize());
+    let digits = |hash: Sha256| hexadecimal(&hash.finalize());
     Some(Hashes {
         plain: digits(plain),
         lf: converted.then(|| digits(lf)),

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::digest::digits;
 use super::document::Document;
 use super::staging::StagingError;
+use crate::format::hexadecimal::hexadecimal;
 use crate::format::index::Count;
 use crate::format::registry::ModuleKind;
 use crate::format::root_metadata::{self, FileEntry};
@@ -177,5 +177,5 @@ fn entry(path: &str, size: u64, hash: &[u8]) -> FileEntry {
 
 /// A hash as `urdd.json` writes it.
 pub fn sha256(hash: &[u8]) -> root_metadata::Sha256 {
-    root_metadata::Sha256::new(digits(hash)).unwrap_or_else(|| unreachable!("64 digits"))
+    root_metadata::Sha256::new(hexadecimal(hash)).unwrap_or_else(|| unreachable!("64 digits"))
 }

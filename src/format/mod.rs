@@ -11,6 +11,7 @@ pub mod connections;
 pub mod convex_decomposition_meshes;
 pub mod convex_hull_meshes;
 pub mod dof;
+pub mod hexadecimal;
 pub mod index;
 pub mod kinematics_samples;
 pub mod legacy;

@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
 use super::conformance::{ProducerResult, RESULT_VERSION, ValidatorResult};
+use super::hexadecimal::hexadecimal;
 use super::registry::{MODULES, ModuleSpec};
 use super::report::{REPORT_VERSION, Report};
 use super::root_metadata::RootMetadata;
@@ -214,7 +215,7 @@ pub fn validating_part(schema: &Value) -> Value {
 /// lower-case hexadecimal digits.
 pub fn validating_hash(schema: &Value) -> String {
     let digest = Sha256::digest(validating_part(schema).to_string());
-    format!("{digest:x}")
+    hexadecimal(&digest)
 }
 
 fn published(mut schema: Schema, id: String, variant: Variant) -> Value {

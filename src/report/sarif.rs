@@ -12,6 +12,7 @@ use sha2::{Digest, Sha256};
 
 use super::model::{Finding, Place, Report, Severity, Status, Urdd, Verdict};
 use super::place::file_in;
+use crate::format::hexadecimal::hexadecimal;
 use crate::format::index::Count;
 use crate::validate::Report as Run;
 use crate::validate::code::Code;
@@ -221,7 +222,7 @@ fn kind(finding: &Finding, place: &str) -> [String; 3] {
 
 fn fingerprint(kind: &[String; 3], nth: u32) -> String {
     let digest = Sha256::digest(format!("{}\n{nth}", kind.join("\n")));
-    format!("{digest:x}").chars().take(32).collect()
+    hexadecimal(&digest[..16])
 }
 
 fn here(finding: &Finding) -> Place {

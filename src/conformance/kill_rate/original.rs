@@ -7,11 +7,11 @@ use serde_json::Value;
 use thiserror::Error;
 
 use super::reach;
-use crate::directory::digest;
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::json;
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
 use crate::directory::root::{EntryKind, ReadError, Root};
+use crate::format::hexadecimal::hexadecimal;
 use crate::format::registry::{self, ModuleKind, Profile};
 use crate::format::root_metadata::RootMetadata;
 
@@ -185,7 +185,7 @@ pub(super) fn rehash(metadata: &mut Value, changed: &BTreeMap<String, Option<Vec
         let path = entry.get("path").and_then(Value::as_str);
         if let Some(Some(bytes)) = path.and_then(|path| changed.get(path)) {
             entry["size"] = serde_json::json!(bytes.len());
-            entry["sha256"] = serde_json::json!(digest::digits(&Sha256::digest(bytes)));
+            entry["sha256"] = serde_json::json!(hexadecimal(&Sha256::digest(bytes)));
         }
     };
     if let Some(entry) = metadata.pointer_mut("/source/Urdf") {
