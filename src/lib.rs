@@ -5,6 +5,7 @@
 pub mod cli;
 pub mod conformance;
 pub mod directory;
+pub mod document;
 pub mod format;
 pub mod generate;
 pub mod geometry;

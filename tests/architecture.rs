@@ -12,6 +12,7 @@ use urdd::validate::rules;
 const ROOMS: &[(&str, &[&str])] = &[
     ("format", &[]),
     ("directory", &["format"]),
+    ("document", &["format", "directory", "kinematics"]),
     ("xml", &[]),
     ("geometry", &["xml"]),
     ("kinematics", &["format"]),
@@ -21,14 +22,22 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     (
         "validate",
-        &["format", "directory", "geometry", "kinematics", "xml"],
+        &[
+            "format",
+            "directory",
+            "document",
+            "geometry",
+            "kinematics",
+            "xml",
+        ],
     ),
-    ("report", &["format", "directory", "validate"]),
+    ("report", &["format", "directory", "document", "validate"]),
     (
         "conformance",
         &[
             "format",
             "directory",
+            "document",
             "geometry",
             "kinematics",
             "generate",
@@ -41,6 +50,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &[
             "format",
             "directory",
+            "document",
             "geometry",
             "kinematics",
             "generate",

@@ -7,10 +7,9 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::directory::root::ReadError;
+use crate::document::urdd::Urdd;
 use crate::format::dof::Quantity;
 use crate::format::registry::{ModuleDocument, ModuleKind};
-use crate::validate::context::Context;
-use crate::validate::load::Loaded;
 
 /// What a URDD holds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -67,13 +66,13 @@ impl Info {
     /// # Errors
     /// Where its folder cannot be read.
     pub fn read(path: &Path, name: &str) -> Result<Info, ReadError> {
-        let context = Context::new(Loaded::read(path)?, None);
-        let robot = context.robot();
+        let urdd = Urdd::read(path)?;
+        let robot = urdd.robot();
         let mut joints = BTreeMap::new();
         for joint in robot.iter().flat_map(|robot| &robot.joints) {
             *joints.entry(joint.joint_type.to_string()).or_insert(0) += 1;
         }
-        let metadata = context.metadata();
+        let metadata = urdd.metadata();
         Ok(Info {
             path: name.to_owned(),
             robot_name: robot
@@ -81,15 +80,15 @@ impl Info {
                 .or_else(|| metadata.map(|m| m.robot_name.clone())),
             urdd_version: metadata.map(|metadata| metadata.urdd_version.to_string()),
             conformance_class: metadata.map(|metadata| metadata.conformance_class.to_string()),
-            urdf: context.urdf().ok().map(|urdf| urdf.path.clone()),
+            urdf: urdd.urdf().ok().map(|urdf| urdf.path.clone()),
             links: robot.map(|robot| robot.links.len()),
             joints,
-            dofs: dofs(&context),
-            modules: context
+            dofs: dofs(&urdd),
+            modules: urdd
                 .modules()
                 .iter()
                 .map(|module| {
-                    let sizes: Vec<u64> = context
+                    let sizes: Vec<u64> = urdd
                         .listing()
                         .below(&module.folder)
                         .map(|entry| entry.size)
@@ -97,10 +96,10 @@ impl Info {
                     ModuleInfo {
                         path: module.folder.clone(),
                         version: module.version.clone(),
-                        files: context
+                        files: urdd
                             .listing()
                             .below(&module.folder)
-                            .filter(|entry| context.listing().has_file(&entry.path))
+                            .filter(|entry| urdd.listing().has_file(&entry.path))
                             .count(),
                         bytes: sizes.iter().sum(),
                         unusable: module.unusable(),
@@ -111,18 +110,18 @@ impl Info {
     }
 }
 
-fn dofs(context: &Context) -> Vec<DofInfo> {
-    let Some(dofs) = context.dofs() else {
+fn dofs(urdd: &Urdd) -> Vec<DofInfo> {
+    let Some(dofs) = urdd.dofs() else {
         return Vec::new();
     };
-    let bounds = context.bounds();
-    let described = match context.document(ModuleKind::Dof) {
+    let bounds = urdd.bounds();
+    let described = match urdd.document(ModuleKind::Dof) {
         Some(ModuleDocument::Dof(module)) => Some(&module.dofs),
         _ => None,
     };
     let name_of_joint = |dof: usize| {
         let joint = dofs.joint_of_dof.get(dof)?;
-        Some(context.robot()?.joints.get(joint.get())?.name.clone())
+        Some(urdd.robot()?.joints.get(joint.get())?.name.clone())
     };
     (0..dofs.joint_of_dof.len())
         .map(|dof| {

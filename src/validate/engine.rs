@@ -1,5 +1,5 @@
 //! Runs the rules over a URDD: phase by phase, each rule only when what it needs is sound, a rule
-//! that crashes caught. By which description of the robot a rule judges: see `two_robots`.
+//! that crashes caught.
 
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -8,7 +8,6 @@ use super::code::Code;
 use super::context::Context;
 use super::finding::{Finding, Findings};
 use super::rule::{Need, Rule, Severity};
-use super::two_robots;
 use crate::directory::position::{self, LineIndex};
 use crate::format::registry::{ModuleKind, Profile};
 
@@ -50,13 +49,6 @@ impl Check {
 
 /// What became of rules, by code.
 pub(super) type Outcomes = HashMap<Code, Outcome>;
-
-/// Runs rules over a URDD, in the order of their phases.
-pub fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
-    let mut checks = two_robots::run(context, rules);
-    checks.sort_by_key(|check| check.rule.code);
-    checks
-}
 
 /// Runs rules by one description of the robot. `outcomes` says what became of rules that ran
 /// before, and takes what becomes of these.

@@ -3,19 +3,15 @@
 //! [`validate`] finds URDDs and runs every rule over each; what comes out is a [`Report`], plain
 //! data. Rules are one file each, in [`rules`].
 
-pub mod carried_urdf;
 pub mod code;
 pub mod context;
 pub mod distances;
 pub mod engine;
 pub mod finding;
 pub mod fold;
-pub mod load;
-pub mod pose;
 pub mod reference;
 pub mod rule;
 pub mod rules;
-pub mod schema_check;
 pub mod settings;
 pub mod solids;
 pub mod tolerance;
@@ -29,11 +25,11 @@ use rayon::prelude::*;
 
 use self::context::Context;
 use self::engine::{Check, Outcome};
-use self::load::Loaded;
 use self::rule::Rule;
 use self::settings::{Settings, StaleIgnore};
 use crate::directory::discover::{DiscoverError, Found, discover};
 use crate::directory::root::ReadError;
+use crate::document::urdd::Urdd;
 use crate::format::registry::Profile;
 
 /// A module of an examined URDD.
@@ -137,9 +133,9 @@ fn examine(
     if let Some(error) = &found.closed {
         return Err(error.clone());
     }
-    let loaded = Loaded::read(&found.path)?;
-    let context = Context::new(loaded, settings.class).deep(settings.deep);
-    let checks = engine::run(&context, rules);
+    let urdd = Urdd::read(&found.path)?;
+    let context = Context::new(urdd, settings.class).deep(settings.deep);
+    let checks = two_robots::run(&context, rules);
     let modules = context
         .modules()
         .iter()

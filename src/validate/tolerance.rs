@@ -2,8 +2,8 @@
 
 use nalgebra::Matrix3;
 
-use super::views::robot::Robot;
-use super::views::tree::Tree;
+use crate::document::robot::Robot;
+use crate::document::tree::Tree;
 use crate::format::urdf::JointType;
 
 /// Positions agree within this part of the robot's reach. Two ways to compute a pose through

@@ -47,8 +47,14 @@ fn judges(rule: &Rule) -> Judges {
     }
 }
 
-/// Runs rules over a URDD, in no particular order.
+/// Runs rules over a URDD; the checks are in order of code.
 pub(super) fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
+    let mut checks = run_by_both(context, rules);
+    checks.sort_by_key(|check| check.rule.code);
+    checks
+}
+
+fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
     let mut outcomes = Outcomes::new();
     let Some(by_urdf) = context.by_urdf() else {
         return run_all(context, rules.to_vec(), &mut outcomes);

@@ -2,11 +2,11 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 use serde::Deserialize;
+use urdd::document::pose::{rotation_of_quaternion, rotation_of_rpy};
 use urdd::kinematics::rotation::{
     canonical, from_rotation_vector, from_rpy, planar_basis, rotation_distance, to_rotation_vector,
     unit_axis,
 };
-use urdd::validate::pose::{rotation_of_quaternion, rotation_of_rpy};
 use urdd::validate::reference::{MimicDofs, Reference};
 
 use super::{assert_near, vectors};

@@ -12,9 +12,11 @@ pub mod tolerances;
 use self::plan::Work;
 use self::poses::Poses;
 use self::shape_set::ShapeSet;
-use super::context::Context;
-use super::views::shape_matrices::statistics;
-use super::views::shapes::KINDS;
+use super::solids::Solids;
+use crate::document::shape_matrices::statistics;
+use crate::document::shapes::KINDS;
+use crate::document::shapes::Shapes;
+use crate::document::urdd::Urdd;
 use crate::format::registry::ModuleKind;
 use crate::geometry::convex::{Motion, PairStatistics};
 
@@ -55,8 +57,8 @@ impl Distances {
     ///
     /// # Errors
     /// In words: why there is nothing to compare with.
-    pub fn new(context: &Context) -> Result<Self, String> {
-        let recorded = context
+    pub fn new(urdd: &Urdd, solids: &Solids, deep: bool) -> Result<Self, String> {
+        let recorded = urdd
             .document(ModuleKind::LinkShapesDistanceStatistics)
             .and_then(statistics)
             .ok_or("there are no usable statistics")?;
@@ -65,18 +67,18 @@ impl Distances {
         if num_samples == 0 {
             return Err("the statistics are over no samples".to_owned());
         }
-        let poses = Poses::new(context)?;
-        let shapes = context.shapes().ok_or("there is no list of shapes")?;
+        let poses = Poses::new(urdd)?;
+        let shapes = Shapes::new(urdd).ok_or("there is no list of shapes")?;
         let mut sets: Vec<Option<ShapeSet>> = Vec::with_capacity(KINDS.len());
         for (kind, recorded) in KINDS.into_iter().zip(&recorded) {
-            let set = recorded.map(|_| ShapeSet::new(context, &shapes, kind, true));
+            let set = recorded.map(|_| ShapeSet::new(urdd, solids, &shapes, kind, true));
             sets.push(set);
         }
         let work: Vec<Option<Work>> = sets
             .iter()
             .map(|set| set.as_ref().map(|set| set.work(&poses)))
             .collect();
-        let budget = plan::budget(context.is_deep());
+        let budget = plan::budget(deep);
         let configurations = plan::configurations(&work, num_samples, budget);
 
         let first = poses.motion(0..num_samples.min(AT_ONCE))?;

@@ -5,13 +5,13 @@ use std::ops::Range;
 use nalgebra::Isometry3;
 use rayon::prelude::*;
 
+use crate::document::consumer;
+use crate::document::urdd::Urdd;
 use crate::format::bounds::BoundsModule;
 use crate::format::registry::Profile;
 use crate::format::urdf::JointType;
 use crate::geometry::convex::Motion;
 use crate::kinematics::{ConfigurationSpace, ForwardKinematics};
-use crate::validate::context::Context;
-use crate::validate::views::consumer;
 
 /// The poses of a robot's links, as a consumer computes them.
 pub struct Poses {
@@ -26,14 +26,14 @@ impl Poses {
     ///
     /// # Errors
     /// In words: why there are none.
-    pub fn new(context: &Context) -> Result<Self, String> {
+    pub fn new(urdd: &Urdd) -> Result<Self, String> {
         let open = "the modules leave the kinematics open";
-        let modules = consumer::modules(context).ok_or(open)?;
-        let groups = context.rigid_groups().ok_or(open)?;
-        let bounds = context.bounds().ok_or(open)?;
+        let modules = consumer::modules(urdd).ok_or(open)?;
+        let groups = urdd.rigid_groups().ok_or(open)?;
+        let bounds = urdd.bounds().ok_or(open)?;
         let unlike = |joint: JointType| matches!(joint, JointType::Planar | JointType::Floating);
         let mut joints = modules.chain.joints_in_chain.iter();
-        if context.profile() == Profile::Legacy && joints.any(|joint| unlike(joint.joint_type)) {
+        if urdd.profile() == Profile::Legacy && joints.any(|joint| unlike(joint.joint_type)) {
             return Err(
                 "planar and floating joints of legacy URDDs have other coordinates (SPEC 5.11)"
                     .to_owned(),

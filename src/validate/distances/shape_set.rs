@@ -4,15 +4,16 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::plan::{self, Work};
 use super::poses::Poses;
+use crate::document::shapes::{ShapeKind, Shapes, Volume, approximations};
+use crate::document::urdd::Urdd;
 use crate::format::registry::ModuleKind;
 use crate::geometry::convex::{
     ConvexShape, Motion, OrientedBox, PairStatistics, PlacedShape, Shape, Sphere, pair_distances,
     pair_statistics,
 };
 use crate::kinematics::rotation::from_rpy;
-use crate::validate::context::Context;
+use crate::validate::solids::Solids;
 use crate::validate::views::enclosure::Fit;
-use crate::validate::views::shapes::{ShapeKind, Shapes, Volume, approximations};
 
 /// The shapes of a kind that are there, and sound.
 pub struct ShapeSet {
@@ -38,8 +39,14 @@ enum Made {
 impl ShapeSet {
     /// Left out are hulls and pieces that cannot be read; and, where only `fitting` ones are wanted,
     /// boxes and spheres that do not sit right about theirs (SHP017, SHP018).
-    pub fn new(context: &Context, shapes: &Shapes, kind: ShapeKind, fitting: bool) -> Self {
-        let volumes = context
+    pub fn new(
+        urdd: &Urdd,
+        solids: &Solids,
+        shapes: &Shapes,
+        kind: ShapeKind,
+        fitting: bool,
+    ) -> Self {
+        let volumes = urdd
             .document(ModuleKind::LinkShapesApproximations)
             .and_then(approximations)
             .and_then(|lists| lists.into_iter().find(|list| list.kind == kind));
@@ -48,7 +55,7 @@ impl ShapeSet {
             false => ModuleKind::ConvexDecompositionMeshes,
         };
         let make = |link: usize, piece: usize| -> Option<Made> {
-            let mesh = context.solids().sound(meshes, link, piece);
+            let mesh = solids.sound(meshes, link, piece);
             if kind.hulls {
                 return ConvexShape::new(mesh?).ok().map(Made::Hull);
             }

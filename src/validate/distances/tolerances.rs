@@ -1,10 +1,11 @@
 //! How far distances may be from what they should be (SPEC 8.5).
 
+use crate::document::shapes::{ShapeKind, Shapes, approximations};
+use crate::document::urdd::Urdd;
 use crate::format::registry::ModuleKind;
 use crate::geometry::farthest;
-use crate::validate::context::Context;
+use crate::validate::solids::Solids;
 use crate::validate::tolerance::{distance_tolerance, reach};
-use crate::validate::views::shapes::{ShapeKind, Shapes, approximations};
 
 /// The tolerances of one kind of shapes.
 pub struct Tolerances {
@@ -16,8 +17,8 @@ pub struct Tolerances {
 
 impl Tolerances {
     /// For the shapes of a kind. One that is not there, which other rules tell, adds nothing.
-    pub fn new(context: &Context, shapes: &Shapes, kind: ShapeKind) -> Self {
-        let volumes = context
+    pub fn new(urdd: &Urdd, solids: &Solids, shapes: &Shapes, kind: ShapeKind) -> Self {
+        let volumes = urdd
             .document(ModuleKind::LinkShapesApproximations)
             .and_then(approximations)
             .and_then(|lists| lists.into_iter().find(|list| list.kind == kind));
@@ -29,13 +30,13 @@ impl Tolerances {
             let (link, piece) = shapes.place(kind, shape)?;
             match kind.hulls {
                 true => {
-                    let mesh = context.solids().sound(meshes, link, piece)?;
+                    let mesh = solids.sound(meshes, link, piece)?;
                     Some(farthest::of_mesh(mesh))
                 }
                 false => Some(volumes.as_ref()?.links.get(link)?.get(piece)?.reach()),
             }
         };
-        let robot = context.robot().zip(context.tree());
+        let robot = urdd.robot().zip(urdd.tree());
         Tolerances {
             reach: robot.map_or(0.0, |(robot, tree)| reach(robot, tree)),
             shapes: (0..shapes.count(kind))

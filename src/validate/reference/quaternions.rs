@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use nalgebra::{Quaternion, UnitQuaternion};
 use roxmltree::{Document, Node, ParsingOptions};
 
-use crate::validate::pose::has_quaternions;
+use crate::document::pose::has_quaternions;
 
 /// For joints whose rotation is a quaternion: the rotation, by name. Empty where the URDF is of a
 /// version before 1.1.

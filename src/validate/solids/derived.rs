@@ -6,14 +6,14 @@ use super::file::{self, MeshFault};
 use super::glb_header::{HEADER, header_fault};
 use super::stl_records;
 use super::surface::{self, Difference, Likeness};
+use crate::document::mesh_files::MeshFiles;
+use crate::document::meshes::Meshes;
+use crate::document::meshes::{Format, MeshPath};
+use crate::document::urdd::Urdd;
 use crate::format::registry::{ModuleKind, Profile};
 use crate::geometry::Mesh;
 use crate::geometry::read::Format as Content;
-use crate::validate::context::Context;
 use crate::validate::tolerance::mesh_resolution;
-use crate::validate::views::Meshes;
-use crate::validate::views::mesh_files::MeshFiles;
-use crate::validate::views::meshes::{Format, MeshPath};
 
 /// A mesh of a link, or one of its pieces.
 #[derive(Debug)]
@@ -69,7 +69,7 @@ pub struct DerivedFile {
 }
 
 /// Reads the meshes of a module: links in order, pieces in order.
-pub fn read_all(context: &Context, meshes: &Meshes) -> Vec<Derived> {
+pub fn read_all(urdd: &Urdd, meshes: &Meshes) -> Vec<Derived> {
     let mut places: Vec<(usize, usize, Vec<&MeshPath>)> = Vec::new();
     for link in 0..meshes.num_links() {
         let pieces = meshes.lists.iter().filter_map(|list| list.links.get(link));
@@ -85,7 +85,7 @@ pub fn read_all(context: &Context, meshes: &Meshes) -> Vec<Derived> {
     places
         .into_par_iter()
         .map_init(
-            || MeshFiles::new(context),
+            || MeshFiles::new(urdd),
             |files, (link, piece, paths)| read(files, profile, link, piece, &paths),
         )
         .collect()

@@ -6,14 +6,14 @@ use nalgebra::Vector3;
 use super::Solids;
 use super::primitive::Primitive;
 use super::surface::extent;
+use crate::document::robot::{Element, Link};
+use crate::document::urdd::Urdd;
+use crate::document::usable_geometry::UsableGeometry;
 use crate::format::meshes::GeometryKind;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::format::urdf::Geometry;
 use crate::geometry::Mesh;
 use crate::geometry::mesh::placement;
-use crate::validate::context::Context;
-use crate::validate::views::robot::{Element, Link};
-use crate::validate::views::usable_geometry::UsableGeometry;
 
 /// The surface that a link has by its source.
 #[derive(Debug, Default)]
@@ -29,13 +29,13 @@ pub struct Expected {
 /// The surface of a link by its elements of a kind; `None` where a mesh among them is not carried,
 /// or cannot be read.
 pub fn of_link(
-    context: &Context,
+    urdd: &Urdd,
     solids: &Solids,
     usable: &UsableGeometry,
     link: usize,
     kind: GeometryKind,
 ) -> Option<Expected> {
-    let named = context.robot()?.links.get(link)?;
+    let named = urdd.robot()?.links.get(link)?;
     let elements = match kind {
         GeometryKind::Visual => &named.visual,
         GeometryKind::Collision => &named.collision,
@@ -55,7 +55,7 @@ pub fn of_link(
                 expected.primitives.push(primitive);
             }
             None => {
-                let path = carried(context, named, link, kind, at)?;
+                let path = carried(urdd, named, link, kind, at)?;
                 let mesh = solids.original(&path)?.mesh.as_ref().ok()?;
                 expected.add(mesh, element, geometry);
             }
@@ -94,13 +94,13 @@ impl Expected {
 
 /// The path of the mesh that an element names.
 fn carried(
-    context: &Context,
+    urdd: &Urdd,
     named: &Link,
     link: usize,
     kind: GeometryKind,
     element: usize,
 ) -> Option<String> {
-    match context.document(ModuleKind::OriginalMeshes)? {
+    match urdd.document(ModuleKind::OriginalMeshes)? {
         ModuleDocument::OriginalMeshes(module) => {
             let here = |r: &&crate::format::original_meshes::MeshReference| {
                 (r.link_idx.get(), r.geometry, r.element_idx.get()) == (link, kind, element)
@@ -113,7 +113,7 @@ fn carried(
                 return None;
             };
             let name = |path: &str| path.rsplit('/').next().map(str::to_owned);
-            let meshes = context.meshes(ModuleKind::OriginalMeshes)?;
+            let meshes = urdd.meshes(ModuleKind::OriginalMeshes)?;
             let mut paths = meshes.of_link(link).flat_map(|mesh| &mesh.paths);
             let found = paths.find(|path| name(path.path) == name(&mesh.filename));
             found.map(|path| path.path.to_owned())

@@ -3,9 +3,9 @@
 use std::io::Read;
 
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::document::mesh_files::{Absence, MeshFiles};
 use crate::format::registry::Profile;
 use crate::geometry::read::{GltfUp, MeshError, NoteCode, Options, Scene, read_with};
-use crate::validate::views::mesh_files::{Absence, MeshFiles};
 
 /// What is wrong with a mesh file.
 #[derive(Debug, Clone, PartialEq, Eq)]

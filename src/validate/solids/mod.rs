@@ -19,7 +19,7 @@ use std::collections::HashMap;
 
 use self::derived::Derived;
 use self::original::Original;
-use super::context::Context;
+use crate::document::urdd::Urdd;
 use crate::format::registry::ModuleKind;
 use crate::geometry::Mesh;
 
@@ -33,16 +33,16 @@ pub struct Solids {
 
 impl Solids {
     /// Reads every mesh file that the modules name, in parallel.
-    pub fn read(context: &Context) -> Self {
+    pub fn read(urdd: &Urdd) -> Self {
         let mut solids = Solids {
-            originals: original::read_all(context),
+            originals: original::read_all(urdd),
             ..Solids::default()
         };
-        for kind in super::views::meshes::DERIVED {
-            let Some(meshes) = context.meshes(*kind) else {
+        for kind in crate::document::meshes::DERIVED {
+            let Some(meshes) = urdd.meshes(*kind) else {
                 continue;
             };
-            let read = derived::read_all(context, &meshes);
+            let read = derived::read_all(urdd, &meshes);
             for (at, mesh) in read.iter().enumerate() {
                 solids.by_place.insert((*kind, mesh.link, mesh.piece), at);
             }

@@ -6,11 +6,11 @@ use rayon::prelude::*;
 
 use super::file::{self, MeshFault};
 use crate::directory::path::portable;
+use crate::document::mesh_files::MeshFiles;
+use crate::document::urdd::Urdd;
 use crate::format::registry::{ModuleDocument, ModuleKind, Profile};
 use crate::geometry::Mesh;
 use crate::geometry::read::read;
-use crate::validate::context::Context;
-use crate::validate::views::mesh_files::MeshFiles;
 
 /// A mesh that the URDF names.
 #[derive(Debug)]
@@ -23,25 +23,25 @@ pub struct Original {
 }
 
 /// Reads every mesh of `original_meshes_module`, by its path as the document has it.
-pub fn read_all(context: &Context) -> HashMap<String, Original> {
-    let (profile, paths) = paths(context);
+pub fn read_all(urdd: &Urdd) -> HashMap<String, Original> {
+    let (profile, paths) = paths(urdd);
     paths
         .into_par_iter()
         .map_init(
-            || MeshFiles::new(context),
+            || MeshFiles::new(urdd),
             |files, path| (path.to_owned(), read_one(files, profile, path)),
         )
         .collect()
 }
 
-fn paths(context: &Context) -> (Profile, BTreeSet<&str>) {
-    match context.document(ModuleKind::OriginalMeshes) {
+fn paths(urdd: &Urdd) -> (Profile, BTreeSet<&str>) {
+    match urdd.document(ModuleKind::OriginalMeshes) {
         Some(ModuleDocument::OriginalMeshes(module)) => {
             let paths = module.files.iter().map(|file| file.path.as_str());
             (Profile::V1, paths.collect())
         }
         _ => {
-            let meshes = context.meshes(ModuleKind::OriginalMeshes);
+            let meshes = urdd.meshes(ModuleKind::OriginalMeshes);
             let paths = meshes.iter().flat_map(|meshes| meshes.paths());
             (Profile::Legacy, paths.map(|(_, path)| path.path).collect())
         }

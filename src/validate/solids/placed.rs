@@ -2,16 +2,17 @@
 
 use rayon::prelude::*;
 
+use super::Solids;
 use super::derived::Derived;
 use super::expected::{self, Expected};
 use super::surface::{self, Difference, Likeness};
+use crate::document::urdd::Urdd;
+use crate::document::usable_geometry::UsableGeometry;
 use crate::format::meshes::GeometryKind;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::geometry::Mesh;
-use crate::validate::context::Context;
 use crate::validate::finding::{metres, point};
 use crate::validate::tolerance::{PRIMITIVE_AREA, PRIMITIVE_SAG, mesh_resolution};
-use crate::validate::views::usable_geometry::UsableGeometry;
 
 /// A link whose mesh is not what it should be.
 #[derive(Debug)]
@@ -32,13 +33,12 @@ pub struct Misplaced {
 
 /// Every link whose mesh is not what it should be, in link order. A mesh whose files differ or are
 /// broken is not judged, nor is one of which a source is missing.
-pub fn all(context: &Context) -> Vec<Misplaced> {
-    let solids = context.solids();
-    let usable = UsableGeometry::new(context);
+pub fn all(urdd: &Urdd, solids: &Solids) -> Vec<Misplaced> {
+    let usable = UsableGeometry::new(urdd);
     let judge = |mesh: &Derived| {
         let found = mesh.sound()?;
-        let kind = kind_of(context, mesh.link)?;
-        let expected = expected::of_link(context, solids, &usable, mesh.link, kind)?;
+        let kind = kind_of(urdd, mesh.link)?;
+        let expected = expected::of_link(urdd, solids, &usable, mesh.link, kind)?;
         // A mesh of nothing is what MSH011 tells.
         let (what, tolerance) = fault(&expected, found).filter(|_| !expected.is_empty())?;
         let file = mesh.files.get(mesh.mesh_of)?;
@@ -56,8 +56,8 @@ pub fn all(context: &Context) -> Vec<Misplaced> {
 }
 
 /// Which geometry a link's mesh was made from. Legacy modules used what is visual.
-fn kind_of(context: &Context, link: usize) -> Option<GeometryKind> {
-    match context.document(ModuleKind::PlainMeshes)? {
+fn kind_of(urdd: &Urdd, link: usize) -> Option<GeometryKind> {
+    match urdd.document(ModuleKind::PlainMeshes)? {
         ModuleDocument::PlainMeshes(module) => {
             Some(module.link_meshes.get(link)?.as_ref()?.geometry)
         }
@@ -66,14 +66,13 @@ fn kind_of(context: &Context, link: usize) -> Option<GeometryKind> {
 }
 
 /// The other link whose geometry in its place a link's mesh is.
-pub fn owner(context: &Context, link: usize) -> Option<usize> {
-    let solids = context.solids();
-    let usable = UsableGeometry::new(context);
+pub fn owner(urdd: &Urdd, solids: &Solids, link: usize) -> Option<usize> {
+    let usable = UsableGeometry::new(urdd);
     let mesh = solids.mesh(ModuleKind::PlainMeshes, link, 0)?;
-    let others = context.robot()?.links.len();
+    let others = urdd.robot()?.links.len();
     (0..others).filter(|other| *other != link).find(|other| {
-        let expected = kind_of(context, *other)
-            .and_then(|kind| expected::of_link(context, solids, &usable, *other, kind));
+        let expected = kind_of(urdd, *other)
+            .and_then(|kind| expected::of_link(urdd, solids, &usable, *other, kind));
         expected.is_some_and(|expected| !expected.is_empty() && fault(&expected, mesh).is_none())
     })
 }

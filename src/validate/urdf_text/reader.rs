@@ -5,8 +5,8 @@ use roxmltree::{Document, Node};
 use super::numbers;
 use super::problem::{Fault, Problem, Repeated};
 use super::{Reading, xml};
+use crate::document::pose::has_quaternions;
 use crate::format::urdf as v1;
-use crate::validate::pose::has_quaternions;
 
 pub(super) type Element<'a> = Node<'a, 'a>;
 

@@ -2,10 +2,11 @@
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::shapes::{ShapeKind, Volume, approximations};
+use crate::document::shapes::{ShapeKind, Volume, approximations};
+use crate::document::urdd::Urdd;
 use crate::format::registry::ModuleKind;
 use crate::geometry::{Mesh, farthest};
-use crate::validate::context::Context;
+use crate::validate::solids::Solids;
 use crate::validate::tolerance::HULL_IN_VOLUME;
 
 /// A box or sphere, with the hull or piece that it is there for.
@@ -125,8 +126,8 @@ impl Enclosure<'_> {
     }
 
     /// What it is there for.
-    pub fn of_what(&self, context: &Context) -> String {
-        let link = context.link_label(self.link);
+    pub fn of_what(&self, urdd: &Urdd) -> String {
+        let link = urdd.link_label(self.link);
         match self.kind.full {
             true => format!("the hull of {link}"),
             false => format!("piece {} of {link}", self.piece),
@@ -135,8 +136,8 @@ impl Enclosure<'_> {
 }
 
 /// Every box and sphere of which the hull or piece can be read.
-pub fn enclosures(context: &Context) -> Vec<Enclosure<'_>> {
-    let document = context.document(ModuleKind::LinkShapesApproximations);
+pub fn enclosures<'a>(urdd: &Urdd, solids: &'a Solids) -> Vec<Enclosure<'a>> {
+    let document = urdd.document(ModuleKind::LinkShapesApproximations);
     let Some(lists) = document.and_then(approximations) else {
         return Vec::new();
     };
@@ -148,7 +149,7 @@ pub fn enclosures(context: &Context) -> Vec<Enclosure<'_>> {
         };
         for (link, entry) in list.links.iter().enumerate() {
             for (piece, volume) in entry.iter().enumerate() {
-                let Some(mesh) = context.solids().sound(meshes, link, piece) else {
+                let Some(mesh) = solids.sound(meshes, link, piece) else {
                     continue;
                 };
                 enclosures.push(Enclosure {

@@ -3,11 +3,11 @@
 
 use serde_json::Value;
 
-use super::super::context::Context;
-use super::super::load::Module;
 use super::schema_work::{is_affordable, schemas_in};
 use crate::directory::json;
 use crate::directory::root::ReadError;
+use crate::document::module::Module;
+use crate::document::urdd::Urdd;
 
 /// Longest `schema.json` that is read, bytes.
 pub const MAX_SCHEMA_BYTES: u64 = 1 << 20;
@@ -31,8 +31,8 @@ pub enum SchemaFile {
 }
 
 /// Reads the schema of an extension.
-pub fn read(context: &Context, module: &Module) -> SchemaFile {
-    match context
+pub fn read(urdd: &Urdd, module: &Module) -> SchemaFile {
+    match urdd
         .root()
         .read(&module.file("schema.json"), MAX_SCHEMA_BYTES)
     {

@@ -1,7 +1,7 @@
 //! The statistics of one pair of shapes, judged (SPEC 8.5).
 
-use super::shape_matrices::{Elements, Statistics, at};
 use super::tangled::Tangled;
+use crate::document::shape_matrices::{Elements, Statistics, at};
 use crate::validate::tolerance::{LEGACY_SAMPLES, mean_tolerance, numbers_agree};
 
 /// Largest distance of shapes that are in contact, m (SPEC 8.6).

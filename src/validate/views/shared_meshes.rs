@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::meshes::DERIVED;
+use crate::document::meshes::DERIVED;
+use crate::document::urdd::Urdd;
 use crate::format::legacy::urdf as legacy;
 use crate::format::registry::{ModuleDocument, ModuleKind, Profile};
-use crate::validate::context::Context;
 
 /// A file that two entries of a mesh module name.
 pub struct SharedMesh {
@@ -24,10 +24,10 @@ pub struct SharedMesh {
 
 /// Every pair of links of a module that share a file, once, however many formats and pieces they
 /// share.
-pub fn all(context: &Context) -> Vec<SharedMesh> {
+pub fn all(urdd: &Urdd) -> Vec<SharedMesh> {
     let mut shared = Vec::new();
     for kind in DERIVED {
-        let Some(meshes) = context.meshes(*kind) else {
+        let Some(meshes) = urdd.meshes(*kind) else {
             continue;
         };
         let mut first_use: HashMap<&str, (usize, &str)> = HashMap::new();
@@ -40,7 +40,7 @@ pub fn all(context: &Context) -> Vec<SharedMesh> {
             let alike = meshes.profile == Profile::Legacy
                 && first != link
                 && same_piece(*kind, first_pointer, &mesh.pointer)
-                && placed_alike(context, first, link);
+                && placed_alike(urdd, first, link);
             if told.insert((first, link, alike)) {
                 shared.push(SharedMesh {
                     kind: *kind,
@@ -61,8 +61,8 @@ fn same_piece(kind: ModuleKind, a: &str, b: &str) -> bool {
 }
 
 /// Whether two links of a legacy URDD place the same meshes in the same way.
-fn placed_alike(context: &Context, a: usize, b: usize) -> bool {
-    let Some(ModuleDocument::LegacyUrdf(urdf)) = context.document(ModuleKind::Urdf) else {
+fn placed_alike(urdd: &Urdd, a: usize, b: usize) -> bool {
+    let Some(ModuleDocument::LegacyUrdf(urdf)) = urdd.document(ModuleKind::Urdf) else {
         return false;
     };
     let (Some(a), Some(b)) = (urdf.links.get(a), urdf.links.get(b)) else {

@@ -1,6 +1,7 @@
 //! Shapes whose rows of a matrix are wrong as a whole, so that one mistake gives one message.
 
-use super::shape_matrices::Elements;
+use crate::document::shape_matrices::{Elements, at};
+use crate::validate::tolerance::numbers_agree;
 
 /// The shapes of a matrix that are *tangled*: rows that were exchanged, or written in another order,
 /// make a matrix asymmetric, its diagonal wrong, and with luck some pairs wrong both ways round. All of
@@ -18,13 +19,13 @@ impl Tangled {
         let mut asymmetric = vec![false; rows];
         for i in 0..rows {
             for j in i + 1..rows {
-                if !elements.symmetric_at(i, j) {
+                if !symmetric_at(elements, i, j) {
                     asymmetric[i] = true;
                     asymmetric[j] = true;
                 }
             }
         }
-        let off_diagonal = (0..rows).map(|i| !elements.diagonal_sound(i)).collect();
+        let off_diagonal = (0..rows).map(|i| !diagonal_sound(elements, i)).collect();
         Tangled {
             asymmetric,
             off_diagonal,
@@ -42,6 +43,35 @@ impl Tangled {
             self.asymmetric(shape) || self.off_diagonal.get(shape).copied().unwrap_or(false)
         };
         tangled(i) && tangled(j)
+    }
+}
+
+/// Whether the elements (i, j) and (j, i) of a matrix agree; so they do where one is missing.
+pub fn symmetric_at(elements: Elements<'_>, i: usize, j: usize) -> bool {
+    fn agree<T: Copy>(rows: &[Vec<T>], i: usize, j: usize, same: fn(T, T) -> bool) -> bool {
+        match (at(rows, i, j), at(rows, j, i)) {
+            (Some(a), Some(b)) => same(a, b),
+            _ => true,
+        }
+    }
+    match elements {
+        Elements::Distances(rows) => agree(rows, i, j, numbers_agree),
+        Elements::Skips(rows) => agree(rows, i, j, |a, b| a == b),
+        Elements::Reasons(rows) => agree(rows, i, j, |a, b| a == b),
+        Elements::Models(rows) => agree(rows, i, j, |a, b| {
+            let mut pairs = a.iter().flatten().zip(b.iter().flatten());
+            pairs.all(|(a, b)| numbers_agree(*a, *b))
+        }),
+    }
+}
+
+/// Whether the element (i, i) of a matrix is what every diagonal has: distance 0, skip true. Reasons
+/// and models are not judged here.
+pub fn diagonal_sound(elements: Elements<'_>, i: usize) -> bool {
+    match elements {
+        Elements::Distances(rows) => at(rows, i, i).is_none_or(|d| numbers_agree(d, 0.0)),
+        Elements::Skips(rows) => at(rows, i, i).unwrap_or(true),
+        Elements::Reasons(_) | Elements::Models(_) => true,
     }
 }
 

@@ -2,10 +2,10 @@
 
 use super::super::context::Context;
 use super::super::finding::{Finding, Findings, KEPT_PLACES, Occurrence, Place};
-use super::super::load::Mirror;
-use super::entries;
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::text_fault::{TextFault, TextFaultKind, TextFaults};
+use crate::document::entries;
+use crate::document::module::Mirror;
 
 /// Reports the faults of these kinds in `urdd.json` and every `module.json`: one finding for each
 /// file and kind, with the number of them.

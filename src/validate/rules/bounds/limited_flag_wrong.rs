@@ -18,15 +18,15 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(freedom), Some(bounds), Some(module)) = (
+    let (Some(robot), Some(layout), Some(bounds), Some(module)) = (
         context.robot(),
-        context.freedom(),
+        context.dof_layout(),
         context.bounds().and_then(|bounds| bounds.v1),
         context.module(ModuleKind::Bounds),
     ) else {
         return findings.skip("bounds_module is of a version that does not say this");
     };
-    let flags = bounds.dof_limited.iter().zip(&freedom.joint_of_dof);
+    let flags = bounds.dof_limited.iter().zip(&layout.joint_of_dof);
     for (dof, (written, joint)) in flags.enumerate() {
         let Some(joint) = robot.joints.get(*joint) else {
             continue;

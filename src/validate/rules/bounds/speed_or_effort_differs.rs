@@ -18,19 +18,19 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(freedom), Some(bounds), Some(module)) = (
+    let (Some(robot), Some(layout), Some(bounds), Some(module)) = (
         context.robot(),
-        context.freedom(),
+        context.dof_layout(),
         context.bounds().and_then(|bounds| bounds.v1),
         context.module(ModuleKind::Bounds),
     ) else {
         return findings.skip("bounds_module is of a version that does not say this");
     };
-    for (dof, joint) in freedom.joint_of_dof.iter().enumerate() {
+    for (dof, joint) in layout.joint_of_dof.iter().enumerate() {
         let Some(joint) = robot.joints.get(*joint) else {
             continue;
         };
-        let limit = joint.limit.filter(|_| joint.freedom() == 1);
+        let limit = joint.limit.filter(|_| joint.num_dofs() == 1);
         for (key, right, written) in [
             (
                 "dof_velocity_limits",

@@ -1,14 +1,14 @@
 use std::f64::consts::PI;
 
 use super::LEGACY_WIDENING;
+use crate::document::dof_layout::describe;
+use crate::document::robot::Joint;
 use crate::format::dof::Quantity;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::{NUMBER_ABSOLUTE, number_tolerance, numbers_agree};
-use crate::validate::views::freedom::describe;
-use crate::validate::views::robot::Joint;
 
 declare_rule! {
     /// A DOF without limits has bounds other than the agreed ones, or is frozen by them.
@@ -26,16 +26,16 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(freedom), Some(bounds), Some(module)) = (
+    let (Some(robot), Some(layout), Some(bounds), Some(module)) = (
         context.robot(),
-        context.freedom(),
+        context.dof_layout(),
         context.bounds(),
         context.module(ModuleKind::Bounds),
     ) else {
         return;
     };
     for (dof, pair) in bounds.bounds.iter().enumerate() {
-        let Some((joint, place)) = freedom.place(dof) else {
+        let Some((joint, place)) = layout.place(dof) else {
             continue;
         };
         let Some(joint) = robot.joints.get(joint) else {

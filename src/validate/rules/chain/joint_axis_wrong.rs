@@ -1,9 +1,9 @@
 use nalgebra::Vector3;
 
+use crate::document::pose::unit;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::pose::unit;
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::UNIT_NORM;
 

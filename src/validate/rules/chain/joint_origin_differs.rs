@@ -1,9 +1,9 @@
 use nalgebra::Vector3;
 
+use crate::document::pose::rotation_of_quaternion;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::pose::rotation_of_quaternion;
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::{POSITION_OF_REACH, ROTATION, reach, rotation_distance};
 

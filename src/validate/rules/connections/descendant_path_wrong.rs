@@ -1,11 +1,11 @@
 use super::Tally;
 use super::walk::Ancestors;
+use crate::document::tree::Tree;
 use crate::format::index::LinkIdx;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::tree::Tree;
 
 declare_rule! {
     /// An entry of `link_connection_paths` is not the way down from one link to another.

@@ -1,7 +1,7 @@
 //! Walking the kinematic tree: common ancestors row by row, and paths without making them.
 
+use crate::document::tree::Tree;
 use crate::format::connections::LinkPath;
-use crate::validate::views::tree::Tree;
 
 /// Rows of the table of lowest common ancestors, each made in time proportional to its length.
 pub(super) struct Ancestors<'a> {

@@ -1,8 +1,8 @@
 use crate::directory::path;
+use crate::document::paths;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::paths;
 
 declare_rule! {
     /// A path is not one that a URDD may name.

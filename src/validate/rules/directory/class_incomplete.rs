@@ -1,11 +1,11 @@
 use std::collections::HashSet;
 
 use crate::directory::discover::ROOT_METADATA;
+use crate::document::entries;
 use crate::format::registry::{ModuleKind, Profile};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A module of the conformance class is not there.

@@ -1,10 +1,10 @@
 use std::collections::HashSet;
 
 use crate::directory::discover::ROOT_METADATA;
+use crate::document::entries;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A module is derived from one that is not in the URDD.

@@ -10,7 +10,7 @@ use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings, KEPT_PLACES, Occurrence, Place};
 use crate::validate::rule::declare_rule;
 
-use crate::validate::views::{entries, paths};
+use crate::document::{entries, paths};
 
 declare_rule! {
     /// A file is not the one that `urdd.json` describes: its size or its SHA-256 differs.

@@ -1,12 +1,12 @@
 use std::collections::HashSet;
 
 use crate::directory::discover::ROOT_METADATA;
+use crate::document::entries::{self, Entry, MODULE_FILES};
+use crate::document::module::is_extension;
+use crate::document::paths::{self, Place};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::is_extension;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries::{self, Entry, MODULE_FILES};
-use crate::validate::views::paths::{self, Place};
 
 declare_rule! {
     /// `urdd.json` does not list the files of a module as they are.

@@ -2,11 +2,11 @@ use std::collections::HashSet;
 
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::root::EntryKind;
+use crate::document::paths::{self, Place};
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::paths::{self, Place};
 
 declare_rule! {
     /// A symbolic link leads out of the URDD.

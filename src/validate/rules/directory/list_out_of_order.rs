@@ -1,8 +1,8 @@
 use crate::directory::discover::ROOT_METADATA;
+use crate::document::entries;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// `modules` or a `files` list of `urdd.json` is not in order, or names a file twice.

@@ -1,10 +1,10 @@
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::root::ReadError;
+use crate::document::entries;
 use crate::format::root_metadata::Source;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A file that `urdd.json` lists is not there.

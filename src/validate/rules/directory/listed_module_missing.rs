@@ -1,10 +1,10 @@
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::path;
 use crate::directory::root::EntryKind;
+use crate::document::entries;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A module that `urdd.json` lists is not there.

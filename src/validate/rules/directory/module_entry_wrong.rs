@@ -2,10 +2,10 @@ use std::collections::HashSet;
 
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::path;
+use crate::document::entries;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// An entry of `modules` has a name and a path that do not belong together, or is there twice.

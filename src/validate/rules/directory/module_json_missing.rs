@@ -1,8 +1,8 @@
+use crate::document::entries;
+use crate::document::module::JsonFile;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::JsonFile;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A module folder has no `module.json`.

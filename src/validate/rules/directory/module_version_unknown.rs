@@ -1,13 +1,13 @@
 use std::collections::HashSet;
 
 use super::version_differs;
+use crate::document::entries;
+use crate::document::module::{Module, VersionFile};
 use crate::format::registry::{self, ModuleKind, Profile};
 use crate::format::root_metadata::Version;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::{Module, VersionFile};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A module has a version that does not exist, or one from before the specification in a URDD of

@@ -1,10 +1,10 @@
 use std::collections::HashSet;
 
+use crate::document::entries;
+use crate::document::module::{JsonFile, Mirror};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::{JsonFile, Mirror};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A module has no `module.yaml`.

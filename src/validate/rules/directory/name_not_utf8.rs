@@ -1,7 +1,7 @@
+use crate::document::entries;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A file in a module's folder has a name that is not UTF-8.

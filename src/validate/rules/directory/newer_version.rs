@@ -2,11 +2,11 @@ use std::collections::HashSet;
 
 use super::version_differs;
 use crate::directory::discover::ROOT_METADATA;
+use crate::document::entries;
 use crate::format::registry::SPEC_VERSION;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// Something is of a newer version than this program knows.

@@ -1,7 +1,7 @@
 use crate::directory::discover::ROOT_METADATA;
+use crate::document::module::JsonFile;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::JsonFile;
 use crate::validate::rule::declare_rule;
 
 declare_rule! {

@@ -1,12 +1,12 @@
 use std::collections::HashSet;
 
 use crate::directory::root::EntryKind;
+use crate::document::entries::{self, MODULE_FILES};
+use crate::document::module::Module;
+use crate::document::paths::{self, PathRole, Place};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::Module;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries::{self, MODULE_FILES};
-use crate::validate::views::paths::{self, PathRole, Place};
 
 declare_rule! {
     /// A file lies in a module's folder that neither the module nor `urdd.json` names.

@@ -1,10 +1,10 @@
 use std::collections::HashSet;
 
+use crate::document::entries;
+use crate::document::module::is_extension;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::is_extension;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A module is neither in the specification nor an extension.

@@ -1,9 +1,9 @@
 use std::collections::HashSet;
 
+use crate::document::entries;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A module folder is there that `urdd.json` does not list.

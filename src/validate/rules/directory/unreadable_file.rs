@@ -3,12 +3,12 @@ use std::collections::BTreeMap;
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use crate::directory::root::ReadError;
+use crate::document::entries;
+use crate::document::module::{JsonFile, Mirror, VersionFile};
 use crate::format::root_metadata::Source;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::{JsonFile, Mirror, VersionFile};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A file that belongs to the URDD cannot be read.

@@ -1,10 +1,10 @@
 use crate::directory::discover::ROOT_METADATA;
+use crate::document::entries::{self, Entry};
+use crate::document::module::{Module, VersionFile};
 use crate::format::root_metadata::Version;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::{Module, VersionFile};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries::{self, Entry};
 
 declare_rule! {
     /// `urdd.json` and a module's `VERSION` name different versions.

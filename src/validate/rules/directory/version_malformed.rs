@@ -1,10 +1,10 @@
 use crate::directory::root::ReadError;
+use crate::document::entries;
+use crate::document::module::VersionFile;
 use crate::format::root_metadata::Version;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::VersionFile;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A `VERSION` file does not hold a version.

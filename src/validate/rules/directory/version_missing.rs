@@ -1,9 +1,9 @@
+use crate::document::entries;
+use crate::document::module::{JsonFile, VersionFile};
 use crate::format::registry;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::{JsonFile, VersionFile};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A module folder has no `VERSION`.

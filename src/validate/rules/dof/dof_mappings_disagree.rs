@@ -18,9 +18,9 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(freedom), Some(dofs), Some(module)) = (
+    let (Some(robot), Some(layout), Some(dofs), Some(module)) = (
         context.robot(),
-        context.freedom(),
+        context.dof_layout(),
         context.dofs(),
         context.module(ModuleKind::Dof),
     ) else {
@@ -40,7 +40,7 @@ fn check(context: &Context, findings: &mut Findings) {
         Some(joint) => format!("{:?}", joint.name),
         None => "no joint".to_owned(),
     };
-    for ((joint, list), right) in dofs_of_joint().enumerate().zip(&freedom.dofs_of_joint) {
+    for ((joint, list), right) in dofs_of_joint().enumerate().zip(&layout.dofs_of_joint) {
         for ((place, dof), right) in list.enumerate().zip(right.clone()) {
             if dof != right {
                 findings.report(
@@ -59,7 +59,7 @@ fn check(context: &Context, findings: &mut Findings) {
         }
     }
     for (dof, joint) in joint_of_dof.iter().copied().enumerate() {
-        let right = freedom.joint_of_dof.get(dof).copied();
+        let right = layout.joint_of_dof.get(dof).copied();
         if right != Some(joint) {
             let finding = Finding::at(
                 &file,
@@ -72,7 +72,7 @@ fn check(context: &Context, findings: &mut Findings) {
             findings.report(match right {
                 Some(right) => finding.expected(right).actual(joint),
                 None => finding
-                    .expected(format!("{} DOFs in all", freedom.joint_of_dof.len()))
+                    .expected(format!("{} DOFs in all", layout.joint_of_dof.len()))
                     .actual(joint),
             });
         }
@@ -84,7 +84,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 "/dof_idx_to_joint_idx_mapping",
                 "joints have DOFs that are not listed here; list every DOF",
             )
-            .expected(format!("{} entries", freedom.joint_of_dof.len()))
+            .expected(format!("{} entries", layout.joint_of_dof.len()))
             .actual(format!("{} entries", joint_of_dof.len())),
         );
     }

@@ -1,8 +1,8 @@
+use crate::document::dof_layout::describe;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::freedom::describe;
 
 declare_rule! {
     /// An entry of `dofs` does not describe its DOF.
@@ -19,16 +19,16 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(freedom), Some(dofs), Some(module)) = (
+    let (Some(robot), Some(layout), Some(dofs), Some(module)) = (
         context.robot(),
-        context.freedom(),
+        context.dof_layout(),
         context.dofs().and_then(|dofs| dofs.v1),
         context.module(ModuleKind::Dof),
     ) else {
         return findings.skip("dof_module is of a version that does not say this");
     };
     for (index, dof) in dofs.dofs.iter().enumerate() {
-        let Some((joint_idx, place)) = freedom.place(index) else {
+        let Some((joint_idx, place)) = layout.place(index) else {
             continue;
         };
         let Some(joint) = robot.joints.get(joint_idx) else {

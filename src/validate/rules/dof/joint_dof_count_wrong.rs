@@ -20,15 +20,15 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(freedom), Some(dofs), Some(module)) = (
+    let (Some(robot), Some(layout), Some(dofs), Some(module)) = (
         context.robot(),
-        context.freedom(),
+        context.dof_layout(),
         context.dofs(),
         context.module(ModuleKind::Dof),
     ) else {
         return;
     };
-    let joints = robot.joints.iter().zip(&freedom.dofs_of_joint);
+    let joints = robot.joints.iter().zip(&layout.dofs_of_joint);
     for (index, ((joint, right), list)) in joints.zip(dofs.dofs_of_joint).enumerate() {
         if list.len() == right.len() {
             continue;

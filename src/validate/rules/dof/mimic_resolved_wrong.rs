@@ -20,10 +20,10 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(mimics), Some(freedom), Some(dofs), Some(module)) = (
+    let (Some(robot), Some(mimics), Some(layout), Some(dofs), Some(module)) = (
         context.robot(),
         context.mimics(),
-        context.freedom(),
+        context.dof_layout(),
         context.dofs().and_then(|dofs| dofs.v1),
         context.module(ModuleKind::Dof),
     ) else {
@@ -62,7 +62,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 continue;
             }
         };
-        let driver = freedom.dofs_of_joint.get(right.driver).cloned();
+        let driver = layout.dofs_of_joint.get(right.driver).cloned();
         let dof = driver.and_then(|mut dofs| dofs.next());
         let written_dof = written.dof_idx.map(|dof| dof.get());
         if dof != written_dof {

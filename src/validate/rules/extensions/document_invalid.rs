@@ -1,8 +1,8 @@
+use crate::document::module::is_extension;
+use crate::document::schema_check;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::is_extension;
 use crate::validate::rule::declare_rule;
-use crate::validate::schema_check;
 use crate::validate::views::extension_schema::{self, SchemaFile};
 
 declare_rule! {

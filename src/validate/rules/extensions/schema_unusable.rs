@@ -1,6 +1,6 @@
+use crate::document::module::is_extension;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::is_extension;
 use crate::validate::rule::declare_rule;
 use crate::validate::views::extension_schema::{self, SchemaFile};
 

@@ -1,5 +1,6 @@
 use nalgebra::Isometry3;
 
+use crate::document::consumer;
 use crate::format::registry::{ModuleKind, Profile};
 use crate::kinematics::unit;
 use crate::kinematics::{ConfigurationError, ForwardKinematics};
@@ -8,7 +9,6 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::reference::{MimicDofs, Reference};
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::{POSITION_OF_REACH, ROTATION, reach, rotation_distance};
-use crate::validate::views::consumer;
 
 declare_rule! {
     /// The poses that follow from the modules are not those that follow from the carried URDF.

@@ -19,15 +19,15 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(freedom), Some(bounds), Some(module)) = (
+    let (Some(robot), Some(layout), Some(bounds), Some(module)) = (
         context.robot(),
-        context.freedom(),
+        context.dof_layout(),
         context.bounds(),
         context.module(ModuleKind::Bounds),
     ) else {
         return;
     };
-    for (dof, (pair, joint)) in bounds.bounds.iter().zip(&freedom.joint_of_dof).enumerate() {
+    for (dof, (pair, joint)) in bounds.bounds.iter().zip(&layout.joint_of_dof).enumerate() {
         let Some(joint) = robot.joints.get(*joint) else {
             continue;
         };

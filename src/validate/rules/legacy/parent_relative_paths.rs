@@ -1,9 +1,9 @@
 use std::collections::BTreeSet;
 
+use crate::document::paths::{self, Place};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::paths::{self, Place};
 
 declare_rule! {
     /// Mesh paths begin with a robot's folder name and are relative to the folder above the URDD.

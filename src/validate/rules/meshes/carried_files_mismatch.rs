@@ -1,12 +1,12 @@
 use std::collections::{HashMap, HashSet};
 
+use crate::document::entries;
+use crate::document::module::Module;
 use crate::format::original_meshes::OriginalMeshesModule;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::load::Module;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// `references` and `files` of `original_meshes_module` do not belong together.

@@ -1,11 +1,11 @@
 use std::io::Read;
 
+use crate::document::mesh_files::MeshFiles;
+use crate::document::meshes::{DERIVED, Format};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::solids::glb_header::{HEADER, header_fault};
-use crate::validate::views::mesh_files::MeshFiles;
-use crate::validate::views::meshes::{DERIVED, Format};
 
 declare_rule! {
     /// A `.glb` file is not binary glTF 2.0.

@@ -1,11 +1,11 @@
+use crate::document::robot::Element;
+use crate::document::usable_geometry::UsableGeometry;
 use crate::format::meshes::GeometryKind;
 use crate::format::registry::ModuleKind;
 use crate::format::urdf::Geometry;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::robot::Element;
-use crate::validate::views::usable_geometry::UsableGeometry;
 
 declare_rule! {
     /// A link has geometry in the URDF and no mesh here, or a mesh here and no geometry in the URDF.

@@ -1,11 +1,11 @@
 use std::collections::BTreeMap;
 use std::collections::HashSet;
 
+use crate::document::mesh_files::{Absence, MeshFiles};
 use crate::format::registry::{ModuleDocument, ModuleKind, Profile};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::mesh_files::{Absence, MeshFiles};
 
 declare_rule! {
     /// A mesh module names a file that is not there.

@@ -1,8 +1,8 @@
+use crate::document::meshes::{DERIVED, Format};
 use crate::format::registry::{ModuleKind, Profile};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::meshes::{DERIVED, Format};
 
 declare_rule! {
     /// A derived mesh file is not named after its link.

@@ -1,10 +1,10 @@
+use crate::document::meshes::DERIVED;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::solids::derived::noun;
 use crate::validate::solids::surface::extent;
 use crate::validate::tolerance::mesh_resolution;
-use crate::validate::views::meshes::DERIVED;
 
 declare_rule! {
     /// The files of one mesh hold different surfaces.

@@ -29,9 +29,10 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     for wrong in context.misplaced() {
         let label = context.link_label(wrong.link);
-        let hint = placed::owner(context, wrong.link).map_or_else(String::new, |owner| {
-            format!("; it is the mesh of {}", context.link_label(owner))
-        });
+        let hint = placed::owner(context, context.solids(), wrong.link)
+            .map_or_else(String::new, |owner| {
+                format!("; it is the mesh of {}", context.link_label(owner))
+            });
         let message = format!(
             "the mesh of {label} is not its geometry in its place: {}{hint}",
             wrong.what

@@ -1,9 +1,9 @@
+use crate::document::meshes::DERIVED;
+use crate::document::meshes::Meshes;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::Meshes;
-use crate::validate::views::meshes::DERIVED;
 
 declare_rule! {
     /// A link has a mesh in one mesh module and none in another.

@@ -1,5 +1,6 @@
 use std::collections::HashSet;
 
+use crate::document::robot::Robot;
 use crate::format::meshes::GeometryKind;
 use crate::format::original_meshes::OriginalMeshesModule;
 use crate::format::registry::{ModuleDocument, ModuleKind};
@@ -7,7 +8,6 @@ use crate::format::urdf::Geometry;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::robot::Robot;
 
 declare_rule! {
     /// `original_meshes_module` does not list the meshes that the URDF names.

@@ -1,4 +1,5 @@
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::document::meshes::{DERIVED, Format};
 use crate::format::registry::Profile;
 use crate::geometry::read::Format as Content;
 use crate::validate::context::Context;
@@ -6,7 +7,6 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::solids::derived::DerivedFile;
 use crate::validate::solids::file::MeshFault;
-use crate::validate::views::meshes::{DERIVED, Format};
 
 declare_rule! {
     /// A mesh file is not a sound mesh in its format.

@@ -1,10 +1,10 @@
 use std::collections::BTreeMap;
 
+use crate::document::shapes::{LIST_MODULES, entry_counts};
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shapes::{LIST_MODULES, entry_counts};
 
 declare_rule! {
     /// Modules disagree about the number of convex pieces of a link.

@@ -1,9 +1,9 @@
+use crate::document::usable_geometry::UsableGeometry;
 use crate::format::meshes::GeometryKind;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::usable_geometry::UsableGeometry;
 
 declare_rule! {
     /// A link's mesh is said to be made from geometry that should not be used for it.

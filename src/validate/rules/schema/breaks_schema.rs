@@ -1,10 +1,10 @@
 use crate::directory::discover::ROOT_METADATA;
+use crate::document::entries;
+use crate::document::schema_check::SchemaViolation;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::rules::directory::unknown_major_version;
-use crate::validate::schema_check::SchemaViolation;
-use crate::validate::views::entries;
 
 declare_rule! {
     /// A document breaks the schema of its version: a key is missing, unknown or misspelt, or a value

@@ -1,9 +1,10 @@
+use crate::document::shape_matrices::{Elements, MATRIX_MODULES, matrices};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::NUMBER_RELATIVE;
-use crate::validate::views::shape_matrices::{Elements, MATRIX_MODULES, matrices};
+use crate::validate::views::tangled::symmetric_at;
 
 declare_rule! {
     /// A matrix over shapes is not symmetric: a pair has one value one way round and another the other.
@@ -44,7 +45,7 @@ fn check(context: &Context, findings: &mut Findings) {
             let mut fold = Fold::new(findings);
             for i in 0..elements.rows() {
                 for j in i + 1..elements.rows() {
-                    if elements.symmetric_at(i, j) {
+                    if symmetric_at(elements, i, j) {
                         continue;
                     }
                     fold.add(|| {

@@ -1,12 +1,12 @@
+use crate::document::shape_matrices::statistics;
+use crate::document::shapes::KINDS;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::distances::tolerances::Tolerances;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::statistics;
 use crate::validate::views::shape_pair::{Pair, Pairs};
-use crate::validate::views::shapes::KINDS;
 
 declare_rule! {
     /// In one of the sampled configurations two shapes are at a distance that the statistics rule out.
@@ -62,7 +62,7 @@ fn check(context: &Context, findings: &mut Findings) {
         };
         let [_, min_key, max_key] = one.keys;
         let pairs = Pairs::new(&one);
-        let tolerances = Tolerances::new(context, &shapes, kind);
+        let tolerances = Tolerances::new(context, context.solids(), &shapes, kind);
         let mut fold = Fold::new(findings);
         for i in 0..one.min.len() {
             for j in i + 1..one.min.len() {

@@ -1,10 +1,10 @@
+use crate::document::shapes::max_distances;
 use crate::format::registry::ModuleKind;
 use crate::geometry::farthest;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::HULL_IN_VOLUME;
-use crate::validate::views::shapes::max_distances;
 
 declare_rule! {
     /// The largest distance of a hull or piece from its link's origin is not that of its farthest vertex.

@@ -1,8 +1,8 @@
+use crate::document::shapes::{Volume, approximations};
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shapes::{Volume, approximations};
 
 declare_rule! {
     /// A box has a negative half extent or no extent at all, or a sphere's radius is not positive.

@@ -1,8 +1,8 @@
+use crate::document::shape_matrices::{MATRIX_MODULES, Matrix, matrices};
+use crate::document::shapes::Shapes;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::{MATRIX_MODULES, Matrix, matrices};
-use crate::validate::views::shapes::Shapes;
 
 declare_rule! {
     /// A matrix over shapes is not square, or not of the number of shapes.

@@ -1,9 +1,9 @@
+use crate::document::shapes::{ShapeList, Volume, approximations, max_distances};
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::{HULL_IN_VOLUME, LEGACY_SPHERE_SHORTFALL, number_tolerance};
-use crate::validate::views::shapes::{ShapeList, Volume, approximations, max_distances};
 
 declare_rule! {
     /// A shape's largest distance from its link's origin is not what its box or sphere gives.

@@ -1,5 +1,6 @@
 use rayon::prelude::*;
 
+use crate::document::shapes::Volume;
 use crate::format::registry::{ModuleKind, Profile};
 use crate::geometry::hull::ConvexHull;
 use crate::geometry::oriented_box::OrientedBox;
@@ -8,7 +9,6 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::NEEDLESSLY_LARGE_BOX;
 use crate::validate::views::enclosure::{Enclosure, enclosures};
-use crate::validate::views::shapes::Volume;
 
 declare_rule! {
     /// A box has more than 1.1 times the volume of a smaller one that holds the same hull or piece.
@@ -47,7 +47,7 @@ fn check(context: &Context, findings: &mut Findings) {
     let tight = context.profile() == Profile::V1;
     // A box that does not fit is told of by SHP017 or SHP018.
     let sound = |e: &Enclosure| e.holds() && (e.touches() || !tight);
-    let mut found: Vec<(Enclosure, f64)> = enclosures(context)
+    let mut found: Vec<(Enclosure, f64)> = enclosures(context, context.solids())
         .into_par_iter()
         .filter(sound)
         .filter_map(|enclosure| {

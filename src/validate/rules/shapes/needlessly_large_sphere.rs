@@ -1,3 +1,4 @@
+use crate::document::shapes::Volume;
 use crate::format::registry::{ModuleKind, Profile};
 use crate::geometry::bounding_sphere::BoundingSphere;
 use crate::geometry::hull::ConvexHull;
@@ -6,7 +7,6 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::NEEDLESSLY_LARGE_SPHERE;
 use crate::validate::views::enclosure::{Enclosure, enclosures};
-use crate::validate::views::shapes::Volume;
 
 declare_rule! {
     /// A sphere has more than 1.05 times the radius of a smaller one that holds the same hull or piece.
@@ -44,7 +44,7 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     let tight = context.profile() == Profile::V1;
     let mut found = Vec::new();
-    for enclosure in enclosures(context) {
+    for enclosure in enclosures(context, context.solids()) {
         // A sphere that does not fit is told of by SHP017 or SHP018.
         if !enclosure.holds() || (tight && !enclosure.touches()) {
             continue;

@@ -1,10 +1,10 @@
+use crate::document::shape_matrices::{at, statistics};
+use crate::document::shapes::KINDS;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::{at, statistics};
-use crate::validate::views::shapes::KINDS;
 
 declare_rule! {
     /// A distance between two shapes is negative.

@@ -1,8 +1,8 @@
+use crate::document::shape_matrices::{V1_MATRIX_MODULES, matrices};
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::{V1_MATRIX_MODULES, matrices};
 
 declare_rule! {
     /// A matrix over convex pieces is null, though the robot has few enough of them.

@@ -40,7 +40,7 @@ fn check(context: &Context, findings: &mut Findings) {
     let Some(module) = context.module(ModuleKind::LinkShapesApproximations) else {
         return;
     };
-    for enclosure in enclosures(context) {
+    for enclosure in enclosures(context, context.solids()) {
         // What leaves a part out stands off on the other side: SHP017 tells.
         if !enclosure.holds() || enclosure.touches() {
             continue;

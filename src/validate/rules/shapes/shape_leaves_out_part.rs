@@ -38,7 +38,7 @@ fn check(context: &Context, findings: &mut Findings) {
     let Some(module) = context.module(ModuleKind::LinkShapesApproximations) else {
         return;
     };
-    for enclosure in enclosures(context) {
+    for enclosure in enclosures(context, context.solids()) {
         if enclosure.holds() {
             continue;
         }

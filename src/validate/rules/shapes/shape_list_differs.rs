@@ -1,9 +1,9 @@
+use crate::document::shape_matrices::{V1_MATRIX_MODULES, shape_lists};
 use crate::format::index::{LinkIdx, PieceIdx};
 use crate::format::shapes::PieceShape;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::{V1_MATRIX_MODULES, shape_lists};
 
 declare_rule! {
     /// `full_shapes` or `decomposition_shapes` does not say what the matrices' indices stand for.

@@ -1,7 +1,7 @@
+use crate::document::shapes::{LIST_MODULES, entry_counts};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shapes::{LIST_MODULES, entry_counts};
 
 declare_rule! {
     /// A list of boxes, spheres or distances does not hold one entry per link.

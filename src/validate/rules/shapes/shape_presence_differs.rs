@@ -1,8 +1,8 @@
+use crate::document::shapes::{LIST_MODULES, entry_counts};
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shapes::{LIST_MODULES, entry_counts};
 
 declare_rule! {
     /// A link with a hull has no box, sphere or distance here, or one without a hull has one.

@@ -1,11 +1,11 @@
+use crate::document::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
+use crate::document::shapes::KINDS;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
 use crate::validate::views::shape_pair::{Pair, Pairs};
-use crate::validate::views::shapes::KINDS;
 use crate::validate::views::tangled::Tangled;
 
 declare_rule! {

@@ -1,14 +1,14 @@
 use std::collections::HashSet;
 
+use crate::document::shape_matrices::{Elements, at, reasons, skips, statistics};
+use crate::document::shapes::KINDS;
 use crate::format::link_shapes_simple_skips::SkipReason;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::{Elements, at, reasons, skips, statistics};
 use crate::validate::views::shape_pair::{Pair, Pairs};
-use crate::validate::views::shapes::KINDS;
 use crate::validate::views::tangled::Tangled;
 
 declare_rule! {

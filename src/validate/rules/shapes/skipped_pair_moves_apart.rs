@@ -1,5 +1,7 @@
 use std::collections::HashSet;
 
+use crate::document::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
+use crate::document::shapes::{KINDS, ShapeKind, Shapes};
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
 use crate::validate::distances::plan;
@@ -9,9 +11,7 @@ use crate::validate::distances::tolerances::Tolerances;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
 use crate::validate::views::shape_pair::CONTACT;
-use crate::validate::views::shapes::{KINDS, ShapeKind, Shapes};
 use crate::validate::views::tangled::Tangled;
 
 declare_rule! {
@@ -107,11 +107,11 @@ fn check(context: &Context, findings: &mut Findings) {
         let set = match known(kind) {
             Some(set) => set,
             None => {
-                made = ShapeSet::new(context, &shapes, kind, false);
+                made = ShapeSet::new(context, context.solids(), &shapes, kind, false);
                 &made
             }
         };
-        let tolerances = Tolerances::new(context, &shapes, kind);
+        let tolerances = Tolerances::new(context, context.solids(), &shapes, kind);
         let mut fold = Fold::new(findings);
         for (i, j) in pairs {
             let Some(distances) = set.pair(i, j, &motion) else {

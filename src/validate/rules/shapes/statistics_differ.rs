@@ -1,12 +1,12 @@
+use crate::document::shape_matrices::statistics;
+use crate::document::shapes::KINDS;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::distances::tolerances::Tolerances;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::statistics;
 use crate::validate::views::shape_pair::{Pair, Pairs};
-use crate::validate::views::shapes::KINDS;
 
 declare_rule! {
     /// The mean, smallest or largest distance of two shapes is not that of the sampled configurations.
@@ -65,7 +65,7 @@ fn check(context: &Context, findings: &mut Findings) {
             continue;
         }
         let pairs = Pairs::new(&one);
-        let tolerances = Tolerances::new(context, &shapes, kind);
+        let tolerances = Tolerances::new(context, context.solids(), &shapes, kind);
         let group = |shape: usize| groups.of_link.get(shapes.link(kind, shape)?);
         let mut fold = Fold::new(findings);
         for i in 0..one.min.len() {

@@ -1,11 +1,11 @@
+use crate::document::shape_matrices::statistics;
+use crate::document::shapes::KINDS;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shape_matrices::statistics;
 use crate::validate::views::shape_pair::Pairs;
-use crate::validate::views::shapes::KINDS;
 
 declare_rule! {
     /// A mean distance does not lie between the smallest and the largest.

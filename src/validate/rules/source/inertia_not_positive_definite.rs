@@ -1,10 +1,10 @@
 use super::moments;
+use crate::document::robot::Link;
 use crate::format::urdf::JointType;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::INERTIA_DEFINITE;
-use crate::validate::views::robot::Link;
 
 declare_rule! {
     /// An inertia tensor is not positive definite.

@@ -1,7 +1,7 @@
+use crate::document::robot::Link;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::robot::Link;
 
 declare_rule! {
     /// A mass is negative, or 0 where something moves.

@@ -1,8 +1,8 @@
+use crate::document::schema_check::excerpt;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::schema_check::excerpt;
 
 declare_rule! {
     /// A mesh that the URDF names is not carried.

@@ -1,9 +1,9 @@
+use crate::document::robot::Robot;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::urdf_text::compare::first_names;
-use crate::validate::views::robot::Robot;
 
 declare_rule! {
     /// Links hang on each other in a circle.

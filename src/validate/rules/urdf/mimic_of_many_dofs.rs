@@ -28,11 +28,11 @@ fn check(context: &Context, findings: &mut Findings) {
             .joint(&mimic.joint)
             .and_then(|driver| robot.joints.get(driver));
         let (message, culprit) = match driver {
-            _ if joint.freedom() > 1 => (
+            _ if joint.num_dofs() > 1 => (
                 format!("joint `{}` is a mimic, but has several DOFs", joint.name),
                 joint,
             ),
-            Some(driver) if driver.freedom() > 1 && driver.active_mimic().is_none() => (
+            Some(driver) if driver.num_dofs() > 1 && driver.active_mimic().is_none() => (
                 format!(
                     "joint `{}` follows joint `{}`, which has several DOFs",
                     joint.name, driver.name
@@ -51,7 +51,7 @@ fn check(context: &Context, findings: &mut Findings) {
             .actual(format!(
                 "{}, with {} DOFs",
                 culprit.joint_type,
-                culprit.freedom()
+                culprit.num_dofs()
             )),
         );
     }

@@ -3,10 +3,10 @@
 use serde_json::Value;
 
 use crate::directory::position::LineIndex;
+use crate::document::schema_check::excerpt;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::schema_check::excerpt;
 use crate::validate::urdf_text::as_legacy;
 use crate::validate::urdf_text::compare::{Difference, differences};
 

@@ -1,8 +1,8 @@
 use crate::directory::position::{self, LineIndex};
+use crate::document::schema_check::excerpt;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::schema_check::excerpt;
 
 declare_rule! {
     /// The carried URDF cannot be read as a URDF.

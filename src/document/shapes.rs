@@ -3,10 +3,10 @@
 
 use nalgebra::{Rotation3, Vector3};
 
+use crate::document::urdd::Urdd;
 use crate::format::legacy::link_shapes_approximations as legacy;
 use crate::format::link_shapes_approximations as v1;
 use crate::format::registry::{ModuleDocument, ModuleKind};
-use crate::validate::context::Context;
 
 /// The modules that hold lists by link.
 pub const LIST_MODULES: &[ModuleKind] = &[
@@ -50,9 +50,9 @@ pub struct Shapes {
 
 impl Shapes {
     /// The shapes that follow from the hulls and the pieces.
-    pub fn new(context: &Context) -> Option<Shapes> {
-        let hulls = context.meshes(ModuleKind::ConvexHullMeshes)?;
-        let pieces = context.meshes(ModuleKind::ConvexDecompositionMeshes)?;
+    pub fn new(urdd: &Urdd) -> Option<Shapes> {
+        let hulls = urdd.meshes(ModuleKind::ConvexHullMeshes)?;
+        let pieces = urdd.meshes(ModuleKind::ConvexDecompositionMeshes)?;
         Some(Shapes {
             full: (0..hulls.num_links())
                 .filter(|link| hulls.count(*link) > 0)
@@ -88,9 +88,9 @@ impl Shapes {
     }
 
     /// A shape for people: its index and what it stands for.
-    pub fn describe(&self, context: &Context, kind: ShapeKind, shape: usize) -> String {
+    pub fn describe(&self, urdd: &Urdd, kind: ShapeKind, shape: usize) -> String {
         let link = self.link(kind, shape);
-        let name = link.and_then(|link| Some(context.robot()?.links.get(link)?.name.as_str()));
+        let name = link.and_then(|link| Some(urdd.robot()?.links.get(link)?.name.as_str()));
         match (name, self.pieces.get(shape)) {
             (Some(name), _) if kind.full => format!("{shape} (link `{name}`)"),
             (Some(name), Some((_, piece))) => format!("{shape} (piece {piece} of `{name}`)"),

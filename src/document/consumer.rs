@@ -1,14 +1,14 @@
 //! What a consumer's kinematics is computed from: `chain_module` and `dof_module`, and for legacy
 //! URDDs `urdf_module` besides, which alone has origins and axes then.
 
+use crate::document::robot::Robot;
+use crate::document::urdd::Urdd;
 use crate::format::chain::{ChainModule, JointInChain, LinkInChain};
 use crate::format::dof::{Dof, DofModule, Quantity, ResolvedMimic};
 use crate::format::index::{DofIdx, JointIdx};
 use crate::format::urdf::JointType;
 use crate::kinematics::pose::from_isometry;
 use crate::kinematics::rotation;
-use crate::validate::context::Context;
-use crate::validate::views::robot::Robot;
 
 /// The two modules from which a consumer computes poses.
 pub struct ConsumerModules {
@@ -20,15 +20,15 @@ pub struct ConsumerModules {
 
 /// The modules of a URDD as a consumer of version 1 wants them; `None` where one is missing, or
 /// where legacy modules leave something open.
-pub fn modules(context: &Context) -> Option<ConsumerModules> {
-    let (chain, dofs) = (context.chain()?, context.dofs()?);
+pub fn modules(urdd: &Urdd) -> Option<ConsumerModules> {
+    let (chain, dofs) = (urdd.chain()?, urdd.dofs()?);
     if let (Some(chain), Some(dof)) = (chain.v1, dofs.v1) {
         return Some(ConsumerModules {
             chain: chain.clone(),
             dof: dof.clone(),
         });
     }
-    let robot = context.robot()?;
+    let robot = urdd.robot()?;
     let links_in_chain = chain.links.iter().map(|link| LinkInChain {
         name: link.name.to_owned(),
         link_idx: link.link_idx,
@@ -74,7 +74,7 @@ pub fn modules(context: &Context) -> Option<ConsumerModules> {
             num_dofs: dofs.num_dofs,
             dof_idx_to_joint_idx_mapping: dofs.joint_of_dof.to_vec(),
             joint_idx_to_dof_idxs_mapping: dofs.dofs_of_joint.to_vec(),
-            joint_idx_to_mimic_mapping: legacy_mimics(context, robot, dofs.dofs_of_joint)?,
+            joint_idx_to_mimic_mapping: legacy_mimics(urdd, robot, dofs.dofs_of_joint)?,
             dofs: dofs
                 .joint_of_dof
                 .iter()
@@ -87,11 +87,11 @@ pub fn modules(context: &Context) -> Option<ConsumerModules> {
 /// Mimics as `urdf_module` has them; a mimic joint with a DOF of its own (`dof_module` 0.0.1)
 /// follows that.
 fn legacy_mimics(
-    context: &Context,
+    urdd: &Urdd,
     robot: &Robot,
     dofs_of_joint: &[Vec<DofIdx>],
 ) -> Option<Vec<Option<ResolvedMimic>>> {
-    let mimics = context.mimics()?;
+    let mimics = urdd.mimics()?;
     let resolve = |joint: usize| {
         let resolved = mimics.by_joint[joint]?;
         let own = dofs_of_joint

@@ -2,8 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::super::context::Context;
-use super::super::load::{Module, is_extension};
+use super::module::{Module, is_extension};
+use super::urdd::Urdd;
 use crate::directory::path;
 use crate::directory::root::{EntryKind, ReadError};
 use crate::format::registry::{self, ModuleKind, Profile};
@@ -32,12 +32,12 @@ impl Entry<'_> {
 
     /// Whether one of the files in its list has a fault of its own, of which another rule tells:
     /// a path that may not be, that leads to nothing, or that is there twice.
-    pub fn has_faulty_file(&self, context: &Context) -> bool {
+    pub fn has_faulty_file(&self, urdd: &Urdd) -> bool {
         let mut seen = HashSet::new();
         self.entry.files.iter().any(|file| {
             path::check(&file.path).is_err()
                 || !seen.insert(file.path.as_str())
-                || look(context, &file.path).is_err()
+                || look(urdd, &file.path).is_err()
         })
     }
 
@@ -49,11 +49,11 @@ impl Entry<'_> {
 }
 
 /// Every entry, in order; none where the root metadata is of no use.
-pub fn all(context: &Context) -> Vec<Entry<'_>> {
-    let Some(metadata) = context.metadata() else {
+pub fn all(urdd: &Urdd) -> Vec<Entry<'_>> {
+    let Some(metadata) = urdd.metadata() else {
         return Vec::new();
     };
-    let modules: HashMap<&str, &Module> = context
+    let modules: HashMap<&str, &Module> = urdd
         .modules()
         .iter()
         .map(|module| (module.folder.as_str(), module))
@@ -95,19 +95,18 @@ fn has_version_1(kind: ModuleKind) -> bool {
 
 /// Whether a module folder is of this specification (in a legacy URDD: or of those before it), or
 /// an extension. Of others, DIR022 tells, and no other rule does.
-pub fn is_known(context: &Context, module: &Module) -> bool {
+pub fn is_known(urdd: &Urdd, module: &Module) -> bool {
     match module.kind {
-        Some(kind) => context.profile() == Profile::Legacy || has_version_1(kind),
+        Some(kind) => urdd.profile() == Profile::Legacy || has_version_1(kind),
         None => is_extension(&module.folder),
     }
 }
 
 /// The module folders of which rules speak.
-pub fn known_modules(context: &Context) -> impl Iterator<Item = &Module> {
-    context
-        .modules()
+pub fn known_modules(urdd: &Urdd) -> impl Iterator<Item = &Module> {
+    urdd.modules()
         .iter()
-        .filter(|module| is_known(context, module))
+        .filter(|module| is_known(urdd, module))
 }
 
 /// Whether there is a regular file at a path, and how long it is. What cannot be opened is judged
@@ -115,15 +114,15 @@ pub fn known_modules(context: &Context) -> impl Iterator<Item = &Module> {
 ///
 /// # Errors
 /// Why there is none.
-pub fn look(context: &Context, path: &str) -> Result<u64, ReadError> {
+pub fn look(urdd: &Urdd, path: &str) -> Result<u64, ReadError> {
     path::check(path)?;
-    let listing = context.listing();
+    let listing = urdd.listing();
     if let Some(entry) = listing.get(path) {
         return match entry.kind {
             EntryKind::File => Ok(entry.size),
             EntryKind::LinkOut => Err(ReadError::LeavesRoot),
             EntryKind::Folder | EntryKind::Other => Err(ReadError::NotAFile),
-            EntryKind::Link => context.root().open_file(path).map(|(_, size)| size),
+            EntryKind::Link => urdd.root().open_file(path).map(|(_, size)| size),
         };
     }
     // Not listed, but below a link to a folder, or beyond where the listing stopped, it may be there.
@@ -134,7 +133,7 @@ pub fn look(context: &Context, path: &str) -> Result<u64, ReadError> {
     let below_link =
         nearest.is_some_and(|entry| matches!(entry.kind, EntryKind::Link | EntryKind::LinkOut));
     if below_link || listing.cut || !listing.unreadable.is_empty() {
-        return context.root().open_file(path).map(|(_, size)| size);
+        return urdd.root().open_file(path).map(|(_, size)| size);
     }
     Err(ReadError::Missing)
 }

@@ -1,6 +1,6 @@
 //! Finding and reading the source URDF that a URDD carries.
 
-use super::load::{JsonFile, MetadataFile};
+use super::module::{JsonFile, MetadataFile};
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::root::{EntryKind, Listing, Root};
 use crate::format::root_metadata::Source;

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 
 use nalgebra::Matrix3;
 
+use crate::document::pose::{
+    has_quaternions, rotation_of_quaternion, rotation_of_rpy, unit_quaternion,
+};
 use crate::format::legacy::urdf as legacy;
 use crate::format::registry::ModuleDocument;
 use crate::format::urdf::{self as v1, JointType};
-use crate::validate::pose::{
-    has_quaternions, rotation_of_quaternion, rotation_of_rpy, unit_quaternion,
-};
 
 /// A robot.
 #[derive(Debug, Clone, Default)]
@@ -176,7 +176,7 @@ impl Robot {
 
 impl Joint {
     /// Number of DOFs that a joint of this type has, mimic or not (SPEC 5.8).
-    pub fn freedom(&self) -> usize {
+    pub fn num_dofs(&self) -> usize {
         match self.joint_type {
             JointType::Fixed => 0,
             JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,

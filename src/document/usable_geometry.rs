@@ -2,15 +2,15 @@
 
 use std::collections::HashSet;
 
+use crate::document::urdd::Urdd;
 use crate::format::meshes::GeometryKind;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::format::urdf::Geometry;
-use crate::validate::context::Context;
 
 /// Which elements of a robot's links can be made a mesh: those with a surface. A mesh that
 /// could not be carried has none.
 pub struct UsableGeometry<'a> {
-    context: &'a Context,
+    urdd: &'a Urdd,
     /// Link, kind, element of meshes that could not be carried, or have no surface.
     lost: HashSet<(usize, GeometryKind, usize)>,
     /// Links whose visual meshes a legacy module does not carry.
@@ -19,13 +19,13 @@ pub struct UsableGeometry<'a> {
 
 impl<'a> UsableGeometry<'a> {
     /// For a URDD. Without `original_meshes_module` every mesh is taken to be carried.
-    pub fn new(context: &'a Context) -> Self {
+    pub fn new(urdd: &'a Urdd) -> Self {
         let mut usable = UsableGeometry {
-            context,
+            urdd,
             lost: HashSet::new(),
             lost_legacy: HashSet::new(),
         };
-        match context.document(ModuleKind::OriginalMeshes) {
+        match urdd.document(ModuleKind::OriginalMeshes) {
             Some(ModuleDocument::OriginalMeshes(module)) => {
                 let bare: HashSet<&String> = module
                     .files
@@ -44,7 +44,7 @@ impl<'a> UsableGeometry<'a> {
                     .collect();
             }
             _ => {
-                if let Some(meshes) = context.meshes(ModuleKind::OriginalMeshes) {
+                if let Some(meshes) = urdd.meshes(ModuleKind::OriginalMeshes) {
                     let links = 0..meshes.num_links();
                     usable.lost_legacy = links.filter(|link| meshes.count(*link) == 0).collect();
                 }
@@ -55,7 +55,7 @@ impl<'a> UsableGeometry<'a> {
 
     /// Whether a link has a usable element of a kind.
     pub fn has(&self, link: usize, kind: GeometryKind) -> bool {
-        let Some(named) = self.context.robot().and_then(|robot| robot.links.get(link)) else {
+        let Some(named) = self.urdd.robot().and_then(|robot| robot.links.get(link)) else {
             return false;
         };
         let elements = match kind {
@@ -67,7 +67,7 @@ impl<'a> UsableGeometry<'a> {
 
     /// Whether an element of a link is usable.
     pub fn is_usable(&self, link: usize, kind: GeometryKind, element: usize) -> bool {
-        let Some(named) = self.context.robot().and_then(|robot| robot.links.get(link)) else {
+        let Some(named) = self.urdd.robot().and_then(|robot| robot.links.get(link)) else {
             return false;
         };
         let elements = match kind {

@@ -1,7 +1,7 @@
 //! Every path that a document names, whatever the module and its version.
 
-use super::super::context::Context;
-use super::super::load::Module;
+use super::module::Module;
+use super::urdd::Urdd;
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::path::{self, PathFault};
 use crate::format::meshes::MeshFiles;
@@ -77,7 +77,7 @@ impl<'a> NamedPath<'a> {
     }
 
     /// Where the path leads.
-    pub fn place(&self, context: &Context) -> Place<'a> {
+    pub fn place(&self, urdd: &Urdd) -> Place<'a> {
         if let Err(fault) = path::check(self.path) {
             return Place::Nowhere(fault);
         }
@@ -85,7 +85,7 @@ impl<'a> NamedPath<'a> {
             return Place::Here(self.path);
         }
         match self.path.split_once('/') {
-            Some((folder, path)) if folder == context.root().folder_name() => Place::Here(path),
+            Some((folder, path)) if folder == urdd.root().folder_name() => Place::Here(path),
             Some((folder, path)) => Place::Sibling { folder, path },
             None => Place::Sibling {
                 folder: self.path,
@@ -97,12 +97,12 @@ impl<'a> NamedPath<'a> {
 
 /// Every path that `urdd.json` and the modules' documents name, document by document, in the order
 /// of their text. Documents that break their schema have none.
-pub fn all(context: &Context) -> Vec<NamedPath<'_>> {
-    let mut paths = match context.metadata() {
+pub fn all(urdd: &Urdd) -> Vec<NamedPath<'_>> {
+    let mut paths = match urdd.metadata() {
         Some(metadata) => of_metadata(metadata),
         None => Vec::new(),
     };
-    for module in context.modules() {
+    for module in urdd.modules() {
         paths.extend(of_module(module));
     }
     paths

@@ -6,8 +6,8 @@ use std::fs::File;
 
 use crate::directory::path;
 use crate::directory::root::{ReadError, Root};
+use crate::document::urdd::Urdd;
 use crate::format::registry::Profile;
-use crate::validate::context::Context;
 
 /// Why a mesh file cannot be had.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,17 +23,17 @@ pub enum Absence {
 
 /// Follows paths of one URDD; remembers the URDDs beside it.
 pub struct MeshFiles<'a> {
-    context: &'a Context,
+    urdd: &'a Urdd,
     own_name: String,
     siblings: HashMap<String, Option<Root>>,
 }
 
 impl<'a> MeshFiles<'a> {
     /// For a URDD.
-    pub fn new(context: &'a Context) -> Self {
+    pub fn new(urdd: &'a Urdd) -> Self {
         MeshFiles {
-            context,
-            own_name: context.root().folder_name(),
+            urdd,
+            own_name: urdd.root().folder_name(),
             siblings: HashMap::new(),
         }
     }
@@ -52,7 +52,7 @@ impl<'a> MeshFiles<'a> {
     /// Why there is none.
     pub fn find(&mut self, profile: Profile, path: &str) -> Result<(), Absence> {
         if let Some(own) = self.own(profile, path)
-            && self.context.listing().has_file(own)
+            && self.urdd.listing().has_file(own)
         {
             return Ok(());
         }
@@ -66,14 +66,14 @@ impl<'a> MeshFiles<'a> {
     pub fn open(&mut self, profile: Profile, path: &str) -> Result<(File, u64), Absence> {
         path::check(path).map_err(|fault| Absence::Other(ReadError::Path(fault)))?;
         let opened = match self.own(profile, path) {
-            Some(own) => self.context.root().open_file(own),
+            Some(own) => self.urdd.root().open_file(own),
             None => {
                 let (folder, rest) = path.split_once('/').ok_or(Absence::Missing)?;
-                let context = self.context;
+                let urdd = self.urdd;
                 let sibling = self
                     .siblings
                     .entry(folder.to_owned())
-                    .or_insert_with(|| context.root().sibling(folder));
+                    .or_insert_with(|| urdd.root().sibling(folder));
                 match sibling {
                     Some(root) => root.open_file(rest),
                     None => return Err(Absence::NoSibling(folder.to_owned())),

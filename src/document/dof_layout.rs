@@ -8,30 +8,30 @@ use crate::format::urdf::JointType;
 
 /// The degrees of freedom of a robot, in joint order.
 #[derive(Debug, Clone)]
-pub struct Freedom {
+pub struct DofLayout {
     /// For each joint, its DOFs.
     pub dofs_of_joint: Vec<Range<usize>>,
     /// For each DOF, its joint.
     pub joint_of_dof: Vec<usize>,
 }
 
-impl Freedom {
+impl DofLayout {
     /// The degrees of freedom of a robot; `mimics_too` where mimic joints have their own.
-    pub fn new(robot: &Robot, mimics_too: bool) -> Freedom {
-        let mut freedom = Freedom {
+    pub fn new(robot: &Robot, mimics_too: bool) -> DofLayout {
+        let mut layout = DofLayout {
             dofs_of_joint: Vec::with_capacity(robot.joints.len()),
             joint_of_dof: Vec::new(),
         };
         for (index, joint) in robot.joints.iter().enumerate() {
-            let start = freedom.joint_of_dof.len();
+            let start = layout.joint_of_dof.len();
             let dofs = match mimics_too {
-                true => joint.freedom(),
-                false => own_freedom(joint),
+                true => joint.num_dofs(),
+                false => own_dofs(joint),
             };
-            freedom.joint_of_dof.extend((0..dofs).map(|_| index));
-            freedom.dofs_of_joint.push(start..start + dofs);
+            layout.joint_of_dof.extend((0..dofs).map(|_| index));
+            layout.dofs_of_joint.push(start..start + dofs);
         }
-        freedom
+        layout
     }
 
     /// The joint of a DOF, and which of that joint's DOFs it is.
@@ -43,8 +43,8 @@ impl Freedom {
 }
 
 /// Number of DOFs that a joint has of its own: a mimic joint that would have one has none.
-pub fn own_freedom(joint: &Joint) -> usize {
-    match (joint.freedom(), &joint.mimic) {
+pub fn own_dofs(joint: &Joint) -> usize {
+    match (joint.num_dofs(), &joint.mimic) {
         (1, Some(_)) => 0,
         (dofs, _) => dofs,
     }
@@ -75,7 +75,7 @@ pub fn describe(joint_type: JointType, place: usize) -> Option<(&'static str, Qu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::validate::views::robot::Origin;
+    use crate::document::robot::Origin;
 
     #[test]
     fn every_dof_of_every_joint_type_is_described() {
@@ -91,7 +91,7 @@ mod tests {
                 mimic: None,
             };
             let described = (0..).take_while(|place| describe(joint_type, *place).is_some());
-            assert_eq!(described.count(), joint.freedom(), "{joint_type}");
+            assert_eq!(described.count(), joint.num_dofs(), "{joint_type}");
         }
     }
 }

@@ -8,7 +8,6 @@ use crate::format::legacy::link_shapes_lie_alg_error_models::ErrorBounds;
 use crate::format::link_shapes_simple_skips::SkipReason;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::format::shapes::PieceShape;
-use crate::validate::tolerance::numbers_agree;
 
 /// The modules that hold matrices over shapes.
 pub const MATRIX_MODULES: &[ModuleKind] = &[
@@ -246,35 +245,6 @@ impl Elements<'_> {
             Elements::Skips(rows) => lengths(rows),
             Elements::Reasons(rows) => lengths(rows),
             Elements::Models(rows) => lengths(rows),
-        }
-    }
-
-    /// Whether the elements (i, j) and (j, i) agree; so they do where one is missing.
-    pub fn symmetric_at(&self, i: usize, j: usize) -> bool {
-        fn agree<T: Copy>(rows: &[Vec<T>], i: usize, j: usize, same: fn(T, T) -> bool) -> bool {
-            match (at(rows, i, j), at(rows, j, i)) {
-                (Some(a), Some(b)) => same(a, b),
-                _ => true,
-            }
-        }
-        match self {
-            Elements::Distances(rows) => agree(rows, i, j, numbers_agree),
-            Elements::Skips(rows) => agree(rows, i, j, |a, b| a == b),
-            Elements::Reasons(rows) => agree(rows, i, j, |a, b| a == b),
-            Elements::Models(rows) => agree(rows, i, j, |a, b| {
-                let mut pairs = a.iter().flatten().zip(b.iter().flatten());
-                pairs.all(|(a, b)| numbers_agree(*a, *b))
-            }),
-        }
-    }
-
-    /// Whether the element (i, i) is what every diagonal has: distance 0, skip true. Reasons and
-    /// models are not judged here.
-    pub fn diagonal_sound(&self, i: usize) -> bool {
-        match self {
-            Elements::Distances(rows) => at(rows, i, i).is_none_or(|d| numbers_agree(d, 0.0)),
-            Elements::Skips(rows) => at(rows, i, i).unwrap_or(true),
-            Elements::Reasons(_) | Elements::Models(_) => true,
         }
     }
 

@@ -5,146 +5,18 @@ use std::collections::{HashMap, HashSet};
 use rayon::prelude::*;
 use serde::Deserialize;
 
-use super::carried_urdf;
-pub use super::carried_urdf::CarriedUrdf;
-use super::schema_check::{self, SchemaViolation};
+use super::carried_urdf::{self, CarriedUrdf};
+use super::module::{JsonFile, MetadataFile, Mirror, Module, VersionFile, is_extension};
+use super::schema_check;
 use crate::directory::discover::ROOT_METADATA;
-use crate::directory::json::{self, JsonDocument};
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
 use crate::directory::root::{EntryKind, Listing, ReadError, Root};
-use crate::directory::text_fault::TextFaults;
 use crate::directory::yaml;
-use crate::format::registry::{self, ModuleDocument, ModuleKind, ModuleSpec, Profile};
+use crate::format::registry::{self, ModuleKind, ModuleSpec, Profile};
 use crate::format::root_metadata::{RootMetadata, Version};
 
 /// Longest `VERSION` file that is read, bytes.
 const MAX_VERSION_BYTES: u64 = 1024;
-
-/// A JSON file, as far as it could be read.
-pub enum JsonFile {
-    /// There is none.
-    Missing,
-    /// It is there and cannot be read.
-    Unreadable(ReadError),
-    /// It is not JSON.
-    Broken(TextFaults),
-    /// It is JSON.
-    Read(Box<JsonDocument>),
-}
-
-impl JsonFile {
-    fn read(root: &Root, path: &str) -> Self {
-        match root.read(path, MAX_DOCUMENT_BYTES) {
-            Err(ReadError::Missing) => JsonFile::Missing,
-            Err(error) => JsonFile::Unreadable(error),
-            Ok(bytes) => match json::read(&bytes) {
-                Ok(document) => JsonFile::Read(Box::new(document)),
-                Err(unreadable) => JsonFile::Broken(unreadable.faults),
-            },
-        }
-    }
-
-    /// The document, where it could be read.
-    pub fn document(&self) -> Option<&JsonDocument> {
-        match self {
-            JsonFile::Read(document) => Some(document),
-            _ => None,
-        }
-    }
-
-    /// What is wrong with its text.
-    pub fn faults(&self) -> Option<&TextFaults> {
-        match self {
-            JsonFile::Broken(faults) => Some(faults),
-            JsonFile::Read(document) => Some(&document.faults),
-            _ => None,
-        }
-    }
-}
-
-/// The YAML mirror of a document.
-pub enum Mirror {
-    /// There is none.
-    Missing,
-    /// It is there and cannot be read.
-    Unreadable(ReadError),
-    /// It was not compared, because there is no JSON to compare it with.
-    NotCompared,
-    /// It was compared.
-    Compared(TextFaults),
-}
-
-/// A module's `VERSION` file.
-pub enum VersionFile {
-    /// There is none.
-    Missing,
-    /// It is there and cannot be read.
-    Unreadable(ReadError),
-    /// Its text, without the newline that may end it.
-    Text(String),
-}
-
-/// The root metadata file.
-pub struct MetadataFile {
-    /// The file.
-    pub json: JsonFile,
-    /// How it breaks its schema.
-    pub violations: Vec<SchemaViolation>,
-    /// What it says, where it fits its schema.
-    pub metadata: Option<RootMetadata>,
-}
-
-/// A module's folder.
-pub struct Module {
-    /// Folder relative to the root.
-    pub folder: String,
-    /// Which module it is; `None` for extensions and unknown ones.
-    pub kind: Option<ModuleKind>,
-    /// Its `VERSION` file.
-    pub version_file: VersionFile,
-    /// The version that it has by its `VERSION` file or else by the root metadata.
-    pub version: Option<String>,
-    /// The registry's entry by which it is checked.
-    pub spec: Option<&'static ModuleSpec>,
-    /// Whether its version is newer than any that is known, and it is checked as the newest.
-    pub newer: bool,
-    /// Its `module.json`.
-    pub json: JsonFile,
-    /// Its `module.yaml`.
-    pub mirror: Mirror,
-    /// How the document breaks its schema.
-    pub violations: Vec<SchemaViolation>,
-    /// The document, where it fits its schema.
-    pub document: Option<ModuleDocument>,
-}
-
-impl Module {
-    /// Path of a file of the module, relative to the root.
-    pub fn file(&self, name: &str) -> String {
-        format!("{}/{name}", self.folder)
-    }
-
-    /// The last part of its folder.
-    pub fn name(&self) -> &str {
-        self.folder.rsplit('/').next().unwrap_or(&self.folder)
-    }
-
-    /// Why its document is of no use, where it is not.
-    pub fn unusable(&self) -> Option<String> {
-        let file = self.file("module.json");
-        match (&self.json, &self.document) {
-            (_, Some(_)) => None,
-            (JsonFile::Missing, _) => Some(format!("{file} is missing")),
-            (JsonFile::Unreadable(_), _) => Some(format!("{file} cannot be read")),
-            (JsonFile::Broken(_), _) => Some(format!("{file} is not well-formed JSON")),
-            (JsonFile::Read(_), None) if self.spec.is_none() => Some(match &self.version {
-                Some(version) => format!("version {version} of {} is not known", self.name()),
-                None => format!("the version of {} is not known", self.name()),
-            }),
-            (JsonFile::Read(_), None) => Some(format!("{file} breaks its schema")),
-        }
-    }
-}
 
 /// A URDD, read.
 pub struct Loaded {
@@ -276,21 +148,6 @@ fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
     }
     folders[known..].sort();
     folders
-}
-
-/// Whether a folder is named as an extension module is (SPEC 11.1).
-pub fn is_extension(folder: &str) -> bool {
-    let Some(middle) = folder
-        .strip_prefix("x_")
-        .and_then(|rest| rest.strip_suffix("_module"))
-    else {
-        return false;
-    };
-    let allowed = middle
-        .bytes()
-        .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_');
-    let parts: Vec<&str> = middle.splitn(2, '_').collect();
-    allowed && parts.len() == 2 && parts.iter().all(|part| !part.is_empty())
 }
 
 fn read_module(
