@@ -1,8 +1,10 @@
 //! Finding and reading the source URDF that a URDD carries.
 
+use thiserror::Error;
+
 use super::module::{JsonFile, MetadataFile};
 use crate::directory::discover::ROOT_METADATA;
-use crate::directory::root::{EntryKind, Listing, Root};
+use crate::directory::root::{EntryKind, Listing, ReadError, Root};
 use crate::format::root_metadata::Source;
 
 /// Longest source URDF that is read, bytes.
@@ -18,6 +20,34 @@ pub struct CarriedUrdf {
     pub not_utf8_at: Option<usize>,
 }
 
+/// Why there is no source URDF to look at.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum NoUrdf {
+    /// The root metadata cannot be used, so the source is not known.
+    #[error("{ROOT_METADATA} does not fit its schema, so the source is not known")]
+    MetadataUnusable,
+    /// The root metadata says that the robot is a composition.
+    #[error("the source is a composition; no URDF is carried")]
+    Composition,
+    /// The root metadata names no source.
+    #[error("the root metadata names no source")]
+    NoSource,
+    /// Without root metadata: there is no `.urdf` in the root.
+    #[error("no URDF file is carried")]
+    NoneCarried,
+    /// Without root metadata: there are several, and none has the folder's name.
+    #[error("several URDF files are carried, and none is named as the folder is")]
+    Several,
+    /// The file cannot be read.
+    #[error("{path}: {error}")]
+    Unreadable {
+        /// Its path, relative to the root.
+        path: String,
+        /// Why.
+        error: ReadError,
+    },
+}
+
 /// Reads the source URDF.
 ///
 /// # Errors
@@ -26,25 +56,26 @@ pub(super) fn read(
     root: &Root,
     listing: &Listing,
     metadata: &MetadataFile,
-) -> Result<CarriedUrdf, String> {
+) -> Result<CarriedUrdf, NoUrdf> {
     let path = match (&metadata.json, &metadata.metadata) {
         (JsonFile::Missing, _) => lone_urdf(root, listing)?,
         (_, None) => {
-            return Err(format!(
-                "{ROOT_METADATA} does not fit its schema, so the source is not known"
-            ));
+            return Err(NoUrdf::MetadataUnusable);
         }
         (_, Some(metadata)) => match &metadata.source {
             Some(Source::Urdf(file)) => file.path.clone(),
             Some(Source::Composition(_)) => {
-                return Err("the source is a composition; no URDF is carried".to_owned());
+                return Err(NoUrdf::Composition);
             }
-            None => return Err("the root metadata names no source".to_owned()),
+            None => return Err(NoUrdf::NoSource),
         },
     };
     let bytes = root
         .read(&path, MAX_URDF_BYTES)
-        .map_err(|error| format!("{path}: {error}"))?;
+        .map_err(|error| NoUrdf::Unreadable {
+            path: path.clone(),
+            error,
+        })?;
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
     let not_utf8_at = std::str::from_utf8(bytes)
         .err()
@@ -57,7 +88,7 @@ pub(super) fn read(
 }
 
 /// Without root metadata: the one `.urdf` in the root, or the one that is named as the folder is.
-fn lone_urdf(root: &Root, listing: &Listing) -> Result<String, String> {
+fn lone_urdf(root: &Root, listing: &Listing) -> Result<String, NoUrdf> {
     let mut urdfs = listing
         .entries
         .iter()
@@ -68,15 +99,13 @@ fn lone_urdf(root: &Root, listing: &Listing) -> Result<String, String> {
         })
         .map(|entry| entry.path.clone());
     match (urdfs.next(), urdfs.next()) {
-        (None, _) => Err("no URDF file is carried".to_owned()),
+        (None, _) => Err(NoUrdf::NoneCarried),
         (Some(only), None) => Ok(only),
         (Some(_), Some(_)) => {
             let named = format!("{}.urdf", root.folder_name());
             match listing.has_file(&named) {
                 true => Ok(named),
-                false => Err(
-                    "several URDF files are carried, and none is named as the folder is".to_owned(),
-                ),
+                false => Err(NoUrdf::Several),
             }
         }
     }

@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use rayon::prelude::*;
 use serde::Deserialize;
 
-use super::carried_urdf::{self, CarriedUrdf};
+use super::carried_urdf::{self, CarriedUrdf, NoUrdf};
 use super::module::{JsonFile, MetadataFile, Mirror, Module, VersionFile, is_extension};
 use super::schema_check;
 use crate::directory::discover::ROOT_METADATA;
@@ -29,7 +29,7 @@ pub struct Loaded {
     /// Its modules, in the order of the specification, others after them by folder.
     pub modules: Vec<Module>,
     /// The source URDF, or why there is none to look at.
-    pub urdf: Result<CarriedUrdf, String>,
+    pub urdf: Result<CarriedUrdf, NoUrdf>,
     /// The family of formats that it follows.
     pub profile: Profile,
 }

@@ -1,5 +1,7 @@
 //! A module of a URDD, and `urdd.json`, as far as they could be read.
 
+use std::fmt;
+
 use super::schema_check::SchemaViolation;
 use crate::directory::json::{self, JsonDocument};
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
@@ -118,18 +120,61 @@ impl Module {
     }
 
     /// Why its document is of no use, where it is not.
-    pub fn unusable(&self) -> Option<String> {
-        let file = self.file("module.json");
-        match (&self.json, &self.document) {
-            (_, Some(_)) => None,
-            (JsonFile::Missing, _) => Some(format!("{file} is missing")),
-            (JsonFile::Unreadable(_), _) => Some(format!("{file} cannot be read")),
-            (JsonFile::Broken(_), _) => Some(format!("{file} is not well-formed JSON")),
-            (JsonFile::Read(_), None) if self.spec.is_none() => Some(match &self.version {
-                Some(version) => format!("version {version} of {} is not known", self.name()),
-                None => format!("the version of {} is not known", self.name()),
-            }),
-            (JsonFile::Read(_), None) => Some(format!("{file} breaks its schema")),
+    pub fn unusable(&self) -> Option<Unusable> {
+        let why = match (&self.json, &self.document) {
+            (_, Some(_)) => return None,
+            (JsonFile::Missing, _) => DocumentFault::Missing,
+            (JsonFile::Unreadable(_), _) => DocumentFault::Unreadable,
+            (JsonFile::Broken(_), _) => DocumentFault::NotJson,
+            (JsonFile::Read(_), None) if self.spec.is_none() => {
+                DocumentFault::UnknownVersion(self.version.clone())
+            }
+            (JsonFile::Read(_), None) => DocumentFault::BreaksSchema,
+        };
+        Some(Unusable {
+            folder: self.folder.clone(),
+            why,
+        })
+    }
+}
+
+/// A module of which the document is of no use.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unusable {
+    /// The module's folder, relative to the root.
+    pub folder: String,
+    /// Why.
+    pub why: DocumentFault,
+}
+
+/// Why a document is of no use.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum DocumentFault {
+    /// There is no `module.json`.
+    Missing,
+    /// It cannot be read.
+    Unreadable,
+    /// It is not JSON.
+    NotJson,
+    /// The module's version is not known, or it has none.
+    UnknownVersion(Option<String>),
+    /// It breaks its schema.
+    BreaksSchema,
+}
+
+impl fmt::Display for Unusable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let folder = &self.folder;
+        let name = folder.rsplit('/').next().unwrap_or(folder);
+        match &self.why {
+            DocumentFault::Missing => write!(f, "{folder}/module.json is missing"),
+            DocumentFault::Unreadable => write!(f, "{folder}/module.json cannot be read"),
+            DocumentFault::NotJson => write!(f, "{folder}/module.json is not well-formed JSON"),
+            DocumentFault::UnknownVersion(Some(version)) => {
+                write!(f, "version {version} of {name} is not known")
+            }
+            DocumentFault::UnknownVersion(None) => write!(f, "the version of {name} is not known"),
+            DocumentFault::BreaksSchema => write!(f, "{folder}/module.json breaks its schema"),
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use super::bounds::{self, Bounds};
-use super::carried_urdf::CarriedUrdf;
+use super::carried_urdf::{CarriedUrdf, NoUrdf};
 use super::chain::{self, Chain};
 use super::connections::{self, Connections};
 use super::dof_layout::DofLayout;
@@ -112,8 +112,8 @@ impl Urdd {
     }
 
     /// The source URDF, or why there is none to look at.
-    pub fn urdf(&self) -> Result<&CarriedUrdf, &str> {
-        self.loaded.urdf.as_ref().map_err(String::as_str)
+    pub fn urdf(&self) -> Result<&CarriedUrdf, &NoUrdf> {
+        self.loaded.urdf.as_ref()
     }
 
     /// Every module folder.

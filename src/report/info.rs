@@ -102,7 +102,7 @@ impl Info {
                             .filter(|entry| urdd.listing().has_file(&entry.path))
                             .count(),
                         bytes: sizes.iter().sum(),
-                        unusable: module.unusable(),
+                        unusable: module.unusable().map(|why| why.to_string()),
                     }
                 })
                 .collect(),

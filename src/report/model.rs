@@ -124,7 +124,7 @@ fn check(check: &Check) -> CheckStatus {
     let (status, reason) = match &check.outcome {
         Outcome::Passed => (Status::Passed, None),
         Outcome::Failed => (Status::Failed, None),
-        Outcome::Skipped(reason) => (Status::Skipped, Some(reason.clone())),
+        Outcome::Skipped(reason) => (Status::Skipped, Some(reason.to_string())),
         Outcome::Crashed(message) => (Status::Crashed, Some(message.clone())),
     };
     CheckStatus {

@@ -4,6 +4,7 @@ use std::ops::Deref;
 use std::sync::{Arc, OnceLock};
 
 use super::distances::Distances;
+use super::skip::SkipReason;
 use super::solids::Solids;
 use super::solids::placed::{self, Misplaced};
 use super::urdf_text;
@@ -23,7 +24,7 @@ pub struct Context {
     deep: bool,
     urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
     solids: Arc<OnceLock<Solids>>,
-    distances: OnceLock<Result<Distances, String>>,
+    distances: OnceLock<Result<Distances, SkipReason>>,
     misplaced: OnceLock<Vec<Misplaced>>,
 }
 
@@ -106,12 +107,9 @@ impl Context {
 
     /// The distances between shapes, computed again when this is first asked for; or why they cannot
     /// be.
-    pub fn distances(&self) -> Result<&Distances, &str> {
+    pub fn distances(&self) -> Result<&Distances, &SkipReason> {
         let make = || Distances::new(&self.urdd, self.solids(), self.deep);
-        self.distances
-            .get_or_init(make)
-            .as_ref()
-            .map_err(String::as_str)
+        self.distances.get_or_init(make).as_ref()
     }
 
     /// The links whose plain mesh is not what the robot shows there.

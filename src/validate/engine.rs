@@ -8,6 +8,7 @@ use super::code::Code;
 use super::context::Context;
 use super::finding::{Finding, Findings};
 use super::rule::{Need, Rule, Severity};
+use super::skip::SkipReason;
 use crate::directory::position::{self, LineIndex};
 use crate::format::registry::{ModuleKind, Profile};
 
@@ -19,7 +20,7 @@ pub enum Outcome {
     /// It ran and found something.
     Failed,
     /// It did not run, for this reason.
-    Skipped(String),
+    Skipped(SkipReason),
     /// It ran into a fault of its own, with this message.
     Crashed(String),
 }
@@ -114,7 +115,7 @@ pub(super) fn judge(context: &Context, rule: &'static Rule, findings: &mut Findi
             .unwrap_or_else(|| "unknown".to_owned());
         return Check::new(rule, Outcome::Crashed(message), Vec::new());
     }
-    let skipped = findings.skipped().map(str::to_owned);
+    let skipped = findings.skipped().cloned();
     let mut found = findings.take();
     let outcome = match (found.is_empty(), skipped) {
         (false, _) => Outcome::Failed,
@@ -128,46 +129,39 @@ pub(super) fn judge(context: &Context, rule: &'static Rule, findings: &mut Findi
 }
 
 /// Why a need is not met, if it is not.
-fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<String> {
+fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReason> {
     match need {
         // What the module should say, the carried URDF says.
         Need::Module(ModuleKind::Urdf) | Need::SourceRobot if context.is_by_urdf() => None,
         Need::SourceRobot => unmet(context, Need::Module(ModuleKind::Urdf), outcomes),
         Need::Module(kind) => match context.module(kind) {
-            None => Some(format!("there is no {}", kind.name())),
-            Some(module) => module.unusable(),
+            None => Some(SkipReason::Absent(kind)),
+            Some(module) => module.unusable().map(SkipReason::Unusable),
         },
         Need::AnyModule(kinds) => {
             let usable = |kind: &ModuleKind| context.document(*kind).is_some();
-            (!kinds.iter().any(usable)).then(|| {
-                let names: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
-                format!("there is no usable {}", names.join(" or "))
-            })
+            (!kinds.iter().any(usable)).then_some(SkipReason::NoneUsable(kinds))
         }
         Need::RootMetadata => match context.metadata() {
             Some(_) => None,
-            None => Some("there is no usable urdd.json".to_owned()),
+            None => Some(SkipReason::NoRootMetadata),
         },
-        Need::CarriedUrdf => context.urdf().err().map(str::to_owned),
+        Need::CarriedUrdf => context.urdf().err().cloned().map(SkipReason::NoCarriedUrdf),
         Need::Passed(code) => match outcomes.get(&code) {
             Some(Outcome::Passed) => None,
-            Some(Outcome::Failed) => Some(format!("{code} found a fault")),
+            Some(Outcome::Failed) => Some(SkipReason::Failed(code)),
             Some(Outcome::Skipped(reason)) => Some(reason.clone()),
-            Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
-            None => Some(format!("{code} did not run")),
+            Some(Outcome::Crashed(_)) => Some(SkipReason::Crashed(code)),
+            None => Some(SkipReason::DidNotRun(code)),
         },
         Need::NotFailedInV1(_) if context.profile() != Profile::V1 => None,
         Need::NotFailed(code) | Need::NotFailedInV1(code) => match outcomes.get(&code) {
-            Some(Outcome::Failed) => Some(format!("{code} found a fault")),
-            Some(Outcome::Crashed(_)) => Some(format!("{code} crashed")),
+            Some(Outcome::Failed) => Some(SkipReason::Failed(code)),
+            Some(Outcome::Crashed(_)) => Some(SkipReason::Crashed(code)),
             Some(Outcome::Passed | Outcome::Skipped(_)) | None => None,
         },
-        Need::Version1 => {
-            (context.profile() != Profile::V1).then(|| "this is a legacy URDD".to_owned())
-        }
-        Need::Legacy => {
-            (context.profile() != Profile::Legacy).then(|| "this is not a legacy URDD".to_owned())
-        }
+        Need::Version1 => (context.profile() != Profile::V1).then_some(SkipReason::NotVersion1),
+        Need::Legacy => (context.profile() != Profile::Legacy).then_some(SkipReason::NotLegacy),
     }
 }
 

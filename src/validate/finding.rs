@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::skip::SkipReason;
 use crate::directory::position::Position;
 
 /// How many places of a folded finding are kept.
@@ -133,7 +134,7 @@ pub struct Findings {
     findings: Vec<Finding>,
     by_place: HashMap<(Option<String>, String), usize>,
     reported: usize,
-    skipped: Option<String>,
+    skipped: Option<SkipReason>,
     spots: Option<HashSet<Spot>>,
     only: Option<HashSet<Spot>>,
 }
@@ -206,13 +207,13 @@ impl Findings {
     }
 
     /// Says that the rule cannot be checked after all, and why.
-    pub fn skip(&mut self, reason: impl Into<String>) {
-        self.skipped = Some(reason.into());
+    pub fn skip(&mut self, reason: SkipReason) {
+        self.skipped = Some(reason);
     }
 
     /// Why the rule could not be checked, where it said so.
-    pub fn skipped(&self) -> Option<&str> {
-        self.skipped.as_deref()
+    pub fn skipped(&self) -> Option<&SkipReason> {
+        self.skipped.as_ref()
     }
 
     /// Whether nothing was reported.

@@ -13,6 +13,7 @@ pub mod reference;
 pub mod rule;
 pub mod rules;
 pub mod settings;
+pub mod skip;
 pub mod solids;
 pub mod tolerance;
 mod two_robots;

@@ -73,6 +73,30 @@ pub enum Need {
     Legacy,
 }
 
+/// What a rule judges, which decides by which of the two descriptions of the robot it does so.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Judges {
+    /// Files, texts, a module by itself, or a module beside the URDF: one run says all.
+    AsItStands,
+    /// Whether the robot is one at all: a tree of links, mimics that can be resolved. Others count on
+    /// it by either description.
+    Robot,
+    /// The robot, whatever the modules say of it: by its source, where that can be read.
+    Source,
+    /// What follows from the robot: at fault where it is so by both descriptions.
+    Derived,
+}
+
+impl Judges {
+    /// What rules of a phase judge that do not say it.
+    pub const fn by_phase(phase: Phase) -> Judges {
+        match phase {
+            Phase::Files | Phase::Syntax | Phase::Schema => Judges::AsItStands,
+            _ => Judges::Derived,
+        }
+    }
+}
+
 /// A rule: one fault that a URDD can have.
 pub struct Rule {
     /// Its code.
@@ -87,6 +111,8 @@ pub struct Rule {
     pub since: &'static str,
     /// When it runs.
     pub phase: Phase,
+    /// What it judges.
+    pub judges: Judges,
     /// What it needs.
     pub needs: &'static [Need],
     /// Its documentation, in Markdown, line by line: first what is wrong, then why and what to do.
@@ -121,7 +147,7 @@ macro_rules! declare_rule {
     (
         $(#[doc = $doc:literal])+
         $code:ident $name:literal, $severity:ident, clause $clause:literal, since $since:literal,
-        phase $phase:ident, needs [$($need:expr),* $(,)?], check $check:path $(,)?
+        phase $phase:ident, $(judges $judges:ident,)? needs [$($need:expr),* $(,)?], check $check:path $(,)?
     ) => {
         $(#[doc = $doc])+
         pub static RULE: $crate::validate::rule::Rule = {
@@ -138,6 +164,12 @@ macro_rules! declare_rule {
                 clause: $clause,
                 since: $since,
                 phase: $crate::validate::rule::Phase::$phase,
+                judges: [
+                    $($crate::validate::rule::Judges::$judges,)?
+                    $crate::validate::rule::Judges::by_phase(
+                        $crate::validate::rule::Phase::$phase,
+                    ),
+                ][0],
                 needs: &[$($need),*],
                 doc: &[$($doc),+],
                 check: $check,

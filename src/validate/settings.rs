@@ -10,6 +10,7 @@ use super::Examined;
 use super::code::Code;
 use super::engine::Outcome;
 use super::rule::Severity;
+use super::skip::SkipReason;
 use crate::format::root_metadata::ConformanceClass;
 
 /// Settings of a run.
@@ -151,7 +152,7 @@ impl Settings {
                     ignore.is_none()
                 });
                 if let (Some(reason), true) = (reason, check.findings.is_empty()) {
-                    check.outcome = Outcome::Skipped(format!("ignored by the settings: {reason}"));
+                    check.outcome = Outcome::Skipped(SkipReason::Ignored(reason.clone()));
                 }
             }
         }

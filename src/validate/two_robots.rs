@@ -20,32 +20,8 @@ use super::code::Code;
 use super::context::Context;
 use super::engine::{Check, Outcome, Outcomes, judge, run_all};
 use super::finding::Findings;
-use super::rule::{Need, Phase, Rule};
-
-/// What a rule judges.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Judges {
-    /// Files, texts, `urdf_module` itself: one run says all.
-    AsItStands,
-    /// The robot, whatever the modules say of it.
-    Source,
-    /// What follows from the robot.
-    Derived,
-}
-
-fn judges(rule: &Rule) -> Judges {
-    if rule.needs.contains(&Need::SourceRobot) {
-        return Judges::Source;
-    }
-    // A rule that needs the URDF compares with it already.
-    let as_it_stands = rule.phase < Phase::References
-        || matches!(rule.code.family(), "URD" | "SRC")
-        || rule.needs.contains(&Need::CarriedUrdf);
-    match as_it_stands {
-        true => Judges::AsItStands,
-        false => Judges::Derived,
-    }
-}
+use super::rule::{Judges, Rule};
+use super::skip::SkipReason;
 
 /// Runs rules over a URDD; the checks are in order of code.
 pub(super) fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
@@ -63,15 +39,18 @@ fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
         rules
             .iter()
             .copied()
-            .filter(move |rule| judges(rule) == kind)
+            .filter(move |rule| rule.judges == kind)
     };
-    let once = of(Judges::AsItStands).chain(of(Judges::Derived)).collect();
+    let once = of(Judges::AsItStands)
+        .chain(of(Judges::Robot))
+        .chain(of(Judges::Derived));
+    let once = once.collect();
     let mut checks = run_all(context, once, &mut outcomes);
     let differs = difference(&outcomes);
 
     let mut second: Vec<&'static Rule> = of(Judges::Source).collect();
-    // Whether the URDF's robot is sound enough for the others; urdf_module's was told above.
-    let sound: Vec<&'static Rule> = of(Judges::AsItStands).filter(|r| on_robot(r)).collect();
+    // Whether the URDF's robot is sound enough for the others; urdf_module's was judged above.
+    let sound: Vec<&'static Rule> = of(Judges::Robot).collect();
     second.extend(&sound);
     if differs.is_some() {
         second.extend(of(Judges::Derived));
@@ -107,11 +86,6 @@ fn difference(outcomes: &Outcomes) -> Option<Code> {
     })
 }
 
-/// Whether a rule says if the robot is one at all: a tree of links, mimics that can be resolved.
-fn on_robot(rule: &Rule) -> bool {
-    rule.code.family() == "URD" && !rule.needs.contains(&Need::CarriedUrdf)
-}
-
 /// Makes one check of two: by `urdf_module`, and by the URDF.
 fn put_together(check: &mut Check, second: Check, context: &Context, by_urdf: &Context) {
     let both = match (&check.outcome, &second.outcome) {
@@ -136,17 +110,16 @@ fn at_fault_by_both(rule: &'static Rule, context: &Context, by_urdf: &Context) -
 /// A rule that was skipped because another failed, and that other one has nothing left to say now:
 /// the reason is that the two robots differ.
 fn tell_why_skipped(checks: &mut [Check], differs: Code) {
-    let found = |code: Code| format!("{code} found a fault");
-    let settled: HashSet<String> = checks
+    let settled: HashSet<Code> = checks
         .iter()
         .filter(|check| check.outcome == Outcome::Passed)
-        .map(|check| found(check.rule.code))
+        .map(|check| check.rule.code)
         .collect();
     for check in checks {
-        if let Outcome::Skipped(reason) = &mut check.outcome
-            && settled.contains(reason)
+        if let Outcome::Skipped(SkipReason::Failed(code)) = &mut check.outcome
+            && settled.contains(code)
         {
-            *reason = found(differs);
+            *code = differs;
         }
     }
 }

@@ -12,6 +12,7 @@ pub mod tolerances;
 use self::plan::Work;
 use self::poses::Poses;
 use self::shape_set::ShapeSet;
+use super::skip::{NoStatistics, SkipReason};
 use super::solids::Solids;
 use crate::document::shape_matrices::statistics;
 use crate::document::shapes::KINDS;
@@ -56,19 +57,20 @@ impl Distances {
     /// Computes what the statistics of a URDD of version 1 say, as far as the work for it goes.
     ///
     /// # Errors
-    /// In words: why there is nothing to compare with.
-    pub fn new(urdd: &Urdd, solids: &Solids, deep: bool) -> Result<Self, String> {
+    /// Why there is nothing to compare with.
+    pub fn new(urdd: &Urdd, solids: &Solids, deep: bool) -> Result<Self, SkipReason> {
         let recorded = urdd
             .document(ModuleKind::LinkShapesDistanceStatistics)
             .and_then(statistics)
-            .ok_or("there are no usable statistics")?;
+            .ok_or(SkipReason::NoStatistics(NoStatistics::Unusable))?;
         let num_samples = recorded.iter().flatten().find_map(|one| one.num_samples);
-        let num_samples = num_samples.ok_or("the statistics do not say over how many samples")?;
+        let num_samples =
+            num_samples.ok_or(SkipReason::NoStatistics(NoStatistics::SamplesUnknown))?;
         if num_samples == 0 {
-            return Err("the statistics are over no samples".to_owned());
+            return Err(SkipReason::NoStatistics(NoStatistics::NoSamples));
         }
         let poses = Poses::new(urdd)?;
-        let shapes = Shapes::new(urdd).ok_or("there is no list of shapes")?;
+        let shapes = Shapes::new(urdd).ok_or(SkipReason::NoStatistics(NoStatistics::NoShapes))?;
         let mut sets: Vec<Option<ShapeSet>> = Vec::with_capacity(KINDS.len());
         for (kind, recorded) in KINDS.into_iter().zip(&recorded) {
             let set = recorded.map(|_| ShapeSet::new(urdd, solids, &shapes, kind, true));
@@ -141,7 +143,7 @@ fn over(
     poses: &Poses,
     first: &Motion,
     n: u32,
-) -> Result<PairStatistics, String> {
+) -> Result<PairStatistics, SkipReason> {
     if n as usize == first.num_samples() {
         return Ok(shapes.statistics(first));
     }

@@ -12,6 +12,8 @@ use crate::format::registry::Profile;
 use crate::format::urdf::JointType;
 use crate::geometry::convex::Motion;
 use crate::kinematics::{ConfigurationSpace, ForwardKinematics};
+use crate::validate::code::Code;
+use crate::validate::skip::SkipReason;
 
 /// The poses of a robot's links, as a consumer computes them.
 pub struct Poses {
@@ -25,30 +27,27 @@ impl Poses {
     /// From the modules, whatever their versions.
     ///
     /// # Errors
-    /// In words: why there are none.
-    pub fn new(urdd: &Urdd) -> Result<Self, String> {
-        let open = "the modules leave the kinematics open";
-        let modules = consumer::modules(urdd).ok_or(open)?;
-        let groups = urdd.rigid_groups().ok_or(open)?;
+    /// Why there are none.
+    pub fn new(urdd: &Urdd) -> Result<Self, SkipReason> {
+        let open = SkipReason::KinematicsOpen;
+        let modules = consumer::modules(urdd).ok_or(open.clone())?;
+        let groups = urdd.rigid_groups().ok_or(open.clone())?;
         let bounds = urdd.bounds().ok_or(open)?;
         let unlike = |joint: JointType| matches!(joint, JointType::Planar | JointType::Floating);
         let mut joints = modules.chain.joints_in_chain.iter();
         if urdd.profile() == Profile::Legacy && joints.any(|joint| unlike(joint.joint_type)) {
-            return Err(
-                "planar and floating joints of legacy URDDs have other coordinates (SPEC 5.11)"
-                    .to_owned(),
-            );
+            return Err(SkipReason::LegacyCoordinates);
         }
         let bounds = match bounds.v1 {
             Some(module) => module.clone(),
             None => of_legacy(bounds.bounds),
         };
         let space = ConfigurationSpace::new(&modules.dof, &modules.chain, &bounds)
-            .map_err(|error| error.to_string())?;
+            .map_err(|error| SkipReason::Kinematics(error.to_string()))?;
         let kinematics = ForwardKinematics::new(&modules.chain, &modules.dof)
-            .map_err(|error| error.to_string())?;
+            .map_err(|error| SkipReason::Kinematics(error.to_string()))?;
         if groups.of_link.len() != kinematics.num_links() {
-            return Err("chain_module has another number of links than urdf_module".to_owned());
+            return Err(SkipReason::Failed(Code::CHN001));
         }
         Ok(Poses {
             space,
@@ -70,17 +69,19 @@ impl Poses {
     /// The poses in some of the sampled configurations.
     ///
     /// # Errors
-    /// In words: where numbers go beyond 64 bits.
-    pub fn motion(&self, samples: Range<u32>) -> Result<Motion, String> {
+    /// Where numbers go beyond 64 bits.
+    pub fn motion(&self, samples: Range<u32>) -> Result<Motion, SkipReason> {
         let poses: Vec<Vec<Isometry3<f64>>> = samples
             .into_par_iter()
             .map(|sample| {
                 let configuration = self.space.sampled(u64::from(sample));
                 let poses = self.kinematics.link_poses(&configuration);
-                poses.map_err(|error| format!("sampled configuration {sample}: {error}"))
+                poses.map_err(|error| {
+                    SkipReason::Kinematics(format!("sampled configuration {sample}: {error}"))
+                })
             })
             .collect::<Result<_, _>>()?;
-        Motion::new(&poses, &self.groups).map_err(|error| error.to_string())
+        Motion::new(&poses, &self.groups).map_err(|error| SkipReason::Kinematics(error.to_string()))
     }
 }
 

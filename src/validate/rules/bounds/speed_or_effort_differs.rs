@@ -2,6 +2,7 @@ use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
+use crate::validate::skip::SkipReason;
 use crate::validate::tolerance::{number_tolerance, numbers_agree};
 
 declare_rule! {
@@ -24,7 +25,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.bounds().and_then(|bounds| bounds.v1),
         context.module(ModuleKind::Bounds),
     ) else {
-        return findings.skip("bounds_module is of a version that does not say this");
+        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Bounds));
     };
     for (dof, joint) in layout.joint_of_dof.iter().enumerate() {
         let Some(joint) = robot.joints.get(*joint) else {

@@ -5,6 +5,7 @@ use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
+use crate::validate::skip::SkipReason;
 use crate::validate::tolerance::UNIT_NORM;
 
 declare_rule! {
@@ -26,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.chain().and_then(|chain| chain.v1),
         context.module(ModuleKind::Chain),
     ) else {
-        return findings.skip("chain_module is of a version that does not say this");
+        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Chain));
     };
     for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
         let expected = match right.has_axis() {

@@ -2,6 +2,7 @@ use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
+use crate::validate::skip::SkipReason;
 
 /// Up to this many links the explicit tables must be there (SPEC 6.4.6): some 90,000 paths.
 const EXPLICIT_UP_TO: usize = 300;
@@ -24,7 +25,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.connections().and_then(|connections| connections.v1),
         context.module(ModuleKind::Connections),
     ) else {
-        return findings.skip("connections_module is of a version that does not say this");
+        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Connections));
     };
     let links = robot.links.len();
     if links > EXPLICIT_UP_TO {

@@ -4,6 +4,7 @@ use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
+use crate::validate::skip::SkipReason;
 
 declare_rule! {
     /// A path of `link_to_link_paths` is not the path between its two links.
@@ -25,7 +26,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.connections().and_then(|connections| connections.v1),
         context.module(ModuleKind::Connections),
     ) else {
-        return findings.skip("connections_module is of a version that does not say this");
+        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Connections));
     };
     let mut tally = Tally::default();
     let mut ancestors = Ancestors::new(tree);

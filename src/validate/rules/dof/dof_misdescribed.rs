@@ -3,6 +3,7 @@ use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
+use crate::validate::skip::SkipReason;
 
 declare_rule! {
     /// An entry of `dofs` does not describe its DOF.
@@ -25,7 +26,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.dofs().and_then(|dofs| dofs.v1),
         context.module(ModuleKind::Dof),
     ) else {
-        return findings.skip("dof_module is of a version that does not say this");
+        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Dof));
     };
     for (index, dof) in dofs.dofs.iter().enumerate() {
         let Some((joint_idx, place)) = layout.place(index) else {

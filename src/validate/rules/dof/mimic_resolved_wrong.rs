@@ -2,6 +2,7 @@ use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
+use crate::validate::skip::SkipReason;
 use crate::validate::tolerance::{number_tolerance, numbers_agree};
 
 declare_rule! {
@@ -27,7 +28,7 @@ fn check(context: &Context, findings: &mut Findings) {
         context.dofs().and_then(|dofs| dofs.v1),
         context.module(ModuleKind::Dof),
     ) else {
-        return findings.skip("dof_module is of a version that does not say this");
+        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Dof));
     };
     let file = module.file("module.json");
     let joints = robot.joints.iter().zip(&mimics.by_joint);

@@ -8,6 +8,7 @@ use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::reference::{MimicDofs, Reference};
 use crate::validate::rule::declare_rule;
+use crate::validate::skip::SkipReason;
 use crate::validate::tolerance::{POSITION_OF_REACH, ROTATION, reach, rotation_distance};
 
 declare_rule! {
@@ -22,7 +23,7 @@ declare_rule! {
     /// The finding names the first joint, from the root outwards, at which the two part. Write the
     /// modules again from the carried URDF, or carry the URDF from which they were written.
     KIN001 "poses-disagree", Error, clause "9.1", since "0.1.0",
-    phase Kinematics,
+    phase Kinematics, judges AsItStands,
     needs [
         CarriedUrdf, Module(Kind::Urdf), Module(Kind::Chain), Module(Kind::Dof),
         Passed(URD001), Passed(URD004), Passed(URD006), Passed(URD009), Passed(URD012), Passed(URD010), Passed(CHN002), Passed(CHN003), Passed(CHN006),
@@ -45,7 +46,7 @@ fn check(context: &Context, findings: &mut Findings) {
         consumer::modules(context),
         context.dofs(),
     ) else {
-        return findings.skip("the modules leave the kinematics open");
+        return findings.skip(SkipReason::KinematicsOpen);
     };
     let mimics_have_dofs = robot
         .joints
@@ -59,10 +60,10 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     let reference = match Reference::read(&urdf.text, mimics) {
         Ok(reference) => reference,
-        Err(reason) => return findings.skip(reason),
+        Err(reason) => return findings.skip(SkipReason::Reference(reason)),
     };
     if legacy && reference.has(&urdf_rs::JointType::Planar) {
-        return findings.skip("legacy URDDs do not say how a planar joint moves (SPEC 10.5)");
+        return findings.skip(SkipReason::LegacyCoordinates);
     }
     let file = format!("{}/module.json", ModuleKind::Chain.folder());
     let kinematics = match ForwardKinematics::new(&modules.chain, &modules.dof) {

@@ -5,6 +5,7 @@ use crate::kinematics::rotation::from_rotation_vector;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
+use crate::validate::skip::SkipReason;
 use crate::validate::tolerance::{NUMBER_RELATIVE, ROTATION, number_tolerance, rotation_distance};
 
 declare_rule! {
@@ -45,7 +46,7 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     let space = match ConfigurationSpace::new(dof, chain, bounds) {
         Ok(space) => space,
-        Err(error) => return findings.skip(error.to_string()),
+        Err(error) => return findings.skip(SkipReason::Kinematics(error.to_string())),
     };
     for (place, sample) in samples.samples.iter().enumerate() {
         let expected = match (sample.kind, sample.sample_idx) {

@@ -6,6 +6,7 @@ use crate::kinematics::pose::to_isometry;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
+use crate::validate::skip::SkipReason;
 use crate::validate::tolerance::{
     POSITION_OF_REACH, ROTATION, UNIT_NORM, reach, rotation_distance,
 };
@@ -50,7 +51,7 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     let kinematics = match ForwardKinematics::new(chain, dof) {
         Ok(kinematics) => kinematics,
-        Err(error) => return findings.skip(error.to_string()),
+        Err(error) => return findings.skip(SkipReason::Kinematics(error.to_string())),
     };
     let tolerance = POSITION_OF_REACH * reach(robot, tree);
     for (place, sample) in samples.samples.iter().enumerate() {

@@ -53,7 +53,7 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     let distances = match context.distances() {
         Ok(distances) => distances,
-        Err(reason) => return findings.skip(reason),
+        Err(reason) => return findings.skip(reason.clone()),
     };
     for ((kind, one), found) in KINDS.into_iter().zip(six).zip(distances.kinds()) {
         // What was computed in full is SHP024's.

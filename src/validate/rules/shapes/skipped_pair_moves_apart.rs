@@ -11,6 +11,7 @@ use crate::validate::distances::tolerances::Tolerances;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
+use crate::validate::skip::SkipReason;
 use crate::validate::views::shape_pair::CONTACT;
 use crate::validate::views::tangled::Tangled;
 
@@ -67,7 +68,7 @@ fn check(context: &Context, findings: &mut Findings) {
         return;
     };
     let Some(edited) = edited(context, document) else {
-        return findings.skip("the edits of legacy skips are not recorded");
+        return findings.skip(SkipReason::EditsNotRecorded);
     };
     let poses = match Poses::new(context) {
         Ok(poses) => poses,

@@ -6,6 +6,7 @@ use crate::validate::distances::tolerances::Tolerances;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
+use crate::validate::skip::SkipReason;
 use crate::validate::views::shape_pair::{Pair, Pairs};
 
 declare_rule! {
@@ -53,7 +54,7 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     let distances = match context.distances() {
         Ok(distances) => distances,
-        Err(reason) => return findings.skip(reason),
+        Err(reason) => return findings.skip(reason.clone()),
     };
     let mut left = Vec::new();
     for ((kind, one), found) in KINDS.into_iter().zip(six).zip(distances.kinds()) {
@@ -109,9 +110,6 @@ fn check(context: &Context, findings: &mut Findings) {
         fold.finish();
     }
     if findings.is_empty() && !left.is_empty() {
-        findings.skip(format!(
-            "{} would take long to compute again, and are looked at in the first configurations only; --deep does it",
-            left.join(", ")
-        ));
+        findings.skip(SkipReason::NotDeep(left));
     }
 }

@@ -10,7 +10,7 @@ declare_rule! {
     ///
     /// Swap or correct `lower` and `upper` in the URDF, and write the URDD again.
     SRC001 "crossed-limits", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [SourceRobot],
+    phase References, judges Source, needs [SourceRobot],
     check check,
 }
 

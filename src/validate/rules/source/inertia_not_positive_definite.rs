@@ -21,7 +21,7 @@ declare_rule! {
     /// Compute the tensor again (about the centre of mass, in the axes of the inertial's origin),
     /// correct the URDF, and write the URDD again.
     SRC004 "inertia-not-positive-definite", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [
+    phase References, judges Source, needs [
         SourceRobot, Passed(URD004), Passed(URD006),
     ],
     check check,

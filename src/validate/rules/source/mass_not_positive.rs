@@ -15,7 +15,7 @@ declare_rule! {
     /// Give the link its mass in the URDF, or take the `<inertial>` out of a mere frame, and write
     /// the URDD again.
     SRC003 "mass-not-positive", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [
+    phase References, judges Source, needs [
         SourceRobot, Passed(URD004), Passed(URD006),
     ],
     check check,

@@ -14,7 +14,7 @@ declare_rule! {
     /// Make the mesh available (tell the producer where the package is), or take the element out
     /// of the URDF, and write the URDD again.
     SRC007 "mesh-not-carried", Warning, clause "6.1.7", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Module(Kind::OriginalMeshes), Version1, NotFailed(MSH012)],
+    phase References, judges AsItStands, needs [Module(Kind::Urdf), Module(Kind::OriginalMeshes), Version1, NotFailed(MSH012)],
     check check,
 }
 

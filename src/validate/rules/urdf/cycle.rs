@@ -13,7 +13,7 @@ declare_rule! {
     ///
     /// Turn one of the joints round, or take it out, in the URDF, and write the URDD again.
     URD006 "links-in-a-circle", Error, clause "6.1.4", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Passed(URD005)],
+    phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD005)],
     check check,
 }
 

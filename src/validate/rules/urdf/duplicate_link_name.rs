@@ -13,7 +13,7 @@ declare_rule! {
     ///
     /// Give every link a name of its own in the URDF, and write the URDD again.
     URD002 "duplicate-link-name", Error, clause "6.1.3", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf)],
+    phase References, judges Robot, needs [Module(Kind::Urdf)],
     check check,
 }
 

@@ -13,7 +13,7 @@ declare_rule! {
     ///
     /// Take the `<mimic>` out of the joint that is driven, in the URDF, and write the URDD again.
     URD009 "mimics-in-a-circle", Error, clause "6.1.5", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Passed(URD008)],
+    phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD008)],
     check check,
 }
 

@@ -13,7 +13,7 @@ declare_rule! {
     /// Correct `joint` of the `<mimic>`, or take the `<mimic>` out, in the URDF, and write the
     /// URDD again.
     URD008 "unknown-mimic-driver", Error, clause "6.1.5", since "0.1.0",
-    phase References, needs [Module(Kind::Urdf), Passed(URD003)],
+    phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD003)],
     check check,
 }
 
