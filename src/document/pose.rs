@@ -28,12 +28,23 @@ pub fn unit_quaternion(q: [f64; 4]) -> Option<[f64; 4]> {
 }
 
 /// Whether `quat_xyzw` counts in a URDF of this version: from 1.1 on (SPEC 6.1.9). One that is
-/// absent, or not two numbers with a dot between them, is 1.0.
+/// absent, or not two numbers of digits with a dot between them, is 1.0.
 pub fn has_quaternions(version: Option<&str>) -> bool {
-    let number = |text: &str| text.parse::<u32>().ok();
-    let parts = version.and_then(|version| version.trim().split_once('.'));
-    let parsed = parts.and_then(|(major, minor)| Some((number(major)?, number(minor)?)));
-    parsed.unwrap_or((1, 0)) >= (1, 1)
+    const WHITE_SPACE: [char; 4] = [' ', '\t', '\r', '\n'];
+    let text = version.unwrap_or_default().trim_matches(WHITE_SPACE);
+    let Some((major, minor)) = text.split_once('.') else {
+        return false;
+    };
+    let all_digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    if !all_digits(major) || !all_digits(minor) {
+        return false;
+    }
+    // Numbers of any size: what counts is what is left without leading zeros.
+    match major.trim_start_matches('0') {
+        "" => false,
+        "1" => !minor.trim_start_matches('0').is_empty(),
+        _ => true,
+    }
 }
 
 /// A vector of length 1 in the direction of `axis`; `None` for the zero vector.
@@ -67,10 +78,35 @@ mod tests {
 
     #[test]
     fn versions_are_numbers() {
-        for version in ["1.1", "1.2", " 1.1 ", "1.10", "2.0"] {
+        for version in [
+            "1.1",
+            "1.2",
+            " 1.1\n",
+            "1.10",
+            "2.0",
+            "01.01",
+            "1.1000000000000000000001",
+            "1000000000000000000000000.0",
+        ] {
             assert!(has_quaternions(Some(version)), "{version}");
         }
-        for version in ["1.0", "1", "1.1.0", "", "0.9", "one.one", "-1.1"] {
+        for version in [
+            "1.0",
+            "1",
+            "1.1.0",
+            "",
+            "0.9",
+            "one.one",
+            "-1.1",
+            "+1.1",
+            "1.+1",
+            "1.",
+            ".1",
+            "00.9",
+            "1. 1",
+            "\u{a0}1.1",
+            "0.1000000000000000000001",
+        ] {
             assert!(!has_quaternions(Some(version)), "{version}");
         }
         assert!(!has_quaternions(None));

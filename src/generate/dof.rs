@@ -54,9 +54,7 @@ pub(super) fn dof_module(robot: &UrdfModule, tree: &Tree) -> Result<DofModule, F
         let own = (first..dofs.len()).map(|dof| DofIdx(dof as u32));
         joint_to_dofs.push(own.collect::<Vec<_>>());
     }
-    let mimics = (0..robot.joints.len())
-        .map(|idx| resolve(robot, tree, &joint_to_dofs, idx))
-        .collect::<Result<_, _>>()?;
+    let mimics = resolve(robot, tree, &joint_to_dofs)?;
     Ok(DofModule {
         num_dofs: Count(dofs.len() as u32),
         dof_idx_to_joint_idx_mapping: dofs.iter().map(|dof| dof.joint_idx).collect(),
@@ -66,37 +64,45 @@ pub(super) fn dof_module(robot: &UrdfModule, tree: &Tree) -> Result<DofModule, F
     })
 }
 
-/// SPEC 5.10: along the chain of mimics to the joint that moves by itself, or not at all.
+/// SPEC 5.10: along the chains of mimics to the joints that move by themselves, or not at all.
 fn resolve(
     robot: &UrdfModule,
     tree: &Tree,
     joint_to_dofs: &[Vec<DofIdx>],
-    idx: usize,
-) -> Result<Option<ResolvedMimic>, Fault> {
+) -> Result<Vec<Option<ResolvedMimic>>, Fault> {
     let is_fixed = |idx: usize| robot.joints[idx].joint_type == JointType::Fixed;
-    if robot.joints[idx].mimic.is_none() || is_fixed(idx) {
-        return Ok(None);
-    }
-    let mut chain = Vec::new();
-    let mut end = idx;
-    while let (Some(mimic), false) = (&robot.joints[end].mimic, is_fixed(end)) {
-        chain.push((mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0)));
-        match tree.drivers[end] {
-            Some(driver) => end = driver,
-            None => break,
+    let mut resolved: Vec<Option<ResolvedMimic>> = vec![None; robot.joints.len()];
+    for start in 0..robot.joints.len() {
+        let mut chain = Vec::new();
+        let mut end = start;
+        while let (Some(mimic), false, None) =
+            (&robot.joints[end].mimic, is_fixed(end), &resolved[end])
+        {
+            chain.push((end, mimic));
+            match tree.drivers[end] {
+                Some(driver) => end = driver,
+                None => break,
+            }
+        }
+        let mut driver = resolved[end].clone().unwrap_or(ResolvedMimic {
+            dof_idx: joint_to_dofs[end].first().copied(),
+            multiplier: 1.0,
+            offset: 0.0,
+        });
+        // From the far end: m1 (m2 q + o2) + o1 is (m1 m2) q + (m1 o2 + o1).
+        for (idx, mimic) in chain.into_iter().rev() {
+            let multiplier = mimic.multiplier.unwrap_or(1.0);
+            let offset = mimic.offset.unwrap_or(0.0);
+            driver = ResolvedMimic {
+                dof_idx: driver.dof_idx,
+                multiplier: multiplier * driver.multiplier,
+                offset: multiplier * driver.offset + offset,
+            };
+            if !(driver.multiplier.is_finite() && driver.offset.is_finite()) {
+                return Err(Fault::MimicOverflow(robot.joints[idx].name.clone()));
+            }
+            resolved[idx] = Some(driver.clone());
         }
     }
-    // From the far end: m1 (m2 q + o2) + o1 is (m1 m2) q + (m1 o2 + o1).
-    let (mut multiplier, mut offset) = (1.0, 0.0);
-    for (m, o) in chain.into_iter().rev() {
-        (multiplier, offset) = (m * multiplier, m * offset + o);
-    }
-    if !(f64::is_finite(multiplier) && f64::is_finite(offset)) {
-        return Err(Fault::MimicOverflow(robot.joints[idx].name.clone()));
-    }
-    Ok(Some(ResolvedMimic {
-        dof_idx: joint_to_dofs[end].first().copied(),
-        multiplier,
-        offset,
-    }))
+    Ok(resolved)
 }

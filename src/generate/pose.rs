@@ -13,7 +13,8 @@ pub(super) fn has_quaternions(version: Option<&str>) -> bool {
         // What is beyond 64 bits is later than any version.
         digits.then(|| text.parse().unwrap_or(u64::MAX))
     };
-    let version = version.and_then(|version| version.trim().split_once('.'));
+    let white_space = |c: char| matches!(c, ' ' | '\t' | '\r' | '\n');
+    let version = version.and_then(|version| version.trim_matches(white_space).split_once('.'));
     let numbers = version.and_then(|(major, minor)| number(major).zip(number(minor)));
     numbers.is_some_and(|version| version >= (1, 1))
 }
@@ -65,7 +66,17 @@ mod tests {
             assert_eq!([x, y], [0.0, 0.0]);
             assert!((z - FRAC_1_SQRT_2).abs() < 1e-15 && (w - FRAC_1_SQRT_2).abs() < 1e-15);
         }
-        for version in ["1.0", "0.9", "1", "", "1.1.0", "1.x", "-1.1"] {
+        for version in [
+            "1.0",
+            "0.9",
+            "1",
+            "",
+            "1.1.0",
+            "1.x",
+            "-1.1",
+            "+1.1",
+            "\u{a0}1.1",
+        ] {
             assert_eq!(
                 rotation(&origin, version),
                 [0.0, 0.0, 0.0, 1.0],

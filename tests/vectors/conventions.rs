@@ -154,7 +154,11 @@ fn in_plane_bases() {
         let urdf = format!(
             r#"<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="planar"><parent link="a"/><child link="b"/><axis xyz="{i} {j} {k}"/></joint></robot>"#
         );
-        let reference = Reference::read(&urdf, MimicDofs::Follow).unwrap();
+        let reference = Reference::new(
+            &urdd::validate::urdf_text::read(&urdf).robot.unwrap(),
+            MimicDofs::Follow,
+        )
+        .unwrap();
         for (q, expected) in [([1.0, 0.0, 0.0], case.x), ([0.0, 1.0, 0.0], case.y)] {
             let poses = reference.link_poses(&q).unwrap();
             let found = poses[1].translation.vector;

@@ -112,7 +112,11 @@ fn mimics() {
                 .collect();
             assert!(mimic.is_some() || found == *expected, "{}", robot.name);
         }
-        let reference = Reference::read(&urdf, MimicDofs::Follow).unwrap();
+        let reference = Reference::new(
+            &urdd::validate::urdf_text::read(&urdf).robot.unwrap(),
+            MimicDofs::Follow,
+        )
+        .unwrap();
         let poses = reference.link_poses(&robot.configuration).unwrap();
         for ((joint, pose), expected) in robot.joints.iter().zip(&poses[1..]).zip(&robot.positions)
         {

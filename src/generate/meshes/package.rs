@@ -138,7 +138,7 @@ fn package_name(folder: &Path) -> Option<String> {
         return None;
     }
     let text = fs::read_to_string(file).ok()?;
-    let document = crate::xml::parse(&text, false).ok()?;
+    let document = crate::xml::parse(&text, crate::xml::Kind::Other).ok()?;
     let mut elements = document.root_element().children();
     let name = elements.find(|element| element.has_tag_name("name"))?;
     Some(name.text()?.trim().to_owned())

@@ -56,9 +56,6 @@ pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
         text.truncate(end);
     }
     for _ in 0..MOST_PREFIXES {
-        if text.contains("<!ENTITY") {
-            break;
-        }
         let Some(prefix) = unknown_prefix(&text) else {
             break;
         };
@@ -82,7 +79,7 @@ pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
 
 /// A prefix that the parser does not know, where that is what it stumbles over first.
 fn unknown_prefix(text: &str) -> Option<String> {
-    match xml::parse(text, true) {
+    match xml::parse(text, xml::Kind::Robot) {
         Err(XmlError::Parser(Error::UnknownNamespace(prefix, _))) => Some(prefix),
         _ => None,
     }

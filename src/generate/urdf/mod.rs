@@ -71,11 +71,8 @@ impl Default for Reading {
 /// # Errors
 /// Where the text is no robot: everything that is wrong, in the order of the text.
 pub(crate) fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFault>> {
-    if text.contains("<!ENTITY") {
-        let offset = text.find("<!ENTITY").unwrap_or_default();
-        return Err(vec![placed(text, offset, Fault::Entities)]);
-    }
-    let document = crate::xml::parse(text, true).map_err(|error| vec![xml::fault(&error, text)])?;
+    let document = crate::xml::parse(text, crate::xml::Kind::Robot)
+        .map_err(|error| vec![xml::fault(&error, text)])?;
     let (reading, faults) = reader::read(&document, file_stem);
     if faults.is_empty() {
         return Ok(reading);
@@ -96,13 +93,4 @@ pub(crate) fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFau
         }
     });
     Err(faults.collect())
-}
-
-fn placed(text: &str, offset: usize, fault: Fault) -> PlacedFault {
-    let at = position::position(text, offset);
-    PlacedFault {
-        line: at.line,
-        column: at.column,
-        fault,
-    }
 }

@@ -46,14 +46,15 @@ pub(super) fn fault(error: &XmlError, text: &str) -> PlacedFault {
         .line_start(at.row as usize)
         .unwrap_or_default();
     let is_after_end = text[..start].contains("</robot>") || text.starts_with("<robot/>");
-    let words = match error {
-        XmlError::TooMany { .. } => error.words(),
-        XmlError::Parser(error) => words(error, text, is_after_end),
+    let fault = match error {
+        XmlError::Parser(error) => Fault::NotXml(words(error, text, is_after_end)),
+        XmlError::Entities(_) => Fault::Entities,
+        _ => Fault::NotXml(error.words()),
     };
     PlacedFault {
         line: at.row,
         column: at.col,
-        fault: Fault::NotXml(words),
+        fault,
     }
 }
 

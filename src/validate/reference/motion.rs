@@ -3,10 +3,11 @@
 use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use urdf_rs::JointType;
+
+use crate::format::urdf::JointType;
 
 /// Number of numbers that say a joint's position.
-pub fn freedom(kind: &JointType) -> usize {
+pub fn freedom(kind: JointType) -> usize {
     match kind {
         JointType::Fixed => 0,
         JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
@@ -16,9 +17,14 @@ pub fn freedom(kind: &JointType) -> usize {
 }
 
 /// The motion of a joint at a position, of which the first [`freedom`] numbers count.
-pub fn motion(kind: &JointType, axis: [f64; 3], q: &[f64; 6]) -> Isometry3<f64> {
+pub fn motion(kind: JointType, axis: [f64; 3], q: &[f64; 6]) -> Isometry3<f64> {
     let axis = Vector3::from(axis);
-    let unit = axis.try_normalize(0.0).unwrap_or_else(Vector3::x);
+    // Divided first, so that the squares of huge numbers are not infinite.
+    let largest = axis.amax();
+    let unit = match largest > 0.0 {
+        true => (axis / largest).normalize(),
+        false => Vector3::x(),
+    };
     let turn = |v: Vector3<f64>| UnitQuaternion::from_scaled_axis(v);
     let (shift, rotation) = match kind {
         JointType::Fixed => (Vector3::zeros(), UnitQuaternion::identity()),
@@ -58,7 +64,7 @@ mod tests {
     /// Where the motion of a planar joint at (x, y) puts the origin.
     fn planar(axis: [f64; 3], [x, y]: [f64; 2]) -> Vector3<f64> {
         let q = [x, y, 0.0, 0.0, 0.0, 0.0];
-        motion(&JointType::Planar, axis, &q).translation.vector
+        motion(JointType::Planar, axis, &q).translation.vector
     }
 
     #[test]

@@ -55,7 +55,7 @@ impl Reading {
 
 /// Reads a URDF.
 pub fn read(text: &str) -> Reading {
-    match crate::xml::parse(text, true) {
+    match crate::xml::parse(text, crate::xml::Kind::Robot) {
         Ok(document) => reader::read(&document),
         Err(error) => Reading {
             problems: vec![problem::not_xml(&error, text)],

@@ -104,9 +104,6 @@ pub(super) fn not_xml(error: &XmlError, text: &str) -> Problem {
         .nth((place.col as usize).saturating_sub(1))
         .map_or(rest.len(), |(offset, _)| offset);
     let words = match error {
-        XmlError::Parser(roxmltree::Error::DtdDetected) => {
-            "it declares entities of its own (DOCTYPE), which are not read".to_owned()
-        }
         XmlError::Parser(roxmltree::Error::UnexpectedDeclaration(_)) => {
             "the XML declaration `<?xml …?>` must stand at the very start of the file, once"
                 .to_owned()

@@ -18,7 +18,7 @@ pub(super) use geometry::strip;
 /// Reads a document: the visual scene that it shows, every geometry where its nodes place it.
 pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
     let text = decode(bytes, assembly)?;
-    let xml = xml::parse(&text, false).map_err(|error| {
+    let xml = xml::parse(&text, xml::Kind::Other).map_err(|error| {
         let line = error.pos().row as usize;
         let words = error.words();
         Fault::malformed(format!("the XML is broken ({words})")).at(|| Place::Line(line))

@@ -2,6 +2,7 @@ use nalgebra::Isometry3;
 
 use crate::document::consumer;
 use crate::format::registry::{ModuleKind, Profile};
+use crate::format::urdf::JointType;
 use crate::kinematics::unit;
 use crate::kinematics::{ConfigurationError, ForwardKinematics};
 use crate::validate::context::Context;
@@ -39,8 +40,10 @@ const SAMPLES: u64 = 8;
 
 fn check(context: &Context, findings: &mut Findings) {
     let legacy = context.profile() == Profile::Legacy;
-    let (Ok(urdf), Some(robot), Some(tree), Some(modules), Some(dofs)) = (
-        context.urdf(),
+    let (Some(source), Some(robot), Some(tree), Some(modules), Some(dofs)) = (
+        context
+            .urdf_text()
+            .and_then(|reading| reading.robot.as_ref()),
         context.robot(),
         context.tree(),
         consumer::modules(context),
@@ -58,11 +61,11 @@ fn check(context: &Context, findings: &mut Findings) {
     } else {
         MimicDofs::Follow
     };
-    let reference = match Reference::read(&urdf.text, mimics) {
+    let reference = match Reference::new(source, mimics) {
         Ok(reference) => reference,
         Err(reason) => return findings.skip(SkipReason::Reference(reason)),
     };
-    if legacy && reference.has(&urdf_rs::JointType::Planar) {
+    if legacy && reference.has(JointType::Planar) {
         return findings.skip(SkipReason::LegacyCoordinates);
     }
     let file = format!("{}/module.json", ModuleKind::Chain.folder());

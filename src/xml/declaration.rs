@@ -1,0 +1,44 @@
+//! The XML declaration: `<?xml version="1.0" encoding="UTF-8"?>`.
+
+use std::ops::Range;
+
+use super::{XmlError, text_pos};
+
+/// Checks that the declaration, where there is one, names a version 1.x, and no other encoding than
+/// UTF-8. (The parser takes any.)
+pub(super) fn check(text: &str) -> Result<(), XmlError> {
+    if let Some(range) = value(text, "version") {
+        let digits = text[range.clone()].strip_prefix("1.");
+        if !digits.is_some_and(|d| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit())) {
+            return Err(XmlError::Version {
+                pos: text_pos(text, range.start),
+                found: text[range].chars().take(20).collect(),
+            });
+        }
+    }
+    if let Some(range) = value(text, "encoding") {
+        let found = text[range.clone()].to_ascii_lowercase();
+        if !matches!(found.as_str(), "utf-8" | "utf8") {
+            return Err(XmlError::Encoding {
+                pos: text_pos(text, range.start),
+                found: text[range].chars().take(20).collect(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Where the value of one of the declaration's parts stands.
+fn value(text: &str, name: &str) -> Option<Range<usize>> {
+    let rest = text.strip_prefix("<?xml")?;
+    let rest = rest
+        .starts_with(|c: char| c.is_ascii_whitespace())
+        .then_some(rest)?;
+    let declaration = &rest[..rest.find("?>")?];
+    let start = text.len() - rest.len();
+    let after = declaration.find(name)? + name.len();
+    let quote = after + declaration[after..].find(['"', '\''])?;
+    let mark = declaration[quote..].chars().next()?;
+    let length = declaration[quote + 1..].find(mark)?;
+    Some(start + quote + 1..start + quote + 1 + length)
+}

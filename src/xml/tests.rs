@@ -1,0 +1,160 @@
+//! What is counted, and what is not.
+
+use super::*;
+
+fn attributes(count: usize) -> String {
+    (0..count).map(|n| format!(" a{n}=\"=\"")).collect()
+}
+
+fn result(text: &str) -> Result<(), String> {
+    let parsed = parse(text, Kind::Robot).map(|_| ());
+    parsed.map_err(|error| format!("{}: {}", error.pos(), error.words()))
+}
+
+#[test]
+fn attributes_are_bounded() {
+    let most = attributes(MOST_ATTRIBUTES);
+    assert_eq!(result(&format!("<r><a{most}/><b{most}/></r>")), Ok(()));
+    let text = format!("<r>\n é<a b='>'{most}/></r>");
+    let expected = "2:3: there are more than 256 attributes of one element";
+    assert_eq!(result(&text), Err(expected.to_owned()));
+}
+
+#[test]
+fn prefixes_are_bounded() {
+    let declared = |from: usize, to: usize| -> String {
+        let one = |n: usize| format!("<a xmlns:p{n} = 'u'>");
+        (from..to).map(one).collect()
+    };
+    let ends = |count: usize| "</a>".repeat(count);
+    let most = declared(0, MOST_PREFIXES) + &ends(MOST_PREFIXES);
+    assert_eq!(result(&format!("<r>{most}{most}</r>")), Ok(()));
+    let more = declared(0, MOST_PREFIXES + 1) + &ends(MOST_PREFIXES + 1);
+    assert!(result(&more).unwrap_err().contains("more than 64 prefixes"));
+}
+
+#[test]
+fn quotes_elsewhere_hide_no_attributes() {
+    let many = format!("<a{}/>", attributes(MOST_ATTRIBUTES + 1));
+    let before = [
+        "<r><!--> <b ' -->",
+        "<r><?p <b '?>",
+        "<r><![CDATA[<b ']]>",
+        "<r>'",
+        "<!DOCTYPE r [ <!-- ' --> <!ATTLIST r a CDATA \"<b '\"> <?p '?> ]><r>",
+    ];
+    for before in before {
+        assert_eq!(result(&format!("{before}<a/>'</r>")), Ok(()), "{before}");
+        let error = result(&format!("{before}{many}'</r>")).unwrap_err();
+        assert!(error.contains("256 attributes"), "{before}: {error}");
+    }
+}
+
+#[test]
+fn text_that_looks_like_attributes_is_not_counted() {
+    let signs = "=".repeat(2 * MOST_ATTRIBUTES);
+    let text = format!(
+        "<?p <{signs}?><r><!-- <{signs}> --><![CDATA[<{signs}]]>{signs}<a b=\"{signs}\"/></r>"
+    );
+    assert_eq!(result(&text), Ok(()));
+}
+
+#[test]
+fn what_is_broken_is_left_to_the_parser() {
+    for text in [
+        "",
+        "<",
+        "<r",
+        "<!--",
+        "<r a='",
+        "<![CDATA[",
+        "<?",
+        "<r a=b>",
+        "<!DOCTYPE",
+    ] {
+        assert!(result(text).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn levels_are_bounded() {
+    let nested = |levels: usize| format!("{}{}", "<a b='>'>".repeat(levels), "</a>".repeat(levels));
+    assert_eq!(result(&nested(MOST_LEVELS)), Ok(()));
+    let expected = "there are more than 256 levels of elements inside one another";
+    let error = result(&nested(MOST_LEVELS + 1)).unwrap_err();
+    assert_eq!(error, format!("1:{}: {expected}", 9 * MOST_LEVELS + 1));
+    // Neither elements that are closed at once, nor text, nor what a document type declares.
+    let flat = "<b/><c d='/>'></c><!-- <e> --><![CDATA[<f>]]><?g <h>?>".repeat(MOST_LEVELS + 1);
+    assert_eq!(result(&format!("<r>{flat}</r>")), Ok(()));
+    let types = "<!ELEMENT r ANY>".repeat(MOST_LEVELS + 1);
+    assert_eq!(result(&format!("<!DOCTYPE r [{types}]><r/>")), Ok(()));
+    // Two million levels are refused as fast.
+    let start = std::time::Instant::now();
+    assert!(result(&"<a>".repeat(2_000_000)).is_err());
+    assert!(start.elapsed().as_secs() < 5);
+}
+
+#[test]
+fn elements_of_a_robot_are_bounded() {
+    let many = |count: usize| format!("<r>{}</r>", "<a/>".repeat(count - 1));
+    assert_eq!(result(&many(MOST_ROBOT_ELEMENTS)), Ok(()));
+    let error = result(&many(MOST_ROBOT_ELEMENTS + 1)).unwrap_err();
+    assert!(
+        error.ends_with("there are more than 500000 elements"),
+        "{error}"
+    );
+    assert!(parse(&many(MOST_ROBOT_ELEMENTS + 1), Kind::Other).is_ok());
+}
+
+#[test]
+fn entities_are_refused_where_they_are_declared() {
+    let error = result("<!DOCTYPE r [\n <!ENTITY a '0'>]><r/>").unwrap_err();
+    assert!(error.starts_with("2:2: it declares entities"), "{error}");
+    let nested = "<!DOCTYPE r [ <!ELEMENT r ANY> <!-- ] --> <!ENTITY % a '0'> ]><r/>";
+    assert!(result(nested).unwrap_err().contains("declares entities"));
+    // Elsewhere these characters declare nothing.
+    for text in [
+        "<!DOCTYPE r><!-- <!ENTITY a '0'> --><r/>",
+        "<!DOCTYPE r [ <!-- <!ENTITY a '0'> --> ]><r/>",
+        "<!DOCTYPE r><r a='&lt;!ENTITY'><![CDATA[<!ENTITY]]></r>",
+    ] {
+        assert_eq!(result(text), Ok(()), "{text}");
+    }
+}
+
+#[test]
+fn the_declaration_says_what_the_file_is() {
+    for declaration in [
+        "version='1.0'",
+        "version=\"1.1\"",
+        "version = '1.0' encoding = 'UTF-8'",
+        "version='1.0' encoding='utf8' standalone='yes'",
+    ] {
+        assert_eq!(
+            result(&format!("<?xml {declaration}?><r/>")),
+            Ok(()),
+            "{declaration}"
+        );
+    }
+    for (declaration, expected) in [
+        (
+            "version='0.0'",
+            "1:16: the XML declaration names version `0.0`",
+        ),
+        (
+            "version='1.'",
+            "1:16: the XML declaration names version `1.`",
+        ),
+        (
+            "version='2.0'",
+            "1:16: the XML declaration names version `2.0`",
+        ),
+        (
+            "version='1.0' encoding='latin-1'",
+            "1:31: the XML declaration names the encoding `latin-1`",
+        ),
+    ] {
+        let error = result(&format!("<?xml {declaration}?><r/>")).unwrap_err();
+        assert!(error.starts_with(expected), "{declaration}: {error}");
+    }
+}
