@@ -179,8 +179,13 @@ fn bad_xml_is_refused_with_its_place() {
 }
 
 #[test]
-fn deep_nesting_does_no_harm() {
-    let deep = format!("{}{}", "<a>".repeat(200_000), "</a>".repeat(200_000));
-    let reading = robot(&deep);
-    assert_eq!(reading.robot.unwrap().unknown_elements[0].len(), deep.len());
+fn deep_nesting_is_refused() {
+    let nested = |levels: usize| format!("{}{}", "<a>".repeat(levels), "</a>".repeat(levels));
+    // One level is the robot's.
+    let reading = robot(&nested(255));
+    assert_eq!(reading.problems, []);
+    assert_eq!(reading.robot.unwrap().unknown_elements, [nested(255)]);
+    for levels in [256, 200_000] {
+        assert!(faults(&nested(levels))[0].contains("more than 256 levels"));
+    }
 }
