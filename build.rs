@@ -1,5 +1,36 @@
-//! Cargo does not see new files in the folder that `src/conformance/data.rs` embeds.
+//! Packs the conformance suite into the archive that a release build carries.
+
+#[cfg(feature = "conformance")]
+#[path = "src/conformance/archive.rs"]
+mod archive;
 
 fn main() {
-    println!("cargo:rerun-if-changed=conformance");
+    #[cfg(feature = "conformance")]
+    suite();
+    println!("cargo:rerun-if-changed=build.rs");
+}
+
+/// A debug build gets an empty archive, and reads the folder when it runs.
+#[cfg(feature = "conformance")]
+fn suite() {
+    use std::path::PathBuf;
+
+    let variable = |name: &str| std::env::var(name).unwrap_or_default();
+    let folder = PathBuf::from(variable("CARGO_MANIFEST_DIR")).join("conformance");
+    let release = variable("PROFILE") == "release";
+    let bytes = match release {
+        true => archive::read_folder(&folder).and_then(|files| archive::pack(&files)),
+        false => Ok(Vec::new()),
+    };
+    let target = PathBuf::from(variable("OUT_DIR")).join("suite.tar.gz");
+    if let Err(error) = bytes.and_then(|bytes| std::fs::write(target, bytes)) {
+        println!("cargo:error=the conformance suite cannot be packed: {error}");
+    }
+    // No path of the machine in a release build.
+    let shown = if release { PathBuf::new() } else { folder };
+    println!("cargo:rustc-env=URDD_SUITE={}", shown.display());
+    if release {
+        println!("cargo:rerun-if-changed=conformance");
+    }
+    println!("cargo:rerun-if-changed=src/conformance/archive.rs");
 }

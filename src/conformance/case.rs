@@ -5,10 +5,7 @@ use std::collections::BTreeSet;
 use semver::VersionReq;
 use serde::{Deserialize, Serialize};
 
-use super::change::{Change, ChangeError};
-use super::seal;
-use super::suite::Suite;
-use super::tree::Tree;
+use super::change::Change;
 
 /// A case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -69,50 +66,9 @@ pub struct Expected {
     pub pointer: Option<String>,
 }
 
-/// Why a case cannot be made.
-#[derive(Debug, thiserror::Error)]
-pub enum CaseError {
-    /// No such base.
-    #[error("{case}: there is no base {base:?}")]
-    NoBase {
-        /// Which case.
-        case: String,
-        /// The base it names.
-        base: String,
-    },
-    /// A change does not fit.
-    #[error("{case}: {error}")]
-    Change {
-        /// Which case.
-        case: String,
-        /// Why.
-        error: ChangeError,
-    },
-}
-
 impl Case {
     /// How it is called: code, slash, name.
     pub fn id(&self) -> String {
         format!("{}/{}", self.code, self.name)
-    }
-
-    /// The URDD.
-    ///
-    /// # Errors
-    /// Where the suite does not have the base, or a change does not fit it.
-    pub fn tree(&self, suite: &Suite) -> Result<Tree, CaseError> {
-        let base = suite.bases.get(&self.base);
-        let mut tree = base.cloned().ok_or_else(|| CaseError::NoBase {
-            case: self.id(),
-            base: self.base.clone(),
-        })?;
-        for change in &self.changes {
-            change.apply(&mut tree).map_err(|error| CaseError::Change {
-                case: self.id(),
-                error,
-            })?;
-        }
-        seal::rehash(&mut tree, &self.hashes_kept);
-        Ok(tree)
     }
 }

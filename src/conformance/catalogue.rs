@@ -4,7 +4,7 @@ use semver::VersionReq;
 use serde::Serialize;
 
 use super::case::{Expected, Kind, Verdict};
-use super::data::{INVALID, VALID};
+use super::data::{INVALID, URDD, VALID};
 use super::suite::Suite;
 use super::valid;
 use crate::directory::discover::ROOT_METADATA;
@@ -12,8 +12,6 @@ use crate::format::registry::{Profile, SPEC_VERSION};
 
 /// The file of an exported suite that lists everything.
 pub const CATALOGUE: &str = "suite.json";
-/// The folder of a URDD within that of its case; others may lie beside it.
-pub const URDD: &str = "robot";
 
 /// What an exported suite holds, as [`CATALOGUE`] says it.
 #[derive(Debug, Clone, PartialEq, Serialize)]

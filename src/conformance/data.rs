@@ -1,9 +1,13 @@
-//! The suite's files, carried by the program.
+//! The suite's files. A release build carries them as one archive; a debug build reads them from the
+//! repository, so that a new case needs no build.
 
-use include_dir::{Dir, include_dir};
+use std::path::Path;
+use std::sync::LazyLock;
 
-/// The folder `conformance` of the repository.
-pub static SUITE: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/conformance");
+use super::archive::{self, Files};
+
+/// The archive; without a byte in a debug build.
+static ARCHIVE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/suite.tar.gz"));
 
 /// The robots that producers are run on: URDF files, and their meshes below.
 pub const ROBOTS: &str = "robots";
@@ -13,5 +17,70 @@ pub const VALID: &str = "valid";
 pub const BASES: &str = "bases";
 /// Cases, near misses too: a folder for each code.
 pub const INVALID: &str = "invalid";
+/// The folder of a URDD within that of its case; others may lie beside it.
+pub const URDD: &str = "robot";
 /// Numeric truths.
 pub const VECTORS: &str = "vectors";
+
+/// The suite cannot be read.
+#[derive(Debug, Clone, thiserror::Error)]
+#[error("the conformance suite cannot be read: {0}")]
+pub struct DataError(String);
+
+static SUITE: LazyLock<Result<Files, DataError>> = LazyLock::new(|| {
+    let files = match ARCHIVE.is_empty() {
+        true => archive::read_folder(Path::new(env!("URDD_SUITE")))
+            .map_err(|error| format!("{error}; a debug build reads it from the repository")),
+        false => archive::unpack(ARCHIVE).map_err(|error| error.to_string()),
+    };
+    files.map_err(DataError)
+});
+
+/// Whether the suite can be read. Where it cannot, [`below`] gives nothing.
+///
+/// # Errors
+/// Why not.
+pub fn check() -> Result<(), DataError> {
+    SUITE.as_ref().map(|_| ()).map_err(Clone::clone)
+}
+
+/// The files of a folder of the suite, each by its path below that folder.
+pub fn below(folder: &str) -> impl Iterator<Item = (&'static str, &'static [u8])> {
+    let files: &'static Result<Files, DataError> = &SUITE;
+    let start = format!("{folder}/");
+    let files = files.iter().flat_map(|files| files.iter());
+    files.filter_map(move |(path, bytes)| Some((path.strip_prefix(&start)?, bytes.as_slice())))
+}
+
+/// A file of the suite.
+pub fn file(path: &str) -> Option<&'static [u8]> {
+    let files: &'static Result<Files, DataError> = &SUITE;
+    files.as_ref().ok()?.get(path).map(Vec::as_slice)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_archive_holds_what_the_folder_holds() {
+        let files = archive::read_folder(Path::new(env!("URDD_SUITE"))).expect("the repository's");
+        let cases = files.keys().filter(|path| path.starts_with("invalid/"));
+        assert!(cases.count() > 500, "{} files", files.len());
+        let packed = archive::pack(&files).expect("an archive");
+        assert_eq!(archive::unpack(&packed).expect("what was packed"), files);
+        assert_eq!(archive::pack(&files).expect("the same again"), packed);
+        // The program grows by this much: some 0.8 MB for the 7 MB of the suite.
+        assert!(packed.len() < 1_500_000, "{} bytes", packed.len());
+        assert!(archive::unpack(&packed[..packed.len() / 2]).is_err());
+    }
+
+    #[test]
+    fn files_are_found_by_folder() {
+        assert!(check().is_ok());
+        assert!(file("README.md").is_some() && file("no/such").is_none());
+        let mut robots = below(ROBOTS).map(|(path, _)| path);
+        assert!(robots.any(|path| path == "gripper.urdf"));
+        assert_eq!(below("no_such").count(), 0);
+    }
+}

@@ -6,10 +6,9 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use super::case::CaseError;
 use super::catalogue::{CATALOGUE, Catalogue, ItemKind, items};
-use super::data::{INVALID, ROBOTS, SUITE, VALID, VECTORS};
-use super::suite::{Suite, SuiteError};
+use super::data::{self, INVALID, ROBOTS, URDD, VALID, VECTORS};
+use super::suite::{CaseError, Suite, SuiteError};
 use super::tree::{Tree, TreeError};
 use super::valid;
 use crate::format::registry::SPEC_VERSION;
@@ -82,9 +81,7 @@ pub fn export(folder: &Path) -> Result<Exported, ExportError> {
     let suite = Suite::carried()?;
     let robots = folder.join(ROBOTS);
     valid::write_robots(&robots)?;
-    if SUITE.get_dir(VECTORS).is_some() {
-        Tree::carried(VECTORS).write(&folder.join(VECTORS))?;
-    }
+    Tree::carried(VECTORS).write(&folder.join(VECTORS))?;
     let other_bytes = write_valid(&robots, &folder.join(VALID))?;
     let left_out = write_cases(&suite, folder)?;
 
@@ -112,9 +109,9 @@ pub fn export(folder: &Path) -> Result<Exported, ExportError> {
     let text = serde_json::to_string_pretty(&catalogue).map_err(io::Error::from);
     let text = text.map_err(failed(&path))?;
     fs::write(&path, text + "\n").map_err(failed(&path))?;
-    if let Some(readme) = SUITE.get_file(README) {
+    if let Some(readme) = data::file(README) {
         let path = folder.join(README);
-        fs::write(&path, readme.contents()).map_err(failed(&path))?;
+        fs::write(&path, readme).map_err(failed(&path))?;
     }
     Ok(exported)
 }
@@ -140,11 +137,8 @@ pub fn write_valid(robots: &Path, folder: &Path) -> Result<Vec<String>, ExportEr
 /// Writes every case. Gives those that cannot be had here.
 fn write_cases(suite: &Suite, folder: &Path) -> Result<Vec<String>, ExportError> {
     let write = |case: &super::case::Case| -> Result<Option<String>, ExportError> {
-        let root = folder
-            .join(INVALID)
-            .join(case.id())
-            .join(super::catalogue::URDD);
-        match case.tree(suite)?.write(&root) {
+        let root = folder.join(INVALID).join(case.id()).join(URDD);
+        match suite.tree(case)?.write(&root) {
             Ok(()) => Ok(None),
             Err(TreeError::Unsupported(_)) => {
                 let case_folder = folder.join(INVALID).join(case.id());

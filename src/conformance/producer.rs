@@ -4,10 +4,14 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use rayon::prelude::*;
+
+use super::data::{self, DataError, ROBOTS};
 use super::process::{End, Ran, Template};
 use super::skips::{Skip, SkipError};
 use super::tree::TreeError;
 use super::valid;
+use super::workplace::{Workplace, WorkplaceError};
 use crate::format::conformance::{
     ClassScore, ModuleScore, ModuleStatus, ProducerResult, RobotModule, RobotScore, ScoreStatus,
 };
@@ -33,11 +37,27 @@ pub struct Plan {
     pub limit: Duration,
     /// What it is known not to do yet: a robot, or a robot's module.
     pub skips: Vec<Skip>,
+    /// On how many robots it is run at a time.
+    pub jobs: usize,
+    /// A new folder in which robots and URDDs stay, a folder for each robot; `None` for temporary ones.
+    pub keep: Option<PathBuf>,
+}
+
+/// What happens while a producer runs.
+#[derive(Debug)]
+pub enum Event<'a> {
+    /// It will be run on so many robots.
+    Start(usize),
+    /// A robot is done; on any thread.
+    Scored(&'a RobotScore),
 }
 
 /// Why a producer cannot be run.
 #[derive(Debug, thiserror::Error)]
 pub enum ProducerError {
+    /// The robots cannot be read.
+    #[error(transparent)]
+    Data(#[from] DataError),
     /// No such robot.
     #[error("there is no robot `{0}`; the robots are {1}")]
     UnknownRobot(String, String),
@@ -45,8 +65,11 @@ pub enum ProducerError {
     #[error("the skip list: {0}")]
     Skip(#[from] SkipError),
     /// There is no place to work in.
-    #[error("no temporary folder: {0}")]
-    Folder(#[from] std::io::Error),
+    #[error(transparent)]
+    Folder(#[from] WorkplaceError),
+    /// So many threads cannot be had.
+    #[error("{0} commands at a time cannot be run: {1}")]
+    Jobs(usize, rayon::ThreadPoolBuildError),
     /// The robots cannot be written there.
     #[error(transparent)]
     Robots(#[from] TreeError),
@@ -55,18 +78,34 @@ pub enum ProducerError {
 /// How a line of a producer's skip list is written.
 pub const SKIP_FORM: &str = "`robot  # reason`, or `robot module  # reason`";
 
-/// Runs a producer on robots, one after the other.
+/// Runs a producer on robots. `observe` hears of each as soon as it is done.
 ///
 /// # Errors
 /// Where a robot or a module does not exist, or there is no place to work in.
-pub fn run(plan: &Plan) -> Result<ProducerResult, ProducerError> {
+pub fn run(
+    plan: &Plan,
+    observe: &(dyn Fn(&Event) + Sync),
+) -> Result<ProducerResult, ProducerError> {
+    data::check()?;
     let names = chosen(&plan.robots)?;
     check_skips(&plan.skips)?;
-    let mut robots = Vec::new();
-    let mut used = BTreeSet::new();
-    for name in &names {
-        robots.push(robot(plan, name, &mut used)?);
-    }
+    let folder = Workplace::new(plan.keep.as_deref())?;
+    observe(&Event::Start(names.len()));
+    let one = |name: &String| {
+        let done = robot(plan, name, &folder.path().join(name))?;
+        observe(&Event::Scored(&done.0));
+        Ok(done)
+    };
+    let all = || -> Result<Vec<(RobotScore, BTreeSet<usize>)>, ProducerError> {
+        names.par_iter().map(one).collect()
+    };
+    let done = rayon::ThreadPoolBuilder::new()
+        .num_threads(plan.jobs)
+        .build()
+        .map_err(|error| ProducerError::Jobs(plan.jobs, error))?
+        .install(all)?;
+    let (robots, used): (Vec<RobotScore>, Vec<BTreeSet<usize>>) = done.into_iter().unzip();
+    let used: BTreeSet<usize> = used.into_iter().flatten().collect();
     let ran = |skip: &&Skip| {
         skip.words
             .first()
@@ -129,12 +168,16 @@ fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
     kind.class().is_some_and(|first| first <= class)
 }
 
-fn robot(plan: &Plan, name: &str, used: &mut BTreeSet<usize>) -> Result<RobotScore, ProducerError> {
-    let folder = tempfile::tempdir()?;
-    let robots = folder.path().join("robots");
+/// Runs the command on a robot, in a folder of its own. Gives the lines of the skip list that were needed too.
+fn robot(
+    plan: &Plan,
+    name: &str,
+    folder: &Path,
+) -> Result<(RobotScore, BTreeSet<usize>), ProducerError> {
+    let robots = folder.join(ROBOTS);
     valid::write_robots(&robots)?;
     let urdf = robots.join(format!("{name}.urdf"));
-    let out = folder.path().join(name);
+    let out = folder.join(name);
     let ran = plan
         .command
         .run(&[("urdf", &urdf), ("out", &out)], plan.limit);
@@ -143,11 +186,11 @@ fn robot(plan: &Plan, name: &str, used: &mut BTreeSet<usize>) -> Result<RobotSco
         _ => Err(None),
     };
     let mut score = score(plan, name, &ran, examined);
-    apply_skips(plan, &mut score, used);
+    let used = apply_skips(plan, &mut score);
     if score.status == ScoreStatus::Passed {
         (score.stdout, score.stderr) = (None, None);
     }
-    Ok(score)
+    Ok((score, used))
 }
 
 /// What the validator says; the error is why it cannot say anything.
@@ -251,7 +294,9 @@ fn told(finding: &Finding) -> String {
 }
 
 /// A robot's skip covers all of it; the skips of its modules cover it where nothing else is wrong.
-fn apply_skips(plan: &Plan, score: &mut RobotScore, used: &mut BTreeSet<usize>) {
+/// Gives the lines that were needed.
+fn apply_skips(plan: &Plan, score: &mut RobotScore) -> BTreeSet<usize> {
+    let mut used = BTreeSet::new();
     let own = |skip: &&Skip| skip.words.first() == Some(&score.robot);
     for skip in plan.skips.iter().filter(own) {
         match skip.words.get(1) {
@@ -289,6 +334,7 @@ fn apply_skips(plan: &Plan, score: &mut RobotScore, used: &mut BTreeSet<usize>) 
         score.status = ScoreStatus::Skipped;
         score.skipped_since = Some("its modules are".to_owned());
     }
+    used
 }
 
 /// The rule that finds that a module of the class is missing.

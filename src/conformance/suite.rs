@@ -1,12 +1,10 @@
 //! The suite as data: bases and cases.
 
-use std::collections::BTreeMap;
-
-use include_dir::Dir;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::case::Case;
-use super::catalogue::URDD;
-use super::data::{BASES, INVALID, SUITE};
+use super::change::ChangeError;
+use super::data::{self, BASES, DataError, INVALID, URDD};
 use super::seal;
 use super::tree::Tree;
 
@@ -22,6 +20,9 @@ pub struct Suite {
 /// Why the suite cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum SuiteError {
+    /// Its files cannot be read.
+    #[error(transparent)]
+    Data(#[from] DataError),
     /// A case is not what a case should be.
     #[error("{path}: {error}")]
     Case {
@@ -32,27 +33,47 @@ pub enum SuiteError {
     },
 }
 
+/// Why a case cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum CaseError {
+    /// No such base.
+    #[error("{case}: there is no base {base:?}")]
+    NoBase {
+        /// Which case.
+        case: String,
+        /// The base it names.
+        base: String,
+    },
+    /// A change does not fit.
+    #[error("{case}: {error}")]
+    Change {
+        /// Which case.
+        case: String,
+        /// Why.
+        error: ChangeError,
+    },
+}
+
 impl Suite {
     /// The suite that the program carries.
     ///
     /// # Errors
     /// Where a case cannot be read.
     pub fn carried() -> Result<Suite, SuiteError> {
+        data::check()?;
         let mut suite = Suite::default();
-        for base in SUITE.get_dir(BASES).into_iter().flat_map(Dir::dirs) {
-            let name = base.path().file_name().unwrap_or_default();
-            let mut tree =
-                Tree::carried_around(&format!("{BASES}/{}", name.to_string_lossy()), URDD);
+        let bases: BTreeSet<&str> = data::below(BASES)
+            .filter_map(|(path, _)| path.split('/').next())
+            .collect();
+        for base in bases {
+            let mut tree = Tree::carried_around(&format!("{BASES}/{base}"), URDD);
             seal::add_mirrors(&mut tree);
-            suite
-                .bases
-                .insert(name.to_string_lossy().into_owned(), tree);
+            suite.bases.insert(base.to_owned(), tree);
         }
-        let codes = SUITE.get_dir(INVALID).into_iter().flat_map(Dir::dirs);
-        for file in codes.flat_map(Dir::files) {
-            let case = serde_json::from_slice(file.contents());
+        for (path, text) in data::below(INVALID) {
+            let case = serde_json::from_slice(text);
             suite.cases.push(case.map_err(|error| SuiteError::Case {
-                path: file.path().display().to_string(),
+                path: format!("{INVALID}/{path}"),
                 error,
             })?);
         }
@@ -60,5 +81,25 @@ impl Suite {
             .cases
             .sort_by(|a, b| (&a.code, &a.name).cmp(&(&b.code, &b.name)));
         Ok(suite)
+    }
+
+    /// The URDD of a case.
+    ///
+    /// # Errors
+    /// Where there is no such base, or a change does not fit it.
+    pub fn tree(&self, case: &Case) -> Result<Tree, CaseError> {
+        let base = self.bases.get(&case.base);
+        let mut tree = base.cloned().ok_or_else(|| CaseError::NoBase {
+            case: case.id(),
+            base: case.base.clone(),
+        })?;
+        for change in &case.changes {
+            change.apply(&mut tree).map_err(|error| CaseError::Change {
+                case: case.id(),
+                error,
+            })?;
+        }
+        seal::rehash(&mut tree, &case.hashes_kept);
+        Ok(tree)
     }
 }

@@ -8,10 +8,9 @@ use std::sync::Arc;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use include_dir::{Dir, DirEntry};
 use serde::{Deserialize, Serialize};
 
-use super::data::SUITE;
+use super::data;
 
 /// A path with forward slashes, relative to the URDD's root; `../` leads to what lies beside it. On
 /// most systems a name is any bytes, so that one which is not UTF-8 must be possible.
@@ -166,7 +165,7 @@ impl Tree {
         self.nodes.insert(path, Node::File(bytes.into()));
     }
 
-    /// The files of a folder of the suite that the program carries; none where it has no such folder.
+    /// The files of a folder of the suite; none where it has no such folder.
     pub fn carried(folder: &str) -> Tree {
         Tree::carried_around(folder, "")
     }
@@ -174,25 +173,13 @@ impl Tree {
     /// The same, named as they are from the folder `root`, which lies in it.
     pub fn carried_around(folder: &str, root: &str) -> Tree {
         let mut tree = Tree::default();
-        if let Some(folder) = SUITE.get_dir(folder) {
-            tree.take(folder, folder.path(), Path::new(root));
-        }
-        tree
-    }
-
-    fn take(&mut self, folder: &Dir, around: &Path, root: &Path) {
-        for entry in folder.entries() {
-            match entry {
-                DirEntry::Dir(inside) => self.take(inside, around, root),
-                DirEntry::File(file) => {
-                    let path = file.path().strip_prefix(around);
-                    let path = path.map(|path| from_root(path, root));
-                    if let Some(path) = path.ok().as_deref().and_then(FilePath::from_os) {
-                        self.put(path, file.contents());
-                    }
-                }
+        for (path, bytes) in data::below(folder) {
+            let path = from_root(Path::new(path), Path::new(root));
+            if let Some(path) = FilePath::from_os(&path) {
+                tree.put(path, bytes);
             }
         }
+        tree
     }
 
     /// Reads a folder: what lies in it is named as it is from `root`, which lies in it too.

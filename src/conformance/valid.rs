@@ -3,9 +3,7 @@
 
 use std::path::Path;
 
-use include_dir::Dir;
-
-use super::data::{ROBOTS, SUITE, VALID};
+use super::data::{self, ROBOTS, VALID};
 use super::tree::{FilePath, Node, Tree, TreeError};
 use crate::directory::discover::ROOT_METADATA;
 use crate::generate::{GenerateError, Settings, generate};
@@ -17,14 +15,10 @@ pub const LARGEST_KEPT: usize = 64 * 1024;
 
 /// Names of our robots, sorted.
 pub fn robots() -> Vec<String> {
-    let files = SUITE.get_dir(ROBOTS).into_iter().flat_map(Dir::files);
-    let names = files.filter_map(|file| {
-        let name = file.path().file_name()?.to_str()?;
-        name.strip_suffix(".urdf").map(str::to_owned)
-    });
-    let mut names: Vec<String> = names.collect();
-    names.sort();
-    names
+    let of_urdf = |(path, _): (&'static str, _)| path.strip_suffix(".urdf");
+    let names = data::below(ROBOTS).filter_map(of_urdf);
+    let names = names.filter(|name| !name.contains('/'));
+    names.map(str::to_owned).collect()
 }
 
 /// Writes the robots into a folder: the URDFs, and what they name.
@@ -64,7 +58,7 @@ pub fn kept(urdd: &Tree) -> Tree {
     kept
 }
 
-/// What is kept of the valid URDD of a robot, as the program carries it.
+/// What is kept of the valid URDD of a robot.
 pub fn carried(robot: &str) -> Tree {
     Tree::carried(&format!("{VALID}/{robot}"))
 }

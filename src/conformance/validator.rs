@@ -1,26 +1,30 @@
 //! Running somebody's validator on the suite, and scoring its verdicts.
 //!
-//! There is one channel: exit status 0 accepts, 1 rejects. Everything else is no verdict.
+//! There is one channel: exit status 0 accepts, 1 (or another that was agreed on) rejects. Everything
+//! else is no verdict.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use rayon::prelude::*;
 use semver::Version;
+use serde::Serialize;
 
-use super::case::{CaseError, Verdict};
-use super::catalogue::{Item, ItemKind, URDD, items};
-use super::data::{ROBOTS, VALID};
+use super::case::Verdict;
+use super::catalogue::{Item, ItemKind, items};
+use super::data::{ROBOTS, URDD, VALID};
 use super::export::{ExportError, write_valid};
 use super::process::{End, Ran, Template};
 use super::skips::{Skip, SkipError};
-use super::suite::{Suite, SuiteError};
+use super::suite::{CaseError, Suite, SuiteError};
 use super::tree::TreeError;
 use super::valid;
+use super::workplace::{Workplace, WorkplaceError};
 use crate::format::conformance::{CaseFault, CaseScore, GroupScore, ValidatorResult, WrongCase};
 use crate::format::index::Count;
+use crate::format::registry::Profile;
 use crate::format::report::Tool;
 
 /// How a validator is run.
@@ -36,6 +40,42 @@ pub struct Plan {
     pub skips: Vec<Skip>,
     /// Only cases whose id begins with one of these; all where there is none.
     pub only: Vec<String>,
+    /// Whether legacy URDDs are judged too.
+    pub legacy: bool,
+    /// The exit status that rejects.
+    pub reject_status: i32,
+    /// How many URDDs are judged at a time; `None` for one a processor.
+    pub jobs: Option<usize>,
+    /// A new folder in which the URDDs stay; `None` for a temporary one.
+    pub keep: Option<PathBuf>,
+}
+
+/// A URDD that was judged, as it is reported while others still run.
+#[derive(Debug, Clone, Serialize)]
+pub struct Judged<'a> {
+    /// The case.
+    pub id: &'a str,
+    /// What it should have been.
+    pub expected: Verdict,
+    /// How it was judged, where that is not right.
+    pub fault: Option<CaseFault>,
+    /// How the command ended.
+    pub end: String,
+    /// Whether it looks as if the command crashed, and its exit status is no verdict.
+    pub crashed: bool,
+    /// The end of what it printed to standard error.
+    pub stderr: &'a str,
+}
+
+/// What happens while a validator runs.
+#[derive(Debug)]
+pub enum Event<'a> {
+    /// So many URDDs will be judged.
+    Start(usize),
+    /// One has been; on any thread.
+    Judged(Judged<'a>),
+    /// One cannot be had on this operating system.
+    NotRun,
 }
 
 /// Why a validator cannot be run.
@@ -48,8 +88,19 @@ pub enum ValidatorError {
     #[error("the skip list: {0}")]
     Skip(#[from] SkipError),
     /// There is no place to work in.
-    #[error("no temporary folder: {0}")]
-    Folder(#[from] std::io::Error),
+    #[error(transparent)]
+    Folder(#[from] WorkplaceError),
+    /// So many threads cannot be had.
+    #[error("{0} commands at a time cannot be run: {1}")]
+    Jobs(usize, rayon::ThreadPoolBuildError),
+    /// A URDD cannot be taken away again.
+    #[error("{}: cannot be removed: {error}", path.display())]
+    Remove {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        error: std::io::Error,
+    },
     /// The suite is damaged.
     #[error("the suite is damaged: {0}")]
     Suite(#[from] SuiteError),
@@ -67,31 +118,64 @@ pub enum ValidatorError {
 /// How a line of a validator's skip list is written.
 pub const SKIP_FORM: &str = "`case  # reason`, `code  # reason`, or `family  # reason`";
 
-/// Runs a validator, on several URDDs at a time.
+/// Runs a validator, on several URDDs at a time. `observe` hears of each as soon as it is judged.
 ///
 /// # Errors
 /// Where there is nothing to run, or no place to work in.
-pub fn run(plan: &Plan) -> Result<ValidatorResult, ValidatorError> {
+pub fn run(
+    plan: &Plan,
+    observe: &(dyn Fn(&Event) + Sync),
+) -> Result<ValidatorResult, ValidatorError> {
     let suite = Suite::carried()?;
     let all = items(&suite);
     check_skips(&plan.skips, &all)?;
     let begins = |item: &Item| plan.only.iter().any(|start| item.id.starts_with(start));
     let chosen = all.into_iter().filter(|item| {
-        item.spec_versions.matches(&plan.spec_version) && (plan.only.is_empty() || begins(item))
+        item.spec_versions.matches(&plan.spec_version)
+            && (plan.only.is_empty() || begins(item))
+            && (plan.legacy || !is_legacy(item))
     });
     let chosen: Vec<Item> = chosen.collect();
     if chosen.is_empty() {
         return Err(ValidatorError::NoCase);
     }
-    let folder = tempfile::tempdir()?;
+    let folder = Workplace::new(plan.keep.as_deref())?;
+    observe(&Event::Start(chosen.len()));
     if chosen.iter().any(|item| item.kind == ItemKind::Valid) {
         let robots = folder.path().join(ROBOTS);
         valid::write_robots(&robots)?;
         write_valid(&robots, &folder.path().join(VALID))?;
     }
-    let judge = |item| judge(plan, &suite, item, folder.path());
-    let ran: Result<Vec<Option<Ran>>, ValidatorError> = chosen.par_iter().map(judge).collect();
+    let judge = |item: &Item| -> Result<Option<Ran>, ValidatorError> {
+        let ran = judge(plan, &suite, item, folder.path())?;
+        match &ran {
+            Some(ran) => observe(&Event::Judged(Judged {
+                id: &item.id,
+                expected: item.verdict,
+                fault: fault(plan, item.verdict, &ran.end),
+                end: ran.end.to_string(),
+                crashed: looks_crashed(plan, ran),
+                stderr: &ran.stderr,
+            })),
+            None => observe(&Event::NotRun),
+        }
+        Ok(ran)
+    };
+    let all =
+        || -> Result<Vec<Option<Ran>>, ValidatorError> { chosen.par_iter().map(judge).collect() };
+    let ran = match plan.jobs {
+        None => all(),
+        Some(jobs) => rayon::ThreadPoolBuilder::new()
+            .num_threads(jobs)
+            .build()
+            .map_err(|error| ValidatorError::Jobs(jobs, error))?
+            .install(all),
+    };
     Ok(scored(plan, &chosen, ran?))
+}
+
+fn is_legacy(item: &Item) -> bool {
+    item.profile == Profile::Legacy.as_str()
 }
 
 /// Runs the command on one URDD; `None` where this operating system cannot have it.
@@ -104,28 +188,49 @@ fn judge(
     let path = folder.join(&item.folder);
     let case = suite.cases.iter().find(|case| case.id() == item.id);
     if let Some(case) = case {
-        match case.tree(suite)?.write(&path) {
+        match suite.tree(case)?.write(&path) {
             Ok(()) => {}
             Err(TreeError::Unsupported(_)) => return Ok(None),
             Err(error) => return Err(error.into()),
         }
     }
     let ran = plan.command.run(&[("dir", &path)], plan.limit);
-    if let (Some(_), Some(around)) = (case, path.parent()) {
+    if let (Some(_), Some(around), None) = (case, path.parent(), &plan.keep) {
         debug_assert!(path.ends_with(URDD));
-        fs::remove_dir_all(around)?;
+        fs::remove_dir_all(around).map_err(|error| ValidatorError::Remove {
+            path: around.to_owned(),
+            error,
+        })?;
     }
     Ok(Some(ran))
 }
 
 /// What is wrong with how a URDD was judged.
-fn fault(expected: Verdict, end: &End) -> Option<CaseFault> {
-    match (expected, end) {
-        (Verdict::Accept, End::Status(0)) | (Verdict::Reject, End::Status(1)) => None,
-        (Verdict::Reject, End::Status(0)) => Some(CaseFault::Missed),
-        (Verdict::Accept, End::Status(1)) => Some(CaseFault::FalseAlarm),
-        _ => Some(CaseFault::Undecided),
+fn fault(plan: &Plan, expected: Verdict, end: &End) -> Option<CaseFault> {
+    let verdict = match end {
+        End::Status(0) => Verdict::Accept,
+        End::Status(status) if *status == plan.reject_status => Verdict::Reject,
+        _ => return Some(CaseFault::Undecided),
+    };
+    match (expected, verdict) {
+        (Verdict::Accept, Verdict::Accept) | (Verdict::Reject, Verdict::Reject) => None,
+        (Verdict::Reject, Verdict::Accept) => Some(CaseFault::Missed),
+        (Verdict::Accept, Verdict::Reject) => Some(CaseFault::FalseAlarm),
     }
+}
+
+/// What interpreters print before they end with status 1, which is then no verdict: Python, Node.js
+/// and the JVM.
+const CRASHES: &[&str] = &[
+    "Traceback (most recent call last)",
+    "\nNode.js v",
+    "Exception in thread \"",
+];
+
+/// Whether a rejection looks like a crash. It counts as a rejection; a person is warned.
+fn looks_crashed(plan: &Plan, ran: &Ran) -> bool {
+    ran.end == End::Status(plan.reject_status)
+        && CRASHES.iter().any(|words| ran.stderr.contains(words))
 }
 
 fn covers(skip: &Skip, item: &Item) -> bool {
@@ -181,6 +286,8 @@ impl Tally {
 
 fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult {
     let (mut totals, mut sound) = (Tally::default(), Tally::default());
+    let mut legacy = Tally::default();
+    let mut crashed = Vec::new();
     let mut families: BTreeMap<&str, Tally> = BTreeMap::new();
     let mut codes: BTreeMap<&str, Tally> = BTreeMap::new();
     let (mut wrong, mut not_run) = (Vec::new(), Vec::new());
@@ -190,10 +297,16 @@ fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult
             not_run.push(item.id.clone());
             continue;
         };
-        let fault = fault(item.verdict, &ran.end);
-        totals.add(fault);
-        if item.kind != ItemKind::Invalid {
+        let fault = fault(plan, item.verdict, &ran.end);
+        match is_legacy(item) {
+            true => legacy.add(fault),
+            false => totals.add(fault),
+        }
+        if item.kind != ItemKind::Invalid && !is_legacy(item) {
             sound.add(fault);
+        }
+        if looks_crashed(plan, &ran) {
+            crashed.push(item.id.clone());
         }
         if let Some(code) = item.code.as_deref() {
             families.entry(family(code)).or_default().add(fault);
@@ -239,9 +352,11 @@ fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult
         passed: excused && stale_skips.is_empty(),
         totals: totals.score(),
         sound: sound.score(),
+        legacy: legacy.score(),
         families: groups(families),
         codes: groups(codes),
         wrong,
+        crashed,
         not_run,
         stale_skips,
     }

@@ -137,16 +137,21 @@ module! {
         pub command: Vec<String>,
         /// Whether every case was judged right but those skipped, and no skip is stale.
         pub passed: bool,
-        /// Sums over all cases.
+        /// Sums over all cases of version 1.
         pub totals: CaseScore,
-        /// Sums over valid URDDs and near misses: those of these that are rejected are false alarms.
+        /// Sums over valid URDDs and near misses of version 1: those of these that are rejected are false alarms.
         pub sound: CaseScore,
+        /// Sums over all legacy cases: URDDs from before there was a specification.
+        pub legacy: CaseScore,
         /// Sums by family of rules; valid URDDs are of none.
         pub families: Vec<GroupScore>,
         /// Sums by code.
         pub codes: Vec<GroupScore>,
         /// Every case that was not judged right, by id.
         pub wrong: Vec<WrongCase>,
+        /// Cases that were rejected by a command that seems to have crashed: it printed what an interpreter prints of an
+        /// uncaught exception. They count as rejected.
+        pub crashed: Vec<String>,
         /// Cases that this operating system cannot have on disk.
         pub not_run: Vec<String>,
         /// Entries of the skip list whose cases are judged right now, or that name no case that was run.
@@ -205,7 +210,7 @@ string_enum! {
         Missed = "missed",
         /// Rejected, and to be accepted.
         FalseAlarm = "false_alarm",
-        /// Neither accepted (exit status 0) nor rejected (1).
+        /// Neither accepted nor rejected: another exit status, a signal, the time limit.
         Undecided = "undecided",
     }
 }

@@ -20,7 +20,7 @@ fn suite() -> Suite {
 fn report(case: &Case, suite: &Suite) -> Option<Report> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let root = folder.path().join("robot");
-    let tree = case.tree(suite).unwrap_or_else(|error| panic!("{error}"));
+    let tree = suite.tree(case).unwrap_or_else(|error| panic!("{error}"));
     match tree.write(&root) {
         Ok(()) => {}
         Err(TreeError::Unsupported(_)) if !cfg!(target_os = "linux") => return None,

@@ -166,3 +166,49 @@ fn the_python_example_passes() {
     assert_eq!(result["robots"].as_array().map(Vec::len), Some(9));
     assert_eq!(result["classes"][0]["passed"], 9);
 }
+
+#[test]
+fn robots_are_run_at_a_time_and_can_be_kept() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (log, kept) = (folder.path().join("log"), folder.path().join("kept"));
+    let more = [
+        "--jobs",
+        "2",
+        "--log",
+        log.to_str().expect("UTF-8"),
+        "--keep",
+        kept.to_str().expect("UTF-8"),
+    ];
+    let start = [
+        "producer",
+        "--format",
+        "json",
+        "--robot",
+        "gripper",
+        "--robot",
+        "single_link",
+    ];
+    let command = [
+        "--",
+        URDD,
+        "generate",
+        "--modules",
+        "core",
+        "{urdf}",
+        "-o",
+        "{out}",
+    ];
+    let (status, result) = result(&[&start[..], &more, &command].concat());
+    assert_eq!(status, 0, "{result:#}");
+    // In the order of the robots, however they ended.
+    let names: Vec<&serde_json::Value> = result["robots"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|robot| &robot["robot"])
+        .collect();
+    assert_eq!(names, ["gripper", "single_link"]);
+    assert_eq!(fs::read_to_string(&log).expect("a log").lines().count(), 2);
+    assert!(kept.join("gripper/gripper/urdd.json").is_file());
+    assert!(kept.join("single_link/robots/single_link.urdf").is_file());
+}

@@ -126,3 +126,125 @@ fn cases_are_of_versions() {
     let (status, _) = result(&[&minor[..], &["--case", "DOF001"], &command].concat());
     assert_eq!(status, 0);
 }
+
+#[test]
+fn a_crash_that_ends_with_one_is_warned_of() {
+    let cases = ["DOF001", "DOF002", "valid/single_link"];
+    let crash = "echo 'Traceback (most recent call last):' >&2; exit 1";
+    let (_, result) = shell(&cases, crash);
+    assert_eq!(
+        result["crashed"].as_array().map(Vec::len),
+        result["totals"]["of"].as_u64().map(|of| of as usize),
+        "{result:#}"
+    );
+    let start = ["validator", "--case", "DOF001", "--"];
+    let output = conformance(&[&start[..], &["sh", "-c", crash, "sh", "{dir}"]].concat());
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        said.contains("look like crashes") && said.contains("--reject-status"),
+        "{said}"
+    );
+    // With a status of its own for rejections, it is no verdict.
+    let (_, result) = run(
+        &cases,
+        &["--reject-status", "3"],
+        &["sh", "-c", crash, "sh", "{dir}"],
+    );
+    assert_eq!(result["totals"]["undecided"], result["totals"]["of"]);
+    assert_eq!(result["crashed"], json!([]));
+    let (_, result) = run(
+        &cases,
+        &["--reject-status", "3"],
+        &["sh", "-c", "exit 3", "sh", "{dir}"],
+    );
+    assert_eq!(result["totals"]["undecided"], 0);
+    assert_eq!(result["totals"]["missed"], 0);
+}
+
+#[test]
+fn legacy_is_counted_apart() {
+    let command = [URDD, "validate", "{dir}"];
+    let cases = ["LEG", "DOF001"];
+    let (status, with) = run(&cases, &[], &command);
+    assert_eq!(status, 0);
+    let of = |result: &Value, sum: &str| result[sum]["of"].as_u64().expect("a number");
+    assert!(
+        of(&with, "legacy") > 5 && of(&with, "totals") > 1,
+        "{with:#}"
+    );
+    let (status, without) = run(&cases, &["--no-legacy"], &command);
+    assert_eq!((status, of(&without, "legacy")), (0, 0));
+    assert_eq!(of(&without, "totals"), of(&with, "totals"));
+    // What is wrong with legacy URDDs does not touch the score of version 1, but is not passed over.
+    let script = "test -f \"$1/urdd.json\" || exit 2; exec \"$0\" validate \"$1\"";
+    let (status, wrong) = run(&cases, &[], &["sh", "-c", script, URDD, "{dir}"]);
+    assert_eq!((status, &wrong["totals"]), (1, &with["totals"]));
+    assert_eq!(wrong["legacy"]["undecided"], wrong["legacy"]["of"]);
+}
+
+#[test]
+fn results_are_logged_as_they_come_and_folders_can_stay() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (log, kept) = (folder.path().join("log"), folder.path().join("kept"));
+    let more = ["--log", log.to_str().expect("UTF-8"), "--jobs", "1"];
+    let keep = ["--keep", kept.to_str().expect("UTF-8")];
+    // The second command to run ends the whole program, as a person does who has seen enough.
+    let script = format!(
+        "test -f '{0}' && kill -9 $PPID; touch '{0}'; exit 1",
+        folder.path().join("ran").display()
+    );
+    let start = ["validator", "--case", "DOF001", "--case", "DOF002"];
+    let output = conformance(
+        &[
+            &start[..],
+            &more,
+            &["--", "sh", "-c", &script, "sh", "{dir}"],
+        ]
+        .concat(),
+    );
+    assert_eq!(output.status.code(), None, "it was killed");
+    let lines = fs::read_to_string(&log).expect("a log");
+    let lines: Vec<Value> = lines
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("JSON"))
+        .collect();
+    assert_eq!(lines.len(), 1, "{lines:?}");
+    assert_eq!(lines[0]["end"], "exit status 1");
+    assert!(
+        lines[0]["id"]
+            .as_str()
+            .is_some_and(|id| id.starts_with("DOF001/"))
+    );
+
+    let (_, result) = run(
+        &["DOF001"],
+        &[&more[..], &keep].concat(),
+        &[URDD, "validate", "{dir}"],
+    );
+    let of = result["totals"]["of"].as_u64().expect("a number") as usize;
+    let logged = fs::read_to_string(&log).expect("a log");
+    assert_eq!(logged.lines().count(), of);
+    let cases = fs::read_dir(kept.join("invalid/DOF001")).expect("what was kept");
+    for case in cases {
+        assert!(
+            case.expect("an entry")
+                .path()
+                .join("robot/urdd.json")
+                .is_file()
+        );
+    }
+    // Never into a folder that holds something.
+    let again = conformance(&[&start[..], &keep, &["--", URDD, "validate", "{dir}"]].concat());
+    assert_eq!(again.status.code(), Some(2));
+    assert!(stderr(&again).contains("not empty"), "{}", stderr(&again));
+    let full = ["--log", "/dev/full"];
+    if cfg!(target_os = "linux") {
+        let output = conformance(&[&start[..], &full, &["--", URDD, "validate", "{dir}"]].concat());
+        assert_eq!(output.status.code(), Some(2));
+        assert!(
+            stderr(&output).contains("/dev/full: cannot be written"),
+            "{}",
+            stderr(&output)
+        );
+    }
+}

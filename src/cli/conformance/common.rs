@@ -1,10 +1,13 @@
 //! What the commands that run somebody's program have in common.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
 use crate::cli::output;
@@ -36,6 +39,18 @@ pub struct RunArguments {
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
 
+    /// Writes each result to a file as soon as it is there, as a line of JSON: what was done stays when the run is stopped.
+    #[arg(long, value_name = "FILE")]
+    log: Option<PathBuf>,
+
+    /// How many commands run at a time.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+
+    /// Keeps the folders that the command is run on in this folder, which must be new or empty.
+    #[arg(long, value_name = "DIR")]
+    pub keep: Option<PathBuf>,
+
     /// The command, after `--`.
     #[arg(last = true, required = true, value_name = "COMMAND")]
     pub command: Vec<String>,
@@ -54,6 +69,41 @@ impl RunArguments {
     /// The time limit.
     pub fn limit(&self) -> Duration {
         Duration::from_secs(self.timeout)
+    }
+
+    /// How many commands run at a time, where that was asked for.
+    pub fn jobs(&self) -> Option<usize> {
+        self.jobs.map(usize::from)
+    }
+
+    /// What shows how far the run is.
+    pub fn follow(&self) -> Result<Follow, String> {
+        let log = match &self.log {
+            None => None,
+            Some(path) => {
+                let file = File::create(path);
+                let file = file.map_err(|error| cannot_write(path, &error))?;
+                Some((path.clone(), file))
+            }
+        };
+        let bar = ProgressBar::with_draw_target(
+            None,
+            match std::io::stderr().is_terminal() {
+                true => ProgressDrawTarget::stderr(),
+                false => ProgressDrawTarget::hidden(),
+            },
+        );
+        if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} {msg} {eta}") {
+            bar.set_style(style);
+        }
+        Ok(Follow {
+            bar,
+            state: Mutex::new(State {
+                log,
+                wrong: 0,
+                failed: None,
+            }),
+        })
     }
 
     /// The skip list.
@@ -82,5 +132,58 @@ impl RunArguments {
 }
 
 fn write(file: &Path, text: &str) -> Result<(), String> {
-    fs::write(file, text).map_err(|error| format!("{}: cannot be written: {error}", file.display()))
+    fs::write(file, text).map_err(|error| cannot_write(file, &error))
+}
+
+fn cannot_write(file: &Path, error: &std::io::Error) -> String {
+    format!("{}: cannot be written: {error}", file.display())
+}
+
+/// A bar on a terminal, and the log.
+pub struct Follow {
+    bar: ProgressBar,
+    state: Mutex<State>,
+}
+
+struct State {
+    log: Option<(PathBuf, File)>,
+    wrong: usize,
+    /// Why the log could not be written.
+    failed: Option<String>,
+}
+
+impl Follow {
+    /// There are so many to run.
+    pub fn start(&self, of: usize) {
+        self.bar.set_length(of as u64);
+        self.bar.tick();
+    }
+
+    /// One is done.
+    pub fn done(&self, wrong: bool, result: Option<&impl Serialize>) {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        state.wrong += usize::from(wrong);
+        if let (Some(result), Some((path, file))) = (result, &mut state.log) {
+            // In one piece: a run that is stopped leaves whole lines.
+            let line = serde_json::to_string(result).map_err(std::io::Error::from);
+            let written = line.and_then(|line| file.write_all((line + "\n").as_bytes()));
+            if let Err(error) = written {
+                let message = cannot_write(path, &error);
+                state.log = None;
+                state.failed = Some(message);
+            }
+        }
+        if state.wrong > 0 {
+            self.bar.set_message(format!("{} wrong", state.wrong));
+        }
+        self.bar.inc(1);
+    }
+
+    /// Everything is done.
+    pub fn finish(self) -> Result<(), String> {
+        self.bar.finish_and_clear();
+        let state = self.state.into_inner();
+        let state = state.unwrap_or_else(PoisonError::into_inner);
+        state.failed.map_or(Ok(()), Err)
+    }
 }

@@ -2,7 +2,6 @@
 
 mod common;
 mod export;
-mod kill_rate;
 mod producer;
 mod validator;
 
@@ -25,8 +24,6 @@ enum Command {
     Producer(producer::ProducerArguments),
     /// Run somebody's validator on every case, and score its verdicts.
     Validator(validator::ValidatorArguments),
-    /// Change valid URDDs one value at a time, and count what the validator notices.
-    KillRate(kill_rate::KillRateArguments),
 }
 
 /// Runs `urdd conformance`.
@@ -35,6 +32,5 @@ pub fn run(arguments: &ConformanceArguments) -> ExitCode {
         Command::Export(arguments) => export::run(arguments),
         Command::Producer(arguments) => producer::run(arguments),
         Command::Validator(arguments) => validator::run(arguments),
-        Command::KillRate(arguments) => kill_rate::run(arguments),
     }
 }

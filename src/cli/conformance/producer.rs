@@ -8,7 +8,7 @@ use clap::Args;
 use super::common::{FAILED, PASSED, RunArguments, USAGE};
 use crate::cli::output;
 use crate::conformance::process::Template;
-use crate::conformance::producer::{Plan, SKIP_FORM, run as run_producer};
+use crate::conformance::producer::{Event, Plan, SKIP_FORM, run as run_producer};
 use crate::format::conformance::{ModuleStatus, ProducerResult, RobotScore, ScoreStatus};
 use crate::validate::settings::parse_class;
 
@@ -53,8 +53,17 @@ fn result(arguments: &ProducerArguments) -> Result<bool, String> {
         robots: arguments.robots.clone(),
         limit: arguments.run.limit(),
         skips: arguments.run.skips(2, SKIP_FORM)?,
+        jobs: arguments.run.jobs().unwrap_or(1),
+        keep: arguments.run.keep.clone(),
     };
-    let result = run_producer(&plan).map_err(|error| error.to_string())?;
+    let follow = arguments.run.follow()?;
+    let observe = |event: &Event| match event {
+        Event::Start(of) => follow.start(*of),
+        Event::Scored(robot) => follow.done(robot.status == ScoreStatus::Failed, Some(robot)),
+    };
+    let result = run_producer(&plan, &observe).map_err(|error| error.to_string());
+    follow.finish()?;
+    let result = result?;
     let mut text = String::new();
     human(&result, &mut text).map_err(|error| error.to_string())?;
     arguments.run.print(&result, &text)?;

@@ -9,7 +9,7 @@ use semver::Version;
 use super::common::{FAILED, PASSED, RunArguments, USAGE};
 use crate::cli::output;
 use crate::conformance::process::Template;
-use crate::conformance::validator::{Plan, SKIP_FORM, run as run_validator};
+use crate::conformance::validator::{Event, Judged, Plan, SKIP_FORM, run as run_validator};
 use crate::format::conformance::{CaseFault, CaseScore, ValidatorResult};
 use crate::format::registry::SPEC_VERSION;
 
@@ -17,7 +17,7 @@ use crate::format::registry::SPEC_VERSION;
 #[derive(Args)]
 #[command(
     after_help = "In COMMAND, {dir} stands for the folder of a URDD; the command runs once for each case. Exit status 0 \
-    accepts, 1 rejects; everything else, a signal and the time limit too, is no verdict, and wrong.\n\nExit status: 0 \
+    accepts, 1 (or --reject-status) rejects; everything else, a signal and the time limit too, is no verdict, and wrong.\n\nExit status: 0 \
     every case was judged right but those skipped; 1 some were not, or a skip is stale; 2 wrong usage."
 )]
 pub struct ValidatorArguments {
@@ -28,6 +28,14 @@ pub struct ValidatorArguments {
     /// Only cases whose name begins so: `DOF`, `DOF003`, `valid/`; may be given again.
     #[arg(long = "case", value_name = "START")]
     only: Vec<String>,
+
+    /// Leaves out legacy URDDs, those from before there was a specification.
+    #[arg(long)]
+    no_legacy: bool,
+
+    /// The exit status with which the command rejects. Choose one that a crash does not have: an uncaught exception of Python ends with 1 too.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(i32).range(1..=255))]
+    reject_status: i32,
 
     #[command(flatten)]
     run: RunArguments,
@@ -54,8 +62,20 @@ fn result(arguments: &ValidatorArguments) -> Result<bool, String> {
         limit: arguments.run.limit(),
         skips: arguments.run.skips(1, SKIP_FORM)?,
         only: arguments.only.clone(),
+        legacy: !arguments.no_legacy,
+        reject_status: arguments.reject_status,
+        jobs: arguments.run.jobs(),
+        keep: arguments.run.keep.clone(),
     };
-    let result = run_validator(&plan).map_err(|error| error.to_string())?;
+    let follow = arguments.run.follow()?;
+    let observe = |event: &Event| match event {
+        Event::Start(of) => follow.start(*of),
+        Event::Judged(judged) => follow.done(judged.fault.is_some(), Some(judged)),
+        Event::NotRun => follow.done(false, None::<&Judged>),
+    };
+    let result = run_validator(&plan, &observe).map_err(|error| error.to_string());
+    follow.finish()?;
+    let result = result?;
     let mut text = String::new();
     human(&result, &mut text).map_err(|error| error.to_string())?;
     arguments.run.print(&result, &text)?;
@@ -91,7 +111,18 @@ fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
         writeln!(out, "{}  {}", family.name, score(&family.score))?;
     }
     writeln!(out, "valid URDDs and near misses: {}", score(&result.sound))?;
-    writeln!(out, "all: {}", score(&result.totals))?;
+    writeln!(out, "all of version 1: {}", score(&result.totals))?;
+    if result.legacy.of.get() > 0 {
+        writeln!(out, "legacy: {}", score(&result.legacy))?;
+    }
+    if let Some(first) = result.crashed.first() {
+        writeln!(
+            out,
+            "warning: {} rejections look like crashes, {first} is the first: an uncaught exception ends with status 1 in \
+             many languages. Reject with another status, and say so with --reject-status",
+            result.crashed.len()
+        )?;
+    }
     for stale in &result.stale_skips {
         writeln!(out, "stale skip, take it out: {stale}")?;
     }

@@ -1,0 +1,182 @@
+//! A change of a URDD, described, and made when it is its turn.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use super::edit::{self, Edit};
+use super::original::{self, Original};
+use urdd::directory::canonical;
+use urdd::directory::discover::ROOT_METADATA;
+
+/// What of a document is changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Target {
+    /// The JSON file and its mirror alike; of a document without a mirror, the JSON file.
+    Document,
+    /// The JSON file alone.
+    JsonAlone,
+    /// The YAML mirror alone.
+    YamlAlone,
+    /// A file as such, or several.
+    File,
+}
+
+impl Target {
+    /// The word in reports.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Target::Document => "json+yaml",
+            Target::JsonAlone => "json",
+            Target::YamlAlone => "yaml",
+            Target::File => "file",
+        }
+    }
+}
+
+/// What is changed, and how.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Description {
+    /// The module by name, `urdd.json`, or `source` for the carried URDF.
+    pub module: String,
+    /// The file, relative to the root; of several, the first.
+    pub file: String,
+    /// The field: a JSON Pointer with `*` for indices, or what kind of file it is.
+    pub field: String,
+    /// The JSON Pointer of the value, where it is one of a document.
+    pub pointer: Option<String>,
+    /// What of it is changed.
+    pub target: Target,
+    /// The kind of change.
+    pub kind: &'static str,
+    /// What was there.
+    pub from: String,
+    /// What is there now.
+    pub to: String,
+}
+
+/// New content by path; `None` for a file that is gone.
+pub(crate) type Files = BTreeMap<String, Option<Vec<u8>>>;
+
+/// What a change of files comes to.
+pub(crate) struct FileChange {
+    pub files: Files,
+    /// Files that are taken off the lists of the root metadata.
+    pub unlisted: Vec<String>,
+    pub from: String,
+    pub to: String,
+}
+
+/// Makes the files of a change; `None` where that would change nothing that has a meaning.
+pub(crate) type MakeFiles = Box<dyn Fn(&Original) -> Option<FileChange> + Send + Sync>;
+
+/// How a change is made.
+pub(crate) enum Change {
+    /// Edits of a document, by its name.
+    Document(Vec<Edit>),
+    /// Files are others; `None` where that would change nothing that has a meaning.
+    Files(MakeFiles),
+    /// Files are others, and so is something in the root metadata.
+    FilesAndMetadata(MakeFiles, Vec<Edit>),
+}
+
+/// A change that can be made.
+pub(crate) struct Mutation {
+    pub description: Description,
+    pub change: Change,
+}
+
+impl Mutation {
+    /// The files that are others after the change, the root metadata among them; what was and what is, in words. `None`
+    /// where nothing changes.
+    pub(crate) fn make(&self, original: &Original) -> Option<(Files, Description)> {
+        let mut description = self.description.clone();
+        let (mut files, metadata) = match &self.change {
+            Change::Document(edits) => self.edited(original, edits, &mut description)?,
+            Change::Files(make) => changed(make(original)?, &[], original, &mut description)?,
+            Change::FilesAndMetadata(make, edits) => {
+                changed(make(original)?, edits, original, &mut description)?
+            }
+        };
+        if let Some(mut metadata) = metadata.filter(|_| !files.contains_key(ROOT_METADATA)) {
+            original::rehash(&mut metadata, &files);
+            files.insert(
+                ROOT_METADATA.to_owned(),
+                Some(canonical::json_string(&metadata).into_bytes()),
+            );
+        }
+        Some((files, description))
+    }
+
+    /// The files of an edited document, and the root metadata that is to go with them.
+    fn edited(
+        &self,
+        original: &Original,
+        edits: &[Edit],
+        description: &mut Description,
+    ) -> Option<(Files, Option<Value>)> {
+        let document = original.document(&description.module)?;
+        let after = edit::apply(&document.value, edits)?;
+        let place = description.pointer.as_deref()?;
+        (description.from, description.to) = in_words(&document.value, &after, edits, place);
+        let mut files = Files::new();
+        if description.target != Target::YamlAlone {
+            files.insert(document.file.clone(), Some(edit::json(&after)));
+        }
+        if description.target != Target::JsonAlone
+            && let Some(mirror) = &document.mirror
+        {
+            files.insert(mirror.clone(), Some(edit::yaml(&after)));
+        }
+        let metadata = (document.name != ROOT_METADATA).then(|| original.metadata().clone());
+        Some((files, metadata))
+    }
+}
+
+fn changed(
+    change: FileChange,
+    edits: &[Edit],
+    original: &Original,
+    description: &mut Description,
+) -> Option<(Files, Option<Value>)> {
+    let mut metadata = edit::apply(original.metadata(), edits)?;
+    original::unlist(&mut metadata, &change.unlisted);
+    (description.from, description.to) = (change.from, change.to);
+    Some((change.files, Some(metadata)))
+}
+
+/// How much of a value is shown, characters.
+const SHOWN: usize = 80;
+
+fn in_words(before: &Value, after: &Value, edits: &[Edit], place: &str) -> (String, String) {
+    let text = |value: Option<&Value>| {
+        value.map_or_else(
+            || "nothing".to_owned(),
+            |value| shortened(&value.to_string()),
+        )
+    };
+    match edits {
+        [Edit::Rename(at, to)] => (last(at), to.clone()),
+        [Edit::Remove(at)] => (last(at), "nothing".to_owned()),
+        [Edit::Double(at)] => (last(at), format!("{} twice", last(at))),
+        [Edit::Add(_, key)] => ("nothing".to_owned(), key.clone()),
+        // Of two places, the one that the change is told of, or the first.
+        [Edit::Set(first, _), ..] => {
+            let at = if edits.len() == 1 { place } else { first };
+            (text(before.pointer(at)), text(after.pointer(at)))
+        }
+        _ => (String::new(), String::new()),
+    }
+}
+
+fn last(pointer: &str) -> String {
+    super::pointer::parent(pointer).map_or_else(String::new, |(_, key)| key)
+}
+
+/// A text, cut where it is long.
+pub(crate) fn shortened(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{}…", &text[..end]),
+    }
+}

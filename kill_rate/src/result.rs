@@ -1,0 +1,138 @@
+//! What was measured, by module and by field.
+
+use std::collections::BTreeMap;
+
+use super::mutation::Target;
+use super::outcome::{Outcome, Trial};
+
+/// How many changes were made, and what became of them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Changes that were made.
+    pub changes: usize,
+    /// Those with an error.
+    pub noticed: usize,
+    /// Those with a warning or an information alone.
+    pub warned: usize,
+    /// Those with nothing, or with a crashed rule.
+    pub missed: usize,
+}
+
+impl Tally {
+    fn add(&mut self, outcome: &Outcome) {
+        self.changes += 1;
+        match outcome {
+            Outcome::Noticed(_) | Outcome::Unreadable => self.noticed += 1,
+            Outcome::Warned(_) => self.warned += 1,
+            Outcome::Missed | Outcome::Crashed(_) => self.missed += 1,
+        }
+    }
+
+    /// The kill rate: the part of all changes with a finding; 1 where there are none.
+    pub fn rate(&self) -> f64 {
+        match self.changes {
+            0 => 1.0,
+            changes => (self.noticed + self.warned) as f64 / changes as f64,
+        }
+    }
+}
+
+/// The tallies of a module.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ModuleCount {
+    /// The module's name, `urdd.json`, or `source`.
+    pub module: String,
+    /// By the plain run.
+    pub plain: Tally,
+    /// By the deep run.
+    pub deep: Option<Tally>,
+}
+
+/// The tallies of a field.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FieldCount {
+    /// The module's name, `urdd.json`, or `source`.
+    pub module: String,
+    /// The field.
+    pub field: String,
+    /// What of it was changed.
+    pub target: Target,
+    /// By the plain run.
+    pub plain: Tally,
+    /// By the deep run.
+    pub deep: Option<Tally>,
+}
+
+/// What came of one URDD.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Measured {
+    /// The URDD.
+    pub name: String,
+    /// Every change, in order of module and field.
+    pub trials: Vec<Trial>,
+}
+
+impl Measured {
+    pub(crate) fn new(name: String, trials: Vec<Trial>) -> Self {
+        Measured { name, trials }
+    }
+
+    /// The tallies of each module, in the order of the trials.
+    pub fn modules(&self) -> Vec<ModuleCount> {
+        let of = |trial: &Trial| trial.change.module.clone();
+        let tallies = tallies(&self.trials, of).into_iter();
+        tallies
+            .map(|(module, plain, deep)| ModuleCount {
+                module,
+                plain,
+                deep,
+            })
+            .collect()
+    }
+
+    /// The tallies of each field, in the order of the trials.
+    pub fn fields(&self) -> Vec<FieldCount> {
+        let of = |trial: &Trial| {
+            let change = &trial.change;
+            (change.module.clone(), change.field.clone(), change.target)
+        };
+        let tallies = tallies(&self.trials, of).into_iter();
+        tallies
+            .map(|((module, field, target), plain, deep)| FieldCount {
+                module,
+                field,
+                target,
+                plain,
+                deep,
+            })
+            .collect()
+    }
+
+    /// The changes that the last run says nothing of.
+    pub fn survivors(&self) -> impl Iterator<Item = &Trial> {
+        self.trials
+            .iter()
+            .filter(|trial| !trial.deep.as_ref().unwrap_or(&trial.plain).is_noticed())
+    }
+}
+
+fn tallies<K: Ord + Clone>(
+    trials: &[Trial],
+    key: impl Fn(&Trial) -> K,
+) -> Vec<(K, Tally, Option<Tally>)> {
+    let mut places: BTreeMap<K, usize> = BTreeMap::new();
+    let mut out: Vec<(K, Tally, Option<Tally>)> = Vec::new();
+    for trial in trials {
+        let key = key(trial);
+        let place = *places.entry(key.clone()).or_insert_with(|| {
+            out.push((key, Tally::default(), None));
+            out.len() - 1
+        });
+        let (_, plain, deep) = &mut out[place];
+        plain.add(&trial.plain);
+        if let Some(outcome) = &trial.deep {
+            deep.get_or_insert_default().add(outcome);
+        }
+    }
+    out
+}

@@ -1,0 +1,64 @@
+//! Which of very many possible changes are made.
+
+use std::collections::BTreeMap;
+
+use super::Plan;
+use super::dice::Dice;
+use super::mutation::Mutation;
+
+/// Changes of one field, drawn so that every kind of change comes up before any comes up again.
+///
+/// `changes` gives those of a place; `count` is how many places there are.
+pub(crate) fn draw(
+    plan: &Plan,
+    count: usize,
+    dice: &mut Dice,
+    mut changes: impl FnMut(usize, &mut Dice) -> Vec<Mutation>,
+) -> Vec<Mutation> {
+    let most = plan.per_field.unwrap_or(usize::MAX);
+    let mut by_kind: BTreeMap<&'static str, Vec<Mutation>> = BTreeMap::new();
+    for place in dice.choose(count, most) {
+        for change in changes(place, dice) {
+            by_kind
+                .entry(change.description.kind)
+                .or_default()
+                .push(change);
+        }
+    }
+    // Where few are taken of each field, they are of other kinds in each.
+    let mut kinds: Vec<_> = by_kind.into_values().collect();
+    let order = dice.choose(kinds.len(), kinds.len());
+    let kinds = order
+        .into_iter()
+        .map(|kind| std::mem::take(&mut kinds[kind]));
+    in_turn(kinds.collect(), most)
+}
+
+/// One of each list in turn, up to `most` in all.
+pub(crate) fn in_turn<T>(lists: Vec<Vec<T>>, most: usize) -> Vec<T> {
+    let mut lists: Vec<_> = lists.into_iter().map(Vec::into_iter).collect();
+    let mut out = Vec::new();
+    loop {
+        let before = out.len();
+        for list in &mut lists {
+            if out.len() < most {
+                out.extend(list.next());
+            }
+        }
+        if out.len() == before {
+            return out;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn takes_one_of_each_in_turn() {
+        let lists = vec![vec![1, 2, 3], vec![], vec![10], vec![20, 21]];
+        assert_eq!(in_turn(lists.clone(), 5), [1, 10, 20, 2, 21]);
+        assert_eq!(in_turn(lists, 100).len(), 6);
+    }
+}

@@ -1,0 +1,80 @@
+//! The suite's files as one compressed archive. `build.rs` packs it with this file too, so nothing
+//! else of the library can be used here.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{self, Read};
+use std::path::Path;
+
+use flate2::Compression;
+use flate2::read::GzDecoder;
+use flate2::write::GzEncoder;
+
+/// Files by path, with forward slashes.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// Every file below a folder.
+///
+/// # Errors
+/// Where something cannot be read, or a name is not UTF-8.
+pub fn read_folder(folder: &Path) -> io::Result<Files> {
+    let mut files = Files::new();
+    let mut folders = vec![(folder.to_owned(), String::new())];
+    while let Some((folder, inside)) = folders.pop() {
+        let failed = |path: &Path, error: io::Error| {
+            io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+        };
+        for entry in fs::read_dir(&folder).map_err(|error| failed(&folder, error))? {
+            let entry = entry?;
+            let path = entry.path();
+            let Ok(name) = entry.file_name().into_string() else {
+                let error = io::Error::other("the name is not UTF-8");
+                return Err(failed(&path, error));
+            };
+            let name = format!("{inside}{name}");
+            if entry.file_type()?.is_dir() {
+                folders.push((path, name + "/"));
+            } else {
+                let bytes = fs::read(&path).map_err(|error| failed(&path, error))?;
+                files.insert(name, bytes);
+            }
+        }
+    }
+    Ok(files)
+}
+
+/// The files as one archive: the same bytes for the same files.
+///
+/// # Errors
+/// Where a name is too long.
+#[cfg_attr(
+    not(test),
+    allow(dead_code, reason = "build.rs packs, the library unpacks")
+)]
+pub fn pack(files: &Files) -> io::Result<Vec<u8>> {
+    let mut archive = tar::Builder::new(GzEncoder::new(Vec::new(), Compression::best()));
+    for (path, bytes) in files {
+        let mut header = tar::Header::new_gnu();
+        header.set_size(bytes.len() as u64);
+        header.set_mode(0o644);
+        archive.append_data(&mut header, path, bytes.as_slice())?;
+    }
+    archive.into_inner()?.finish()
+}
+
+/// The files of an archive.
+///
+/// # Errors
+/// Where it is damaged.
+#[allow(dead_code, reason = "build.rs packs, the library unpacks")]
+pub fn unpack(archive: &[u8]) -> io::Result<Files> {
+    let mut files = Files::new();
+    for entry in tar::Archive::new(GzDecoder::new(archive)).entries()? {
+        let mut entry = entry?;
+        let path = String::from_utf8_lossy(&entry.path_bytes()).into_owned();
+        let mut bytes = Vec::new();
+        entry.read_to_end(&mut bytes)?;
+        files.insert(path, bytes);
+    }
+    Ok(files)
+}
