@@ -21,6 +21,7 @@ mod legacy_core;
 mod legacy_robot;
 mod mesh_files;
 mod meshes;
+mod one_case;
 mod schema;
 mod shapes;
 mod source;

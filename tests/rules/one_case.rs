@@ -1,0 +1,161 @@
+//! `URDD_CASE=SRC009 cargo test --test rules` judges these cases at once, as the closures say them, before any of them
+//! is data. A code or the start of one, or code, slash and name: `URDD_CASE=SRC009/nan`.
+//!
+//! `URDD_RULE=mute` does so with a rule that finds nothing, in which every invalid case must fail; `URDD_RULE=alarm` with
+//! one that always finds something, in which every near miss must.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use urdd::format::report::Severity as Shown;
+use urdd::report::Report;
+use urdd::validate::finding::Finding;
+use urdd::validate::rule::{Rule, Severity};
+use urdd::validate::rules;
+use urdd::validate::settings::Settings;
+use urdd::validate::validate_with;
+
+use crate::{Case, cases};
+
+/// What stands in for the rule of a case.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Stand {
+    /// The rule itself.
+    Itself,
+    /// A rule that finds nothing.
+    Mute,
+    /// A rule that finds something wherever it looks.
+    Alarm,
+}
+
+fn stands_in(rule: &'static Rule, stand: Stand) -> &'static Rule {
+    let check = match stand {
+        Stand::Itself => return rule,
+        Stand::Mute => |_: &_, _: &mut urdd::validate::finding::Findings| {},
+        Stand::Alarm => |_: &_, findings: &mut urdd::validate::finding::Findings| {
+            findings.report(Finding::in_directory(
+                "URDD_RULE=alarm: this rule always finds something",
+            ));
+        },
+    };
+    // A few, in a test.
+    Box::leak(Box::new(Rule { check, ..*rule }))
+}
+
+/// What is wrong with how a case is judged, in words; `None` where nothing is.
+fn fault(case: &Case, stand: Stand) -> Option<String> {
+    let rules: Vec<&'static Rule> = rules::all()
+        .into_iter()
+        .map(|rule| match rule.code == case.code {
+            true => stands_in(rule, stand),
+            false => rule,
+        })
+        .collect();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let root = folder.path().join("robot");
+    std::fs::create_dir(&root).expect("the URDD's folder");
+    (case.write)(&root);
+    judged(case, &root, &rules)
+}
+
+fn judged(case: &Case, root: &Path, rules: &[&'static Rule]) -> Option<String> {
+    let code = case.code.as_str();
+    let run = validate_with(&[root], &Settings::default(), rules).expect("something to examine");
+    let report = Report::new(&run, Severity::Error);
+    let findings: Vec<_> = report
+        .urdds
+        .iter()
+        .flat_map(|urdd| &urdd.findings)
+        .filter(|finding| finding.severity != Shown::Info || finding.code == code)
+        .collect();
+    let own = findings.iter().any(|finding| finding.code == code);
+    let others = findings.iter().any(|finding| finding.code != code);
+    if own == case.caught && !others {
+        return None;
+    }
+    let mut text = format!("{code}/{}", case.name);
+    text += match (case.caught, own, others) {
+        (true, true, _) => ", an invalid case: other rules find something too",
+        (true, false, true) => {
+            ", an invalid case: other rules find something, and this one does not"
+        }
+        (true, false, false) => ", an invalid case: nothing is found",
+        (false, _, _) => ", a near miss: something is found",
+    };
+    for finding in findings {
+        let file = finding.file.as_deref().unwrap_or("the directory");
+        let pointer = finding.pointer.as_deref().unwrap_or_default();
+        let _ = write!(
+            text,
+            "\n    {} {file} {pointer}\n        {}",
+            finding.code, finding.message
+        );
+    }
+    // Why the rule found nothing: it may not have looked.
+    let check = run
+        .subjects
+        .iter()
+        .filter_map(|subject| subject.result.as_ref().ok())
+        .flat_map(|examined| &examined.checks)
+        .find(|check| check.rule.code == case.code);
+    if let (false, Some(check)) = (own, check) {
+        let _ = write!(text, "\n    {code} itself: {:?}", check.outcome);
+    }
+    Some(text)
+}
+
+/// The cases that `URDD_CASE` asks for, and what stands in for their rule.
+fn asked() -> Option<(String, Stand)> {
+    let start = std::env::var("URDD_CASE").ok()?;
+    let stand = match std::env::var("URDD_RULE").as_deref() {
+        Err(_) => Stand::Itself,
+        Ok("mute") => Stand::Mute,
+        Ok("alarm") => Stand::Alarm,
+        Ok(other) => panic!("URDD_RULE={other}: write `mute` or `alarm`"),
+    };
+    Some((start, stand))
+}
+
+/// Whether one case is worked at, so that tests of all others are not wanted.
+pub fn one_is_asked_for() -> bool {
+    asked().is_some()
+}
+
+fn beginning_with(start: &str) -> Vec<Case> {
+    let mut cases = cases();
+    cases.retain(|case| format!("{}/{}", case.code, case.name).starts_with(start));
+    cases
+}
+
+#[test]
+fn a_case_that_is_asked_for_is_judged() {
+    // Without a question, a few: that the cases of all rules are right, tests/conformance says.
+    let (start, stand) = asked().unwrap_or(("DOF001".to_owned(), Stand::Itself));
+    let cases = beginning_with(&start);
+    assert!(
+        !cases.is_empty(),
+        "no case in tests/rules begins with {start:?}; write the code, or code/name"
+    );
+    let faults: Vec<String> = cases.iter().filter_map(|case| fault(case, stand)).collect();
+    assert!(
+        faults.is_empty(),
+        "{} of {} cases are judged wrong:\n\n{}\n",
+        faults.len(),
+        cases.len(),
+        faults.join("\n\n")
+    );
+    println!("{} cases are judged right", cases.len());
+}
+
+/// Both failures can be seen: of the invalid case without the rule, of the near miss with one that always finds something.
+#[test]
+fn cases_fail_with_another_rule() {
+    for case in beginning_with("DOF001") {
+        let id = format!("DOF001/{}", case.name);
+        assert_eq!(fault(&case, Stand::Itself), None);
+        let (mute, alarm) = (fault(&case, Stand::Mute), fault(&case, Stand::Alarm));
+        let wrong = if case.caught { mute } else { alarm };
+        let wrong = wrong.unwrap_or_else(|| panic!("{id} passes with another rule"));
+        assert!(wrong.starts_with(&id), "{wrong}");
+    }
+}
