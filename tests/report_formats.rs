@@ -1,11 +1,11 @@
-//! The reports for other programs: SARIF against its schema and its Rust types by others, JUnit XML
-//! by what its readers count. (`.ci/run` holds JUnit to the schema that Jenkins has.)
+//! The reports for other programs, by what their readers count. (`.ci/run` holds SARIF to its schema and to its Rust types by
+//! others in `sarif_check/`, JUnit to the schema that Jenkins has.)
 
 mod support;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 
 use serde_json::{Value, json};
@@ -55,62 +55,6 @@ fn repository() -> tempfile::TempDir {
         f.unlist("dof_module/module.yaml");
     });
     folder
-}
-
-/// The schema of SARIF 2.1.0, as OASIS published it. It is not ours to keep here: the package of
-/// serde-sarif brings it.
-fn sarif_schema() -> Value {
-    let output = Command::new(env!("CARGO"))
-        .args(["metadata", "--format-version=1", "--locked", "--offline"])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .expect("cargo");
-    let metadata: Value = serde_json::from_slice(&output.stdout).expect("cargo's metadata");
-    let packages = metadata["packages"].as_array().expect("a list");
-    let package = packages
-        .iter()
-        .find(|package| package["name"] == "serde-sarif")
-        .expect("serde-sarif");
-    let manifest = PathBuf::from(package["manifest_path"].as_str().expect("a path"));
-    let file = manifest.with_file_name("src").join("schema.json");
-    let mut schema: Value = serde_json::from_str(&fs::read_to_string(file).expect("the schema"))
-        .expect("the schema is JSON");
-    // The pattern for a language, as published, is no regular expression.
-    for place in ["run", "toolComponent"] {
-        let language = schema.pointer_mut(&format!("/definitions/{place}/properties/language"));
-        let language = language.and_then(Value::as_object_mut).expect("an object");
-        assert!(language.remove("pattern").is_some());
-    }
-    assert!(
-        schema["title"]
-            .as_str()
-            .is_some_and(|t| t.contains("2.1.0"))
-    );
-    schema
-}
-
-#[test]
-fn sarif_fits_its_schema() {
-    let schema = jsonschema::draft7::options()
-        .should_validate_formats(true)
-        .build(&sarif_schema())
-        .expect("a schema");
-    let repository = repository();
-    let stale = "[[ignore]]\ncode = \"DIR020\"\npath = \"nobody/**\"\nreason = \"x\"";
-    fs::write(repository.path().join("urdd.toml"), stale).expect("written");
-    let examples = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for (folder, arguments) in [
-        (repository.path(), &["robots"] as &[&str]),
-        (repository.path(), &["robots/good"]),
-        (repository.path(), &["robots", "--with-crashing-rule"]),
-        (examples, &["examples/urdds"]),
-    ] {
-        let log = sarif(folder, arguments);
-        let errors: Vec<String> = schema.iter_errors(&log).map(|e| e.to_string()).collect();
-        assert_eq!(errors, [""; 0], "{arguments:?}");
-        // And other people's types take it.
-        let _: serde_sarif::sarif::Sarif = serde_json::from_value(log).expect("SARIF");
-    }
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn edited(
         let scene = meaning::scene(original, path, None)?;
         let edit = MeshEdit::MoveVertex(step, drawn);
         let spot = edit.spot(&scene.merged())?;
-        let after = edit.applied(&spot, scene.parts, &extension)?;
+        let after = edit.applied(&spot, bytes, scene.parts, &extension)?;
         return Some((after, spot.from, spot.to));
     }
     let text = std::str::from_utf8(bytes).ok()?;

@@ -40,17 +40,32 @@ use urdd::validate::rule::Severity;
 use urdd::validate::settings::Settings;
 use urdd::validate::{rules, validate};
 
-/// Writes a URDD into a folder.
-type Write = Box<dyn Fn(&Path)>;
+/// How a URDD comes about.
+pub enum Make {
+    /// In memory.
+    Fixture(Box<dyn Fn() -> Fixture>),
+    /// Written into a folder.
+    Folder(Box<dyn Fn(&Path)>),
+}
+
+impl Make {
+    /// Writes it into a folder.
+    pub fn write(&self, folder: &Path) {
+        match self {
+            Make::Fixture(make) => make().write_to(folder),
+            Make::Folder(write) => write(folder),
+        }
+    }
+}
 
 /// A URDD with one change, and what the validator should say of it. Cases are written here as code,
 /// and become the data in `conformance/` (see [`as_data`]), from which they are judged.
 pub struct Case {
     code: Code,
     name: &'static str,
-    write: Write,
+    make: Make,
     /// The URDD before the change, where that is known.
-    base: Option<Write>,
+    base: Option<Make>,
     caught: bool,
 }
 
@@ -87,13 +102,15 @@ pub fn changed(
     let base = std::rc::Rc::new(move || canonical(base()));
     let unchanged = base.clone();
     Case {
-        base: Some(Box::new(move |folder| unchanged().write_to(folder))),
-        ..in_folder(code, name, caught, move |folder| {
+        code,
+        name,
+        make: Make::Fixture(Box::new(move || {
             let mut fixture = base();
             change(&mut fixture);
-            let fixture = canonical(fixture);
-            fixture.write_to(folder);
-        })
+            canonical(fixture)
+        })),
+        base: Some(Make::Fixture(Box::new(move || unchanged()))),
+        caught,
     }
 }
 
@@ -108,7 +125,7 @@ pub fn in_folder(
     Case {
         code,
         name,
-        write: Box::new(write),
+        make: Make::Folder(Box::new(write)),
         base: None,
         caught,
     }

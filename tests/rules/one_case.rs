@@ -54,7 +54,7 @@ fn fault(case: &Case, stand: Stand) -> Option<String> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let root = folder.path().join("robot");
     std::fs::create_dir(&root).expect("the URDD's folder");
-    (case.write)(&root);
+    case.make.write(&root);
     judged(case, &root, &rules)
 }
 

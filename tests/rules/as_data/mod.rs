@@ -26,7 +26,7 @@ use urdd::validate::validate;
 
 use self::changes::{Difference, difference};
 use crate::support::fixture::{Fixture, toy_robot};
-use crate::{Case, cases, legacy};
+use crate::{Case, Make, cases, legacy};
 
 /// A case that takes more of a base's bytes than this part gets a base of its own.
 const TOO_DIFFERENT: f64 = 0.25;
@@ -43,7 +43,21 @@ fn suite() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance")
 }
 
-fn tree_of(write: &dyn Fn(&Path)) -> Tree {
+/// In memory where that can be: files on disk take ten times as long.
+fn tree_of(make: &Make) -> Tree {
+    match make {
+        Make::Fixture(make) => {
+            let mut tree = Tree::default();
+            for (path, bytes) in make().files {
+                tree.put(path.as_str().into(), bytes);
+            }
+            tree
+        }
+        Make::Folder(write) => tree_written(write),
+    }
+}
+
+fn tree_written(write: &dyn Fn(&Path)) -> Tree {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let root = folder.path().join("robot");
     fs::create_dir(&root).expect("the URDD's folder");
@@ -56,12 +70,15 @@ struct Bases(Vec<(String, Tree)>);
 
 impl Bases {
     fn new() -> Bases {
-        let fixture =
-            |fixture: Fixture| tree_of(&|root| crate::canonical(fixture.clone()).write_to(root));
+        let fixture = |fixture: Fixture| {
+            tree_of(&Make::Fixture(Box::new(move || {
+                crate::canonical(fixture.clone())
+            })))
+        };
         Bases(vec![
             ("toy".to_owned(), fixture(Fixture::toy())),
             ("toy_core".to_owned(), fixture(Fixture::core(&toy_robot()))),
-            ("legacy".to_owned(), tree_of(&legacy::write_legacy)),
+            ("legacy".to_owned(), tree_written(&legacy::write_legacy)),
         ])
     }
 
@@ -93,14 +110,14 @@ impl Bases {
 
     /// The same, from a new base where all are far away.
     fn for_case(&mut self, case: &Case) -> (usize, Difference) {
-        let tree = tree_of(&case.write);
+        let tree = tree_of(&case.make);
         let found = self.nearest(&tree);
         let own = stored(&tree).map(|(_, bytes)| bytes.len()).sum::<usize>();
         let limit = SMALL.max((own as f64 * TOO_DIFFERENT) as usize);
         if length(&found.1) <= limit.min(own) {
             return found;
         }
-        let base = case.base.as_ref().map(|write| tree_of(write));
+        let base = case.base.as_ref().map(tree_of);
         // One that is far larger than the case is of no use to it.
         let bytes = |tree: &Tree| stored(tree).map(|(_, bytes)| bytes.len()).sum::<usize>();
         let base = base.filter(|base| bytes(base) <= 2 * bytes(&tree));
@@ -144,7 +161,7 @@ fn found(case: &Case) -> Vec<Expected> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let root = folder.path().join("robot");
     fs::create_dir(&root).expect("the URDD's folder");
-    (case.write)(&root);
+    case.make.write(&root);
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
     let report = Report::new(&run, Severity::Error);
     let found = judge::found(case.code.as_str(), &report);
