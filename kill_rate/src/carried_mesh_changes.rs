@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use serde_json::Value;
 
-use super::Plan;
 use super::dice::Dice;
 use super::meaning;
 use super::mesh_edit::MeshEdit;
 use super::mutation::{Change, Description, FileChange, Files, Mutation, Target};
 use super::original::Original;
+use super::plan::Plan;
 use super::sample;
 
 const MODULE: &str = "original_meshes_module";

@@ -1,11 +1,11 @@
 //! Changes of documents: one value of one field.
 
-use super::Plan;
 use super::dice::Dice;
 use super::field::Field;
 use super::free;
 use super::mutation::{Change, Description, Mutation, Target};
 use super::original::{Document, Original};
+use super::plan::Plan;
 use super::pointer;
 use super::sample;
 use super::schema;

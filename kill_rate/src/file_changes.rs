@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use serde_json::json;
 
-use super::Plan;
 use super::dice::Dice;
 use super::edit::Edit;
 use super::file_bytes::Damage;
@@ -13,6 +12,7 @@ use super::mutation::{
     Change, Description, FileChange, Files, MakeFiles, Mutation, Target, shortened,
 };
 use super::original::Original;
+use super::plan::Plan;
 use super::sample;
 use urdd::directory::discover::ROOT_METADATA;
 

@@ -2,12 +2,12 @@
 
 use serde_json::Value;
 
-use super::Plan;
 use super::dice::Dice;
 use super::meaning;
 use super::mesh_edit::MeshEdit;
 use super::mutation::{Change, Description, FileChange, Files, Mutation, Target};
 use super::original::{Document, Original};
+use super::plan::Plan;
 use super::pointer;
 use super::sample;
 

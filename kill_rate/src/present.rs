@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use super::Plan;
 use super::outcome::{Outcome, Trial};
+use super::plan::Plan;
 use super::result::{Measured, Tally};
 
 /// How many survivors of a field are shown to people.

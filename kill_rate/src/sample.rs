@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::Plan;
 use super::dice::Dice;
 use super::mutation::Mutation;
+use super::plan::Plan;
 
 /// Changes of one field, drawn so that every kind of change comes up before any comes up again.
 ///

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::Plan;
 use super::dice::Dice;
 use super::file_bytes::Damage;
 use super::free::Ground;
 use super::mutation::{Change, Description, FileChange, Files, Mutation, Target, shortened};
 use super::number_changes;
 use super::original::Original;
+use super::plan::Plan;
 use super::sample;
 use super::text_changes;
 

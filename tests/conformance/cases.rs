@@ -7,10 +7,13 @@ use urdd::conformance::case::{Case, Kind, Verdict};
 use urdd::conformance::judge;
 use urdd::conformance::suite::Suite;
 use urdd::conformance::tree::TreeError;
+use urdd::conformance::valid;
 use urdd::report::Report;
 use urdd::validate::rule::Severity;
 use urdd::validate::settings::Settings;
 use urdd::validate::{rules, validate};
+
+use crate::in_repository;
 
 fn suite() -> Suite {
     Suite::carried().expect("the suite reads")
@@ -45,6 +48,22 @@ fn every_case_is_judged_as_it_says() {
         wrong.len(),
         wrong.join("\n")
     );
+}
+
+/// In hundreds, so that a new case does not change them.
+#[test]
+fn the_pages_say_how_much_there_is() {
+    let cases = format!("more than {} cases", suite().cases.len() / 100 * 100);
+    let robots = match valid::robots().len() {
+        9 => "nine robots",
+        others => panic!("{others} robots; the pages say nine"),
+    };
+    for page in ["README.md", "conformance/README.md"] {
+        let text = std::fs::read_to_string(in_repository(page)).expect(page);
+        for words in [cases.as_str(), robots] {
+            assert!(text.contains(words), "{page} does not say `{words}`");
+        }
+    }
 }
 
 #[test]

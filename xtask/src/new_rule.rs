@@ -215,6 +215,12 @@ fn mark_clause(text: &str, clause: &str, code: &str) -> Result<String, String> {
 }
 
 fn rule(code: &str, name: &str, severity: &str, clause: &str) -> String {
+    // What is odd about a robot is judged by its source.
+    let judges = if code.starts_with("SRC") {
+        "judges Source, "
+    } else {
+        ""
+    };
     format!(
         r#"use crate::validate::context::Context;
 use crate::validate::finding::{{Finding, Findings}};
@@ -225,7 +231,7 @@ declare_rule! {{
     ///
     /// TODO: why it matters, and what to do.
     {code} "{name}", {severity}, clause "{clause}", since "0.2.0",
-    phase References, needs [],
+    phase References, {judges}needs [],
     check check,
 }}
 
