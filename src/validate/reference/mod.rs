@@ -11,8 +11,8 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
-use crate::format::urdf::{self as v1, JointType, UrdfModule};
 use crate::document::pose::has_quaternions;
+use crate::format::urdf::{self as v1, JointType, UrdfModule};
 
 /// Largest angle of a limit that is gone to: beyond it, binary64 is coarser than 1e-10 rad.
 const MOST_RADIANS: f64 = 1e6;
