@@ -108,3 +108,41 @@ fn a_reader_that_stops_early_is_no_fault() {
     assert_eq!(stderr(&output), "");
     assert!(output.status.success());
 }
+
+/// One schema for all: valid itself, and it accepts what the schemas of the modules accept.
+#[test]
+fn the_bundle_holds_every_module_of_version_1() {
+    let examples = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/urdds/arm");
+    for arguments in [&["bundle"] as &[&str], &["bundle", "--open"]] {
+        let bundle: serde_json::Value =
+            serde_json::from_str(&stdout(&urdd(arguments))).expect("JSON");
+        assert!(jsonschema::draft202012::meta::is_valid(&bundle));
+        let validator = jsonschema::draft202012::new(&bundle).expect("a schema");
+        let mut urdd = serde_json::Map::new();
+        for entry in fs::read_dir(&examples).expect("a URDD") {
+            let path = entry.expect("an entry").path();
+            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+            let file = if path.is_dir() {
+                path.join("module.json")
+            } else {
+                path.clone()
+            };
+            if name.ends_with("_module") || name == "urdd.json" {
+                let text = fs::read_to_string(file).expect("a document");
+                urdd.insert(name, serde_json::from_str(&text).expect("JSON"));
+            }
+        }
+        assert!(urdd.len() >= 7, "{}", urdd.len());
+        let mut urdd = serde_json::Value::Object(urdd);
+        let errors: Vec<String> = validator
+            .iter_errors(&urdd)
+            .map(|e| e.to_string())
+            .collect();
+        assert_eq!(errors, [""; 0]);
+        let properties = bundle["properties"].as_object().expect("properties");
+        assert!(properties.len() >= 16, "{}", properties.len());
+        // And it refuses what they refuse.
+        urdd["dof_module"]["num_dofs"] = serde_json::json!("six");
+        assert!(!validator.is_valid(&urdd));
+    }
+}

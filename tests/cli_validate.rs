@@ -356,3 +356,388 @@ fn rehash_brings_sizes_and_hashes_up_to_date_and_nothing_else() {
     );
     assert_eq!(metadata(), now);
 }
+
+/// The findings of one URDD.
+fn findings(folder: &Path, arguments: &[&str]) -> Vec<Value> {
+    let report = report(folder, arguments);
+    report["urdds"][0]["findings"]
+        .as_array()
+        .expect("a list")
+        .clone()
+}
+
+#[test]
+fn machines_get_every_place_and_people_the_worst() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut toy = Fixture::toy();
+    // Each DOF's bounds are off by another amount, the third by most.
+    let dofs = toy
+        .get("bounds_module", "/bounds")
+        .as_array()
+        .expect("a list")
+        .len();
+    assert!(dofs > 5, "{dofs}");
+    for dof in 0..dofs {
+        let by = if dof == 2 { 100.0 } else { dof as f64 + 1.0 };
+        for (list, index) in [("dof_lower_bounds", dof), ("dof_upper_bounds", dof)] {
+            let pointer = format!("/{list}/{index}");
+            let old = toy
+                .get("bounds_module", &pointer)
+                .as_f64()
+                .expect("a number");
+            toy.set("bounds_module", &pointer, json!(old - by));
+        }
+    }
+    toy.seal();
+    toy.write_to(&folder.path().join("robot"));
+    let found = findings(folder.path(), &["robot", "--select", "BND"]);
+    let lower = found
+        .iter()
+        .find(|f| {
+            f["pointer"]
+                .as_str()
+                .is_some_and(|p| p.starts_with("/dof_lower"))
+        })
+        .expect("a finding");
+    let places = lower["places"].as_array().expect("a list");
+    assert_eq!((places.len(), &lower["count"]), (dofs, &json!(dofs)));
+    assert_eq!(lower["places_cut"], 0);
+    assert_eq!(places[0]["pointer"], "/dof_lower_bounds/2");
+    assert_eq!(lower["pointer"], places[0]["pointer"]);
+    let off: Vec<f64> = places
+        .iter()
+        .map(|place| place["magnitude"]["value"].as_f64().expect("a number"))
+        .collect();
+    assert!(off.is_sorted_by(|a, b| a >= b), "{off:?}");
+    assert!((off[0] - 100.0).abs() < 1e-9);
+    for place in places {
+        let dof = place["pointer"]
+            .as_str()
+            .expect("a pointer")
+            .rsplit('/')
+            .next();
+        let subject = place["subject"].as_str().expect("a name");
+        assert!(subject.starts_with(&format!("DOF {} of joint `", dof.expect("an index"))));
+        assert!(place["line"].as_u64().is_some());
+    }
+    let lines = |arguments: &[&str]| {
+        let text = stdout(&validate(folder.path(), arguments));
+        text.lines().filter(|line| line.contains(" also ")).count()
+    };
+    let three = lines(&["robot", "--select", "BND"]);
+    assert_eq!(lines(&["robot", "--select", "BND", "--max-places", "1"]), 0);
+    assert_eq!(
+        lines(&["robot", "--select", "BND", "--max-places", "4"]),
+        three / 2 * 3
+    );
+    let log = validate(
+        folder.path(),
+        &["robot", "--select", "BND", "--format", "sarif"],
+    );
+    let log: Value = serde_json::from_slice(&log.stdout).expect("JSON");
+    let related = log["runs"][0]["results"][0]["relatedLocations"].as_array();
+    assert_eq!(related.expect("a list").len(), dofs - 1);
+}
+
+#[test]
+fn an_unknown_key_is_reported_at_its_own_line() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut toy = Fixture::toy();
+    toy.doc_mut("dof_module")["no/key"] = json!(1);
+    toy.seal();
+    toy.write_to(&folder.path().join("robot"));
+    let found = findings(folder.path(), &["robot", "--select", "SCH001"]);
+    assert_eq!(found[0]["pointer"], "/no~1key");
+    let file = folder.path().join("robot/dof_module/module.json");
+    let text = fs::read_to_string(file).expect("a module");
+    let line = 1 + text
+        .lines()
+        .position(|line| line.contains("no/key"))
+        .expect("the key");
+    assert_eq!(found[0]["line"], json!(line));
+}
+
+#[test]
+fn many_urdds_are_summed_up() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path();
+    for number in 0..12 {
+        let mut toy = Fixture::toy();
+        if number % 2 == 0 {
+            toy.set(
+                "bounds_module",
+                "/dof_lower_bounds/0",
+                json!(-77.0 - f64::from(number)),
+            );
+        }
+        if number % 3 == 0 {
+            toy.remove_file("dof_module/module.yaml");
+            toy.unlist("dof_module/module.yaml");
+        }
+        if number == 5 {
+            toy.put_file("chain_module/module.json", "{");
+        }
+        toy.seal();
+        toy.write_to(&root.join(format!("robot{number:02}")));
+    }
+    let output = validate(root, &["."]);
+    assert_eq!(output.status.code(), Some(1));
+    let text = stdout(&output);
+    assert!(
+        text.lines().count() < 45,
+        "{} lines:\n{text}",
+        text.lines().count()
+    );
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 130),
+        "{text}"
+    );
+    let row = |name: &str| text.lines().find(|line| line.starts_with(name));
+    // What could not be checked is not shown as sound.
+    let broken = row("robot05").expect("a row");
+    assert!(broken.contains('?') && broken.contains(" ok"), "{broken}");
+    let warned = row("robot03").expect("a row");
+    assert!(warned.contains("1w"), "{warned}");
+    assert_eq!(row("robot01"), None);
+    let sound = [1, 7, 11].len();
+    assert!(
+        text.contains(&format!("{sound} URDDs more without findings")),
+        "{text}"
+    );
+    // One cause, however many URDDs, and motion before format.
+    let cause = text
+        .lines()
+        .filter(|line| line.contains("6 URDDs; "))
+        .count();
+    assert_eq!(cause, 1, "{text}");
+    let motion = text.find("  wrong motion").expect("motion");
+    let format = text.find("  format").expect("format");
+    assert!(motion < format);
+    assert!(text.contains("12 URDDs: "), "the totals");
+    let full = stdout(&validate(root, &[".", "--full"]));
+    assert!(full.contains("robot01 pass"), "{full}");
+}
+
+#[test]
+fn a_urdf_by_itself_is_judged_as_a_source() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path();
+    let urdf = |links: &str| format!("<robot name=\"r\">{links}</robot>");
+    let mass = |mass: f64| {
+        format!(
+            "<link name=\"a\"><inertial><mass value=\"{mass}\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial></link>"
+        )
+    };
+    fs::write(root.join("good.urdf"), urdf(&mass(1.0))).expect("written");
+    fs::write(root.join("odd.URDF"), urdf(&mass(-1.0))).expect("written");
+    fs::write(
+        root.join("two.urdf"),
+        urdf(&(mass(1.0) + "<link name=\"b\"/>")),
+    )
+    .expect("written");
+    fs::write(root.join("broken.urdf"), "<robot name=\"r\"><link").expect("written");
+    let codes = |name: &str| -> Vec<String> {
+        let report = report(root, &[name]);
+        assert_eq!(report["urdds"][0]["kind"], "urdf");
+        let found = report["urdds"][0]["findings"].as_array().expect("a list");
+        found
+            .iter()
+            .map(|f| f["code"].as_str().expect("a code").to_owned())
+            .collect()
+    };
+    assert_eq!(codes("good.urdf"), [""; 0]);
+    assert_eq!(codes("odd.URDF"), ["SRC003"]);
+    assert_eq!(codes("broken.urdf"), ["URD011"]);
+    assert_eq!(codes("two.urdf"), ["URD004"]);
+    assert!(!codes("two.urdf").is_empty());
+    assert_eq!(status(root, &["good.urdf"]), 0);
+    assert_eq!(status(root, &["two.urdf"]), 1);
+    let text = stdout(&validate(root, &["good.urdf"]));
+    assert!(text.contains("urdd generate"), "{text}");
+    // Its place in other reports is the file itself.
+    let log = validate(root, &["two.urdf", "--format", "github"]);
+    assert!(
+        stdout(&log).contains("::error file=two.urdf,line=1"),
+        "{}",
+        stdout(&log)
+    );
+}
+
+#[test]
+fn files_of_other_formats_are_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path();
+    for (name, text, says) in [
+        ("a.sdf", "", "SDF"),
+        ("a.xml", "<mujoco model=\"a\"/>", "MJCF"),
+        ("b.xml", "<sdf/>", "SDF"),
+        ("c.xml", "<robot name=\"a\"/>", "URDF"),
+        ("a.srdf", "<robot name=\"a\"/>", "SRDF"),
+        ("a.usd", "", "USD"),
+        ("a.xacro", "", "xacro"),
+        ("a.txt", "x", "this is a file"),
+    ] {
+        fs::write(root.join(name), text).expect("written");
+        let output = validate(root, &[name]);
+        assert_eq!(output.status.code(), Some(2), "{name}");
+        let said = stderr(&output);
+        assert!(said.contains(says), "{name}: {said}");
+    }
+}
+
+#[test]
+fn folders_are_excluded() {
+    let folder = collection();
+    let root = folder.path();
+    let paths = |arguments: &[&str]| -> Vec<String> {
+        let report = report(root, arguments);
+        let urdds = report["urdds"].as_array().expect("a list");
+        urdds
+            .iter()
+            .map(|urdd| urdd["path"].as_str().expect("a path").to_owned())
+            .collect()
+    };
+    assert_eq!(paths(&[".", "--exclude", "bad"]), ["good", "odd"]);
+    assert_eq!(
+        paths(&[".", "--exclude", "b*/", "--exclude", "odd"]),
+        ["good"]
+    );
+    fs::create_dir(root.join("old")).expect("a folder");
+    copy_folder(&root.join("bad"), &root.join("old/deeper/bad"));
+    assert_eq!(paths(&[".", "--exclude", "old"]), ["bad", "good", "odd"]);
+    assert_eq!(paths(&[".", "--exclude", "**/bad"]), ["good", "odd"]);
+    fs::write(root.join("urdd.toml"), "exclude = [\"old\", \"bad\"]\n").expect("written");
+    assert_eq!(paths(&["."]), ["good", "odd"]);
+    let output = validate(root, &[".", "--exclude", "*"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("excluded"), "{}", stderr(&output));
+    assert_eq!(status(root, &[".", "--exclude", "["]), 2);
+}
+
+#[test]
+fn an_ignore_without_a_code_is_for_all_rules() {
+    let folder = collection();
+    let root = folder.path();
+    let write = |text: &str| fs::write(root.join("urdd.toml"), text).expect("written");
+    write("[[ignore]]\npath = \"bad/**\"\nreason = \"not ours\"\n");
+    assert_eq!(status(root, &["bad"]), 0);
+    assert_eq!(status(root, &["bad", "odd", "--fail-on", "warning"]), 1);
+    write("[[ignore]]\npath = \"bad/**\"\n");
+    assert_eq!(status(root, &["bad"]), 2);
+    write("[[ignore]]\npath = \"nobody/**\"\nreason = \"x\"\n");
+    let text = stdout(&validate(root, &["bad"]));
+    assert!(
+        text.contains("ignore of all rules at `nobody/**`"),
+        "{text}"
+    );
+}
+
+#[test]
+fn some_rules_only() {
+    let folder = collection();
+    let root = folder.path();
+    assert_eq!(status(root, &["bad", "--select", "DIR"]), 1);
+    assert_eq!(status(root, &["bad", "--select", "DIR020,MSH"]), 1);
+    assert_eq!(status(root, &["bad", "--select", "MSH"]), 0);
+    assert_eq!(status(root, &["bad", "--ignore", "dir020"]), 0);
+    assert_eq!(status(root, &["bad", "--select", "NOPE"]), 2);
+    let checks = report(root, &["bad", "--select", "DIR020"]);
+    assert_eq!(
+        checks["urdds"][0]["checks"]
+            .as_array()
+            .expect("a list")
+            .len(),
+        1
+    );
+}
+
+#[test]
+fn colours_on_request() {
+    let folder = collection();
+    let run = |arguments: &[&str], variables: &[(&str, &str)]| {
+        let mut command = command(folder.path(), arguments);
+        for name in ["NO_COLOR", "CLICOLOR_FORCE", "TERM"] {
+            command.env_remove(name);
+        }
+        let output = command.envs(variables.iter().copied()).output();
+        stdout(&output.expect("the program")).contains('\u{1b}')
+    };
+    assert!(!run(&["bad"], &[]));
+    assert!(run(&["bad", "--color", "always"], &[("NO_COLOR", "1")]));
+    assert!(run(&["bad"], &[("CLICOLOR_FORCE", "1")]));
+    assert!(!run(&["bad"], &[("CLICOLOR_FORCE", "0")]));
+    assert!(!run(
+        &["bad"],
+        &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")]
+    ));
+    assert!(!run(
+        &["bad", "--color", "never"],
+        &[("CLICOLOR_FORCE", "1")]
+    ));
+    assert!(!run(&["bad", "--color", "always", "--format", "json"], &[]));
+}
+
+#[test]
+fn workflow_commands_hold_no_others() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut toy = Fixture::toy();
+    toy.set(ROOT, "/robot_name", json!("a%0A::error::b\n::error::c,d:e"));
+    toy.put_file("::stop-commands::x", "y");
+    toy.seal();
+    toy.write_to(&folder.path().join("::add-mask::robot,1"));
+    let output = validate(folder.path(), &[".", "--format", "github"]);
+    let text = stdout(&output);
+    let commands: Vec<&str> = text
+        .lines()
+        .filter(|line| line.trim_start().starts_with("::"))
+        .collect();
+    assert!(commands.len() >= 2, "{text}");
+    for command in &commands {
+        let known = ["::error file=", "::warning file=", "::notice file="];
+        assert!(
+            known.iter().any(|start| command.starts_with(start)),
+            "{command}"
+        );
+        let properties = command.split("::").nth(1).expect("properties");
+        assert!(
+            properties.contains("%3A%3Aadd-mask%3A%3Arobot%2C1"),
+            "{command}"
+        );
+    }
+    let unescaped = |command: &&str| command.contains("a%0A");
+    assert!(!commands.iter().any(unescaped), "a percent sign is escaped");
+    // Nor does the report for people, which is printed in workflows too.
+    let text = stdout(&validate(folder.path(), &["."]));
+    assert!(
+        !text.lines().any(|line| line.trim_start().starts_with("::")),
+        "{text}"
+    );
+}
+
+#[test]
+fn explanations_as_json_and_completions() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
+        let output = command.args(arguments).current_dir(folder.path()).output();
+        output.expect("the program")
+    };
+    let explained = |arguments: &[&str]| -> Value {
+        let output = run(&[&["explain", "--format", "json"], arguments].concat());
+        serde_json::from_slice(&output.stdout).expect("JSON")
+    };
+    assert_eq!(explained(&["DOF003"])["name"], "dof-mappings-disagree");
+    let family = explained(&["DOF"]);
+    let family = family.as_array().expect("a list");
+    assert!(
+        family.len() > 5
+            && family
+                .iter()
+                .all(|rule| rule["consequence"] == "wrong-motion")
+    );
+    assert!(explained(&[]).as_array().expect("a list").len() > 100);
+    for shell in ["bash", "zsh", "fish"] {
+        let script = stdout(&run(&["completions", shell]));
+        assert!(script.contains("max-places"), "{shell}");
+    }
+}

@@ -107,7 +107,7 @@ fn main() -> ExitCode {
     let progress = |name: &str, done: usize, of: usize| {
         if bar.length() != Some(of as u64) {
             bar.set_length(of as u64);
-            bar.set_message(name.to_owned());
+            bar.set_message(crate::format::escape::line(name).into_owned());
         }
         bar.set_position(done as u64);
     };
@@ -128,7 +128,8 @@ fn main() -> ExitCode {
         Format::Human => present::table(&measured),
         Format::Json => {
             let value = present::json(&measured, &plan, arguments.list_all);
-            urdd::directory::canonical::json_string(&value)
+            let text = urdd::directory::canonical::json_string(&value);
+            urdd::format::escape::json(&text).into_owned()
         }
     };
     let mut out = std::io::stdout().lock();

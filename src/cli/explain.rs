@@ -2,58 +2,135 @@
 
 use std::process::ExitCode;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
 
-use super::output;
-use crate::validate::code::Code;
+use super::{output, printed};
+use crate::format::escape;
+use crate::validate::rule::Rule;
 use crate::validate::rules;
+use crate::validate::selection::Codes;
 
 /// Arguments of `urdd explain`.
 #[derive(Args)]
 pub struct ExplainArguments {
-    /// Code of a rule, such as DOF003, or its name; without it, every rule is listed.
+    /// Code of a rule, such as DOF003, or its name; or a family, such as DOF. Without it, every rule is listed.
     rule: Option<String>,
+
+    /// How it is written.
+    #[arg(long, value_enum, default_value_t = Format::Human)]
+    format: Format,
 }
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people.
+    Human,
+    /// As JSON: an object for each rule.
+    Json,
+}
+
+/// Longest line of an explanation on a terminal, characters.
+const WIDEST: usize = 100;
 
 /// Runs `urdd explain`.
 pub fn run(arguments: &ExplainArguments) -> ExitCode {
-    let rules = rules::all();
-    let Some(wanted) = &arguments.rule else {
-        let width = rules.iter().map(|rule| rule.name.len()).max().unwrap_or(0);
-        for rule in &rules {
-            let line = format!(
-                "{}  {:7}  {:width$}  {}\n",
-                rule.code,
-                rule.severity.as_str(),
-                rule.name,
-                rule.summary()
-            );
-            output::print(&line);
+    let all = rules::all();
+    let wanted = match &arguments.rule {
+        None => all,
+        Some(wanted) => {
+            let codes = wanted.parse::<Codes>().ok();
+            let meant = |rule: &&Rule| {
+                rule.name == wanted || codes.is_some_and(|codes| codes.holds(rule.code))
+            };
+            all.into_iter().filter(meant).collect()
         }
-        return ExitCode::SUCCESS;
     };
-    let by_code = Code::parse(wanted);
-    match rules
-        .iter()
-        .find(|rule| Some(rule.code) == by_code || rule.name == wanted)
-    {
-        Some(rule) => {
-            output::print(&format!(
-                "{} {}\n{}; SPEC.md clause {}; since urdd {}\n\n{}\n",
-                rule.code,
-                rule.name,
-                rule.severity.as_str(),
-                rule.clause,
-                rule.since,
-                rule.explanation()
-            ));
-            ExitCode::SUCCESS
+    let one = arguments.rule.is_some() && wanted.len() == 1;
+    match (&wanted[..], arguments.format) {
+        ([], _) => printed(Err(format!(
+            "there is no rule `{}`; `urdd explain` without a code lists them",
+            escape::line(arguments.rule.as_deref().unwrap_or_default())
+        ))),
+        ([rule], Format::Human) if one => printed(output::print(&in_full(rule))),
+        (rules, Format::Human) => printed(output::print(&list(rules))),
+        ([rule], Format::Json) if one => print_json(&as_json(rule)),
+        (rules, Format::Json) => print_json(&rules.iter().map(|rule| as_json(rule)).collect()),
+    }
+}
+
+fn list(rules: &[&Rule]) -> String {
+    let width = rules.iter().map(|rule| rule.name.len()).max().unwrap_or(0);
+    let line = |rule: &&Rule| {
+        let severity = rule.severity.as_str();
+        let (code, name, summary) = (rule.code, rule.name, rule.summary());
+        format!("{code}  {severity:7}  {name:width$}  {summary}\n")
+    };
+    rules.iter().map(line).collect()
+}
+
+fn in_full(rule: &Rule) -> String {
+    let (code, name, clause, since) = (rule.code, rule.name, rule.clause, rule.since);
+    let severity = rule.severity.as_str();
+    let explanation = wrapped(&rule.explanation());
+    format!(
+        "{code} {name}\n{severity}; SPEC.md clause {clause}; since urdd {since}\n\n{explanation}\n"
+    )
+}
+
+/// Text as wide as the terminal; elsewhere as it was written.
+fn wrapped(text: &str) -> String {
+    let Some(width) = output::width() else {
+        return text.to_owned();
+    };
+    let width = width.min(WIDEST);
+    let paragraph = |text: &str| match text.starts_with("```") {
+        true => text.to_owned(),
+        false => items(text)
+            .iter()
+            .map(|item| {
+                let hanging = if item.starts_with("- ") { "  " } else { "" };
+                let options = textwrap::Options::new(width).subsequent_indent(hanging);
+                textwrap::fill(item, options)
+            })
+            .collect::<Vec<_>>()
+            .join("\n"),
+    };
+    let paragraphs: Vec<String> = text.split("\n\n").map(paragraph).collect();
+    paragraphs.join("\n\n")
+}
+
+/// The items of a list, or the paragraph, each on one line.
+fn items(text: &str) -> Vec<String> {
+    let mut items: Vec<String> = Vec::new();
+    for line in text.lines() {
+        match items.last_mut() {
+            Some(last) if !line.starts_with("- ") => {
+                last.push(' ');
+                last.push_str(line.trim());
+            }
+            _ => items.push(line.to_owned()),
         }
-        None => {
-            output::error(&format!(
-                "there is no rule `{wanted}`; `urdd explain` without a code lists them"
-            ));
-            ExitCode::from(2)
-        }
+    }
+    items
+}
+
+fn as_json(rule: &Rule) -> Value {
+    json!({
+        "code": rule.code.as_str(),
+        "name": rule.name,
+        "severity": rule.severity,
+        "clause": rule.clause,
+        "since": rule.since,
+        "consequence": rule.consequence,
+        "summary": rule.summary(),
+        "explanation": rule.explanation(),
+    })
+}
+
+fn print_json(value: &Value) -> ExitCode {
+    match serde_json::to_string_pretty(value) {
+        Ok(text) => printed(output::print(&(text + "\n"))),
+        Err(error) => printed(Err(error.to_string())),
     }
 }

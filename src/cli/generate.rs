@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum};
 
 use super::generate_output::{Format, Printer};
 use super::output;
+use crate::format::escape;
 use crate::format::meshes::GeometryKind;
 use crate::generate::batch::{self, Job, Shard};
 use crate::generate::{Packages, Selection, Settings};
@@ -22,7 +23,8 @@ const USAGE: u8 = 2;
 #[command(
     after_help = "Mesh names are looked up as ROS does: package:// by --package, by package.xml or a folder of that \
     name at or above the URDF, by ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; file://, relative to the URDF, absolute.\n\n\
-    Exit status: 0 every robot was made; 1 some were not; 2 wrong usage, or no robot was found."
+    Exit status: 0 every robot was made; 1 some were not; 2 wrong usage, no robot was found, \
+    or results could not be written."
 )]
 pub struct GenerateArguments {
     /// A URDF or xacro file; or several, or folders of them, for a batch.
@@ -98,9 +100,14 @@ fn generate(arguments: &GenerateArguments) -> Result<usize, String> {
     // A crash is caught and reported; the default hook would print besides.
     std::panic::set_hook(Box::new(|_| {}));
     let is_batch = batch::is_batch(&arguments.robots);
-    let printer = Printer::new(arguments.format, is_batch, std::io::stderr().is_terminal());
+    let printer = Printer::new(
+        arguments.format,
+        is_batch,
+        std::io::stderr().is_terminal() && !output::is_dumb(),
+    );
     let failed = if is_batch {
-        let mut jobs = batch::jobs(&arguments.robots).map_err(|error| error.to_string())?;
+        let mut jobs = batch::jobs(&arguments.robots)
+            .map_err(|error| escape::line(&error.to_string()).into_owned())?;
         if let Some(shard) = arguments.shard {
             jobs = shard.of(jobs);
         }
@@ -115,7 +122,10 @@ fn generate(arguments: &GenerateArguments) -> Result<usize, String> {
         one(arguments, &settings, &pool, &printer)
     };
     let _ = std::panic::take_hook();
-    Ok(failed)
+    match printer.unprinted() {
+        Some(message) => Err(message),
+        None => Ok(failed),
+    }
 }
 
 /// A single robot, whose URDD is the output folder itself.

@@ -8,6 +8,7 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
 use super::output;
+use crate::format::escape;
 use crate::format::registry::ModuleKind;
 use crate::generate::batch::{Job, Observer};
 use crate::generate::note::{Note, NoteKind};
@@ -31,6 +32,7 @@ pub(super) struct Printer {
     is_batch: bool,
     bars: Option<Bars>,
     unchanged: Mutex<usize>,
+    unprinted: Mutex<Option<String>>,
 }
 
 /// Progress on a terminal: one bar for the batch, one for each robot at work.
@@ -50,6 +52,7 @@ impl Printer {
             is_batch,
             bars,
             unchanged: Mutex::new(0),
+            unprinted: Mutex::new(None),
         }
     }
 
@@ -84,7 +87,7 @@ impl Printer {
         let bar = self.bars.as_ref().map(|bars| {
             let bar = bars.all.add(ProgressBar::new(1));
             bar.set_style(style("  {spinner} {prefix} {bar:20} {msg}"));
-            bar.set_prefix(job.name.clone());
+            bar.set_prefix(escape::line(&job.name).into_owned());
             bar
         });
         Box::new(RobotBar(bar))
@@ -92,10 +95,18 @@ impl Printer {
 
     /// Prints to standard output, the bars out of the way.
     fn print(&self, text: &str) {
-        match &self.bars {
+        let printed = match &self.bars {
             Some(bars) => bars.all.suspend(|| output::print(text)),
             None => output::print(text),
+        };
+        if let (Err(message), Ok(mut unprinted)) = (printed, self.unprinted.lock()) {
+            unprinted.get_or_insert(message);
         }
+    }
+
+    /// Why a result could not be printed, where one could not.
+    pub(super) fn unprinted(&self) -> Option<String> {
+        self.unprinted.lock().ok()?.clone()
     }
 
     fn error(&self, text: &str) {
@@ -126,8 +137,17 @@ impl Observer for Printer {
                     self.error(&text);
                 }
             }
-            (Format::Human, Err(error)) => self.error(&error.to_string()),
+            (Format::Human, Err(error)) => self.error(&message(error)),
         }
+    }
+}
+
+/// What is wrong, on one line, but for errors that consist of several.
+fn message(error: &GenerateError) -> String {
+    let text = error.to_string();
+    match error {
+        GenerateError::Refused { .. } | GenerateError::Xacro { .. } => text,
+        _ => escape::line(&text).into_owned(),
     }
 }
 
@@ -162,14 +182,14 @@ fn count(number: usize, thing: &str) -> String {
 }
 
 fn line(value: &Value) -> String {
-    format!("{value}\n")
+    escape::json(&value.to_string()).into_owned() + "\n"
 }
 
 fn told(job: &Job, made: &Generated) -> String {
     let kept = made.modules.iter().filter(|module| module.kept).count();
     let mut text = format!(
         "{}: {}, {}, {}; {}",
-        job.name,
+        escape::line(&job.name),
         count(made.num_links, "link"),
         count(made.num_joints, "joint"),
         count(made.num_dofs, "DOF"),

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::output;
 use crate::directory::discover::discover;
+use crate::format::escape;
 use crate::report::info::{self, Info};
 
 /// Arguments of `urdd info`.
@@ -32,32 +33,28 @@ enum Format {
 /// Runs `urdd info`.
 pub fn run(arguments: &InfoArguments) -> ExitCode {
     match tell(arguments) {
-        Ok(text) => {
-            output::print(&text);
-            ExitCode::SUCCESS
-        }
-        Err(message) => {
-            output::error(&message);
-            ExitCode::from(2)
-        }
+        Ok(text) => super::printed(output::print(&text)),
+        Err(message) => super::printed(Err(message)),
     }
 }
 
 fn tell(arguments: &InfoArguments) -> Result<String, String> {
     let mut infos = Vec::new();
     for path in &arguments.paths {
-        for found in discover(path).map_err(|error| error.to_string())? {
+        for found in
+            discover(path).map_err(|error| escape::line(&error.to_string()).into_owned())?
+        {
             if let Some(error) = found.closed {
-                return Err(format!("{}: {error}", found.name));
+                return Err(format!("{}: {error}", escape::line(&found.name)));
             }
             let info = Info::read(&found.path, &found.name)
-                .map_err(|error| format!("{}: {error}", found.name))?;
+                .map_err(|error| format!("{}: {error}", escape::line(&found.name)))?;
             infos.push(info);
         }
     }
     if arguments.format == Format::Json {
         let text = serde_json::to_string_pretty(&infos).map_err(|error| error.to_string())?;
-        return Ok(text + "\n");
+        return Ok(escape::json(&text).into_owned() + "\n");
     }
     let mut text = String::new();
     for info in &infos {

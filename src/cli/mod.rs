@@ -2,6 +2,7 @@
 
 mod conformance;
 mod explain;
+mod foreign;
 mod generate;
 mod generate_output;
 mod info;
@@ -9,15 +10,25 @@ mod output;
 mod rehash;
 mod schema;
 mod validate;
+mod words;
 
+use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+
+use self::output::Color;
+use crate::format::escape;
 
 /// Specification, validator and reference generator of the Universal Robot Description Directory.
 #[derive(Parser)]
 #[command(name = "urdd", version, about, arg_required_else_help = true)]
 struct Arguments {
+    /// When output is coloured.
+    #[arg(long, global = true, value_enum, default_value_t = Color::Auto, value_name = "WHEN")]
+    color: Color,
+
     #[command(subcommand)]
     command: Command,
 }
@@ -38,17 +49,63 @@ enum Command {
     Conformance(conformance::ConformanceArguments),
     /// Show, export or check the published JSON Schemas.
     Schema(schema::SchemaArguments),
+    /// Print completions for a shell: `urdd completions bash > ~/.local/share/bash-completion/completions/urdd`.
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
 }
 
-/// Reads the command line and runs what it asks for.
-pub fn run() -> ExitCode {
-    match Arguments::parse().command {
+/// Reads the command line and runs what it asks for. `closed` says that standard output was closed
+/// when the program started.
+pub fn run(closed: bool) -> ExitCode {
+    if closed {
+        output::standard_output_is_closed();
+    }
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return usage(error),
+    };
+    let color = arguments.color;
+    match arguments.command {
         Command::Generate(arguments) => generate::run(&arguments),
-        Command::Validate(arguments) => validate::run(&arguments),
+        Command::Validate(arguments) => validate::run(&arguments, color),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Rehash(arguments) => rehash::run(&arguments),
         Command::Conformance(arguments) => conformance::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "urdd", &mut script);
+            printed(output::print(&String::from_utf8_lossy(&script)))
+        }
+    }
+}
+
+/// Prints help where it was asked for, or what is wrong with the command line: its words are the
+/// user's, or those of a file's name, and are escaped.
+fn usage(error: clap::Error) -> ExitCode {
+    if error.use_stderr() {
+        // Once more with escaped words, so that none of them adds a line of its own.
+        let words = std::env::args_os();
+        let words = words.map(|word| escape::line(&word.to_string_lossy()).into_owned());
+        let error = Arguments::try_parse_from(words).err().unwrap_or(error);
+        let text = error.render().to_string();
+        let text = escape::lines(text.trim_end());
+        let _ = writeln!(std::io::stderr().lock(), "{text}");
+        return ExitCode::from(output::USAGE);
+    }
+    printed(output::print(&error.render().to_string()))
+}
+
+/// The exit status of a command that has nothing to do but print.
+fn printed(result: Result<(), String>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            output::error(&message);
+            ExitCode::from(output::USAGE)
+        }
     }
 }

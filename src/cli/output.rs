@@ -1,19 +1,231 @@
-//! Printing. A pipe that is closed early is not an error worth a word.
+//! Printing. Whatever came from elsewhere is escaped on its way out, and what cannot be written is
+//! an error, but for a pipe that its reader has closed: it has seen enough.
 
-use std::io::Write;
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::ValueEnum;
+
+use crate::directory::discover::ROOT_METADATA;
+use crate::format::escape;
+use crate::report::human::STYLES;
+
+/// Exit status: wrong usage, nothing could be examined, or what was found could not be written.
+pub const USAGE: u8 = 2;
+
+/// Whether standard output was closed when the program started. Rust's runtime puts `/dev/null` in
+/// its place, where everything can be written and nothing arrives.
+static CLOSED: AtomicBool = AtomicBool::new(false);
+
+/// Says that standard output was closed when the program started.
+pub fn standard_output_is_closed() {
+    CLOSED.store(true, Ordering::Relaxed);
+}
 
 /// Prints to standard output.
-pub fn print(text: &str) {
-    let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+///
+/// # Errors
+/// Where it cannot be written: a message.
+pub fn print(text: &str) -> Result<(), String> {
+    write(&safe(text))
+}
+
+fn write(text: &str) -> Result<(), String> {
+    let failed = |reason: &str| Err(format!("standard output cannot be written: {reason}"));
+    if CLOSED.load(Ordering::Relaxed) {
+        return failed("it is closed");
+    }
+    let mut out = io::stdout().lock();
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    match written {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => failed(&reason(&error)),
+        _ => Ok(()),
+    }
 }
 
 /// Prints an error to standard error.
 pub fn error(message: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "urdd: {message}");
+    let message = inert(message);
+    let _ = writeln!(io::stderr().lock(), "urdd: {message}");
 }
 
-/// Whether to use colours on a stream: on a terminal, unless the user asked for none.
-pub fn color(terminal: bool) -> bool {
-    terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+/// As [`print`], for text that consists of workflow commands.
+///
+/// # Errors
+/// As for [`print`].
+pub fn print_commands(text: &str) -> Result<(), String> {
+    write(&escape::lines(text))
+}
+
+/// Lines that no terminal acts upon, and no runner of GitHub Actions: it takes a line that begins
+/// with `::` or `##[` for a command, wherever it comes from.
+fn inert(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for line in escape::lines(text).split_inclusive('\n') {
+        let start = line.len() - line.trim_start().len();
+        let (margin, rest) = line.split_at(start);
+        out.push_str(margin);
+        match rest.starts_with("::") || rest.starts_with("##[") {
+            true => {
+                out.push_str(if rest.starts_with(':') {
+                    "\\u{3a}"
+                } else {
+                    "\\u{23}"
+                });
+                out.push_str(&rest[1..]);
+            }
+            false => out.push_str(rest),
+        }
+    }
+    out
+}
+
+/// Text without what a terminal would act upon, but for line feeds and our own styles.
+fn safe(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut parts = text.split('\u{1b}');
+    out.push_str(&inert(parts.next().unwrap_or_default()));
+    for part in parts {
+        let style = STYLES
+            .iter()
+            .find(|style| part.starts_with(&style['\u{1b}'.len_utf8()..]));
+        out.push_str(match style {
+            Some(_) => "\u{1b}",
+            None => "\\u{1b}",
+        });
+        out.push_str(&inert(part));
+    }
+    out
+}
+
+/// When output is coloured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Color {
+    /// On a terminal that is not dumb, unless NO_COLOR is set; elsewhere where CLICOLOR_FORCE is.
+    #[default]
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+impl Color {
+    /// Whether to use colours on a stream.
+    pub fn on(self, terminal: bool) -> bool {
+        let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+        match self {
+            Color::Always => true,
+            Color::Never => false,
+            Color::Auto if set("NO_COLOR").is_some() => false,
+            Color::Auto if set("CLICOLOR_FORCE").is_some_and(|value| value != "0") => true,
+            Color::Auto => terminal && !is_dumb(),
+        }
+    }
+}
+
+/// How wide the terminal is that standard output is, characters.
+pub fn width() -> Option<usize> {
+    let width = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| width.0);
+    width.map(|width| usize::from(width).max(40))
+}
+
+/// Whether the terminal can do nothing but show text.
+pub fn is_dumb() -> bool {
+    std::env::var_os("TERM").is_some_and(|value| value == "dumb")
+}
+
+/// Writes a report into a file: the whole of it, or nothing, and then what was there before stays.
+///
+/// # Errors
+/// Where it cannot be written, or would be taken for a URDD: a message.
+pub fn write_file(file: &Path, text: &str) -> Result<(), String> {
+    check_name(file)?;
+    let failed = |error: io::Error| {
+        let shown = file.display().to_string();
+        format!(
+            "{}: cannot be written: {}",
+            escape::line(&shown),
+            reason(&error)
+        )
+    };
+    match fs::metadata(file) {
+        // A device, or a pipe: nothing to keep.
+        Ok(metadata) if !metadata.is_file() && !metadata.is_dir() => {
+            let mut out = fs::OpenOptions::new()
+                .write(true)
+                .open(file)
+                .map_err(failed)?;
+            out.write_all(text.as_bytes()).map_err(failed)
+        }
+        Ok(metadata) => {
+            // A link stays one: what it leads to is replaced.
+            let target = fs::canonicalize(file).map_err(failed)?;
+            replace(&target, text, Some(metadata.permissions())).map_err(failed)
+        }
+        Err(_) => replace(file, text, None).map_err(failed),
+    }
+}
+
+/// Refuses the name that makes a folder a URDD.
+///
+/// # Errors
+/// Where the file has that name: a message that says what to do.
+pub fn check_name(file: &Path) -> Result<(), String> {
+    let marker = file
+        .file_name()
+        .is_some_and(|name| name.eq_ignore_ascii_case(ROOT_METADATA));
+    match marker {
+        true => Err(format!(
+            "{}: a file of this name makes its folder a URDD, and the next `urdd validate` would examine it as one; \
+             give the report another name, such as urdd-report.json",
+            escape::line(&file.display().to_string())
+        )),
+        false => Ok(()),
+    }
+}
+
+fn replace(target: &Path, text: &str, permissions: Option<fs::Permissions>) -> io::Result<()> {
+    let folder = match target.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".urdd-report-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // As any new file has them: what the umask leaves.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut beside = builder.tempfile_in(folder)?;
+    beside.write_all(text.as_bytes())?;
+    if let Some(permissions) = permissions {
+        beside.as_file().set_permissions(permissions)?;
+    }
+    beside.as_file().sync_all()?;
+    match target.is_dir() {
+        true => Err(io::ErrorKind::IsADirectory.into()),
+        false => beside
+            .persist(target)
+            .map(|_| ())
+            .map_err(|error| error.error),
+    }
+}
+
+/// What the operating system said, without its number and without the path of a temporary file.
+fn reason(error: &io::Error) -> String {
+    match error.raw_os_error() {
+        Some(number) => {
+            let text = io::Error::from_raw_os_error(number).to_string();
+            let end = text.rfind(" (os error").unwrap_or(text.len());
+            text[..end].to_lowercase()
+        }
+        None => match error.kind() {
+            io::ErrorKind::Other => error.to_string(),
+            kind => kind.to_string(),
+        },
+    }
 }

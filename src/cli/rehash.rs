@@ -9,6 +9,7 @@ use super::output;
 use crate::directory::discover::discover;
 use crate::directory::rehash::rehash;
 use crate::directory::root::Root;
+use crate::format::escape;
 
 /// Arguments of `urdd rehash`.
 #[derive(Args)]
@@ -25,7 +26,7 @@ pub fn run(arguments: &RehashArguments) -> ExitCode {
         let found = match discover(path) {
             Ok(found) => found,
             Err(error) => {
-                output::error(&error.to_string());
+                output::error(&escape::line(&error.to_string()));
                 failed = true;
                 continue;
             }
@@ -36,18 +37,24 @@ pub fn run(arguments: &RehashArguments) -> ExitCode {
                 .map_or_else(|| Root::open(&urdd.path), Err)
                 .map_err(|error| error.to_string())
                 .and_then(|root| rehash(&root).map_err(|error| error.to_string()));
+            let name = escape::line(&urdd.name);
+            let mut text = String::new();
             match changed {
-                Ok(changed) if changed.is_empty() => {
-                    output::print(&format!("{}: up to date\n", urdd.name))
-                }
+                Ok(changed) if changed.is_empty() => text += &format!("{name}: up to date\n"),
                 Ok(changed) => {
-                    let list: String = changed.iter().map(|path| format!("  {path}\n")).collect();
-                    output::print(&format!("{}: brought up to date\n{list}", urdd.name));
+                    text += &format!("{name}: brought up to date\n");
+                    for path in changed {
+                        text += &format!("  {}\n", escape::line(&path));
+                    }
                 }
                 Err(error) => {
-                    output::error(&format!("{}: {error}", urdd.name));
+                    output::error(&format!("{name}: {}", escape::line(&error)));
                     failed = true;
                 }
+            }
+            if let Err(error) = output::print(&text) {
+                output::error(&error);
+                failed = true;
             }
         }
     }

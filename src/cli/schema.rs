@@ -1,12 +1,13 @@
 //! `urdd schema`.
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 
+use super::output;
 use crate::directory::schema_files::{self, SchemaFault};
+use crate::format::bundle;
 use crate::format::registry::Profile;
 use crate::format::schema::{self, Subject, Variant};
 
@@ -35,6 +36,11 @@ enum Command {
         #[command(flatten)]
         open: Open,
     },
+    /// Print one schema of a whole URDD of version 1, for code generators.
+    Bundle {
+        #[command(flatten)]
+        open: Open,
+    },
     /// Compare a folder of schemas with what this program writes.
     Check {
         /// The folder.
@@ -60,9 +66,6 @@ impl Open {
     }
 }
 
-/// Exit status where the arguments are wrong, or nothing could be examined.
-const USAGE: u8 = 2;
-
 /// Runs `urdd schema`.
 pub fn run(arguments: &SchemaArguments) -> ExitCode {
     match &arguments.command {
@@ -71,6 +74,7 @@ pub fn run(arguments: &SchemaArguments) -> ExitCode {
             Ok(subject) => print(&subject.text(open.variant())),
             Err(error) => fail(&format!("{error}\nhelp: `urdd schema list` names them all")),
         },
+        Command::Bundle { open } => print(&format!("{:#}\n", bundle::bundle(open.variant()))),
         Command::Export { folder, open } => match schema_files::export(folder, open.variant()) {
             Ok(written) => print(&format!(
                 "{}: {written} written, {} unchanged\n",
@@ -81,10 +85,10 @@ pub fn run(arguments: &SchemaArguments) -> ExitCode {
         },
         Command::Check { folder } => match schema_files::check(folder) {
             Ok(faults) if faults.is_empty() => print("every schema is as this program writes it\n"),
-            Ok(faults) => {
-                let _ = print(&report(&faults, folder));
-                ExitCode::FAILURE
-            }
+            Ok(faults) => match output::print(&report(&faults, folder)) {
+                Ok(()) => ExitCode::FAILURE,
+                Err(error) => fail(&error),
+            },
             Err(error) => fail(&error.to_string()),
         },
     }
@@ -130,16 +134,10 @@ fn report(faults: &[SchemaFault], folder: &Path) -> String {
     text
 }
 
-/// Prints to standard output. A reader that closes it early has seen enough.
 fn print(text: &str) -> ExitCode {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => fail(&error.to_string()),
-        _ => ExitCode::SUCCESS,
-    }
+    super::printed(output::print(text))
 }
 
 fn fail(message: &str) -> ExitCode {
-    let _ = writeln!(io::stderr(), "error: {message}");
-    ExitCode::from(USAGE)
+    super::printed(Err(message.to_owned()))
 }

@@ -7,29 +7,31 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
-use super::output;
+use super::foreign;
+use super::output::{self, Color};
+use super::words::{Class, Level};
+use crate::format::escape;
 use crate::report::human::{self, Style};
 use crate::report::model::Verdict;
 use crate::report::place::places;
 use crate::report::{self, Report};
 use crate::validate::rule::Severity;
-use crate::validate::settings::{self, Settings};
+use crate::validate::selection::Codes;
+use crate::validate::settings::{Exclude, Settings};
 use crate::validate::{self, rules};
 
 /// Exit status: conforming.
 const CONFORMING: u8 = 0;
 /// Exit status: findings.
 const FINDINGS: u8 = 1;
-/// Exit status: wrong usage, or nothing could be examined.
-const USAGE: u8 = 2;
 /// Exit status: a rule crashed.
 const INTERNAL: u8 = 101;
 
 /// Arguments of `urdd validate`.
 #[derive(Args)]
 #[command(
-    after_help = "Exit status: 0 conforming; 1 findings at or above --fail-on; 2 wrong usage, or nothing could be \
-    examined; 101 a rule crashed (a fault of this program)."
+    after_help = "Exit status: 0 conforming; 1 findings at or above --fail-on; 2 wrong usage, nothing could be \
+    examined, or a report could not be written; 101 a rule crashed (a fault of this program)."
 )]
 pub struct ValidateArguments {
     /// URDDs, or folders with URDDs at any depth.
@@ -45,21 +47,42 @@ pub struct ValidateArguments {
     #[arg(long, value_name = "FILE")]
     output: Vec<PathBuf>,
 
-    /// The conformance class to hold every URDD to: core, geometry or shapes.
-    #[arg(long, value_name = "CLASS")]
-    class: Option<String>,
+    /// The conformance class to hold every URDD to.
+    #[arg(long, value_name = "CLASS", ignore_case = true)]
+    class: Option<Class>,
 
     /// Recomputes sampled data (distance statistics) in full, however long it takes.
     #[arg(long)]
     deep: bool,
 
-    /// The severity from which on a run fails: error, warning or info.
+    /// The severity from which on a run fails; `error` without it.
     #[arg(long, value_name = "SEVERITY")]
-    fail_on: Option<String>,
+    fail_on: Option<Level>,
 
     /// Settings file; without it, urdd.toml in the current folder where there is one.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+
+    /// Leaves out what lies in folders of this path, from the path that is given; `*` and `**` as in .gitignore.
+    /// May be given several times, and in urdd.toml as `exclude`.
+    #[arg(long, value_name = "GLOB")]
+    exclude: Vec<String>,
+
+    /// Reports these rules only: codes or families (MSH, DOF003), separated by commas.
+    #[arg(long, value_name = "CODES", value_delimiter = ',')]
+    select: Vec<Codes>,
+
+    /// Leaves out these rules: codes or families.
+    #[arg(long, value_name = "CODES", value_delimiter = ',')]
+    ignore: Vec<Codes>,
+
+    /// Shows every URDD in full; without it, more than three are summed up.
+    #[arg(long)]
+    full: bool,
+
+    /// Places of a finding that are shown to people; the other formats have all.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
+    max_places: u16,
 
     /// Leaves out URDDs without findings.
     #[arg(long, short)]
@@ -79,6 +102,8 @@ enum Format {
     Json,
     /// As SARIF 2.1.0, for GitHub code scanning and editors. Run at the root of the repository.
     Sarif,
+    /// As workflow commands of GitHub Actions: annotations in pull requests, without an upload.
+    Github,
     /// As JUnit XML, for what shows tests: a suite for each URDD, a case for each rule.
     Junit,
 }
@@ -98,17 +123,20 @@ impl Format {
 }
 
 /// Runs `urdd validate`.
-pub fn run(arguments: &ValidateArguments) -> ExitCode {
-    match validate(arguments) {
+pub fn run(arguments: &ValidateArguments, color: Color) -> ExitCode {
+    match validate(arguments, color) {
         Ok(status) => ExitCode::from(status),
         Err(message) => {
             output::error(&message);
-            ExitCode::from(USAGE)
+            ExitCode::from(output::USAGE)
         }
     }
 }
 
-fn validate(arguments: &ValidateArguments) -> Result<u8, String> {
+fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
+    for file in &arguments.output {
+        output::check_name(file)?;
+    }
     let settings = read_settings(arguments)?;
     let fail_on = settings.fail_on.unwrap_or(Severity::Error);
     let mut rules = rules::all();
@@ -118,17 +146,26 @@ fn validate(arguments: &ValidateArguments) -> Result<u8, String> {
     // A crashed rule is caught and reported; the default hook would print besides.
     std::panic::set_hook(Box::new(|_| {}));
     let run = validate::validate_with(&arguments.paths, &settings, &rules)
-        .map_err(|error| error.to_string());
+        .map_err(|error| foreign::advice(&error));
     let _ = std::panic::take_hook();
     let run = run?;
+    if run.subjects.is_empty() {
+        let urdds = run.excluded;
+        return Err(format!(
+            "nothing to examine: all URDDs that were found ({urdds}) are excluded"
+        ));
+    }
     let report = Report::new(&run, fail_on);
     let status = status(&report);
     let current = std::env::current_dir().unwrap_or_default();
     let places = places(&run, &current);
 
     let style = Style {
-        color: output::color(std::io::stdout().is_terminal()),
+        color: color.on(std::io::stdout().is_terminal()),
         quiet: arguments.quiet,
+        full: arguments.full,
+        max_places: arguments.max_places.into(),
+        width: output::width().unwrap_or(Style::default().width),
     };
     let render = |format: Format| -> Result<String, String> {
         match format {
@@ -136,8 +173,14 @@ fn validate(arguments: &ValidateArguments) -> Result<u8, String> {
             Format::Sarif => {
                 report::sarif(&run, &report, &places, status).map_err(|error| error.to_string())
             }
-            Format::Junit => report::junit(&run, &report, &places, fail_on.into())
-                .map_err(|error| error.to_string()),
+            Format::Junit => {
+                report::junit(&run, &report, &places, fail_on).map_err(|error| error.to_string())
+            }
+            Format::Github => {
+                let mut text = String::new();
+                report::github(&report, &places, &mut text).map_err(|error| error.to_string())?;
+                Ok(text)
+            }
             Format::Human => {
                 let mut text = String::new();
                 human::write(&report, style, &mut text).map_err(|error| error.to_string())?;
@@ -145,19 +188,31 @@ fn validate(arguments: &ValidateArguments) -> Result<u8, String> {
             }
         }
     };
+    // What can be written is written, whatever cannot.
+    let mut failures = Vec::new();
     for file in &arguments.output {
-        fs::write(file, render(Format::of_file(file))?)
-            .map_err(|error| format!("{}: cannot be written: {error}", file.display()))?;
+        let text = render(Format::of_file(file))?;
+        failures.extend(output::write_file(file, &text).err());
     }
-    output::print(&render(arguments.format)?);
-    Ok(status)
+    let text = render(arguments.format)?;
+    let printed = match arguments.format {
+        Format::Github => {
+            output::print_commands(&text).and_then(|()| output::print(&render(Format::Human)?))
+        }
+        _ => output::print(&text),
+    };
+    failures.extend(printed.err());
+    match failures.is_empty() {
+        true => Ok(status),
+        false => Err(failures.join("\nurdd: ")),
+    }
 }
 
 fn status(report: &Report) -> u8 {
     if report.count(Verdict::Incomplete) > 0 {
         INTERNAL
     } else if report.count(Verdict::Unreadable) == report.urdds.len() {
-        USAGE
+        output::USAGE
     } else if report.count(Verdict::Pass) == report.urdds.len() {
         CONFORMING
     } else {
@@ -174,21 +229,21 @@ fn read_settings(arguments: &ValidateArguments) -> Result<Settings, String> {
     let mut settings = match file {
         None => Settings::default(),
         Some(file) => {
-            let shown = file.display();
+            let shown = file.display().to_string();
+            let shown = escape::line(&shown);
             let text = fs::read_to_string(file)
                 .map_err(|error| format!("{shown}: cannot be read: {error}"))?;
             Settings::from_toml(&text).map_err(|error| format!("{shown}: {error}"))?
         }
     };
-    if let Some(class) = &arguments.class {
-        settings.class =
-            Some(settings::parse_class(class).map_err(|error| format!("--class: {error}"))?);
-    }
+    settings.class = arguments.class.map(Class::class).or(settings.class);
     settings.deep |= arguments.deep;
-    if let Some(severity) = &arguments.fail_on {
-        settings.fail_on = Some(
-            settings::parse_severity(severity).map_err(|error| format!("--fail-on: {error}"))?,
-        );
+    for pattern in &arguments.exclude {
+        let exclude = Exclude::new(pattern).map_err(|error| format!("--exclude: {error}"))?;
+        settings.excludes.push(exclude);
     }
+    settings.selection.select.clone_from(&arguments.select);
+    settings.selection.ignore.clone_from(&arguments.ignore);
+    settings.fail_on = arguments.fail_on.map(Level::severity).or(settings.fail_on);
     Ok(settings)
 }

@@ -20,7 +20,6 @@ use crate::format::registry::{ModuleKind, SPEC_VERSION};
 use crate::format::report::{Finding, Severity, Tool, Urdd, Verdict};
 use crate::format::root_metadata::ConformanceClass;
 use crate::report::Report;
-use crate::validate::rule::Severity as RuleSeverity;
 use crate::validate::settings::Settings;
 use crate::validate::validate;
 
@@ -206,7 +205,7 @@ fn examine(out: &PathBuf, class: ConformanceClass) -> Result<Urdd, Option<String
         let text = error.to_string();
         Some(text.replace(&out.display().to_string(), "{out}"))
     })?;
-    let mut urdds = Report::new(&run, RuleSeverity::Error).urdds;
+    let mut urdds = Report::new(&run, Severity::Error).urdds;
     match (urdds.pop(), urdds.is_empty()) {
         (Some(urdd), true) if urdd.verdict == Verdict::Unreadable => Err(urdd.reason),
         (Some(urdd), true) if urdd.path == folder_name(out) => Ok(urdd),

@@ -72,7 +72,7 @@ pub fn push_segment(pointer: &mut String, segment: &str) {
 }
 
 /// The unescaped segments of a pointer; an element is `None` where an escape is wrong.
-fn segments(pointer: &str) -> Option<impl Iterator<Item = Option<Cow<'_, str>>>> {
+pub(super) fn segments(pointer: &str) -> Option<impl Iterator<Item = Option<Cow<'_, str>>>> {
     let mut parts = pointer.split('/');
     // A pointer is empty or begins with a slash.
     parts.next().filter(|before| before.is_empty())?;
@@ -87,28 +87,29 @@ fn unescape(segment: &str) -> Option<Cow<'_, str>> {
     (!plain.contains('~')).then(|| Cow::Owned(segment.replace("~1", "/").replace("~0", "~")))
 }
 
-struct Scan<'a> {
+pub(super) struct Scan<'a> {
     text: &'a str,
-    at: usize,
+    /// Byte offset of what comes next.
+    pub(super) at: usize,
 }
 
 impl<'a> Scan<'a> {
-    fn new(text: &'a str) -> Self {
+    pub(super) fn new(text: &'a str) -> Self {
         Self { text, at: 0 }
     }
 
-    fn peek(&self) -> Option<u8> {
+    pub(super) fn peek(&self) -> Option<u8> {
         self.text.as_bytes().get(self.at).copied()
     }
 
-    fn skip_space(&mut self) {
+    pub(super) fn skip_space(&mut self) {
         while matches!(self.peek(), Some(b' ' | b'\t' | b'\n' | b'\r')) {
             self.at += 1;
         }
     }
 
     /// Moves past `byte`, if it is what comes next.
-    fn eat(&mut self, byte: u8) -> Option<()> {
+    pub(super) fn eat(&mut self, byte: u8) -> Option<()> {
         self.skip_space();
         (self.peek() == Some(byte)).then(|| self.at += 1)
     }
@@ -132,7 +133,7 @@ impl<'a> Scan<'a> {
         None
     }
 
-    fn key(&mut self) -> Option<Cow<'a, str>> {
+    pub(super) fn key(&mut self) -> Option<Cow<'a, str>> {
         let quoted = self.string()?;
         let inner = quoted.get(1..quoted.len() - 1)?;
         if inner.contains('\\') {
@@ -152,7 +153,7 @@ impl<'a> Scan<'a> {
     }
 
     /// Moves past one whole value.
-    fn skip_value(&mut self) -> Option<()> {
+    pub(super) fn skip_value(&mut self) -> Option<()> {
         let mut depth = 0_usize;
         loop {
             self.skip_space();

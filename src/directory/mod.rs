@@ -7,6 +7,7 @@ pub mod discover;
 pub mod document;
 pub mod json;
 mod json_fault;
+mod json_places;
 pub mod json_scan;
 pub mod limits;
 pub mod number_text;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::json_scan;
+use super::{json_places, json_scan};
 
 /// A place in a text: 1-based line and 1-based column, the column counted in Unicode scalar values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -88,6 +88,15 @@ pub fn position(text: &str, offset: usize) -> Position {
 /// [`super::json::read`] gives.
 pub fn locate(text: &str, pointer: &str) -> Option<Position> {
     json_scan::find_value(text, pointer).map(|offset| position(text, offset))
+}
+
+/// As [`locate`], for many pointers in one walk through the text.
+pub fn locate_all(text: &str, pointers: &[&str]) -> Vec<Option<Position>> {
+    let index = LineIndex::new(text);
+    let offsets = json_places::find_values(text, pointers).into_iter();
+    offsets
+        .map(|offset| offset.map(|offset| index.position(offset)))
+        .collect()
 }
 
 /// The position of the `occurrence`-th (from 0) appearance of the key that a pointer ends with.

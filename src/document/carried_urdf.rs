@@ -70,18 +70,21 @@ pub(super) fn read(
             None => return Err(NoUrdf::NoSource),
         },
     };
-    let bytes = root
-        .read(&path, MAX_URDF_BYTES)
-        .map_err(|error| NoUrdf::Unreadable {
-            path: path.clone(),
-            error,
-        })?;
+    read_file(root, &path).map_err(|error| NoUrdf::Unreadable { path, error })
+}
+
+/// Reads a URDF in a folder.
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn read_file(root: &Root, path: &str) -> Result<CarriedUrdf, ReadError> {
+    let bytes = root.read(path, MAX_URDF_BYTES)?;
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
     let not_utf8_at = std::str::from_utf8(bytes)
         .err()
         .map(|error| error.valid_up_to());
     Ok(CarriedUrdf {
-        path,
+        path: path.to_owned(),
         text: String::from_utf8_lossy(bytes).into_owned(),
         not_utf8_at,
     })

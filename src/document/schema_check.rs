@@ -12,6 +12,7 @@ use jsonschema::{JsonType, ValidationError};
 use schemars::Schema;
 use serde_json::Value;
 
+use crate::directory::json_scan;
 use crate::format::registry::{ModuleDocument, ModuleSpec};
 
 /// A place where a document breaks its schema.
@@ -27,6 +28,17 @@ pub struct SchemaViolation {
     pub actual: Option<String>,
     /// The keys that are unknown, where that is the fault.
     unknown_keys: Vec<String>,
+}
+
+impl SchemaViolation {
+    /// JSON Pointer to where the reader has to look: to the unknown key, not to the object that has it.
+    pub fn place(&self) -> String {
+        let mut pointer = self.pointer.clone();
+        if let Some(key) = self.unknown_keys.first() {
+            json_scan::push_segment(&mut pointer, key);
+        }
+        pointer
+    }
 }
 
 /// Reads a document of a module; where it breaks the schema, says how. With `newer`, keys that the

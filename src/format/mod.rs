@@ -5,12 +5,14 @@
 //! accepts: see [`object`].
 
 pub mod bounds;
+pub mod bundle;
 pub mod chain;
 pub mod conformance;
 pub mod connections;
 pub mod convex_decomposition_meshes;
 pub mod convex_hull_meshes;
 pub mod dof;
+pub mod escape;
 pub mod hexadecimal;
 pub mod index;
 pub mod kinematics_samples;

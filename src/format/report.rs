@@ -33,8 +33,10 @@ object! {
 }
 
 object! {
-    /// One URDD.
+    /// One URDD, or a URDF by itself.
     pub struct Urdd {
+        /// Which of them it is.
+        pub kind: Kind,
         /// Its folder's path from the path that was given, with forward slashes; its own name where
         /// that path was the URDD itself.
         pub path: String,
@@ -52,6 +54,18 @@ object! {
         pub checks: Vec<CheckStatus>,
         /// What was found: by module, then by severity and code.
         pub findings: Vec<Finding>,
+        /// What was not verified, by reason.
+        pub not_checked: Vec<NotChecked>,
+    }
+}
+
+string_enum! {
+    /// What was examined.
+    pub enum Kind {
+        /// A URDD.
+        Urdd = "urdd",
+        /// A URDF by itself, judged by the rules that need nothing else.
+        Urdf = "urdf",
     }
 }
 
@@ -104,6 +118,32 @@ object! {
         pub status: Status,
         /// Why it was skipped, or how it crashed; else null.
         pub reason: Option<String>,
+        /// What kind of reason a skip has; null where it was not skipped.
+        pub skipped: Option<Skipped>,
+    }
+}
+
+string_enum! {
+    /// Why a rule did not run.
+    pub enum Skipped {
+        /// What it is about is not there.
+        Absent = "absent",
+        /// It is for another family of URDDs.
+        OtherFormat = "other-format",
+        /// The settings say to leave it out.
+        Ignored = "ignored",
+        /// Something that it needs is at fault or missing: what it checks is not verified.
+        NotVerified = "not-verified",
+    }
+}
+
+object! {
+    /// What was not verified.
+    pub struct NotChecked {
+        /// Codes of the rules that were to verify it.
+        pub codes: Vec<String>,
+        /// Why they could not.
+        pub reason: String,
     }
 }
 
@@ -122,14 +162,42 @@ string_enum! {
 }
 
 string_enum! {
-    /// How bad a finding is.
+    /// How bad a finding is; the worst is the greatest.
     pub enum Severity {
-        /// A MUST that is not kept.
-        Error = "error",
-        /// A SHOULD that is not kept, or an odd robot.
-        Warning = "warning",
-        /// Worth knowing.
+        /// A convention of old, or something worth knowing.
         Info = "info",
+        /// A SHOULD of the specification that is not kept, or an odd robot.
+        Warning = "warning",
+        /// A MUST of the specification that is not kept.
+        Error = "error",
+    }
+}
+
+string_enum! {
+    /// What a fault does to whoever uses the URDD; the worst is the greatest.
+    pub enum Consequence {
+        /// Nothing is wrong, but it could be tighter, or the robot itself is odd.
+        Looseness = "looseness",
+        /// A reader may refuse it, or read it in another way.
+        Format = "format",
+        /// Collision checking misses contacts, or sees some that are not there.
+        Collisions = "collisions",
+        /// Geometry is not there, or cannot be read.
+        MissingGeometry = "missing-geometry",
+        /// Something is in another place than the robot has it.
+        WrongPlace = "wrong-place",
+        /// The robot moves otherwise than it says.
+        WrongMotion = "wrong-motion",
+    }
+}
+
+object! {
+    /// By how much something is off.
+    pub struct Magnitude {
+        /// How much; null where it is no finite number.
+        pub value: Option<f64>,
+        /// Its unit; empty for a ratio.
+        pub unit: String,
     }
 }
 
@@ -146,6 +214,8 @@ object! {
         pub default_severity: Severity,
         /// Clause of the specification.
         pub clause: String,
+        /// What it does to whoever uses the URDD.
+        pub consequence: Consequence,
         /// The module; null where it is about none.
         pub module: Option<String>,
         /// The file, relative to the URDD's root, with forward slashes.
@@ -156,6 +226,8 @@ object! {
         pub line: Option<Count>,
         /// Column in the line, in characters, from 1.
         pub column: Option<Count>,
+        /// What the pointer leads to, by the names of links, joints or DOFs.
+        pub subject: Option<String>,
         /// What is wrong, and what to do.
         pub message: String,
         /// What should be there.
@@ -164,15 +236,19 @@ object! {
         pub actual: Option<String>,
         /// Where numbers were compared: the tolerance, in their unit.
         pub tolerance: Option<f64>,
+        /// Where numbers were compared: by how much they differ.
+        pub magnitude: Option<Magnitude>,
         /// How many findings this one stands for.
         pub count: Count,
-        /// The next few of these.
-        pub more: Vec<Place>,
+        /// All places, the worst first; the first is the finding's own.
+        pub places: Vec<Place>,
+        /// How many of the count have no place here, since there are too many.
+        pub places_cut: Count,
     }
 }
 
 object! {
-    /// Another place of a finding.
+    /// A place of a finding.
     pub struct Place {
         /// The file.
         pub file: Option<String>,
@@ -186,14 +262,20 @@ object! {
         pub expected: Option<String>,
         /// What is there.
         pub actual: Option<String>,
+        /// What the pointer leads to, by the names of links, joints or DOFs.
+        pub subject: Option<String>,
+        /// What is wrong there, where that is not what the finding says.
+        pub message: Option<String>,
+        /// By how much it is off.
+        pub magnitude: Option<Magnitude>,
     }
 }
 
 object! {
     /// An ignore of the settings that matched nothing.
     pub struct StaleIgnore {
-        /// Code of the rule.
-        pub code: String,
+        /// Code of the rule; null where it is for all.
+        pub code: Option<String>,
         /// The pattern.
         pub path: String,
     }

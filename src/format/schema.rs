@@ -236,6 +236,7 @@ fn published(mut schema: Schema, id: String, variant: Variant) -> Value {
         if variant == Variant::Open {
             object.shift_remove("additionalProperties");
             object.shift_remove("patternProperties");
+            plain_integers(object);
         }
         // What a reader looks for first; the rest as the types have it.
         let mut rest = std::mem::take(object);
@@ -246,6 +247,15 @@ fn published(mut schema: Schema, id: String, variant: Variant) -> Value {
         }
         object.extend(rest);
     })
+}
+
+/// Of a list of integers, some code generators make a type of its own for the elements as soon as these
+/// have bounds or a text; what they count is in the text of the list.
+fn plain_integers(list: &mut Map<String, Value>) {
+    let items = list.get_mut("items").and_then(Value::as_object_mut);
+    if let Some(items) = items.filter(|items| items.get("type") == Some(&json!("integer"))) {
+        items.retain(|keyword, _| keyword == "type");
+    }
 }
 
 /// Some code generators name a type after the title, and else after the property that holds it.
@@ -315,7 +325,7 @@ fn each_schema_of(
 fn near_ids(id: &str) -> Vec<String> {
     let name = id.split('@').next().unwrap_or_default();
     let mut near: Vec<(usize, String)> = Subject::all()
-        .map(|subject| (edit_distance(name, subject.name()), subject.id()))
+        .map(|subject| (strsim::levenshtein(name, subject.name()), subject.id()))
         .collect();
     near.sort_by_key(|(distance, _)| *distance);
     let nearest = near.first().map_or(0, |(distance, _)| *distance);
@@ -323,24 +333,4 @@ fn near_ids(id: &str) -> Vec<String> {
         .take_while(|(distance, _)| *distance == nearest && *distance <= name.len() / 3)
         .map(|(_, id)| id)
         .collect()
-}
-
-/// Number of characters to insert, remove or replace to make one text the other.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = i;
-        let mut left = i + 1;
-        for (slot, y) in row.iter_mut().skip(1).zip(b.chars()) {
-            let above = *slot;
-            left = (diagonal + usize::from(x != y))
-                .min(above + 1)
-                .min(left + 1);
-            diagonal = std::mem::replace(slot, left);
-        }
-        if let Some(first) = row.first_mut() {
-            *first = i + 1;
-        }
-    }
-    row.last().copied().unwrap_or_default()
 }

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::fault::PlacedFault;
 use crate::directory::staging::StagingError;
+use crate::format::escape;
 
 /// Most faults of a file that are told one by one.
 const MOST_TOLD: usize = 5;
@@ -100,15 +101,15 @@ struct Told<'a>(&'a str, &'a [PlacedFault]);
 impl fmt::Display for Told<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Told(file, faults) = self;
+        // A line for each: no name may add another.
+        let file = escape::line(file);
         for (number, placed) in faults.iter().take(MOST_TOLD).enumerate() {
             if number > 0 {
                 f.write_str("\n")?;
             }
-            write!(
-                f,
-                "{file}:{}:{}: {}",
-                placed.line, placed.column, placed.fault
-            )?;
+            let (line, column) = (placed.line, placed.column);
+            let fault = placed.fault.to_string();
+            write!(f, "{file}:{line}:{column}: {}", escape::line(&fault))?;
         }
         if faults.len() > MOST_TOLD {
             write!(

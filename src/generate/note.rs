@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::format::escape;
+
 /// What kind of oddity a note is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum NoteKind {
@@ -98,11 +100,13 @@ pub struct Note {
 
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.file)?;
+        // One line: no name may add another.
+        f.write_str(&escape::line(&self.file))?;
         if self.line > 0 {
             write!(f, ":{}:{}", self.line, self.column)?;
         }
-        write!(f, ": {}: {}", self.problem, self.assumed)
+        let [problem, assumed] = [&self.problem, &self.assumed].map(|text| escape::line(text));
+        write!(f, ": {problem}: {assumed}")
     }
 }
 

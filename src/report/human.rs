@@ -1,32 +1,64 @@
-//! The report for a person: by URDD, then by module; what is wrong, where, and what to do.
+//! The report for a person: by URDD, then by module; what is wrong, where, and what to do. Of many
+//! URDDs the summary comes alone: see [`super::summary`].
+//!
+//! Whatever came from a file is escaped here, field by field: see [`crate::format::escape`].
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
-use crate::format::index::Count;
+use crate::format::escape::line as safe;
 
-use super::model::{Finding, Report, Severity, Status, Urdd, Verdict};
+use super::model::{
+    CheckStatus, Finding, Kind, Magnitude, Place, Report, Severity, Skipped, Status, Urdd, Verdict,
+};
+use super::summary;
 
 /// How the human report looks.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub struct Style {
     /// With colours, for a terminal.
     pub color: bool,
     /// Only what has findings, and the summary.
     pub quiet: bool,
+    /// Every URDD in full, however many they are.
+    pub full: bool,
+    /// How many places of a finding are shown.
+    pub max_places: usize,
+    /// How long lines of the summary may be, characters.
+    pub width: usize,
 }
 
-const BOLD: &str = "\x1b[1m";
-const DIM: &str = "\x1b[2m";
-const RED: &str = "\x1b[31m";
-const GREEN: &str = "\x1b[32m";
-const YELLOW: &str = "\x1b[33m";
-const BLUE: &str = "\x1b[34m";
+impl Default for Style {
+    fn default() -> Self {
+        Style {
+            color: false,
+            quiet: false,
+            full: false,
+            max_places: 3,
+            width: 100,
+        }
+    }
+}
+
+/// More URDDs than these are summed up, not shown one by one.
+pub const FEW: usize = 3;
+
+pub(super) const BOLD: &str = "\x1b[1m";
+pub(super) const DIM: &str = "\x1b[2m";
+pub(super) const RED: &str = "\x1b[31m";
+pub(super) const GREEN: &str = "\x1b[32m";
+pub(super) const YELLOW: &str = "\x1b[33m";
+pub(super) const BLUE: &str = "\x1b[34m";
+const PLAIN: &str = "\x1b[0m";
+
+/// Every escape sequence that a report may hold.
+pub const STYLES: &[&str] = &[BOLD, DIM, RED, GREEN, YELLOW, BLUE, PLAIN];
 
 impl Style {
-    fn paint(self, code: &str, text: impl fmt::Display) -> String {
+    pub(super) fn paint(self, code: &str, text: impl fmt::Display) -> String {
         if self.color {
-            format!("{code}{text}\x1b[0m")
+            format!("{code}{text}{PLAIN}")
         } else {
             text.to_string()
         }
@@ -38,24 +70,31 @@ impl Style {
 /// # Errors
 /// Where writing fails.
 pub fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
+    let many = report.urdds.len() > FEW;
     for urdd in &report.urdds {
-        if !(style.quiet && urdd.verdict == Verdict::Pass && urdd.findings.is_empty()) {
-            write_urdd(urdd, style, out)?;
+        let unread = matches!(urdd.verdict, Verdict::Unreadable | Verdict::Incomplete);
+        let silent = style.quiet && urdd.verdict == Verdict::Pass && urdd.findings.is_empty();
+        if !silent && (!many || style.full || unread) {
+            write_urdd(urdd, style, many && !style.full, out)?;
         }
     }
+    if many {
+        summary::write(report, style, out)?;
+    }
     for ignore in &report.stale_ignores {
+        let code = ignore.code.as_deref().unwrap_or("all rules");
         writeln!(
             out,
-            "{} the ignore of {} at `{}` in the settings matches nothing: take it out, or mend its path",
+            "{} the ignore of {code} at `{}` in the settings matches nothing: take it out, or mend its path",
             style.paint(YELLOW, "note:"),
-            ignore.code,
-            ignore.path
+            safe(&ignore.path)
         )?;
     }
-    write_summary(report, style, out)
+    write_totals(report, style, out)
 }
 
-fn write_urdd(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
+/// Writes one URDD; where it is `brief`, only why it was not examined in full.
+fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> fmt::Result {
     let verdict = match urdd.verdict {
         Verdict::Pass => style.paint(GREEN, "pass"),
         Verdict::Fail => style.paint(RED, "FAIL"),
@@ -65,12 +104,40 @@ fn write_urdd(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
     writeln!(
         out,
         "{} {verdict}  {}",
-        style.paint(BOLD, &urdd.path),
+        style.paint(BOLD, safe(&urdd.path)),
         style.paint(DIM, describe(urdd))
     )?;
     if let Some(reason) = &urdd.reason {
-        writeln!(out, "  the folder cannot be read: {reason}")?;
+        let what = match urdd.verdict {
+            Verdict::Unreadable => "it cannot be read: ",
+            _ => "",
+        };
+        writeln!(out, "  {what}{}", safe(reason))?;
     }
+    if !brief {
+        write_findings(urdd, style, out)?;
+    }
+    let crashed = |check: &&CheckStatus| check.status == Status::Crashed;
+    for check in urdd.checks.iter().filter(crashed) {
+        writeln!(
+            out,
+            "  {} {} ran into a fault of its own and checked nothing: {}. Please report this.",
+            style.paint(RED, "crash"),
+            check.code,
+            safe(check.reason.as_deref().unwrap_or_default())
+        )?;
+    }
+    if !brief {
+        write_skipped(urdd, style, out)?;
+        if urdd.kind == Kind::Urdf {
+            let hint = "this is a URDF, judged by itself; `urdd generate` makes a URDD of it";
+            writeln!(out, "  {}", style.paint(DIM, hint))?;
+        }
+    }
+    writeln!(out)
+}
+
+fn write_findings(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
     let mut above = None;
     for finding in &urdd.findings {
         let title = match (&finding.module, &finding.file) {
@@ -80,32 +147,18 @@ fn write_urdd(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
         };
         if above != Some(title) {
             above = Some(title);
-            writeln!(out, "  {}", style.paint(BOLD, title))?;
+            writeln!(out, "  {}", style.paint(BOLD, safe(title)))?;
         }
         write_finding(finding, style, out)?;
     }
-    for check in urdd
-        .checks
-        .iter()
-        .filter(|check| check.status == Status::Crashed)
-    {
-        writeln!(
-            out,
-            "  {} {} ran into a fault of its own and checked nothing: {}. Please report this.",
-            style.paint(RED, "crash"),
-            check.code,
-            check.reason.as_deref().unwrap_or_default()
-        )?;
-    }
-    write_skipped(urdd, style, out)?;
-    writeln!(out)
+    Ok(())
 }
 
 /// The robot's name and size, and the formats of its modules.
 fn describe(urdd: &Urdd) -> String {
     let mut parts = Vec::new();
     if let Some(name) = &urdd.name {
-        parts.push(format!("robot {name:?}"));
+        parts.push(format!("robot \"{}\"", safe(name)));
     }
     let sizes = [
         (urdd.size.links, "link"),
@@ -128,87 +181,121 @@ fn describe(urdd: &Urdd) -> String {
     parts.join(", ")
 }
 
+/// The word for a severity, in its colour.
+pub(super) fn severity(severity: Severity, style: Style) -> String {
+    let color = match severity {
+        Severity::Error => RED,
+        Severity::Warning => YELLOW,
+        Severity::Info => BLUE,
+    };
+    style.paint(color, severity.as_str())
+}
+
 /// Writes one finding.
 pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::Result {
-    let (color, word) = match finding.severity {
-        Severity::Error => (RED, "error"),
-        Severity::Warning => (YELLOW, "warning"),
-        Severity::Info => (BLUE, "info"),
-    };
     let times = if finding.count.get() > 1 {
         format!(" ({} times)", finding.count)
     } else {
         String::new()
     };
     let code = style.paint(BOLD, &finding.code);
-    writeln!(
-        out,
-        "    {} {code} {}{times}",
-        style.paint(color, word),
-        finding.name
-    )?;
-    let place = place(
-        finding.file.as_deref(),
-        finding.pointer.as_deref(),
-        finding.line,
-        finding.column,
-    );
-    if !place.is_empty() {
-        writeln!(out, "      {} {place}", style.paint(DIM, "at"))?;
+    let word = severity(finding.severity, style);
+    writeln!(out, "    {word} {code} {}{times}", finding.name)?;
+    let mut places = finding.places.iter();
+    let first = places.next();
+    let at = first.map(|first| place(first, true)).unwrap_or_default();
+    if !at.is_empty() {
+        writeln!(out, "      {} {at}", style.paint(DIM, "at"))?;
     }
-    writeln!(out, "      {}", finding.message)?;
+    writeln!(out, "      {}", safe(&finding.message))?;
+    let mut line = |label: &str, text: &str| {
+        let label = style.paint(DIM, format!("{label}:"));
+        writeln!(out, "      {label} {}", safe(text))
+    };
     if let Some(expected) = &finding.expected {
-        writeln!(out, "      {} {expected}", style.paint(DIM, "expected:"))?;
+        line("expected", expected)?;
     }
-    if let Some(actual) = &finding.actual {
-        writeln!(out, "      {}    {actual}", style.paint(DIM, "found:"))?;
+    // What the message says already is not said again.
+    const WORDS: usize = 8;
+    let repeats = |actual: &&String| {
+        let said = finding.message.contains(*actual);
+        said && (finding.expected.is_none() || actual.len() > WORDS)
+    };
+    if let Some(actual) = finding.actual.as_ref().filter(|actual| !repeats(actual)) {
+        line("found", &format!("   {actual}"))?;
+    }
+    if let (Some(magnitude), true) = (&finding.magnitude, is_bare(&finding.actual)) {
+        line("off by", &format!("  {}", off_by(magnitude)))?;
     }
     if let Some(tolerance) = finding.tolerance {
-        writeln!(
-            out,
-            "      {} {tolerance:.1e}",
-            style.paint(DIM, "tolerance:")
-        )?;
+        line("tolerance", &format!("{tolerance:.1e}"))?;
     }
-    let shown = 1 + finding.more.len();
-    for other in &finding.more {
-        let file = if other.file == finding.file {
-            None
-        } else {
-            other.file.as_deref()
-        };
-        let place = self::place(file, other.pointer.as_deref(), other.line, other.column);
-        let found = other
-            .actual
-            .as_ref()
-            .map(|actual| format!(": {actual}"))
-            .unwrap_or_default();
-        writeln!(out, "      {} {place}{found}", style.paint(DIM, "also"))?;
+    let shown = style.max_places.max(1);
+    for other in places.take(shown - 1) {
+        let at = place(other, other.file != finding.file);
+        let mut text = format!("      {} {at}", style.paint(DIM, "also"));
+        if let Some(actual) = &other.actual {
+            text += &format!(": {}", safe(actual));
+        }
+        if let (Some(magnitude), true) = (&other.magnitude, is_bare(&other.actual)) {
+            text += &format!(", off by {}", off_by(magnitude));
+        }
+        writeln!(out, "{text}")?;
     }
+    let shown = shown.min(finding.places.len());
     if finding.count.get() > shown {
-        writeln!(
-            out,
-            "      {}",
-            style.paint(DIM, format!("and {} more", finding.count.get() - shown))
-        )?;
+        let more = format!("and {} more", finding.count.get() - shown);
+        writeln!(out, "      {}", style.paint(DIM, more))?;
     }
     Ok(())
 }
 
-fn place(
-    file: Option<&str>,
-    pointer: Option<&str>,
-    line: Option<Count>,
-    column: Option<Count>,
-) -> String {
-    let mut place = file.unwrap_or_default().to_owned();
-    if let (Some(line), Some(column)) = (line, column) {
+/// Whether what was found is numbers only, which do not say by how much they are off.
+fn is_bare(actual: &Option<String>) -> bool {
+    let bare =
+        |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | ',' | ' ' | '[' | ']');
+    actual
+        .as_ref()
+        .is_none_or(|actual| actual.chars().all(bare))
+}
+
+fn off_by(magnitude: &Magnitude) -> String {
+    let number = match magnitude.value {
+        None => "no number".to_owned(),
+        Some(value) if value == 0.0 || (1e-3..1e5).contains(&value) => {
+            let digits = (3 - value.max(1e-3).log10().floor() as i32).clamp(0, 6);
+            format!("{value:.*}", digits as usize)
+        }
+        Some(value) => format!("{value:.2e}"),
+    };
+    match magnitude.unit.as_str() {
+        "" => number,
+        unit => format!("{number} {unit}"),
+    }
+}
+
+/// File, line and column, pointer, and what that is by name. A column of the one line of a
+/// file helps nobody: the pointer and the names say it.
+fn place(found: &Place, with_file: bool) -> String {
+    let file = found.file.as_deref().filter(|_| with_file);
+    let mut place = safe(file.unwrap_or_default()).into_owned();
+    let pointer = found.pointer.as_deref().filter(|text| !text.is_empty());
+    if let (Some(line), Some(column)) = (found.line, found.column)
+        && (line.get() > 1 || column.get() == 1 || pointer.is_none())
+    {
         let colon = if place.is_empty() { "" } else { ":" };
         place.push_str(&format!("{colon}{line}:{column}"));
     }
-    if let Some(pointer) = pointer.filter(|pointer| !pointer.is_empty()) {
+    let parts = [
+        pointer.map(|pointer| safe(pointer).into_owned()),
+        found
+            .subject
+            .as_ref()
+            .map(|subject| format!("({})", safe(subject))),
+    ];
+    for part in parts.into_iter().flatten() {
         let space = if place.is_empty() { "" } else { " " };
-        place.push_str(&format!("{space}{pointer}"));
+        place.push_str(&format!("{space}{part}"));
     }
     place
 }
@@ -216,33 +303,34 @@ fn place(
 /// What was not checked, by reason. Rules that are for another kind of URDD are not worth a word,
 /// and those about modules that are not here no more than one line.
 fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
-    let mut by_reason: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    let mut about_absent_modules = 0;
-    for check in urdd
-        .checks
-        .iter()
-        .filter(|check| check.status == Status::Skipped)
-    {
-        let reason = check.reason.as_deref().unwrap_or_default();
-        if reason.starts_with("there is no ") && reason.ends_with("_module") {
-            about_absent_modules += 1;
-        } else if !reason.ends_with("a legacy URDD") {
-            by_reason.entry(reason).or_default().push(&check.code);
-        }
-    }
     let label = style.paint(DIM, "not checked:");
-    for (reason, codes) in by_reason {
-        writeln!(out, "  {label} {}: {reason}", list(&codes))?;
+    for open in &urdd.not_checked {
+        let reason = safe(&open.reason);
+        writeln!(out, "  {label} {}: {reason}", list(&open.codes))?;
     }
-    if about_absent_modules > 0 {
-        let rules = plural(about_absent_modules, "rule");
+    let mut by_reason: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    let ignored = |check: &&CheckStatus| check.skipped == Some(Skipped::Ignored);
+    for check in urdd.checks.iter().filter(ignored) {
+        let reason = check.reason.as_deref().unwrap_or_default();
+        by_reason
+            .entry(reason)
+            .or_default()
+            .push(check.code.clone());
+    }
+    for (reason, codes) in by_reason {
+        writeln!(out, "  {label} {}: {}", list(&codes), safe(reason))?;
+    }
+    let absent = |check: &&CheckStatus| check.skipped == Some(Skipped::Absent);
+    let absent = urdd.checks.iter().filter(absent).count();
+    if absent > 0 {
+        let rules = plural(absent, "rule");
         writeln!(out, "  {label} {rules} about modules that are not here")?;
     }
     Ok(())
 }
 
 /// Codes, or where they are many, how many of which families.
-fn list(codes: &[&str]) -> String {
+fn list(codes: &[String]) -> String {
     const MOST: usize = 8;
     if codes.len() <= MOST {
         return codes.join(" ");
@@ -256,7 +344,7 @@ fn list(codes: &[&str]) -> String {
     format!("{} ({})", plural(codes.len(), "rule"), families.join(", "))
 }
 
-fn write_summary(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
+fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     let totals = &report.totals;
     let verdicts = [
         (report.count(Verdict::Pass), "passed"),
@@ -283,13 +371,13 @@ fn write_summary(report: &Report, style: Style, out: &mut impl Write) -> fmt::Re
         plural(totals.info.get(), "info"),
     )?;
     let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
-    if let Some(worst) = findings.min_by_key(|finding| finding.severity) {
+    if let Some(worst) = findings.min_by_key(|finding| Reverse(finding.severity)) {
         let hint = format!("`urdd explain {}` says more about a rule.", worst.code);
         writeln!(out, "{}", style.paint(DIM, hint))?;
     }
     Ok(())
 }
 
-fn plural(count: usize, unit: &str) -> String {
+pub(super) fn plural(count: usize, unit: &str) -> String {
     format!("{count} {unit}{}", if count == 1 { "" } else { "s" })
 }

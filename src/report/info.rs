@@ -9,6 +9,7 @@ use serde::Serialize;
 use crate::directory::root::ReadError;
 use crate::document::urdd::Urdd;
 use crate::format::dof::Quantity;
+use crate::format::escape;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 
 /// What a URDD holds.
@@ -141,26 +142,34 @@ fn dofs(urdd: &Urdd) -> Vec<DofInfo> {
         .collect()
 }
 
+fn safe(text: &str) -> String {
+    escape::line(text).into_owned()
+}
+
 /// Writes what a URDD holds, for a person.
 ///
 /// # Errors
 /// Where writing fails.
 pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
     let unknown = || "not known".to_owned();
-    writeln!(out, "{}", info.path)?;
+    writeln!(out, "{}", escape::line(&info.path))?;
     writeln!(
         out,
         "  robot     {}",
-        info.robot_name.clone().unwrap_or_else(unknown)
+        info.robot_name.as_deref().map_or_else(unknown, safe)
     )?;
     match (&info.urdd_version, &info.conformance_class) {
-        (Some(version), Some(class)) => writeln!(out, "  format    URDD {version}, class {class}")?,
+        (Some(version), Some(class)) => {
+            writeln!(out, "  format    URDD {}, class {class}", safe(version))?
+        }
         _ => writeln!(out, "  format    no root metadata")?,
     }
     writeln!(
         out,
         "  source    {}",
-        info.urdf.as_deref().unwrap_or("no URDF is carried")
+        info.urdf
+            .as_deref()
+            .map_or_else(|| "no URDF is carried".to_owned(), safe)
     )?;
     writeln!(
         out,
@@ -170,7 +179,7 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
     let joints: Vec<String> = info
         .joints
         .iter()
-        .map(|(kind, count)| format!("{count} {kind}"))
+        .map(|(kind, count)| format!("{count} {}", safe(kind)))
         .collect();
     writeln!(
         out,
@@ -185,7 +194,7 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
     let width = info
         .dofs
         .iter()
-        .map(|dof| dof.name.chars().count())
+        .map(|dof| safe(&dof.name).chars().count())
         .max()
         .unwrap_or(0);
     for (index, dof) in info.dofs.iter().enumerate() {
@@ -194,26 +203,26 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
             .bounds
             .map(|[lower, upper]| format!("  [{lower}, {upper}]{unit}"))
             .unwrap_or_default();
-        writeln!(out, "    {index:>3}  {:width$}{bounds}", dof.name)?;
+        writeln!(out, "    {index:>3}  {:width$}{bounds}", safe(&dof.name))?;
     }
     writeln!(out, "  modules   {}", info.modules.len())?;
     let width = info
         .modules
         .iter()
-        .map(|module| module.path.len())
+        .map(|module| safe(&module.path).chars().count())
         .max()
         .unwrap_or(0);
     for module in &info.modules {
-        let version = module.version.as_deref().unwrap_or("-");
+        let version = safe(module.version.as_deref().unwrap_or("-"));
         let unusable = module
             .unusable
             .as_ref()
-            .map(|reason| format!("  ({reason})"))
+            .map(|reason| format!("  ({})", safe(reason)))
             .unwrap_or_default();
         writeln!(
             out,
             "    {:width$}  {version:6}  {:>4} files  {:>9} kB{unusable}",
-            module.path,
+            safe(&module.path),
             module.files,
             module.bytes.div_ceil(1000)
         )?;

@@ -4,15 +4,17 @@
 //! A case fails as the run does: on findings at or above the severity at which runs fail. What is
 //! below that stands in the output of a case that passes.
 
+use std::cmp::Reverse;
 use std::io;
 
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 
 use super::human::{self, Style};
-use super::model::{CheckStatus, Finding, Report, Severity, Status, Urdd, Verdict};
+use super::model::{CheckStatus, Finding, Report, Severity, Status, Urdd};
+use crate::format::escape;
 use crate::validate::rule::Rule;
-use crate::validate::{Report as Run, Subject};
+use crate::validate::{Run, Subject};
 
 type Out = Writer<Vec<u8>>;
 
@@ -66,9 +68,9 @@ impl Suite {
             .zip(&urdd.checks)
             .map(|(ran, check)| case(urdd, ran.rule, check, fail_on))
             .collect();
-        if urdd.verdict == Verdict::Unreadable {
-            let reason = urdd.reason.clone().unwrap_or_default();
-            let outcome = ("error", "unreadable".to_owned(), reason, String::new());
+        if let Some(reason) = &urdd.reason {
+            let kind = urdd.verdict.as_str().to_owned();
+            let outcome = ("error", kind, allowed(reason), String::new());
             cases.push(Case {
                 name: "the folder can be read".to_owned(),
                 outcome: Some(outcome),
@@ -144,11 +146,13 @@ fn case(urdd: &Urdd, rule: &Rule, check: &CheckStatus, fail_on: Severity) -> Cas
         .filter(|finding| finding.code == check.code)
         .collect();
     let text: String = findings.iter().map(|finding| described(finding)).collect();
-    let worst = findings.iter().min_by_key(|finding| finding.severity);
+    let worst = findings
+        .iter()
+        .min_by_key(|finding| Reverse(finding.severity));
     let reason = || allowed(check.reason.as_deref().unwrap_or_default());
     let plain = |element, kind: &str| Some((element, kind.to_owned(), reason(), String::new()));
     let outcome = match (check.status, worst) {
-        (Status::Failed, Some(worst)) if worst.severity <= fail_on => Some((
+        (Status::Failed, Some(worst)) if worst.severity >= fail_on => Some((
             "failure",
             worst.severity.as_str().to_owned(),
             allowed(&worst.message),
@@ -176,11 +180,10 @@ fn described(finding: &Finding) -> String {
     let _ = human::write_finding(finding, Style::default(), &mut text);
     let lines = text.lines();
     let lines = lines.map(|line| line.strip_prefix("    ").unwrap_or(line));
-    allowed(&(lines.collect::<Vec<_>>().join("\n") + "\n"))
+    escape::lines(&(lines.collect::<Vec<_>>().join("\n") + "\n")).into_owned()
 }
 
-/// Without what XML 1.0 cannot say at all, not even escaped.
+/// With escapes for what XML 1.0 cannot say at all, and for what readers would show raw.
 fn allowed(text: &str) -> String {
-    let may_stand = |c: &char| matches!(c, '\t' | '\n' | '\r' | '\u{20}'..='\u{fffd}' | '\u{10000}'..='\u{10ffff}');
-    text.chars().filter(may_stand).collect()
+    escape::line(text).into_owned()
 }

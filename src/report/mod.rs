@@ -1,12 +1,18 @@
 //! Reports: one model, and a file for each rendering of it.
 
+mod causes;
+pub mod github;
 pub mod human;
 pub mod info;
 pub mod junit;
 pub mod model;
 pub mod place;
 pub mod sarif;
+mod summary;
 
+use crate::format::escape;
+
+pub use github::github;
 pub use junit::junit;
 pub use model::Report;
 pub use sarif::sarif;
@@ -16,5 +22,6 @@ pub use sarif::sarif;
 /// # Errors
 /// Never for a report that [`Report::new`] made: every number in it is finite.
 pub fn json(report: &Report) -> serde_json::Result<String> {
-    Ok(serde_json::to_string_pretty(report)? + "\n")
+    let text = serde_json::to_string_pretty(report)?;
+    Ok(escape::json(&text).into_owned() + "\n")
 }

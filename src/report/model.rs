@@ -1,33 +1,24 @@
 //! Makes the report as data, from which every rendering is made, of what a run found.
 
-use std::collections::HashMap;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, HashMap};
 
 use crate::format::index::Count;
 use crate::format::registry::SPEC_VERSION;
 pub use crate::format::report::*;
 use crate::validate::code::Code;
 use crate::validate::engine::{Check, Outcome};
-use crate::validate::finding::{Finding as Found, Place as FoundPlace};
-use crate::validate::rule::Severity as RuleSeverity;
-use crate::validate::{Examined, Report as Run, Subject};
-
-impl From<RuleSeverity> for Severity {
-    fn from(severity: RuleSeverity) -> Self {
-        match severity {
-            RuleSeverity::Error => Severity::Error,
-            RuleSeverity::Warning => Severity::Warning,
-            RuleSeverity::Info => Severity::Info,
-        }
-    }
-}
+use crate::validate::finding::{Finding as Found, Occurrence};
+use crate::validate::skip::SkipReason;
+use crate::validate::{Examined, Run, Subject};
 
 impl Report {
     /// The report of a run that fails on findings of `fail_on` and worse.
-    pub fn new(run: &Run, fail_on: RuleSeverity) -> Report {
+    pub fn new(run: &Run, fail_on: Severity) -> Report {
         let urdds: Vec<Urdd> = run
             .subjects
             .iter()
-            .map(|subject| urdd(subject, fail_on.into()))
+            .map(|subject| urdd(subject, fail_on))
             .collect();
         let total = |severity: Severity| {
             let findings = urdds.iter().flat_map(|urdd| &urdd.findings);
@@ -45,7 +36,7 @@ impl Report {
             info: total(Severity::Info),
         };
         let stale = |ignore: &crate::validate::settings::StaleIgnore| StaleIgnore {
-            code: ignore.code.to_string(),
+            code: ignore.code.map(|code| code.to_string()),
             path: ignore.path.clone(),
         };
         Report {
@@ -71,6 +62,10 @@ impl Report {
 
 fn urdd(subject: &Subject, fail_on: Severity) -> Urdd {
     let unreadable = Urdd {
+        kind: match subject.kind {
+            crate::validate::Kind::Urdd => Kind::Urdd,
+            crate::validate::Kind::Urdf => Kind::Urdf,
+        },
         path: subject.found.name.clone(),
         name: None,
         verdict: Verdict::Unreadable,
@@ -83,6 +78,7 @@ fn urdd(subject: &Subject, fail_on: Severity) -> Urdd {
         modules: Vec::new(),
         checks: Vec::new(),
         findings: Vec::new(),
+        not_checked: Vec::new(),
     };
     let examined = match &subject.result {
         Ok(examined) => examined,
@@ -94,7 +90,8 @@ fn urdd(subject: &Subject, fail_on: Severity) -> Urdd {
         }
     };
     let findings = findings(examined);
-    let failed = findings.iter().any(|finding| finding.severity <= fail_on);
+    let checks: Vec<CheckStatus> = examined.checks.iter().map(check).collect();
+    let failed = findings.iter().any(|finding| finding.severity >= fail_on);
     let module = |module: &crate::validate::ExaminedModule| Module {
         name: module.name.clone(),
         path: module.path.clone(),
@@ -103,6 +100,11 @@ fn urdd(subject: &Subject, fail_on: Severity) -> Urdd {
     };
     Urdd {
         name: examined.robot_name.clone(),
+        reason: examined.crashed.as_ref().map(|message| {
+            format!(
+                "the program crashed: {message}; this is a fault of the program, please report it"
+            )
+        }),
         verdict: match (examined.incomplete(), failed) {
             (true, _) => Verdict::Incomplete,
             (false, true) => Verdict::Fail,
@@ -114,24 +116,52 @@ fn urdd(subject: &Subject, fail_on: Severity) -> Urdd {
             dofs: examined.size.dofs.map(count),
         },
         modules: examined.modules.iter().map(module).collect(),
-        checks: examined.checks.iter().map(check).collect(),
+        not_checked: not_checked(&checks),
+        checks,
         findings,
         ..unreadable
     }
 }
 
 fn check(check: &Check) -> CheckStatus {
-    let (status, reason) = match &check.outcome {
-        Outcome::Passed => (Status::Passed, None),
-        Outcome::Failed => (Status::Failed, None),
-        Outcome::Skipped(reason) => (Status::Skipped, Some(reason.to_string())),
-        Outcome::Crashed(message) => (Status::Crashed, Some(message.clone())),
+    let (status, reason, skipped) = match &check.outcome {
+        Outcome::Passed => (Status::Passed, None, None),
+        Outcome::Failed => (Status::Failed, None, None),
+        Outcome::Skipped(reason) => {
+            let kind = match reason {
+                SkipReason::Ignored(_) => Skipped::Ignored,
+                reason if reason.is_absence() => Skipped::Absent,
+                reason if reason.is_for_others() => Skipped::OtherFormat,
+                _ => Skipped::NotVerified,
+            };
+            (Status::Skipped, Some(reason.to_string()), Some(kind))
+        }
+        Outcome::Crashed(message) => (Status::Crashed, Some(message.clone()), None),
     };
     CheckStatus {
         code: check.rule.code.to_string(),
         status,
         reason,
+        skipped,
     }
+}
+
+/// What rules could not verify, by reason.
+fn not_checked(checks: &[CheckStatus]) -> Vec<NotChecked> {
+    let mut by_reason: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    let open = |check: &&CheckStatus| check.skipped == Some(Skipped::NotVerified);
+    for check in checks.iter().filter(open) {
+        let reason = check.reason.as_deref().unwrap_or_default();
+        by_reason
+            .entry(reason)
+            .or_default()
+            .push(check.code.clone());
+    }
+    let of_reason = |(reason, codes): (&str, Vec<String>)| NotChecked {
+        codes,
+        reason: reason.to_owned(),
+    };
+    by_reason.into_iter().map(of_reason).collect()
 }
 
 fn findings(examined: &Examined) -> Vec<Finding> {
@@ -155,10 +185,22 @@ fn findings(examined: &Examined) -> Vec<Finding> {
     }
     findings.sort_by(|(a_module, a_code, a), (b_module, b_code, b)| {
         let a = (
-            a_module, a.severity, a_code, &a.file, a.line, a.column, &a.pointer,
+            a_module,
+            Reverse(a.severity),
+            a_code,
+            &a.file,
+            a.line,
+            a.column,
+            &a.pointer,
         );
         a.cmp(&(
-            b_module, b.severity, b_code, &b.file, b.line, b.column, &b.pointer,
+            b_module,
+            Reverse(b.severity),
+            b_code,
+            &b.file,
+            b.line,
+            b.column,
+            &b.pointer,
         ))
     });
     findings
@@ -176,40 +218,64 @@ fn module_of(file: &str, folders: &HashMap<&str, usize>) -> Option<usize> {
 }
 
 fn finding(module: Option<String>, check: &Check, found: &Found) -> Finding {
-    let file = found.place.file.clone();
-    let here = place(&found.place, &found.expected, &found.actual);
+    let first = Occurrence {
+        place: found.place.clone(),
+        message: None,
+        expected: found.expected.clone(),
+        actual: found.actual.clone(),
+        magnitude: found.magnitude,
+    };
+    let places: Vec<Place> = std::iter::once(&first)
+        .chain(&found.more)
+        .map(place)
+        .collect();
+    let here = place(&first);
     Finding {
         code: check.rule.code.to_string(),
         name: check.rule.name.to_owned(),
-        severity: check.severity.into(),
-        default_severity: check.rule.severity.into(),
+        severity: check.severity,
+        default_severity: check.rule.severity,
         clause: check.rule.clause.to_owned(),
+        consequence: check.rule.consequence,
         module,
-        file,
+        file: here.file,
         pointer: here.pointer,
         line: here.line,
         column: here.column,
+        subject: here.subject,
         message: found.message.clone(),
         expected: here.expected,
         actual: here.actual,
         tolerance: found.tolerance,
+        magnitude: here.magnitude,
         count: count(found.count),
-        more: found
-            .more
-            .iter()
-            .map(|other| place(&other.place, &other.expected, &other.actual))
-            .collect(),
+        places_cut: count(found.count.saturating_sub(places.len())),
+        places,
     }
 }
 
-fn place(place: &FoundPlace, expected: &Option<String>, actual: &Option<String>) -> Place {
+fn place(found: &Occurrence) -> Place {
+    let position = found.place.position;
     Place {
-        file: place.file.clone(),
-        pointer: place.pointer.clone(),
-        line: place.position.map(|position| Count(position.line)),
-        column: place.position.map(|position| Count(position.column)),
-        expected: expected.clone(),
-        actual: actual.clone(),
+        file: found.place.file.clone(),
+        pointer: found.place.pointer.clone(),
+        line: position.map(|position| Count(position.line)),
+        column: position.map(|position| Count(position.column)),
+        // The same on both sides says nothing.
+        expected: found
+            .expected
+            .clone()
+            .filter(|_| found.expected != found.actual),
+        actual: found
+            .actual
+            .clone()
+            .filter(|_| found.expected != found.actual),
+        subject: found.place.subject.clone(),
+        message: found.message.clone(),
+        magnitude: found.magnitude.map(|magnitude| Magnitude {
+            value: Some(magnitude.value).filter(|value| value.is_finite()),
+            unit: magnitude.unit.to_owned(),
+        }),
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use crate::validate::{Report as Run, Subject};
+use crate::validate::{Run, Subject};
 
 /// The folder of every URDD of a run, relative to `current`, with forward slashes: empty where it is
 /// that folder. A URDD outside of `current` goes by its name.

@@ -12,15 +12,19 @@ use sha2::{Digest, Sha256};
 
 use super::model::{Finding, Place, Report, Severity, Status, Urdd, Verdict};
 use super::place::file_in;
+use crate::format::escape;
 use crate::format::hexadecimal::hexadecimal;
 use crate::format::index::Count;
-use crate::validate::Report as Run;
+use crate::validate::Run;
 use crate::validate::code::Code;
 use crate::validate::rule::Rule;
 
 /// What paths are relative to: the folder in which the program ran, by the name that readers of
 /// SARIF have for the root of a repository.
 const BASE: &str = "%SRCROOT%";
+
+/// Most further places of a result: GitHub takes 1,000 locations a result.
+const MOST_LOCATIONS: usize = 999;
 
 /// What may stand in a URI reference as it is.
 const KEPT: &AsciiSet = &NON_ALPHANUMERIC
@@ -55,7 +59,8 @@ pub fn sarif(
         .map(|ignore| {
             let text = format!(
                 "the ignore of {} at `{}` in the settings matches nothing: take it out, or mend its path",
-                ignore.code, ignore.path
+                ignore.code.as_deref().unwrap_or("all rules"),
+                ignore.path
             );
             json!({"level": "warning", "message": message(&text)})
         })
@@ -89,7 +94,8 @@ pub fn sarif(
             "results": results,
         }],
     });
-    Ok(serde_json::to_string_pretty(&log)? + "\n")
+    let text = serde_json::to_string_pretty(&log)?;
+    Ok(escape::json(&text).into_owned() + "\n")
 }
 
 /// The rules that the report names, in order of code.
@@ -133,7 +139,7 @@ fn describe(rule: &Rule) -> Value {
         "shortDescription": {"text": rule.name.replace('-', " ")},
         "fullDescription": {"text": rule.summary()},
         "help": {"text": help, "markdown": help},
-        "defaultConfiguration": {"level": level(rule.severity.into())},
+        "defaultConfiguration": {"level": level(rule.severity)},
         "properties": {
             "clause": rule.clause,
             "since": rule.since,
@@ -158,18 +164,18 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
             "ruleIndex": rules.index(&finding.code),
             "level": level(finding.severity),
             "message": message(&text(finding)),
-            "locations": [location(place, &here(finding))],
+            "locations": finding.places.iter().take(1).map(|first| location(place, first)).collect::<Vec<_>>(),
         });
-        if !finding.more.is_empty() {
-            let related = |other: &Place| {
-                let mut location = location(place, other);
-                if let Some(actual) = &other.actual {
-                    location["message"] = message(&format!("Here too: {actual}"));
-                }
-                location
-            };
-            result["relatedLocations"] = finding.more.iter().map(related).collect();
+        let others = finding.places.iter().skip(1).take(MOST_LOCATIONS);
+        let related: Vec<Value> = others.map(|other| related(place, other)).collect();
+        let cut = finding.count.get().saturating_sub(1 + related.len());
+        if !related.is_empty() {
+            result["relatedLocations"] = json!(related);
         }
+        result["properties"] = json!({
+            "consequence": finding.consequence.as_str(),
+            "placesCut": cut,
+        });
         result["occurrenceCount"] = json!(finding.count.get());
         let kind = kind(finding, place);
         let nth = alike.entry(kind.clone()).or_insert(0);
@@ -182,8 +188,10 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
 
 /// All that a stranger needs in one text: few readers show more of a result.
 fn text(finding: &Finding) -> String {
-    let mut text = finding.message.clone();
-    let mut line = |label: &str, value: &str| text.push_str(&format!("\n{label}: {value}"));
+    let mut text = escape::line(&finding.message).into_owned();
+    let mut line = |label: &str, value: &str| {
+        text.push_str(&format!("\n{label}: {}", escape::line(value)));
+    };
     if let Some(expected) = &finding.expected {
         line("Expected", expected);
     }
@@ -193,6 +201,9 @@ fn text(finding: &Finding) -> String {
     if let Some(tolerance) = finding.tolerance {
         line("Tolerance", &format!("{tolerance:.1e}"));
     }
+    if let Some(subject) = &finding.subject {
+        line("Of", subject);
+    }
     if finding.count.get() > 1 {
         line("Times", &finding.count.to_string());
     }
@@ -201,7 +212,7 @@ fn text(finding: &Finding) -> String {
 
 /// A message. What looks like a link in it is no link: names in a URDD are anybody's words.
 fn message(text: &str) -> Value {
-    json!({"text": text.replace("](", "] (")})
+    json!({"text": escape::lines(text).replace("](", "] (")})
 }
 
 /// What tells a finding from others: nothing that changes when lines move, or when an element is put
@@ -225,15 +236,22 @@ fn fingerprint(kind: &[String; 3], nth: u32) -> String {
     hexadecimal(&digest[..16])
 }
 
-fn here(finding: &Finding) -> Place {
-    Place {
-        file: finding.file.clone(),
-        pointer: finding.pointer.clone(),
-        line: finding.line,
-        column: finding.column,
-        expected: None,
-        actual: None,
+/// A further place of a result, with what is there.
+fn related(urdd: &str, other: &Place) -> Value {
+    let mut location = location(urdd, other);
+    let parts = [
+        other.subject.clone(),
+        other.actual.clone(),
+        other.magnitude.as_ref().and_then(|magnitude| {
+            let unit = &magnitude.unit;
+            Some(format!("off by {:e} {unit}", magnitude.value?))
+        }),
+    ];
+    let text: Vec<String> = parts.into_iter().flatten().collect();
+    if !text.is_empty() {
+        location["message"] = message(&escape::line(&format!("Here too: {}", text.join("; "))));
     }
+    location
 }
 
 fn location(urdd: &str, place: &Place) -> Value {
@@ -262,9 +280,11 @@ fn artifact(urdd: &str, file: Option<&str>) -> Value {
 fn notifications(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
     let locations = json!([{"physicalLocation": {"artifactLocation": artifact(place, None)}}]);
     let mut notifications = Vec::new();
-    if urdd.verdict == Verdict::Unreadable {
-        let reason = urdd.reason.as_deref().unwrap_or_default();
-        let text = format!("the folder cannot be read: {reason}");
+    if let Some(reason) = &urdd.reason {
+        let text = match urdd.verdict {
+            Verdict::Unreadable => format!("the folder cannot be read: {reason}"),
+            _ => reason.clone(),
+        };
         notifications
             .push(json!({"level": "error", "message": message(&text), "locations": locations}));
     }

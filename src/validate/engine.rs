@@ -1,15 +1,16 @@
 //! Runs the rules over a URDD: phase by phase, each rule only when what it needs is sound, a rule
 //! that crashes caught.
 
+use std::any::Any;
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::code::Code;
 use super::context::Context;
 use super::finding::{Finding, Findings};
+use super::locate::locate;
 use super::rule::{Need, Rule, Severity};
 use super::skip::SkipReason;
-use crate::directory::position::{self, LineIndex};
 use crate::format::registry::{ModuleKind, Profile};
 
 /// What became of a rule on one URDD.
@@ -108,11 +109,7 @@ fn run_rule(context: &Context, rule: &'static Rule, outcomes: &Outcomes) -> Chec
 pub(super) fn judge(context: &Context, rule: &'static Rule, findings: &mut Findings) -> Check {
     let ran = catch_unwind(AssertUnwindSafe(|| (rule.check)(context, findings)));
     if let Err(panic) = ran {
-        let message = panic
-            .downcast_ref::<&str>()
-            .map(|text| (*text).to_owned())
-            .or_else(|| panic.downcast_ref::<String>().cloned())
-            .unwrap_or_else(|| "unknown".to_owned());
+        let message = panic_message(&*panic);
         return Check::new(rule, Outcome::Crashed(message), Vec::new());
     }
     let skipped = findings.skipped().cloned();
@@ -122,10 +119,15 @@ pub(super) fn judge(context: &Context, rule: &'static Rule, findings: &mut Findi
         (true, Some(reason)) => Outcome::Skipped(reason),
         (true, None) => Outcome::Passed,
     };
-    for finding in &mut found {
-        locate(context, finding);
-    }
+    locate(context, &mut found);
     Check::new(rule, outcome, found)
+}
+
+/// What a panic said.
+pub(super) fn panic_message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "unknown".to_owned())
 }
 
 /// Why a need is not met, if it is not.
@@ -163,47 +165,4 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
         Need::Version1 => (context.profile() != Profile::V1).then_some(SkipReason::NotVersion1),
         Need::Legacy => (context.profile() != Profile::Legacy).then_some(SkipReason::NotLegacy),
     }
-}
-
-/// Adds line and column to places that only have a pointer. Done for what is kept of a finding,
-/// since it reads through the text.
-fn locate(context: &Context, finding: &mut Finding) {
-    let more = finding
-        .more
-        .iter_mut()
-        .map(|occurrence| &mut occurrence.place);
-    for place in std::iter::once(&mut finding.place).chain(more) {
-        if place.position.is_some() {
-            continue;
-        }
-        let (Some(file), Some(pointer)) = (&place.file, &place.pointer) else {
-            continue;
-        };
-        if let Some(text) = json_text(context, file) {
-            place.position = position::locate(text, pointer);
-        } else if let (Ok(urdf), Some(reading)) = (context.urdf(), context.urdf_text())
-            && urdf.path == *file
-        {
-            // The pointer is that of the value in urdf_module, and leads nowhere in XML.
-            place.position = reading.position(&LineIndex::new(&urdf.text), pointer);
-            place.pointer = None;
-        }
-    }
-}
-
-fn json_text<'a>(context: &'a Context, file: &str) -> Option<&'a str> {
-    let folder = file.strip_suffix("/module.json");
-    let document = match folder {
-        Some(folder) => context
-            .modules()
-            .iter()
-            .find(|module| module.folder == folder)?
-            .json
-            .document()?,
-        None if file == crate::directory::discover::ROOT_METADATA => {
-            context.metadata_file().json.document()?
-        }
-        None => return None,
-    };
-    Some(&document.text)
 }

@@ -3,10 +3,15 @@
 use std::collections::{HashMap, HashSet};
 
 use super::skip::SkipReason;
+use super::worst::worst_first;
 use crate::directory::position::Position;
 
-/// How many places of a folded finding are kept.
-pub const KEPT_PLACES: usize = 3;
+/// How many places of a folded finding are kept; the rest is counted.
+pub const KEPT_PLACES: usize = 10_000;
+/// How many findings a rule keeps in one URDD, and how many bytes of further places of all of them;
+/// the rest is counted.
+const KEPT_FINDINGS: usize = 10_000;
+const KEPT_BYTES: usize = 2 << 20;
 
 /// Where a finding is.
 #[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -17,6 +22,17 @@ pub struct Place {
     pub pointer: Option<String>,
     /// Line and column in the file.
     pub position: Option<Position>,
+    /// What the pointer leads to, by the names of links, joints or DOFs.
+    pub subject: Option<String>,
+}
+
+/// By how much something is off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Magnitude {
+    /// How much; not a number where it cannot be said.
+    pub value: f64,
+    /// Its unit; empty for a ratio.
+    pub unit: &'static str,
 }
 
 /// Something that a rule found.
@@ -32,6 +48,8 @@ pub struct Finding {
     pub actual: Option<String>,
     /// Where numbers were compared: the tolerance, in the unit of the numbers.
     pub tolerance: Option<f64>,
+    /// Where numbers were compared: by how much they differ.
+    pub magnitude: Option<Magnitude>,
     /// How many findings this one stands for.
     pub count: usize,
     /// The next few of these, after this one.
@@ -39,14 +57,34 @@ pub struct Finding {
 }
 
 /// Another place of a folded finding.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Occurrence {
     /// Where.
     pub place: Place,
+    /// What is wrong there, where that is not what the finding says.
+    pub message: Option<String>,
     /// What should be there.
     pub expected: Option<String>,
     /// What is there.
     pub actual: Option<String>,
+    /// By how much it is off.
+    pub magnitude: Option<Magnitude>,
+}
+
+impl Occurrence {
+    /// About how much memory it takes.
+    pub fn bytes(&self) -> usize {
+        let texts = [
+            &self.place.file,
+            &self.place.pointer,
+            &self.place.subject,
+            &self.message,
+            &self.expected,
+            &self.actual,
+        ];
+        let texts = texts.into_iter().flatten().map(String::len);
+        size_of::<Occurrence>() + texts.sum::<usize>()
+    }
 }
 
 impl Finding {
@@ -76,6 +114,7 @@ impl Finding {
             expected: None,
             actual: None,
             tolerance: None,
+            magnitude: None,
             count: 1,
             more: Vec::new(),
         }
@@ -102,6 +141,15 @@ impl Finding {
     /// With the tolerance of the comparison.
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = Some(tolerance);
+        self
+    }
+
+    /// With how much the numbers differ, and their unit: of findings alike, the worst comes first.
+    pub fn off_by(mut self, value: f64, unit: &'static str) -> Self {
+        self.magnitude = Some(Magnitude {
+            value: value.abs(),
+            unit,
+        });
         self
     }
 
@@ -134,6 +182,7 @@ pub struct Findings {
     findings: Vec<Finding>,
     by_place: HashMap<(Option<String>, String), usize>,
     reported: usize,
+    kept: usize,
     skipped: Option<SkipReason>,
     spots: Option<HashSet<Spot>>,
     only: Option<HashSet<Spot>>,
@@ -187,20 +236,26 @@ impl Findings {
             None => finding.message.clone(),
         };
         let key = (finding.place.file.clone(), kind);
-        match self.by_place.get(&key) {
-            None => {
+        let full = self.findings.len() >= KEPT_FINDINGS;
+        match (self.by_place.get(&key), self.findings.last_mut()) {
+            (None, Some(last)) if full => last.count += finding.count,
+            (None, _) => {
                 self.by_place.insert(key, self.findings.len());
                 self.findings.push(finding);
             }
-            Some(&first) => {
+            (Some(&first), _) => {
                 let first = &mut self.findings[first];
                 first.count += finding.count;
-                if first.more.len() + 1 < KEPT_PLACES {
-                    first.more.push(Occurrence {
+                if first.more.len() + 1 < KEPT_PLACES && self.kept < KEPT_BYTES {
+                    let other = Occurrence {
                         place: finding.place,
+                        message: (finding.message != first.message).then_some(finding.message),
                         expected: finding.expected,
                         actual: finding.actual,
-                    });
+                        magnitude: finding.magnitude,
+                    };
+                    self.kept += other.bytes();
+                    first.more.push(other);
                 }
             }
         }
@@ -224,7 +279,10 @@ impl Findings {
     /// The findings, in the order in which the first of each was reported; none are left.
     pub fn take(&mut self) -> Vec<Finding> {
         self.by_place.clear();
-        std::mem::take(&mut self.findings)
+        self.kept = 0;
+        let mut findings = std::mem::take(&mut self.findings);
+        findings.iter_mut().for_each(worst_first);
+        findings
     }
 }
 
@@ -250,7 +308,8 @@ mod tests {
     #[test]
     fn a_flood_is_folded_by_kind_of_place() {
         let mut findings = Findings::default();
-        for i in 0..1000 {
+        const MANY: usize = 2 * KEPT_PLACES;
+        for i in 0..MANY {
             findings.report(Finding::at("a.json", format!("/m/{i}/0"), "wrong").actual(i));
             findings.report(Finding::at("b.json", format!("/m/{i}/0"), "wrong"));
         }
@@ -258,10 +317,51 @@ mod tests {
         let findings = findings.take();
         assert_eq!(
             findings.iter().map(|f| f.count).collect::<Vec<_>>(),
-            [1000, 1000, 1]
+            [MANY, MANY, 1]
         );
         assert_eq!(findings[0].more.len(), KEPT_PLACES - 1);
         assert_eq!(findings[0].more[1].actual.as_deref(), Some("2"));
+    }
+
+    #[test]
+    fn what_is_kept_is_bounded_and_all_is_counted() {
+        let mut findings = Findings::default();
+        for i in 0..2 * KEPT_FINDINGS {
+            findings.report(Finding::at("a.json", format!("/k{i}"), "wrong"));
+        }
+        for _ in 0..5 {
+            for k in 0..5 {
+                for i in 0..KEPT_PLACES {
+                    findings.report(Finding::at("a.json", format!("/k{k}"), "wrong").actual(i));
+                }
+            }
+        }
+        let findings = findings.take();
+        assert_eq!(findings.len(), KEPT_FINDINGS);
+        let counts: usize = findings.iter().map(|finding| finding.count).sum();
+        assert_eq!(counts, 2 * KEPT_FINDINGS + 25 * KEPT_PLACES);
+        let more = findings.iter().flat_map(|finding| &finding.more);
+        let bytes: usize = more.map(Occurrence::bytes).sum();
+        assert!((KEPT_BYTES..KEPT_BYTES + 1000).contains(&bytes), "{bytes}");
+    }
+
+    #[test]
+    fn the_worst_place_comes_first() {
+        let mut findings = Findings::default();
+        for (i, off) in [(0, 0.2), (1, -0.7), (2, 0.1), (3, f64::NAN)] {
+            let finding = Finding::at("a.json", format!("/m/{i}"), format!("{i} is wrong"));
+            findings.report(finding.actual(i).off_by(off, "m"));
+        }
+        let [found] = &findings.take()[..] else {
+            panic!("one finding")
+        };
+        assert_eq!(found.place.pointer.as_deref(), Some("/m/3"));
+        assert_eq!(found.message, "3 is wrong");
+        let others: Vec<_> = found.more.iter().map(|o| o.actual.as_deref()).collect();
+        assert_eq!(others, [Some("1"), Some("0"), Some("2")]);
+        let words: Vec<_> = found.more.iter().map(|o| o.message.as_deref()).collect();
+        let expected = ["1 is wrong", "0 is wrong", "2 is wrong"].map(Some);
+        assert_eq!(words, expected);
     }
 
     #[test]

@@ -1,17 +1,22 @@
 //! The validator: checks a URDD from any producer against the specification.
 //!
-//! [`validate`] finds URDDs and runs every rule over each; what comes out is a [`Report`], plain
+//! [`validate`] finds URDDs and runs every rule over each; what comes out is a [`Run`], plain
 //! data. Rules are one file each, in [`rules`].
 
+pub mod bare_urdf;
+mod bound;
 pub mod code;
 pub mod context;
 pub mod distances;
 pub mod engine;
 pub mod finding;
 pub mod fold;
+mod locate;
+mod names;
 pub mod reference;
 pub mod rule;
 pub mod rules;
+pub mod selection;
 pub mod settings;
 pub mod skip;
 pub mod solids;
@@ -19,7 +24,9 @@ pub mod tolerance;
 mod two_robots;
 pub mod urdf_text;
 pub mod views;
+mod worst;
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use rayon::prelude::*;
@@ -46,10 +53,21 @@ pub struct ExaminedModule {
     pub profile: Option<Profile>,
 }
 
-/// A URDD that was examined.
+/// What was examined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A URDD.
+    Urdd,
+    /// A URDF by itself.
+    Urdf,
+}
+
+/// A URDD, or a URDF by itself, that was examined.
 pub struct Examined {
     /// How it is called: its path from the folder that was searched.
     pub name: String,
+    /// How the program crashed outside of any rule, where it did.
+    pub crashed: Option<String>,
     /// The robot's name, where a module says it.
     pub robot_name: Option<String>,
     /// Number of links, joints and DOFs, where modules say them.
@@ -73,6 +91,8 @@ pub struct RobotSize {
 
 /// A URDD that was found, and what came of examining it.
 pub struct Subject {
+    /// What it is.
+    pub kind: Kind,
     /// Where it was found.
     pub found: Found,
     /// What was found, or why it could not be examined.
@@ -80,9 +100,11 @@ pub struct Subject {
 }
 
 /// What came of a run.
-pub struct Report {
+pub struct Run {
     /// Every URDD, in the order of the paths given, then by name.
     pub subjects: Vec<Subject>,
+    /// How many URDDs the settings exclude.
+    pub excluded: usize,
     /// Ignores of the settings that matched nothing.
     pub stale_ignores: Vec<StaleIgnore>,
 }
@@ -91,7 +113,7 @@ pub struct Report {
 ///
 /// # Errors
 /// Where under one of the paths there is nothing to examine.
-pub fn validate<P: AsRef<Path>>(paths: &[P], settings: &Settings) -> Result<Report, DiscoverError> {
+pub fn validate<P: AsRef<Path>>(paths: &[P], settings: &Settings) -> Result<Run, DiscoverError> {
     validate_with(paths, settings, &rules::all())
 }
 
@@ -103,16 +125,39 @@ pub fn validate_with<P: AsRef<Path>>(
     paths: &[P],
     settings: &Settings,
     rules: &[&'static Rule],
-) -> Result<Report, DiscoverError> {
+) -> Result<Run, DiscoverError> {
     let mut found = Vec::new();
     for path in paths {
-        found.extend(discover(path.as_ref())?);
+        match bare_urdf::is_urdf(path.as_ref()) {
+            true => found.push((Kind::Urdf, bare_urdf::found(path.as_ref()))),
+            false => {
+                let below = discover(path.as_ref())?;
+                found.extend(below.into_iter().map(|found| (Kind::Urdd, found)));
+            }
+        }
     }
+    let all = found.len();
+    found.retain(|(_, found)| {
+        let mut excludes = settings.excludes.iter();
+        !excludes.any(|exclude| exclude.matches(&found.name))
+    });
+    let excluded = all - found.len();
+    let kept = bound::of_each(found.len());
     let mut subjects: Vec<Subject> = found
         .into_par_iter()
-        .map(|found| {
-            let result = examine(&found, settings, rules);
-            Subject { found, result }
+        .map(|(kind, found)| {
+            let mut result = caught(&found, || match kind {
+                Kind::Urdd => examine(&found, settings, rules),
+                Kind::Urdf => bare_urdf::examine(&found, rules),
+            });
+            if let Ok(examined) = &mut result {
+                bound::trim(examined, kept);
+            }
+            Subject {
+                kind,
+                found,
+                result,
+            }
         })
         .collect();
     let stale_ignores = settings.apply(
@@ -120,9 +165,33 @@ pub fn validate_with<P: AsRef<Path>>(
             .iter_mut()
             .filter_map(|subject| subject.result.as_mut().ok()),
     );
-    Ok(Report {
+    for subject in &mut subjects {
+        if let Ok(examined) = &mut subject.result {
+            settings.selection.apply(&mut examined.checks);
+        }
+    }
+    Ok(Run {
         subjects,
+        excluded,
         stale_ignores,
+    })
+}
+
+/// Examines, and where that crashes outside of any rule says so of this URDD: the others have their
+/// reports all the same.
+fn caught(
+    found: &Found,
+    examine: impl FnOnce() -> Result<Examined, ReadError>,
+) -> Result<Examined, ReadError> {
+    catch_unwind(AssertUnwindSafe(examine)).unwrap_or_else(|panic| {
+        Ok(Examined {
+            name: found.name.clone(),
+            crashed: Some(engine::panic_message(&*panic)),
+            robot_name: None,
+            size: RobotSize::default(),
+            modules: Vec::new(),
+            checks: Vec::new(),
+        })
     })
 }
 
@@ -158,6 +227,7 @@ fn examine(
         .or_else(|| context.metadata().map(|m| m.robot_name.clone()));
     Ok(Examined {
         name: found.name.clone(),
+        crashed: None,
         robot_name,
         size,
         modules,
@@ -166,10 +236,26 @@ fn examine(
 }
 
 impl Examined {
-    /// Whether a rule crashed, so that the URDD was not fully examined.
+    /// Whether the program crashed, so that the URDD was not fully examined.
     pub fn incomplete(&self) -> bool {
-        self.checks
-            .iter()
-            .any(|check| matches!(check.outcome, Outcome::Crashed(_)))
+        let mut checks = self.checks.iter();
+        self.crashed.is_some() || checks.any(|check| matches!(check.outcome, Outcome::Crashed(_)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crash_outside_of_any_rule_is_said_of_its_urdd() {
+        let found = Found {
+            path: "a".into(),
+            name: "a".to_owned(),
+            closed: None,
+        };
+        let examined = caught(&found, || panic!("at index {}", 7)).expect("examined");
+        assert!(examined.incomplete());
+        assert_eq!(examined.crashed.as_deref(), Some("at index 7"));
     }
 }

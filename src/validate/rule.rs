@@ -4,28 +4,7 @@ use super::code::Code;
 use super::context::Context;
 use super::finding::Findings;
 use crate::format::registry::ModuleKind;
-
-/// How bad a finding is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Severity {
-    /// A convention of old, or something worth knowing.
-    Info,
-    /// A SHOULD of the specification that is not kept, or an odd robot.
-    Warning,
-    /// A MUST of the specification that is not kept.
-    Error,
-}
-
-impl Severity {
-    /// The word in reports and settings.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Severity::Info => "info",
-            Severity::Warning => "warning",
-            Severity::Error => "error",
-        }
-    }
-}
+pub use crate::format::report::{Consequence, Severity};
 
 /// When a rule runs. Phases run in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -109,6 +88,8 @@ pub struct Rule {
     pub clause: &'static str,
     /// The version of urdd that it came in.
     pub since: &'static str,
+    /// What the fault does to whoever uses the URDD.
+    pub consequence: Consequence,
     /// When it runs.
     pub phase: Phase,
     /// What it judges.
@@ -142,12 +123,29 @@ impl Rule {
     }
 }
 
+/// What faults of a family do, unless a rule says otherwise.
+pub const fn of_family(code: &str) -> Consequence {
+    match code.as_bytes() {
+        [b'U', b'R', b'D', ..]
+        | [b'D', b'O', b'F', ..]
+        | [b'C', b'H', b'N', ..]
+        | [b'C', b'O', b'N', ..]
+        | [b'B', b'N', b'D', ..]
+        | [b'K', b'I', b'N', ..] => Consequence::WrongMotion,
+        [b'M', b'S', b'H', ..] => Consequence::MissingGeometry,
+        [b'S', b'H', b'P', ..] => Consequence::Collisions,
+        [b'S', b'R', b'C', ..] => Consequence::Looseness,
+        _ => Consequence::Format,
+    }
+}
+
 /// Declares the rule of a file as `RULE`. Its documentation is what `urdd explain` prints.
 macro_rules! declare_rule {
     (
         $(#[doc = $doc:literal])+
         $code:ident $name:literal, $severity:ident, clause $clause:literal, since $since:literal,
-        phase $phase:ident, $(judges $judges:ident,)? needs [$($need:expr),* $(,)?], check $check:path $(,)?
+        phase $phase:ident, $(judges $judges:ident,)? $(consequence $consequence:ident,)?
+        needs [$($need:expr),* $(,)?], check $check:path $(,)?
     ) => {
         $(#[doc = $doc])+
         pub static RULE: $crate::validate::rule::Rule = {
@@ -163,6 +161,12 @@ macro_rules! declare_rule {
                 severity: $crate::validate::rule::Severity::$severity,
                 clause: $clause,
                 since: $since,
+                consequence: {
+                    #[allow(unused_variables)]
+                    let consequence = $crate::validate::rule::of_family(stringify!($code));
+                    $(let consequence = $crate::validate::rule::Consequence::$consequence;)?
+                    consequence
+                },
                 phase: $crate::validate::rule::Phase::$phase,
                 judges: [
                     $($crate::validate::rule::Judges::$judges,)?

@@ -10,6 +10,7 @@ use super::Examined;
 use super::code::Code;
 use super::engine::Outcome;
 use super::rule::Severity;
+use super::selection::Selection;
 use super::skip::SkipReason;
 use crate::format::root_metadata::ConformanceClass;
 
@@ -26,13 +27,48 @@ pub struct Settings {
     pub severities: BTreeMap<Code, Severity>,
     /// Findings that are not wanted.
     pub ignores: Vec<Ignore>,
+    /// Folders in which no URDD is looked for.
+    pub excludes: Vec<Exclude>,
+    /// Which rules are reported.
+    pub selection: Selection,
+}
+
+/// Folders in which no URDD is looked for.
+#[derive(Debug, Clone)]
+pub struct Exclude {
+    /// Which: matched against the path of a URDD's folder, and of each folder that it lies in, from
+    /// the path that was given.
+    pub path: GlobSet,
+    /// The same as it was written.
+    pub pattern: String,
+}
+
+impl Exclude {
+    /// Reads a pattern.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub fn new(pattern: &str) -> Result<Exclude, SettingsError> {
+        let path = matcher(pattern.strip_suffix('/').unwrap_or(pattern))?;
+        Ok(Exclude {
+            path,
+            pattern: pattern.to_owned(),
+        })
+    }
+
+    /// Whether a folder, or one that it lies in, is meant; paths with forward slashes.
+    pub fn matches(&self, path: &str) -> bool {
+        let parents = path.match_indices('/').map(|(end, _)| &path[..end]);
+        let mut folders = parents.chain([path]);
+        folders.any(|folder| self.path.is_match(folder))
+    }
 }
 
 /// A kind of finding that is not wanted in some files.
 #[derive(Debug, Clone)]
 pub struct Ignore {
-    /// The rule.
-    pub code: Code,
+    /// The rule; `None` for all.
+    pub code: Option<Code>,
     /// Which files: matched against the URDD's name, a slash, and the file's path.
     pub path: GlobSet,
     /// The same as it was written.
@@ -44,8 +80,8 @@ pub struct Ignore {
 /// An ignore that matched nothing: the fault is gone, or the path is wrong.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct StaleIgnore {
-    /// The rule.
-    pub code: Code,
+    /// The rule; `None` for all.
+    pub code: Option<Code>,
     /// The pattern.
     pub path: String,
 }
@@ -74,7 +110,7 @@ pub enum SettingsError {
         reason: String,
     },
     /// An ignore without a reason.
-    #[error("the ignore of {0} has an empty reason; say why, for whoever reads this in a year")]
+    #[error("the ignore of `{0}` has an empty reason; say why, for whoever reads this in a year")]
     EmptyReason(String),
 }
 
@@ -85,12 +121,13 @@ struct File {
     fail_on: Option<String>,
     severity: BTreeMap<String, String>,
     ignore: Vec<FileIgnore>,
+    exclude: Vec<String>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FileIgnore {
-    code: String,
+    code: Option<String>,
     path: String,
     reason: String,
 }
@@ -118,14 +155,17 @@ impl Settings {
         }
         for ignore in file.ignore {
             if ignore.reason.trim().is_empty() {
-                return Err(SettingsError::EmptyReason(ignore.code));
+                return Err(SettingsError::EmptyReason(ignore.path));
             }
             settings.ignores.push(Ignore {
-                code: code(&ignore.code)?,
+                code: ignore.code.as_deref().map(code).transpose()?,
                 path: matcher(&ignore.path)?,
                 pattern: ignore.path,
                 reason: ignore.reason,
             });
+        }
+        for pattern in &file.exclude {
+            settings.excludes.push(Exclude::new(pattern)?);
         }
         Ok(settings)
     }
@@ -143,7 +183,8 @@ impl Settings {
                     let file = finding.place.file.as_deref().unwrap_or("");
                     let path = format!("{}/{file}", urdd.name);
                     let ignore = self.ignores.iter().position(|ignore| {
-                        ignore.code == check.rule.code && ignore.path.is_match(&path)
+                        ignore.code.is_none_or(|code| code == check.rule.code)
+                            && ignore.path.is_match(&path)
                     });
                     if let Some(place) = ignore {
                         used[place] = true;

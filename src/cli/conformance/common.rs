@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use crate::cli::output;
 use crate::conformance::skips::{self, Skip};
+use crate::format::escape;
 
 /// Exit status: everything passed but what is skipped.
 pub const PASSED: u8 = 0;
@@ -120,19 +121,15 @@ impl RunArguments {
     /// Prints a result, and writes it into the file that was asked for.
     pub fn print(&self, result: &impl Serialize, human: &str) -> Result<(), String> {
         let json = serde_json::to_string_pretty(result).map_err(|error| error.to_string())? + "\n";
+        let json = escape::json(&json);
         if let Some(file) = &self.output {
-            write(file, &json)?;
+            output::write_file(file, &json)?;
         }
         match self.format {
             Format::Human => output::print(human),
             Format::Json => output::print(&json),
         }
-        Ok(())
     }
-}
-
-fn write(file: &Path, text: &str) -> Result<(), String> {
-    fs::write(file, text).map_err(|error| cannot_write(file, &error))
 }
 
 fn cannot_write(file: &Path, error: &std::io::Error) -> String {

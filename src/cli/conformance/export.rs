@@ -20,10 +20,7 @@ pub struct ExportArguments {
 /// Runs `urdd conformance export`.
 pub fn run(arguments: &ExportArguments) -> ExitCode {
     match export(&arguments.folder) {
-        Ok(exported) => {
-            output::print(&told(&exported));
-            ExitCode::SUCCESS
-        }
+        Ok(exported) => crate::cli::printed(output::print(&told(&exported))),
         Err(error) => {
             output::error(&error.to_string());
             ExitCode::from(2)

@@ -7,10 +7,10 @@ use clap::Args;
 
 use super::common::{FAILED, PASSED, RunArguments, USAGE};
 use crate::cli::output;
+use crate::cli::words::Class;
 use crate::conformance::process::Template;
 use crate::conformance::producer::{Event, Plan, SKIP_FORM, run as run_producer};
 use crate::format::conformance::{ModuleStatus, ProducerResult, RobotScore, ScoreStatus};
-use crate::validate::settings::parse_class;
 
 /// Arguments of `urdd conformance producer`.
 #[derive(Args)]
@@ -20,9 +20,9 @@ use crate::validate::settings::parse_class;
     skip is stale; 2 wrong usage."
 )]
 pub struct ProducerArguments {
-    /// The conformance class to ask for: core, geometry or shapes.
-    #[arg(long, value_name = "CLASS", default_value = "core")]
-    class: String,
+    /// The conformance class to ask for.
+    #[arg(long, value_name = "CLASS", default_value = "core", ignore_case = true)]
+    class: Class,
 
     /// Only this robot; may be given again.
     #[arg(long = "robot", value_name = "NAME")]
@@ -49,7 +49,7 @@ fn result(arguments: &ProducerArguments) -> Result<bool, String> {
         .map_err(|error| error.to_string())?;
     let plan = Plan {
         command,
-        class: parse_class(&arguments.class).map_err(|error| format!("--class: {error}"))?,
+        class: arguments.class.class(),
         robots: arguments.robots.clone(),
         limit: arguments.run.limit(),
         skips: arguments.run.skips(2, SKIP_FORM)?,

@@ -58,6 +58,7 @@ fn report(file: &str, faults: &TextFaults, kinds: &[TextFaultKind], findings: &m
                 place: place(file, fault),
                 expected: fault.expected.clone(),
                 actual: fault.found.clone(),
+                ..Occurrence::default()
             })
             .collect();
         findings.report(finding);
@@ -69,5 +70,6 @@ fn place(file: &str, fault: &TextFault) -> Place {
         file: Some(file.to_owned()),
         pointer: fault.pointer.clone(),
         position: fault.position,
+        subject: None,
     }
 }

@@ -55,7 +55,8 @@ fn check(context: &Context, findings: &mut Findings) {
                     )
                     .expected(format!("{limit:?}"))
                     .actual(format!("{bound:?}"))
-                    .tolerance(number_tolerance(limit, bound)),
+                    .tolerance(number_tolerance(limit, bound))
+                    .off_by(limit - bound, ""),
                 );
             }
         }

@@ -41,7 +41,8 @@ fn check(context: &Context, findings: &mut Findings) {
                     )
                     .expected(format!("{right:?}, as `/bounds/{dof}/{column}` has it"))
                     .actual(format!("{value:?}"))
-                    .tolerance(number_tolerance(right, *value)),
+                    .tolerance(number_tolerance(right, *value))
+                    .off_by(right - value, ""),
                 );
             }
         }

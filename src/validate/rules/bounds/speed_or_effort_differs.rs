@@ -63,7 +63,9 @@ fn check(context: &Context, findings: &mut Findings) {
             .expected(or_null(right))
             .actual(or_null(written));
             findings.report(match (right, written) {
-                (Some(right), Some(written)) => finding.tolerance(number_tolerance(right, written)),
+                (Some(right), Some(written)) => finding
+                    .tolerance(number_tolerance(right, written))
+                    .off_by(right - written, ""),
                 _ => finding,
             });
         }

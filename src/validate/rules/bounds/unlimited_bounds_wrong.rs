@@ -90,7 +90,8 @@ fn check(context: &Context, findings: &mut Findings) {
                     )
                     .expected(format!("{right:?}"))
                     .actual(format!("{written:?}"))
-                    .tolerance(number_tolerance(right, written)),
+                    .tolerance(number_tolerance(right, written))
+                    .off_by(right - written, ""),
                 );
             }
         }

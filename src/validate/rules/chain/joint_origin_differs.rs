@@ -47,7 +47,8 @@ fn check(context: &Context, findings: &mut Findings) {
                 )
                 .expected(format!("{:?}", right.origin.xyz))
                 .actual(format!("{:?}", origin.position))
-                .tolerance(position_tolerance),
+                .tolerance(position_tolerance)
+                .off_by(offset, "m"),
             );
         }
         let turned = right.origin.rotation();
@@ -67,7 +68,8 @@ fn check(context: &Context, findings: &mut Findings) {
                     None => format!("the rotation of rpy {:?}", right.origin.rpy),
                 })
                 .actual(format!("{:?}", origin.quaternion_wxyz))
-                .tolerance(ROTATION),
+                .tolerance(ROTATION)
+                .off_by(angle, "rad"),
             );
         }
     }

@@ -14,7 +14,7 @@ declare_rule! {
     /// Divide the quaternion by its length. Then negate it if w is negative, or if w is 0 and the first of
     /// x, y, z that is not 0 is negative.
     CHN010 "quaternion-not-canonical", Error, clause "6.3.4", since "0.1.0",
-    phase References, needs [Version1, Module(Kind::Chain)],
+    phase References, consequence Format, needs [Version1, Module(Kind::Chain)],
     check check,
 }
 

@@ -178,8 +178,7 @@ fn report_cause(
                 file: Some(listed.file.path.clone()),
                 ..Place::default()
             },
-            expected: None,
-            actual: None,
+            ..Occurrence::default()
         })
         .collect();
     findings.report(finding);

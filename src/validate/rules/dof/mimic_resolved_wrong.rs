@@ -96,7 +96,8 @@ fn check(context: &Context, findings: &mut Findings) {
                     Finding::at(&file, format!("{pointer}/{key}"), message)
                         .expected(format!("{right:?}"))
                         .actual(format!("{written:?}"))
-                        .tolerance(number_tolerance(right, written)),
+                        .tolerance(number_tolerance(right, written))
+                        .off_by(right - written, ""),
                 );
             }
         }

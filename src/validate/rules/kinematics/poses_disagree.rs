@@ -118,7 +118,8 @@ fn check(context: &Context, findings: &mut Findings) {
             )
             .expected(describe(expected))
             .actual(describe(found))
-            .tolerance(tolerance),
+            .tolerance(tolerance)
+            .off_by(shift, "m"),
         );
         // Other configurations would say the same of the same joint.
         return;

@@ -117,7 +117,8 @@ fn check(context: &Context, findings: &mut Findings) {
                     )
                     .expected(describe(expected))
                     .actual(describe(&found))
-                    .tolerance(tolerance),
+                    .tolerance(tolerance)
+                    .off_by(shift, "m"),
                 );
             }
         }

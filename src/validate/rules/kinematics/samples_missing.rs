@@ -12,7 +12,7 @@ declare_rule! {
     ///
     /// Write it: zero, middle, lower and upper configuration, and a few sampled ones.
     KIN005 "samples-missing", Warning, clause "9.2", since "0.1.0",
-    phase Files, needs [Version1],
+    phase Files, consequence Format, needs [Version1],
     check check,
 }
 

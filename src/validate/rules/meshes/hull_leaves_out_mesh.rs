@@ -18,7 +18,7 @@ declare_rule! {
     ///
     /// Compute the hull of the link's plain mesh again.
     MSH018 "hull-leaves-out-mesh", Error, clause "7.9", since "0.1.0",
-    phase Geometry, needs [
+    phase Geometry, consequence Collisions, needs [
         Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NotFailed(MSH003), NotFailed(MSH007),
         NotFailed(MSH017),
     ],
@@ -53,7 +53,8 @@ fn check(context: &Context, findings: &mut Findings) {
             )
             .expected("every vertex of the plain mesh inside")
             .actual(format!("{} outside", metres(distance)))
-            .tolerance(tolerance),
+            .tolerance(tolerance)
+            .off_by(distance, "m"),
         );
     }
 }

@@ -14,7 +14,7 @@ declare_rule! {
     /// Compute the hull of the link's plain mesh again, and write every triangle, counter-clockwise seen
     /// from outside.
     MSH017 "hull-not-convex", Error, clause "7.9", since "0.1.0",
-    phase Geometry, needs [
+    phase Geometry, consequence Collisions, needs [
         Module(Kind::ConvexHullMeshes), NotFailed(MSH003),
     ],
     check check,

@@ -19,7 +19,7 @@ declare_rule! {
     ///
     /// Compute the hull from the vertices of the plain mesh as its files have them.
     MSH019 "hull-vertex-off-mesh", Error, clause "7.9", since "0.1.0",
-    phase Geometry, needs [
+    phase Geometry, consequence Collisions, needs [
         Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NotFailed(MSH003), NotFailed(MSH007),
         NotFailed(MSH017), NotFailed(MSH018),
     ],
@@ -57,7 +57,8 @@ fn check(context: &Context, findings: &mut Findings) {
             )
             .expected("vertices of the plain mesh only")
             .actual(format!("a vertex {} off", metres(distance)))
-            .tolerance(tolerance),
+            .tolerance(tolerance)
+            .off_by(distance, "m"),
         );
     }
 }

@@ -13,7 +13,7 @@ declare_rule! {
     ///
     /// Name the file as SPEC 7.3 says, and the path with it.
     MSH006 "mesh-file-name", Error, clause "7.3", since "0.1.0",
-    phase References, needs [
+    phase References, consequence Format, needs [
         Version1,
         Module(Kind::Urdf),
         AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),

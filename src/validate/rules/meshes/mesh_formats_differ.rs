@@ -17,7 +17,7 @@ declare_rule! {
     ///
     /// Write all three from the same triangles.
     MSH014 "mesh-formats-differ", Error, clause "7.6", since "0.1.0",
-    phase Geometry, needs [
+    phase Geometry, consequence WrongPlace, needs [
         AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
         NotFailed(MSH003),
         NotFailed(MSH005),

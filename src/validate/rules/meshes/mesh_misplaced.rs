@@ -15,7 +15,7 @@ declare_rule! {
     ///
     /// Write it again, from the carried meshes. Vertices may differ by the rounding of binary32.
     MSH015 "mesh-misplaced", Error, clause "7.8", since "0.1.0",
-    phase Geometry, needs [
+    phase Geometry, consequence WrongPlace, needs [
         Module(Kind::Urdf), Module(Kind::OriginalMeshes), Module(Kind::PlainMeshes),
         NotFailedInV1(MSH001), NotFailed(MSH003), NotFailed(MSH005), NotFailed(MSH008),
         NotFailedInV1(MSH009), NotFailedInV1(MSH012), NotFailed(MSH016),

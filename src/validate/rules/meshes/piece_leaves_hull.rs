@@ -16,7 +16,7 @@ declare_rule! {
     ///
     /// Decompose the link's plain mesh, and cut the pieces to its hull.
     MSH021 "piece-leaves-hull", Error, clause "7.10", since "0.1.0",
-    phase Geometry, needs [
+    phase Geometry, consequence Collisions, needs [
         Module(Kind::ConvexHullMeshes), Module(Kind::ConvexDecompositionMeshes),
         NotFailed(MSH003), NotFailed(MSH007), NotFailed(MSH017), NotFailed(MSH018), NotFailed(MSH019),
     ],
@@ -51,7 +51,8 @@ fn check(context: &Context, findings: &mut Findings) {
             )
             .expected("every vertex inside the hull")
             .actual(format!("{} outside", metres(distance)))
-            .tolerance(tolerance),
+            .tolerance(tolerance)
+            .off_by(distance, "m"),
         );
     }
 }

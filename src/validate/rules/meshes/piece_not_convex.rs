@@ -13,7 +13,7 @@ declare_rule! {
     ///
     /// Write the convex hull of each piece, every triangle, counter-clockwise seen from outside.
     MSH020 "piece-not-convex", Error, clause "7.10", since "0.1.0",
-    phase Geometry, needs [
+    phase Geometry, consequence Collisions, needs [
         Module(Kind::ConvexDecompositionMeshes), NotFailed(MSH003),
     ],
     check check,

@@ -15,7 +15,7 @@ declare_rule! {
     /// Write `geometry` as the mesh was really made; where the mesh itself was made from the wrong
     /// elements, write the mesh modules again.
     MSH008 "wrong-geometry-used", Error, clause "7.4", since "0.1.0",
-    phase References, needs [
+    phase References, consequence WrongPlace, needs [
         Version1,
         Module(Kind::Urdf),
         Module(Kind::PlainMeshes),

@@ -93,6 +93,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     .expected(format!("a range that has {distance} in it"))
                     .actual(format!("from {} to {}", pair.min, pair.max))
                     .tolerance(tolerance)
+                    .off_by((pair.min - distance).max(distance - pair.max), "m")
                 });
             }
         }

@@ -75,7 +75,8 @@ fn check(context: &Context, findings: &mut Findings) {
                     )
                     .expected(expected)
                     .actual(value)
-                    .tolerance(tolerance),
+                    .tolerance(tolerance)
+                    .off_by(value - expected, "m"),
                 );
             }
         }

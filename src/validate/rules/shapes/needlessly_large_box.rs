@@ -19,7 +19,7 @@ declare_rule! {
     ///
     /// Turn the box: of all orientations one has the least volume. `urdd generate` finds it.
     SHP019 "needlessly-large-box", Warning, clause "8.2", since "0.1.0",
-    phase Geometry, needs [
+    phase Geometry, consequence Looseness, needs [
         Module(Kind::LinkShapesApproximations),
         AnyModule(&[Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
         NotFailed(MSH001),

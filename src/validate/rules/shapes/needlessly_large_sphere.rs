@@ -17,7 +17,7 @@ declare_rule! {
     ///
     /// Move the centre: there is one smallest sphere. `urdd generate` finds it.
     SHP020 "needlessly-large-sphere", Warning, clause "8.2", since "0.1.0",
-    phase Geometry, needs [
+    phase Geometry, consequence Looseness, needs [
         Module(Kind::LinkShapesApproximations),
         AnyModule(&[Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
         NotFailed(MSH001),

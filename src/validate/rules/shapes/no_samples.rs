@@ -11,7 +11,7 @@ declare_rule! {
     ///
     /// Write the number of configurations that were sampled, at least 1.
     SHP016 "no-samples", Error, clause "8.5", since "0.1.0",
-    phase References, needs [Version1, Module(Kind::LinkShapesDistanceStatistics)],
+    phase References, consequence Format, needs [Version1, Module(Kind::LinkShapesDistanceStatistics)],
     check check,
 }
 

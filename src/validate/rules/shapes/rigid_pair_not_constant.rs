@@ -78,6 +78,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     .expected("smallest = mean = largest")
                     .actual(format!("{}, {}, {}", pair.min, pair.mean, pair.max))
                     .tolerance(tolerance)
+                    .off_by(pair.max - pair.min, "m")
                 });
             }
         }

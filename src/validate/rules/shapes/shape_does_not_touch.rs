@@ -60,7 +60,8 @@ fn check(context: &Context, findings: &mut Findings) {
             Finding::at(module.file("module.json"), &enclosure.pointer, message)
                 .expected("a vertex on every side")
                 .actual(format!("{off} m off"))
-                .tolerance(enclosure.tolerance),
+                .tolerance(enclosure.tolerance)
+                .off_by(off, "m"),
         );
     }
 }

@@ -58,7 +58,8 @@ fn check(context: &Context, findings: &mut Findings) {
             )
             .expected("every vertex inside")
             .actual(format!("{away} m outside"))
-            .tolerance(enclosure.tolerance),
+            .tolerance(enclosure.tolerance)
+            .off_by(away, "m"),
         );
     }
 }

@@ -104,6 +104,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     .expected(expected)
                     .actual(actual)
                     .tolerance(tolerance)
+                    .off_by(actual - expected, "m")
                 });
             }
         }

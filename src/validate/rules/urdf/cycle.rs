@@ -1,5 +1,4 @@
 use crate::document::robot::Robot;
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -18,7 +17,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     for circle in circles(&parents(robot)) {
@@ -32,7 +31,7 @@ fn check(context: &Context, findings: &mut Findings) {
         };
         findings.report(
             Finding::at(
-                module.file("module.json"),
+                file.clone(),
                 format!("/links/{first}"),
                 format!(
                     "{} hang on each other in a circle, each on the next: take out or turn round one of their joints",

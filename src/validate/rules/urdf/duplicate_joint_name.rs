@@ -1,5 +1,4 @@
 use super::duplicate_link_name::repeated;
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -17,14 +16,14 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     let names = robot.joints.iter().map(|joint| joint.name.as_str());
     for (index, first, name) in repeated(names) {
         findings.report(
             Finding::at(
-                module.file("module.json"),
+                file.clone(),
                 format!("/joints/{index}/name"),
                 format!("there is a joint `{name}` already; give this one a name of its own"),
             )

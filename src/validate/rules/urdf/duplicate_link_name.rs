@@ -1,6 +1,5 @@
 use std::collections::HashMap;
 
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -18,14 +17,14 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     let names = robot.links.iter().map(|link| link.name.as_str());
     for (index, first, name) in repeated(names) {
         findings.report(
             Finding::at(
-                module.file("module.json"),
+                file.clone(),
                 format!("/links/{index}/name"),
                 format!("there is a link `{name}` already; give this one a name of its own"),
             )

@@ -1,5 +1,4 @@
 use super::cycle::circles;
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -18,7 +17,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     let follows: Vec<Option<usize>> = robot
@@ -44,7 +43,7 @@ fn check(context: &Context, findings: &mut Findings) {
         };
         findings.report(
             Finding::at(
-                module.file("module.json"),
+                file.clone(),
                 format!("/joints/{first}/mimic/joint"),
                 message,
             )

@@ -1,4 +1,3 @@
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -17,7 +16,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     for (index, joint) in robot.joints.iter().enumerate() {
@@ -42,17 +41,13 @@ fn check(context: &Context, findings: &mut Findings) {
             _ => continue,
         };
         findings.report(
-            Finding::at(
-                module.file("module.json"),
-                format!("/joints/{index}/mimic"),
-                message,
-            )
-            .expected("a joint of one DOF, or a fixed one")
-            .actual(format!(
-                "{}, with {} DOFs",
-                culprit.joint_type,
-                culprit.num_dofs()
-            )),
+            Finding::at(file.clone(), format!("/joints/{index}/mimic"), message)
+                .expected("a joint of one DOF, or a fixed one")
+                .actual(format!(
+                    "{}, with {} DOFs",
+                    culprit.joint_type,
+                    culprit.num_dofs()
+                )),
         );
     }
 }

@@ -1,4 +1,3 @@
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -18,7 +17,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     let mut is_child = vec![false; robot.links.len()];
@@ -44,7 +43,7 @@ fn check(context: &Context, findings: &mut Findings) {
         _ => "the robot falls into parts: connect these links by joints".to_owned(),
     };
     findings.report(
-        Finding::at(module.file("module.json"), "/links", message)
+        Finding::at(file, "/links", message)
             .expected("one link that is no joint's child")
             .actual(match roots.len() {
                 0 => "no link".to_owned(),

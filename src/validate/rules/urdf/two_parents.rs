@@ -1,4 +1,3 @@
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -18,7 +17,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     let mut held_by: Vec<Option<usize>> = vec![None; robot.links.len()];
@@ -36,7 +35,7 @@ fn check(context: &Context, findings: &mut Findings) {
         let other = robot.joints.get(first).map_or("", |joint| &joint.name);
         findings.report(
             Finding::at(
-                module.file("module.json"),
+                file.clone(),
                 format!("/joints/{index}/child/link"),
                 format!(
                     "link `{}` is the child of joint `{}` and of joint `{other}`; it can hang on one only",

@@ -1,4 +1,3 @@
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -17,7 +16,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     for (index, joint) in robot.joints.iter().enumerate() {
@@ -25,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) {
             if robot.link(link).is_none() {
                 findings.report(
                     Finding::at(
-                        module.file("module.json"),
+                        file.clone(),
                         format!("/joints/{index}/{end}/link"),
                         format!("{end} of joint `{}` is no link of the robot", joint.name),
                     )

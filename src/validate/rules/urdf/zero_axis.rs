@@ -1,4 +1,3 @@
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -17,7 +16,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
         return;
     };
     for (index, joint) in robot.joints.iter().enumerate() {
@@ -26,7 +25,7 @@ fn check(context: &Context, findings: &mut Findings) {
         }
         findings.report(
             Finding::at(
-                module.file("module.json"),
+                file.clone(),
                 format!("/joints/{index}/axis/xyz"),
                 format!(
                     "the axis of joint `{}` ({}) has no direction",

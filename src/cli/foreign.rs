@@ -1,0 +1,69 @@
+//! What to do with a file that is no URDD.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::directory::discover::DiscoverError;
+use crate::format::escape;
+
+/// How much of a file is looked at to tell what it is, bytes.
+const HEAD: u64 = 4096;
+
+/// The message of an error, and for a file that has a format of its own what to do with it.
+pub fn advice(error: &DiscoverError) -> String {
+    let text = escape::line(&error.to_string()).into_owned();
+    let DiscoverError::NotAFolder { path } = error else {
+        return text;
+    };
+    match of_file(Path::new(path)) {
+        Some(advice) => format!("{}: {advice}", escape::line(path)),
+        None => text,
+    }
+}
+
+fn of_file(path: &Path) -> Option<&'static str> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    let by_name = match extension.to_ascii_lowercase().as_str() {
+        "xacro" => Some(
+            "this is a xacro file; `urdd generate` expands it and makes a URDD of it, \
+             or `xacro FILE > robot.urdf` makes a URDF that can be validated",
+        ),
+        "sdf" | "world" => Some(SDF),
+        "srdf" => Some(
+            "this is SRDF, which adds groups and skipped collisions to a URDF; \
+             give the URDF that it belongs to, or a URDD",
+        ),
+        "mjcf" => Some(MJCF),
+        "usd" | "usda" | "usdc" | "usdz" => Some(
+            "this is USD; URDDs are made of URDF: export one (Isaac Sim has a URDF exporter), then `urdd generate`",
+        ),
+        "json" | "yaml" | "yml" => Some(
+            "this is a file of a URDD, or none; give the folder that holds urdd.json and the module folders",
+        ),
+        _ => None,
+    };
+    by_name.or_else(|| by_content(path))
+}
+
+const SDF: &str = "this is SDF; URDDs are made of URDF: convert it (for example with `sdf2urdf`), then `urdd generate`";
+const MJCF: &str = "this is MJCF, the format of MuJoCo; URDDs are made of URDF: look for the URDF that it was made \
+    from, or convert it, then `urdd generate`";
+
+fn by_content(path: &Path) -> Option<&'static str> {
+    let mut head = Vec::new();
+    let file = path.is_file().then(|| File::open(path).ok())??;
+    file.take(HEAD).read_to_end(&mut head).ok()?;
+    let head = String::from_utf8_lossy(&head);
+    if head.contains("<mujoco") {
+        Some(MJCF)
+    } else if head.contains("<sdf") {
+        Some(SDF)
+    } else if head.contains("<robot") {
+        Some(
+            "this looks like a URDF; name it .urdf to validate it by itself, or make a URDD of it with `urdd generate`",
+        )
+    } else {
+        None
+    }
+}

@@ -1,0 +1,50 @@
+//! Words of the format as arguments.
+
+use clap::ValueEnum;
+
+use crate::format::report::Severity;
+use crate::format::root_metadata::ConformanceClass;
+
+/// A conformance class.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Class {
+    /// The robot and its kinematics.
+    Core,
+    /// Core, and meshes.
+    Geometry,
+    /// Geometry, and boxes, spheres, distances and skips.
+    Shapes,
+}
+
+impl Class {
+    /// The class itself.
+    pub fn class(self) -> ConformanceClass {
+        match self {
+            Class::Core => ConformanceClass::Core,
+            Class::Geometry => ConformanceClass::Geometry,
+            Class::Shapes => ConformanceClass::Shapes,
+        }
+    }
+}
+
+/// A severity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Level {
+    /// A MUST of the specification that is not kept.
+    Error,
+    /// A SHOULD that is not kept, or an odd robot.
+    Warning,
+    /// A convention of old, or something worth knowing.
+    Info,
+}
+
+impl Level {
+    /// The severity itself.
+    pub fn severity(self) -> Severity {
+        match self {
+            Level::Error => Severity::Error,
+            Level::Warning => Severity::Warning,
+            Level::Info => Severity::Info,
+        }
+    }
+}

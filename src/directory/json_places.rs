@@ -1,0 +1,111 @@
+//! Many places of one JSON text, found in one walk.
+
+use std::collections::HashMap;
+
+use super::json_scan::{Scan, segments};
+
+/// Byte offsets of the values at many pointers, in one walk through the text.
+pub fn find_values(text: &str, pointers: &[&str]) -> Vec<Option<usize>> {
+    let mut wanted = Wanted::default();
+    for (number, pointer) in pointers.iter().enumerate() {
+        let parts: Option<Vec<_>> = segments(pointer).and_then(|parts| parts.collect());
+        let Some(parts) = parts else { continue };
+        let place = parts.into_iter().fold(&mut wanted, |place, part| {
+            place.below.entry(part.into_owned()).or_default()
+        });
+        place.numbers.push(number);
+    }
+    let mut found = vec![None; pointers.len()];
+    wanted.visit(&mut Scan::new(text), &mut found);
+    found
+}
+
+/// What is looked for at a value, and below it.
+#[derive(Default)]
+struct Wanted {
+    numbers: Vec<usize>,
+    below: HashMap<String, Wanted>,
+}
+
+impl Wanted {
+    /// Notes the value that begins here, and moves past it.
+    fn visit(&self, scan: &mut Scan<'_>, found: &mut [Option<usize>]) -> Option<()> {
+        scan.skip_space();
+        scan.peek()?;
+        for number in &self.numbers {
+            found[*number] = Some(scan.at);
+        }
+        let list = match scan.peek() {
+            Some(b'[') if !self.below.is_empty() => true,
+            Some(b'{') if !self.below.is_empty() => false,
+            _ => return scan.skip_value(),
+        };
+        scan.at += 1;
+        for index in 0.. {
+            scan.skip_space();
+            if matches!(scan.peek(), Some(b']' | b'}')) {
+                break;
+            }
+            let below = match list {
+                true => self.below.get(index.to_string().as_str()),
+                false => {
+                    let key = scan.key()?;
+                    scan.eat(b':')?;
+                    self.below.get(&*key)
+                }
+            };
+            match below {
+                // Below a key that comes again, only the last counts.
+                Some(below) => {
+                    below.forget(found);
+                    below.visit(scan, found)?;
+                }
+                None => scan.skip_value()?,
+            }
+            if scan.eat(b',').is_none() {
+                break;
+            }
+        }
+        scan.eat(if list { b']' } else { b'}' })
+    }
+
+    fn forget(&self, found: &mut [Option<usize>]) {
+        for number in &self.numbers {
+            found[*number] = None;
+        }
+        self.below.values().for_each(|below| below.forget(found));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::json_scan::find_value;
+    use super::*;
+
+    #[test]
+    fn many_are_found_as_one_is() {
+        let text = r#" {"a~/": [1, {"b": [2, 3]}, []], "c": {"d": 4, "d": {"e": 5}}, "f": "]}\"", "c": {"d": [6]}} "#;
+        let pointers = [
+            "",
+            "/a~0~1",
+            "/a~0~1/0",
+            "/a~0~1/1/b/1",
+            "/a~0~1/2/0",
+            "/a~0~1/01",
+            "/c",
+            "/c/d",
+            "/c/d/e",
+            "/c/d/0",
+            "/f",
+            "/g",
+            "/f/0",
+            "x",
+            "/~2",
+            "/c/d/0",
+        ];
+        let many = find_values(text, &pointers);
+        let each: Vec<Option<usize>> = pointers.iter().map(|p| find_value(text, p)).collect();
+        assert_eq!(many, each);
+        assert_eq!(many.iter().flatten().count(), 9);
+    }
+}

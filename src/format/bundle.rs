@@ -1,0 +1,95 @@
+//! One schema for a whole URDD of version 1: for code generators, which make one set of types of it
+//! instead of one for each file.
+
+use serde_json::{Map, Value, json};
+
+use super::registry::Profile;
+use super::schema::{Subject, Variant};
+
+/// The schema of an object with a property for `urdd.json` and one for each module. Definitions that
+/// several modules share are there once.
+pub fn bundle(variant: Variant) -> Value {
+    let mut definitions = Map::new();
+    let mut properties = Map::new();
+    for subject in Subject::all().filter(|subject| is_version_1(*subject)) {
+        let name = match subject {
+            Subject::RootMetadata => "urdd.json",
+            subject => subject.name(),
+        };
+        let reference = add(subject.schema(variant), subject.name(), &mut definitions);
+        properties.insert(name.to_owned(), json!({ "$ref": reference }));
+    }
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": match variant {
+            Variant::Strict => "urn:urdd:schema:bundle:1.0.0",
+            Variant::Open => "urn:urdd:schema:bundle:1.0.0:open",
+        },
+        "title": "Urdd",
+        "description": "The documents of a URDD of version 1 by the names of the modules: a text for code generators, \
+                        not of a file that a URDD has.",
+        "type": "object",
+        "properties": properties,
+        "$defs": definitions,
+    })
+}
+
+fn is_version_1(subject: Subject) -> bool {
+    match subject {
+        Subject::RootMetadata => true,
+        Subject::Module(spec) => spec.profile == Profile::V1,
+        Subject::Report | Subject::ProducerResult | Subject::ValidatorResult => false,
+    }
+}
+
+/// Adds a schema and its definitions; gives the reference to it.
+fn add(mut schema: Value, name: &str, definitions: &mut Map<String, Value>) -> String {
+    let object = schema.as_object_mut();
+    let own = object.and_then(|object| {
+        object.shift_remove("$schema");
+        object.shift_remove("$id");
+        object.shift_remove("$defs")
+    });
+    let title = schema["title"].as_str().unwrap_or(name).to_owned();
+    let own = match own {
+        Some(Value::Object(own)) => own,
+        _ => Map::new(),
+    };
+    let clash =
+        |(key, value): (&String, &Value)| definitions.get(key).is_some_and(|other| other != value);
+    // Where a name means something else already, all of this module's get names of their own.
+    let prefix = match own.iter().any(clash) {
+        true => title.as_str(),
+        false => "",
+    };
+    for (key, mut value) in own {
+        refer(&mut value, prefix);
+        if !prefix.is_empty() {
+            value["title"] = json!(format!("{prefix}{key}"));
+        }
+        definitions.insert(format!("{prefix}{key}"), value);
+    }
+    refer(&mut schema, prefix);
+    let reference = format!("#/$defs/{title}");
+    definitions.insert(title, schema);
+    reference
+}
+
+/// Puts a prefix before the name of every definition that is referred to.
+fn refer(schema: &mut Value, prefix: &str) {
+    match schema {
+        Value::Object(object) => {
+            for (key, value) in object {
+                match (key.as_str(), &mut *value) {
+                    ("$ref", Value::String(reference)) => {
+                        let name = reference.strip_prefix("#/$defs/").unwrap_or(reference);
+                        *reference = format!("#/$defs/{prefix}{name}");
+                    }
+                    _ => refer(value, prefix),
+                }
+            }
+        }
+        Value::Array(list) => list.iter_mut().for_each(|value| refer(value, prefix)),
+        _ => {}
+    }
+}

@@ -1,0 +1,137 @@
+//! Text from anybody, made safe to print. A name in a URDD, a file's path or a program's argument
+//! may hold characters that clear a terminal, turn text around, or cannot be seen: each is shown as
+//! its escape, `\u{1b}`.
+
+use std::borrow::Cow;
+use std::fmt::Write;
+
+use unicode_general_category::{GeneralCategory, get_general_category};
+
+/// Whether a character must not reach a terminal, a log or a page as it is: control characters (C0,
+/// DEL, C1), line and paragraph separators, format characters (the bidirectional ones, joiners,
+/// tags), characters without a picture, and code points that are not assigned.
+pub fn is_hidden(c: char) -> bool {
+    match c {
+        ' '..='~' => false,
+        // Letters and marks by category, but drawn as nothing: fillers, variation selectors.
+        '\u{34f}'
+        | '\u{115f}'
+        | '\u{1160}'
+        | '\u{17b4}'
+        | '\u{17b5}'
+        | '\u{180b}'..='\u{180f}'
+        | '\u{2800}'
+        | '\u{3164}'
+        | '\u{fe00}'..='\u{fe0f}'
+        | '\u{ffa0}'
+        | '\u{e0000}'..='\u{e0fff}' => true,
+        c => matches!(
+            get_general_category(c),
+            GeneralCategory::Control
+                | GeneralCategory::Format
+                | GeneralCategory::LineSeparator
+                | GeneralCategory::ParagraphSeparator
+                | GeneralCategory::Surrogate
+                | GeneralCategory::Unassigned
+        ),
+    }
+}
+
+/// A piece of text that belongs on one line: a name, a path, a message. Line breaks are escaped too,
+/// so that no name can add a line of its own.
+pub fn line(text: &str) -> Cow<'_, str> {
+    replaced(text, is_hidden, escape)
+}
+
+/// Text of several lines: its line feeds stay, everything else is as for [`line`].
+pub fn lines(text: &str) -> Cow<'_, str> {
+    replaced(text, |c| c != '\n' && is_hidden(c), escape)
+}
+
+/// The text of a JSON document: what is hidden in its strings is written as `\u` escapes of JSON, so
+/// that the document says the same. (JSON writers escape C0 only.)
+pub fn json(text: &str) -> Cow<'_, str> {
+    replaced(text, |c| c >= '\u{7f}' && is_hidden(c), escape_json)
+}
+
+fn escape(c: char, out: &mut String) {
+    match c {
+        '\n' => out.push_str("\\n"),
+        '\r' => out.push_str("\\r"),
+        '\t' => out.push_str("\\t"),
+        c => {
+            let _ = write!(out, "\\u{{{:x}}}", u32::from(c));
+        }
+    }
+}
+
+fn escape_json(c: char, out: &mut String) {
+    for unit in c.encode_utf16(&mut [0; 2]) {
+        let _ = write!(out, "\\u{unit:04x}");
+    }
+}
+
+fn replaced(
+    text: &str,
+    wanted: impl Fn(char) -> bool,
+    escape: fn(char, &mut String),
+) -> Cow<'_, str> {
+    let Some(first) = text.find(&wanted) else {
+        return Cow::Borrowed(text);
+    };
+    let mut out = String::with_capacity(text.len() + 16);
+    out.push_str(&text[..first]);
+    for c in text[first..].chars() {
+        match wanted(c) {
+            true => escape(c, &mut out),
+            false => out.push(c),
+        }
+    }
+    Cow::Owned(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_can_be_seen_stays() {
+        for text in [
+            "",
+            "left arm/ü 1",
+            "关节_1",
+            "кисть",
+            "🤖",
+            "a\\b \"c\" `d`",
+        ] {
+            assert_eq!(line(text), text);
+            assert_eq!(json(text), text);
+        }
+    }
+
+    #[test]
+    fn what_is_hidden_is_shown() {
+        for (text, shown) in [
+            ("\u{1b}[2J", "\\u{1b}[2J"),
+            ("a\r\n\tb", "a\\r\\n\\tb"),
+            ("\u{7f}\u{9b}\u{85}", "\\u{7f}\\u{9b}\\u{85}"),
+            ("\u{202e}\u{2066}\u{61c}", "\\u{202e}\\u{2066}\\u{61c}"),
+            ("\u{2028}\u{2029}", "\\u{2028}\\u{2029}"),
+            ("\u{200b}\u{feff}\u{ad}", "\\u{200b}\\u{feff}\\u{ad}"),
+            ("\u{3164}\u{fe0f}\u{e0041}", "\\u{3164}\\u{fe0f}\\u{e0041}"),
+            ("\u{fffe}", "\\u{fffe}"),
+        ] {
+            assert_eq!(line(text), shown);
+        }
+        assert_eq!(lines("a\n\u{1b}b\r\n"), "a\n\\u{1b}b\\r\n");
+    }
+
+    #[test]
+    fn json_says_the_same_with_escapes() {
+        let value = "\u{1b}\u{9b}\u{202e}\u{e0041}🤖é";
+        let text = serde_json::to_string(value).unwrap();
+        let safe = json(&text);
+        assert_eq!(safe, "\"\\u001b\\u009b\\u202e\\udb40\\udc41🤖é\"");
+        assert_eq!(serde_json::from_str::<String>(&safe).unwrap(), value);
+    }
+}

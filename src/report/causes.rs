@@ -1,0 +1,181 @@
+//! What is behind the findings of many URDDs: findings of one rule that say the same are one cause,
+//! whatever the module, link or URDD.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::model::{Consequence, Finding, Place, Report, Severity};
+use super::place::file_in;
+
+/// One cause.
+pub(super) struct Cause<'a> {
+    /// Its first finding.
+    pub first: &'a Finding,
+    /// How bad it is, at its worst.
+    pub severity: Severity,
+    /// How often it was found: what several URDDs name, such as a file of a part that they are put
+    /// together of, counts once.
+    pub times: usize,
+    /// Links, joints, pairs of links at which it was found; 0 where that is not known.
+    pub subjects: usize,
+    /// The URDDs in which it was found.
+    pub urdds: Vec<&'a str>,
+    /// How many of them only name what another one holds.
+    pub borrowed: usize,
+}
+
+impl Cause<'_> {
+    /// What it does.
+    pub fn consequence(&self) -> Consequence {
+        self.first.consequence
+    }
+}
+
+#[derive(Default)]
+struct Gathered<'a> {
+    first: Option<&'a Finding>,
+    severity: Option<Severity>,
+    places: BTreeSet<(String, Option<&'a str>)>,
+    without_place: usize,
+    subjects: BTreeSet<(usize, String)>,
+    subjects_known: bool,
+    urdds: BTreeMap<usize, bool>,
+}
+
+/// The causes of all findings: errors first, then by consequence, then by how many URDDs have them.
+pub(super) fn causes(report: &Report) -> Vec<Cause<'_>> {
+    let roots: BTreeSet<&str> = report.urdds.iter().map(|urdd| urdd.path.as_str()).collect();
+    let mut all: BTreeMap<(&str, String), Gathered> = BTreeMap::new();
+    for (number, urdd) in report.urdds.iter().enumerate() {
+        for finding in &urdd.findings {
+            let key = (finding.code.as_str(), without_particulars(&finding.message));
+            let cause = all.entry(key).or_insert_with(|| Gathered {
+                subjects_known: true,
+                ..Gathered::default()
+            });
+            cause.first.get_or_insert(finding);
+            cause.severity = cause.severity.max(Some(finding.severity));
+            cause.without_place += finding.places_cut.get();
+            let mut own = finding.places_cut.get() > 0;
+            for place in &finding.places {
+                let file = file_in(&urdd.path, place.file.as_deref());
+                own |= place.file.is_none() || within(&file, &urdd.path) || !inside(&file, &roots);
+                cause.places.insert((file, place.pointer.as_deref()));
+                match subject(place) {
+                    Some(subject) => {
+                        cause.subjects.insert((number, subject));
+                    }
+                    None => cause.subjects_known = false,
+                }
+            }
+            *cause.urdds.entry(number).or_default() |= own;
+        }
+    }
+    let mut causes: Vec<Cause> = all
+        .into_values()
+        .filter_map(|cause| {
+            let named = |number: &usize| report.urdds[*number].path.as_str();
+            Some(Cause {
+                first: cause.first?,
+                severity: cause.severity?,
+                times: cause.places.len() + cause.without_place,
+                subjects: match cause.subjects_known {
+                    true => cause.subjects.len(),
+                    false => 0,
+                },
+                borrowed: cause.urdds.values().filter(|own| !**own).count(),
+                urdds: cause.urdds.keys().map(named).collect(),
+            })
+        })
+        .collect();
+    causes.sort_by_key(|cause| {
+        (
+            Reverse(cause.severity),
+            Reverse(cause.consequence()),
+            Reverse(cause.urdds.len()),
+            Reverse(cause.times),
+        )
+    });
+    causes
+}
+
+/// The links or joints of a place, pieces taken together, in alphabetical order: a pair is the same
+/// pair either way round.
+fn subject(place: &Place) -> Option<String> {
+    let subject = place.subject.as_deref()?;
+    let part = |part: &str| match part.find("` piece ") {
+        Some(end) => part[..=end].to_owned(),
+        None => part.to_owned(),
+    };
+    let mut parts: Vec<String> = subject.split(", ").map(part).collect();
+    parts.sort();
+    Some(parts.join(", "))
+}
+
+fn within(file: &str, root: &str) -> bool {
+    file.strip_prefix(root)
+        .is_some_and(|rest| rest.starts_with('/'))
+}
+
+fn inside(file: &str, roots: &BTreeSet<&str>) -> bool {
+    let parents = file.match_indices('/').map(|(end, _)| &file[..end]);
+    parents.into_iter().any(|folder| roots.contains(folder))
+}
+
+/// A message without names (in backticks or quotes) and numbers.
+fn without_particulars(message: &str) -> String {
+    let mut out = String::new();
+    let mut chars = message.chars().peekable();
+    while let Some(c) = chars.next() {
+        match c {
+            '`' | '"' => {
+                out.push(c);
+                chars.by_ref().find(|other| *other == c);
+            }
+            '-' if chars.peek().is_some_and(char::is_ascii_digit) => {}
+            c if c.is_ascii_digit() => {
+                out.push('#');
+                let number = |c: &char| c.is_ascii_digit() || matches!(c, '.' | 'e' | '-' | '+');
+                while chars.next_if(number).is_some() {}
+            }
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_numbers_do_not_tell_causes_apart() {
+        let same = without_particulars("link `a` is off by 0.25 m, at most 1e-6");
+        assert_eq!(
+            same,
+            without_particulars("link `b c` is off by 3 m, at most 2")
+        );
+        assert_ne!(
+            same,
+            without_particulars("joint `a` is off by 0.25 m, at most 1e-6")
+        );
+    }
+
+    #[test]
+    fn a_pair_is_the_same_either_way_round() {
+        let at = |subject: &str| Place {
+            file: None,
+            pointer: None,
+            line: None,
+            column: None,
+            expected: None,
+            actual: None,
+            subject: Some(subject.to_owned()),
+            message: None,
+            magnitude: None,
+        };
+        let one = subject(&at("`b` piece 3, `a` piece 1"));
+        assert_eq!(one.as_deref(), Some("`a`, `b`"));
+        assert_eq!(one, subject(&at("`a`, `b`")));
+    }
+}
