@@ -1,8 +1,9 @@
 //! `urdd generate`.
 
-use std::io::IsTerminal;
-use std::path::PathBuf;
+use std::io::{IsTerminal, Read};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 
@@ -11,23 +12,32 @@ use super::output;
 use crate::format::escape;
 use crate::format::meshes::GeometryKind;
 use crate::generate::batch::{self, Job, Shard};
-use crate::generate::{Packages, Selection, Settings};
+use crate::generate::{
+    MAX_SOURCE_BYTES, Packages, Selection, Settings, XacroSettings, generate_text,
+};
 
 /// Exit status: a robot could not be made.
 const FAILED: u8 = 1;
 /// Exit status: wrong usage, or there is no robot.
 const USAGE: u8 = 2;
 
+/// The word for a URDF from standard input.
+const STANDARD_INPUT: &str = "-";
+
 /// Arguments of `urdd generate`.
 #[derive(Args)]
 #[command(
-    after_help = "Mesh names are looked up as ROS does: package:// by --package, by package.xml or a folder of that \
+    after_help = "Mesh files are taken from the URDF's folder (or the package, or the folder above `urdf/`, that it lies in), from \
+    packages, and from folders that --allow-folder names; a robot that names other files is refused. A .xacro file is \
+    expanded by the program `xacro`.\n\n\
+    Mesh names are looked up as ROS does: package:// by --package, by package.xml or a folder of that \
     name at or above the URDF, by ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; file://, relative to the URDF, absolute.\n\n\
     Exit status: 0 every robot was made; 1 some were not; 2 wrong usage, no robot was found, \
     or results could not be written."
 )]
 pub struct GenerateArguments {
-    /// A URDF or xacro file; or several, or folders of them, for a batch.
+    /// A URDF or xacro file, or `-` for a URDF from standard input; or several, or folders of them, for a batch. A word
+    /// `name:=value` is an argument for xacro.
     #[arg(required = true, value_name = "ROBOT.urdf")]
     robots: Vec<PathBuf>,
 
@@ -44,6 +54,10 @@ pub struct GenerateArguments {
     #[arg(long = "package", value_name = "NAME=PATH")]
     packages: Vec<String>,
 
+    /// A folder besides those of the robot and its packages from which mesh files may be taken; may be given again.
+    #[arg(long = "allow-folder", value_name = "DIR")]
+    allowed_folders: Vec<PathBuf>,
+
     /// Which geometry links are made from; a link that has none of it gets the other.
     #[arg(long, value_enum, default_value_t = Preferred::Visual)]
     geometry: Preferred,
@@ -55,6 +69,22 @@ pub struct GenerateArguments {
     /// Threads; without it, one for each processor. The URDD is the same for any number.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+
+    /// Makes nothing of a robot of which a mesh is not found, or anything has to be assumed that changes it.
+    #[arg(long)]
+    strict: bool,
+
+    /// Expands macros in .urdf files too.
+    #[arg(long)]
+    xacro: bool,
+
+    /// How long xacro may take for a file, seconds.
+    #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
+    xacro_timeout: u32,
+
+    /// Drops the edits of skips in the URDD that is replaced; without it, a new run keeps them, or stops where it cannot.
+    #[arg(long)]
+    drop_edits: bool,
 
     /// Writes into a folder that holds something else than a URDD of this program. Files of other names stay.
     #[arg(long)]
@@ -91,7 +121,8 @@ pub fn run(arguments: &GenerateArguments) -> ExitCode {
 
 /// Gives how many robots could not be made.
 fn generate(arguments: &GenerateArguments) -> Result<usize, String> {
-    let settings = settings(arguments)?;
+    let (robots, xacro_arguments) = split(&arguments.robots);
+    let settings = settings(arguments, xacro_arguments)?;
     let mut pool = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = arguments.threads {
         pool = pool.num_threads(threads.into());
@@ -99,15 +130,18 @@ fn generate(arguments: &GenerateArguments) -> Result<usize, String> {
     let pool = pool.build().map_err(|error| error.to_string())?;
     // A crash is caught and reported; the default hook would print besides.
     std::panic::set_hook(Box::new(|_| {}));
-    let is_batch = batch::is_batch(&arguments.robots);
+    let is_batch = batch::is_batch(&robots);
+    if is_batch && robots.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
+        return Err("`-` is one robot, and cannot be part of a batch".to_owned());
+    }
     let printer = Printer::new(
         arguments.format,
         is_batch,
         std::io::stderr().is_terminal() && !output::is_dumb(),
     );
     let failed = if is_batch {
-        let mut jobs = batch::jobs(&arguments.robots)
-            .map_err(|error| escape::line(&error.to_string()).into_owned())?;
+        let mut jobs =
+            batch::jobs(&robots).map_err(|error| escape::line(&error.to_string()).into_owned())?;
         if let Some(shard) = arguments.shard {
             jobs = shard.of(jobs);
         }
@@ -119,7 +153,9 @@ fn generate(arguments: &GenerateArguments) -> Result<usize, String> {
         if arguments.shard.is_some() {
             return Err("--shard is for batches: give several robots, or a folder".to_owned());
         }
-        one(arguments, &settings, &pool, &printer)
+        let source = robots.into_iter().next();
+        let source = source.ok_or("there is no robot; give a URDF or xacro file")?;
+        one(source, &arguments.output, &settings, &pool, &printer)?
     };
     let _ = std::panic::take_hook();
     match printer.unprinted() {
@@ -128,27 +164,70 @@ fn generate(arguments: &GenerateArguments) -> Result<usize, String> {
     }
 }
 
+/// Robots, and arguments for xacro.
+fn split(words: &[PathBuf]) -> (Vec<PathBuf>, Vec<String>) {
+    let (mut robots, mut arguments) = (Vec::new(), Vec::new());
+    for word in words {
+        let text = word.to_str().unwrap_or_default();
+        let is_argument = text.split_once(":=").is_some_and(|(name, _)| {
+            let is_of_name = |c: char| c.is_alphanumeric() || c == '_';
+            !name.is_empty() && name.chars().all(is_of_name)
+        });
+        match is_argument {
+            true => arguments.push(text.to_owned()),
+            false => robots.push(word.clone()),
+        }
+    }
+    (robots, arguments)
+}
+
 /// A single robot, whose URDD is the output folder itself.
 fn one(
-    arguments: &GenerateArguments,
+    source: PathBuf,
+    output: &Path,
     settings: &Settings,
     pool: &rayon::ThreadPool,
     printer: &Printer,
-) -> usize {
+) -> Result<usize, String> {
     use crate::generate::batch::Observer;
+    let piped = match source.as_os_str() == STANDARD_INPUT {
+        true => Some(standard_input()?),
+        false => None,
+    };
     let job = Job {
-        source: arguments.robots.first().cloned().unwrap_or_default(),
-        name: arguments.output.display().to_string(),
+        source,
+        name: output.display().to_string(),
     };
     let progress = printer.begin_robot(&job);
-    let outcome =
-        pool.install(|| batch::caught(&job.source, &arguments.output, settings, &*progress));
+    let outcome = pool.install(|| {
+        batch::caught(&job.source, || match piped {
+            Some(urdf) => {
+                let shown = "standard input";
+                generate_text(urdf, shown, Path::new("."), output, settings, &*progress)
+            }
+            None => crate::generate::generate(&job.source, output, settings, &*progress),
+        })
+    });
     drop(progress);
     printer.done(&job, &outcome);
-    usize::from(outcome.is_err())
+    Ok(usize::from(outcome.is_err()))
 }
 
-fn settings(arguments: &GenerateArguments) -> Result<Settings, String> {
+/// All of standard input, and one byte more than a URDF may have at most.
+fn standard_input() -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    let input = std::io::stdin().lock();
+    input
+        .take(MAX_SOURCE_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| format!("standard input cannot be read: {error}"))?;
+    Ok(bytes)
+}
+
+fn settings(
+    arguments: &GenerateArguments,
+    xacro_arguments: Vec<String>,
+) -> Result<Settings, String> {
     let selection = match arguments.modules.is_empty() {
         true => Selection::all(),
         false => Selection::parse(arguments.modules.iter().map(String::as_str))
@@ -160,14 +239,27 @@ fn settings(arguments: &GenerateArguments) -> Result<Settings, String> {
             .add(argument)
             .map_err(|error| format!("--package: {error}"))?;
     }
+    for folder in &arguments.allowed_folders {
+        if !folder.is_dir() {
+            return Err(format!("--allow-folder: {} is no folder", folder.display()));
+        }
+    }
     Ok(Settings {
         selection,
         packages,
+        allowed_folders: arguments.allowed_folders.clone(),
         preferred_geometry: match arguments.geometry {
             Preferred::Visual => GeometryKind::Visual,
             Preferred::Collision => GeometryKind::Collision,
         },
         num_samples: arguments.samples,
+        xacro: XacroSettings {
+            expand_urdf: arguments.xacro,
+            arguments: xacro_arguments,
+            time_limit: Duration::from_secs(arguments.xacro_timeout.into()),
+        },
+        strict: arguments.strict,
+        drop_edits: arguments.drop_edits,
         force: arguments.force,
     })
 }

@@ -1,7 +1,7 @@
 //! What `urdd generate` prints: results, notes, and progress on a terminal.
 
 use std::collections::BTreeMap;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
 use clap::ValueEnum;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
@@ -31,8 +31,16 @@ pub(super) struct Printer {
     format: Format,
     is_batch: bool,
     bars: Option<Bars>,
-    unchanged: Mutex<usize>,
     unprinted: Mutex<Option<String>>,
+    totals: Mutex<Totals>,
+}
+
+/// What is counted over a batch.
+#[derive(Default)]
+struct Totals {
+    unchanged: usize,
+    meshes: usize,
+    meshes_not_found: usize,
 }
 
 /// Progress on a terminal: one bar for the batch, one for each robot at work.
@@ -51,8 +59,8 @@ impl Printer {
             format,
             is_batch,
             bars,
-            unchanged: Mutex::new(0),
             unprinted: Mutex::new(None),
+            totals: Mutex::default(),
         }
     }
 
@@ -70,15 +78,20 @@ impl Printer {
         if let Some(bars) = &self.bars {
             bars.batch.finish_and_clear();
         }
-        let unchanged = self.unchanged.lock().map_or(0, |count| *count);
+        let totals = self.totals.lock().unwrap_or_else(PoisonError::into_inner);
+        let unchanged = totals.unchanged;
         let generated = total - failed - unchanged;
         self.print(&match self.format {
             Format::Json => line(&json!({"summary": {
                 "robots": total, "generated": generated, "unchanged": unchanged, "failed": failed,
+                "meshes": { "named": totals.meshes, "not_found": totals.meshes_not_found },
             }})),
             Format::Human => {
                 let robots = count(total, "robot");
-                format!("{robots}: {generated} generated, {unchanged} unchanged, {failed} failed\n")
+                let meshes = not_found(totals.meshes_not_found, totals.meshes);
+                format!(
+                    "{robots}: {generated} generated, {unchanged} unchanged, {failed} failed{meshes}\n"
+                )
             }
         });
     }
@@ -126,13 +139,15 @@ impl Observer for Printer {
         if let (Some(bars), true) = (&self.bars, self.is_batch) {
             bars.batch.inc(1);
         }
-        if let (Ok(made), Ok(mut unchanged)) = (outcome, self.unchanged.lock()) {
-            *unchanged += usize::from(!made.changed);
+        if let (Ok(made), Ok(mut totals)) = (outcome, self.totals.lock()) {
+            totals.unchanged += usize::from(!made.changed);
+            totals.meshes += made.meshes.named;
+            totals.meshes_not_found += made.meshes.not_found;
         }
         match (self.format, outcome) {
             (Format::Json, outcome) => self.print(&line(&as_json(job, outcome))),
             (Format::Human, Ok(made)) => {
-                self.print(&told(job, made));
+                self.print(&summary(job, made));
                 for text in notes_told(&made.notes, self.is_batch) {
                     self.error(&text);
                 }
@@ -185,7 +200,16 @@ fn line(value: &Value) -> String {
     escape::json(&value.to_string()).into_owned() + "\n"
 }
 
-fn told(job: &Job, made: &Generated) -> String {
+/// What a summary adds where meshes were not found.
+fn not_found(count: usize, named: usize) -> String {
+    match count {
+        0 => String::new(),
+        1 => format!("; 1 of {named} meshes was not found"),
+        _ => format!("; {count} of {named} meshes were not found"),
+    }
+}
+
+fn summary(job: &Job, made: &Generated) -> String {
     let kept = made.modules.iter().filter(|module| module.kept).count();
     let mut text = format!(
         "{}: {}, {}, {}; {}",
@@ -199,6 +223,11 @@ fn told(job: &Job, made: &Generated) -> String {
         text += ", unchanged";
     } else if kept > 0 {
         text += &format!(", {kept} of them kept");
+    }
+    text += &not_found(made.meshes.not_found, made.meshes.named);
+    if made.meshes.not_usable > 0 {
+        let (count, named) = (made.meshes.not_usable, made.meshes.named);
+        text += &format!("; {count} of {named} meshes cannot be used");
     }
     text + "\n"
 }
@@ -246,6 +275,11 @@ fn as_json(job: &Job, outcome: &Result<Generated, GenerateError>) -> Value {
             "modules": made.modules.iter().map(|module| json!({
                 "name": module.kind.name(), "kept": module.kept,
             })).collect::<Vec<_>>(),
+            "meshes": {
+                "named": made.meshes.named,
+                "not_found": made.meshes.not_found,
+                "not_usable": made.meshes.not_usable,
+            },
             "notes": made.notes.iter().map(note_as_json).collect::<Vec<_>>(),
         }),
         Err(error) => json!({

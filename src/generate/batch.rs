@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::error::GenerateError;
-use super::robot::{Generated, Progress, Settings, generate};
+use super::robot::{Generated, Progress, generate};
+use super::settings::Settings;
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::limits::MAX_FOLDER_DEPTH;
 
@@ -232,7 +233,9 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
     let failed = jobs.par_iter().enumerate().map(|(idx, job)| {
         let progress = observer.begin(job);
         let target = folder.join(&job.name);
-        let outcome = caught(&job.source, &target, settings, &*progress);
+        let outcome = caught(&job.source, || {
+            generate(&job.source, &target, settings, &*progress)
+        });
         let failed = usize::from(outcome.is_err());
         let mut waiting = waiting.lock().unwrap_or_else(PoisonError::into_inner);
         let (next, outcomes) = &mut *waiting;
@@ -246,20 +249,15 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
     failed.sum()
 }
 
-/// As [`generate`], with a crash as an error.
+/// Makes a URDD of a source, with a crash as an error.
 ///
 /// # Errors
-/// As [`generate`]; [`GenerateError::Internal`] for a crash.
+/// As `make`; [`GenerateError::Internal`] for a crash.
 pub fn caught(
     source: &Path,
-    target: &Path,
-    settings: &Settings,
-    progress: &dyn Progress,
+    make: impl FnOnce() -> Result<Generated, GenerateError>,
 ) -> Result<Generated, GenerateError> {
-    let outcome = catch_unwind(AssertUnwindSafe(|| {
-        generate(source, target, settings, progress)
-    }));
-    outcome.unwrap_or_else(|crash| {
+    catch_unwind(AssertUnwindSafe(make)).unwrap_or_else(|crash| {
         let words = crash.downcast_ref::<String>().cloned();
         let words = words.or_else(|| crash.downcast_ref::<&str>().map(|text| (*text).to_owned()));
         Err(GenerateError::Internal {

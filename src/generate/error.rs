@@ -6,11 +6,13 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use super::fault::PlacedFault;
+use super::note::Note;
+use crate::directory::position::Position;
 use crate::directory::staging::StagingError;
 use crate::format::escape;
 
-/// Most faults of a file that are told one by one.
-const MOST_TOLD: usize = 5;
+/// Most faults of a file that are shown one by one.
+const MOST_SHOWN: usize = 5;
 
 /// Why a URDD could not be made. Nothing was written then, and what was there before still is.
 #[derive(Debug, Error)]
@@ -25,16 +27,44 @@ pub enum GenerateError {
         reason: String,
     },
     /// The source is no robot.
-    #[error("{}", Told(file, faults))]
+    #[error("{}", FaultLines(file, faults))]
     Refused {
         /// The file, as the user named it.
         file: String,
         /// What is wrong with it, in the order of the file; never empty.
         faults: Vec<PlacedFault>,
     },
+    /// The robot names files that lie outside of its folders, and that it may not make us publish.
+    #[error("{}", OutsideMeshes(file, meshes))]
+    Outside {
+        /// The file, as the user named it.
+        file: String,
+        /// The meshes, in the order of the file; never empty.
+        meshes: Vec<OutsideMesh>,
+    },
+    /// Something had to be assumed, and nothing may be.
+    #[error("{}", Assumptions(notes))]
+    Strict {
+        /// What was assumed; never empty.
+        notes: Vec<Note>,
+    },
+    /// The URDD that is to be replaced holds a person's edits, and they would be lost.
+    #[error(
+        "{}{}: {fault}; the edits of skips there are a person's, and a new run would lose them. Correct the file, or drop all its edits: `--drop-edits`",
+        file.display(),
+        at.map(|at| format!(":{at}")).unwrap_or_default()
+    )]
+    Edits {
+        /// The file of the module.
+        file: PathBuf,
+        /// The place in it.
+        at: Option<Position>,
+        /// Why they would be lost.
+        fault: EditsFault,
+    },
     /// A xacro file, and no xacro program.
     #[error(
-        "{file}: this is a xacro file, and there is no program `xacro` on the PATH to expand it; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
+        "{file}: this is to be expanded by xacro, and there is no program `xacro` on the PATH to expand it; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
     )]
     NoXacro {
         /// The file, as the user named it.
@@ -85,6 +115,9 @@ impl GenerateError {
         match self {
             GenerateError::Read { .. } => "unreadable",
             GenerateError::Refused { .. } => "refused",
+            GenerateError::Outside { .. } => "outside",
+            GenerateError::Strict { .. } => "strict",
+            GenerateError::Edits { .. } => "edits",
             GenerateError::NoXacro { .. } => "no-xacro",
             GenerateError::Xacro { .. } => "xacro-failed",
             GenerateError::SourceInTarget { .. } => "source-in-output",
@@ -95,15 +128,102 @@ impl GenerateError {
     }
 }
 
-/// The faults of a file, as lines.
-struct Told<'a>(&'a str, &'a [PlacedFault]);
+/// Why the edits of a module would be lost.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum EditsFault {
+    /// The file cannot be read.
+    #[error("the file cannot be read: {0}")]
+    Unreadable(String),
+    /// The document has no edits.
+    #[error("`edits` is missing")]
+    NoEdits,
+    /// The edits are no list.
+    #[error("`edits` must be a list")]
+    NotAList,
+    /// One edit is wrong.
+    #[error("this edit cannot be used: {0}")]
+    Edit(String),
+    /// The YAML file says something else than the JSON file.
+    #[error("this file differs from module.json, which is the one that counts: {0}")]
+    Yaml(String),
+    /// The modules that were asked for hold no edits.
+    #[error(
+        "it holds {0} edits, and the modules asked for leave out link_shapes_skips_module; add `link_shapes_skips` to `--modules`"
+    )]
+    NotAskedFor(usize),
+}
 
-impl fmt::Display for Told<'_> {
+/// A mesh outside of the folders that files are taken from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutsideMesh {
+    /// Line of the URDF, from 1.
+    pub line: u32,
+    /// Column in the line, from 1, in characters.
+    pub column: u32,
+    /// The mesh, as the URDF names it.
+    pub name: String,
+    /// The file that this leads to, links followed.
+    pub path: PathBuf,
+}
+
+/// Meshes outside, as lines.
+struct OutsideMeshes<'a>(&'a str, &'a [OutsideMesh]);
+
+impl fmt::Display for OutsideMeshes<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Told(file, faults) = self;
+        let OutsideMeshes(file, meshes) = self;
+        let file = escape::line(file);
+        for mesh in meshes.iter().take(MOST_SHOWN) {
+            writeln!(
+                f,
+                "{file}:{}:{}: mesh `{}` lies outside of the folders of the robot and its packages, at {}",
+                mesh.line,
+                mesh.column,
+                escape::line(&mesh.name),
+                escape::line(&mesh.path.display().to_string())
+            )?;
+        }
+        if meshes.len() > MOST_SHOWN {
+            writeln!(
+                f,
+                "{file}: and {} more of such meshes",
+                meshes.len() - MOST_SHOWN
+            )?;
+        }
+        write!(
+            f,
+            "{file}: a URDD carries its meshes, and a URDF must not make you publish other files; where these are meant, give their folder: `--allow-folder FOLDER`, or `--package NAME=FOLDER`"
+        )
+    }
+}
+
+/// Notes that are errors, as lines.
+struct Assumptions<'a>(&'a [Note]);
+
+impl fmt::Display for Assumptions<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for note in self.0.iter().take(MOST_SHOWN) {
+            writeln!(f, "{note}")?;
+        }
+        if self.0.len() > MOST_SHOWN {
+            writeln!(f, "and {} more", self.0.len() - MOST_SHOWN)?;
+        }
+        f.write_str(
+            "nothing was written: with --strict, nothing that changes the robot may be assumed",
+        )
+    }
+}
+
+/// The faults of a file, as lines.
+struct FaultLines<'a>(&'a str, &'a [PlacedFault]);
+
+impl fmt::Display for FaultLines<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let FaultLines(file, faults) = self;
         // A line for each: no name may add another.
         let file = escape::line(file);
-        for (number, placed) in faults.iter().take(MOST_TOLD).enumerate() {
+        for (number, placed) in faults.iter().take(MOST_SHOWN).enumerate() {
             if number > 0 {
                 f.write_str("\n")?;
             }
@@ -111,11 +231,11 @@ impl fmt::Display for Told<'_> {
             let fault = placed.fault.to_string();
             write!(f, "{file}:{line}:{column}: {}", escape::line(&fault))?;
         }
-        if faults.len() > MOST_TOLD {
+        if faults.len() > MOST_SHOWN {
             write!(
                 f,
                 "\n{file}: and {} more of such faults",
-                faults.len() - MOST_TOLD
+                faults.len() - MOST_SHOWN
             )?;
         }
         Ok(())

@@ -130,6 +130,26 @@ pub enum Fault {
     /// Poses beyond 64-bit numbers.
     #[error("the numbers are so large that no 64-bit number holds where the links are ({0})")]
     NoPoses(String),
+    /// More links than URDDs are made for.
+    #[error(
+        "the robot has {found} links, and URDDs are made of up to {limit}: lists over all pairs of links grow with the square"
+    )]
+    TooManyLinks {
+        /// How many it has.
+        found: usize,
+        /// How many it may have.
+        limit: usize,
+    },
+    /// More elements than URDDs are made for.
+    #[error(
+        "the robot has {found} elements (shapes, materials, and elements that URDF does not know), and URDDs are made of up to {limit}"
+    )]
+    TooManyElements {
+        /// How many it has.
+        found: usize,
+        /// How many it may have.
+        limit: usize,
+    },
     /// More than the format counts.
     #[error("there are more than {0} elements")]
     TooMany(u32),

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::edits::Edits;
 use super::error::GenerateError;
+use super::made::{Made, MadeFile, document};
 use super::meshes::names::mesh_files;
 use super::meshes::plain::link_geometries;
 use super::meshes::written::{WrittenMesh, files_of};
@@ -14,12 +16,11 @@ use super::shapes::max_distances::max_distances;
 use super::shapes::simple_skips::simple_skips;
 use super::shapes::skips::skips;
 use super::shapes::statistics::statistics;
-use super::stages::{Made, MadeFile, Work, document};
+use super::work::Work;
 use crate::format::convex_decomposition_meshes::{
     ConvexDecompositionMeshesModule, DecompositionMethod,
 };
 use crate::format::convex_hull_meshes::ConvexHullMeshesModule;
-use crate::format::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit};
 use crate::format::meshes::{GeometryKind, MeshFiles};
 use crate::format::plain_meshes::{PlainMesh, PlainMeshesModule};
 use crate::format::registry::ModuleKind;
@@ -27,11 +28,12 @@ use crate::geometry::decompose;
 use crate::geometry::hull::ConvexHull;
 use crate::geometry::read::Part;
 
-pub(super) fn plain_settings(work: &Work) -> Option<String> {
-    Some(match work.settings.preferred_geometry {
-        GeometryKind::Visual => "visual".to_owned(),
-        GeometryKind::Collision => "collision".to_owned(),
-    })
+pub(super) fn plain_settings(work: &Work) -> String {
+    let geometry = match work.settings.preferred_geometry {
+        GeometryKind::Visual => "visual",
+        GeometryKind::Collision => "collision",
+    };
+    geometry.to_owned()
 }
 
 pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
@@ -67,7 +69,7 @@ pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
         files.extend(contents.into_iter().flatten());
         meshes.push(mesh);
     }
-    work.hoard.plain = Some(Arc::new(meshes));
+    work.artifacts.plain = Some(Arc::new(meshes));
     made(
         &PlainMeshesModule {
             preferred_geometry: preferred,
@@ -78,7 +80,7 @@ pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
 }
 
 pub(super) fn hulls(work: &mut Work) -> Result<Made, GenerateError> {
-    let plain = work.hoard.plain()?;
+    let plain = work.artifacts.plain()?;
     let hulls: Vec<Option<WrittenMesh>> = plain
         .par_iter()
         .map(|plain| {
@@ -102,22 +104,19 @@ pub(super) fn hulls(work: &mut Work) -> Result<Made, GenerateError> {
             .map(|hull| hull.into_iter().next())
             .collect(),
     };
-    work.hoard.hulls = Some(Arc::new(hulls));
+    work.artifacts.hulls = Some(Arc::new(hulls));
     made(&module, files)
 }
 
 /// The name of our way to decompose; another one where it comes out differently.
 const DECOMPOSITION: &str = "urdd cut and merge 1";
 
-pub(super) fn decomposition_settings(_: &Work) -> Option<String> {
-    Some(format!(
-        "{DECOMPOSITION} {:?}",
-        decompose::Settings::default()
-    ))
+pub(super) fn decomposition_settings(_: &Work) -> String {
+    format!("{DECOMPOSITION} {:?}", decompose::Settings::default())
 }
 
 pub(super) fn pieces(work: &mut Work) -> Result<Made, GenerateError> {
-    let plain = work.hoard.plain()?;
+    let plain = work.artifacts.plain()?;
     let settings = decompose::Settings::default();
     let decomposed: Vec<(Vec<WrittenMesh>, f64)> = plain
         .par_iter()
@@ -150,34 +149,34 @@ pub(super) fn pieces(work: &mut Work) -> Result<Made, GenerateError> {
         },
         link_pieces,
     };
-    work.hoard.pieces = Some(Arc::new(pieces));
+    work.artifacts.pieces = Some(Arc::new(pieces));
     made(&module, files)
 }
 
 pub(super) fn boxes_and_spheres(work: &mut Work) -> Result<Made, GenerateError> {
-    let solids = work.hoard.solids()?;
+    let solids = work.artifacts.solids()?;
     let module = approximations(&solids).map_err(|error| GenerateError::Internal {
         file: work.source.shown.clone(),
         reason: error.to_string(),
     })?;
     let document = document(&module)?;
-    work.hoard.approximations = Some(Arc::new(module));
+    work.artifacts.approximations = Some(Arc::new(module));
     Ok(document)
 }
 
 pub(super) fn distances_from_origin(work: &mut Work) -> Result<Made, GenerateError> {
-    let solids = work.hoard.solids()?;
-    let approximations = work.hoard.approximations()?;
+    let solids = work.artifacts.solids()?;
+    let approximations = work.artifacts.approximations()?;
     document(&max_distances(&solids, &approximations))
 }
 
-pub(super) fn statistics_settings(work: &Work) -> Option<String> {
-    Some(format!("{} samples", work.settings.num_samples))
+pub(super) fn statistics_settings(work: &Work) -> String {
+    format!("{} samples", work.settings.num_samples)
 }
 
 pub(super) fn distance_statistics(work: &mut Work) -> Result<Made, GenerateError> {
-    let solids = work.hoard.solids()?;
-    let approximations = work.hoard.approximations()?;
+    let solids = work.artifacts.solids()?;
+    let approximations = work.artifacts.approximations()?;
     let num_samples = work.settings.num_samples;
     let (dof, chain, bounds) = (&work.dof, &work.chain, &work.bounds);
     let module = statistics(&solids, &approximations, dof, chain, bounds, num_samples);
@@ -195,25 +194,25 @@ pub(super) fn distance_statistics(work: &mut Work) -> Result<Made, GenerateError
             "distances and skips between pieces are left out; those between links are there",
         );
     }
-    work.hoard.statistics = Some(Arc::new(module));
+    work.artifacts.statistics = Some(Arc::new(module));
     Ok(document)
 }
 
 pub(super) fn skips_by_distance(work: &mut Work) -> Result<Made, GenerateError> {
-    let statistics = work.hoard.statistics()?;
+    let statistics = work.artifacts.statistics()?;
     let module = simple_skips(&statistics, &work.chain);
     let document = document(&module)?;
-    work.hoard.simple_skips = Some(Arc::new(module));
+    work.artifacts.simple_skips = Some(Arc::new(module));
     Ok(document)
 }
 
-pub(super) fn skips_settings(work: &Work) -> Option<String> {
-    serde_json::to_string(&edits(work).kept).ok()
+pub(super) fn skips_settings(work: &Work) -> String {
+    serde_json::json!(work.edits.kept).to_string()
 }
 
 pub(super) fn edited_skips(work: &mut Work) -> Result<Made, GenerateError> {
-    let simple = work.hoard.simple_skips()?;
-    let Edits { kept, lost } = edits(work).clone();
+    let simple = work.artifacts.simple_skips()?;
+    let Edits { kept, lost } = std::mem::take(&mut work.edits);
     for edit in lost {
         work.leave_out(
             format!(
@@ -224,35 +223,6 @@ pub(super) fn edited_skips(work: &mut Work) -> Result<Made, GenerateError> {
         );
     }
     document(&skips(&simple, kept, &work.chain))
-}
-
-/// A person's edits of the skips, which outlive a new run.
-#[derive(Clone)]
-pub(super) struct Edits {
-    /// Those that still name links.
-    kept: Vec<SkipEdit>,
-    /// The others.
-    lost: Vec<SkipEdit>,
-}
-
-/// The edits in the URDD that is replaced, read once: with them come matrices.
-fn edits<'a>(work: &'a Work) -> &'a Edits {
-    work.edits.get_or_init(|| {
-        let document = work
-            .old
-            .and_then(|old| old.document(ModuleKind::LinkShapesSkips));
-        let module: Option<LinkShapesSkipsModule> =
-            document.and_then(|document| serde_json::from_value(document).ok());
-        let edits = module.map(|module| module.edits).unwrap_or_default();
-        let is_link = |name: &str| {
-            let mut links = work.chain.links_in_chain.iter();
-            links.any(|link| link.name == name)
-        };
-        let (kept, lost) = edits
-            .into_iter()
-            .partition(|edit| is_link(&edit.link_a) && is_link(&edit.link_b));
-        Edits { kept, lost }
-    })
 }
 
 /// A link, the index of a piece, and the mesh.

@@ -3,6 +3,7 @@
 //! [`generate`] makes one URDD, [`batch`] many. It imports nothing from `validate`, nor the other
 //! way about: both are written from SPEC.md.
 
+mod artifacts;
 pub mod batch;
 mod bounded;
 mod bounds;
@@ -10,10 +11,12 @@ mod carry_over;
 mod chain;
 mod connections;
 mod dof;
+mod edits;
 mod error;
 pub mod fault;
 mod geometry_stages;
 mod kinematics_samples;
+mod made;
 mod meshes;
 mod metadata;
 pub mod note;
@@ -21,16 +24,21 @@ mod old;
 mod pose;
 mod robot;
 mod selection;
+mod settings;
 mod shapes;
-mod solids;
+mod size;
 mod source;
 mod stages;
 mod urdf;
+mod work;
 
+pub use bounded::MAX_SOURCE_BYTES;
 pub use connections::MOST_LINKS_WITH_PAIRS;
-pub use error::GenerateError;
+pub use error::{EditsFault, GenerateError, OutsideMesh};
 pub use kinematics_samples::NUM_SAMPLED;
-pub use meshes::{PackagePathError, Packages};
-pub use robot::{Generated, MadeModule, Progress, Settings, generate};
+pub use meshes::{MeshCount, PackagePathError, Packages};
+pub use robot::{Generated, MadeModule, Progress, generate, generate_text};
 pub use selection::{Selection, UnknownModule};
-pub use source::{SourceRobot, read_urdf};
+pub use settings::Settings;
+pub use size::{MOST_ELEMENTS, MOST_LINKS};
+pub use source::{SourceRobot, XacroSettings, read_urdf};

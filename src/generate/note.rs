@@ -33,8 +33,14 @@ pub enum NoteKind {
     Repeated,
     /// A material that is declared twice, in two ways.
     Material,
-    /// A mesh that cannot be carried.
+    /// A mesh that was not found, or a file that is no mesh.
+    MeshNotFound,
+    /// A mesh that is carried and cannot be read.
+    MeshNotUsable,
+    /// A mesh that was repaired, or lacks a file that it names.
     Mesh,
+    /// A file that is carried, and lies outside of the URDF's folder and package.
+    Outside,
     /// A part of a module that is not made of this robot.
     LeftOut,
 }
@@ -55,9 +61,17 @@ impl NoteKind {
         NoteKind::NoLimits,
         NoteKind::Repeated,
         NoteKind::Material,
+        NoteKind::MeshNotFound,
+        NoteKind::MeshNotUsable,
         NoteKind::Mesh,
+        NoteKind::Outside,
         NoteKind::LeftOut,
     ];
+
+    /// Whether what was assumed may make another robot of it than the author meant.
+    pub fn changes_robot(self) -> bool {
+        !matches!(self, NoteKind::Encoding | NoteKind::Xml | NoteKind::Outside)
+    }
 
     /// Its word, for programs.
     pub fn as_str(self) -> &'static str {
@@ -75,7 +89,10 @@ impl NoteKind {
             NoteKind::NoLimits => "no-limits",
             NoteKind::Repeated => "repeated",
             NoteKind::Material => "material",
+            NoteKind::MeshNotFound => "mesh-not-found",
+            NoteKind::MeshNotUsable => "mesh-not-usable",
             NoteKind::Mesh => "mesh",
+            NoteKind::Outside => "outside",
             NoteKind::LeftOut => "left-out",
         }
     }

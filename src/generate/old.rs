@@ -63,11 +63,6 @@ impl Old {
             size == u64::from(file.size.0) && sha256 == file.sha256.as_str()
         })
     }
-
-    /// The document of a module.
-    pub fn document(&self, kind: ModuleKind) -> Option<Value> {
-        document(&self.root, kind).ok()
-    }
 }
 
 /// The document of a module of a URDD, or in words why there is none.

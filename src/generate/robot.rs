@@ -4,54 +4,28 @@ use std::fs;
 use std::path::Path;
 
 use super::carry_over::{carry_over, extensions};
+use super::edits;
 use super::error::GenerateError;
-use super::meshes::Packages;
+use super::made::{Content, Made};
+use super::meshes::MeshCount;
 use super::metadata::{self, Entry};
 use super::note::Note;
 use super::old::Old;
-use super::selection::Selection;
+use super::settings::Settings;
+use super::size;
 use super::source::{self, Source};
-use super::stages::{self, Content, Made, Stage, Work};
+use super::stages::{self, Stage};
+use super::work::Work;
 use crate::directory::canonical;
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::staging::{Staging, StagingError};
 use crate::directory::writer::Writer;
-use crate::format::meshes::GeometryKind;
 use crate::format::registry::ModuleKind;
 use crate::format::root_metadata::{ConformanceClass, FileEntry};
 
 /// Sizes and hashes are of bytes: Git must not convert line ends.
 const GIT_ATTRIBUTES: &str = "# The hashes in urdd.json are of these very bytes.\n* -text\n";
 const GIT_ATTRIBUTES_FILE: &str = ".gitattributes";
-
-/// How URDDs are made.
-#[derive(Debug, Clone)]
-pub struct Settings {
-    /// The modules to make.
-    pub selection: Selection,
-    /// Where packages are.
-    pub packages: Packages,
-    /// Which geometry links are made from; the other one where a link has none of it.
-    pub preferred_geometry: GeometryKind,
-    /// Sampled configurations of the distance statistics.
-    pub num_samples: u32,
-    /// Whether to write into a folder that holds something else.
-    pub force: bool,
-}
-
-impl Default for Settings {
-    /// Every module, from visual geometry, with 1,000 samples, and no packages but those around the
-    /// URDF.
-    fn default() -> Self {
-        Settings {
-            selection: Selection::all(),
-            packages: Packages::none(),
-            preferred_geometry: GeometryKind::Visual,
-            num_samples: 1000,
-            force: false,
-        }
-    }
-}
 
 /// Who wants to know how far it is.
 pub trait Progress: Sync {
@@ -80,6 +54,8 @@ pub struct Generated {
     pub modules: Vec<MadeModule>,
     /// Whether anything is different from what was there before; if not, nothing was written.
     pub changed: bool,
+    /// What came of the names of meshes; nothing is named where no meshes were asked for.
+    pub meshes: MeshCount,
     /// What was odd in the source, and what was made of it.
     pub notes: Vec<Note>,
 }
@@ -104,19 +80,53 @@ pub fn generate(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
-    let source_path = source;
-    let source = source::load(source_path)?;
+    let path = source;
+    let source = source::load(path, &settings.xacro, &settings.packages)?;
+    make(Some(path), &source, target, settings, progress)
+}
+
+/// Makes a URDD of a URDF from memory, as it came through a pipe. Relative names of meshes begin in
+/// `folder`; `shown` stands for the file in notes and errors.
+///
+/// # Errors
+/// As [`generate`].
+pub fn generate_text(
+    urdf: Vec<u8>,
+    shown: &str,
+    folder: &Path,
+    target: &Path,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Generated, GenerateError> {
+    let source = source::load_text(urdf, shown, folder)?;
+    make(None, &source, target, settings, progress)
+}
+
+fn make(
+    path: Option<&Path>,
+    source: &Source,
+    target: &Path,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Generated, GenerateError> {
+    size::check(source)?;
     let old = Old::read(target);
-    check_target(source_path, &source, target, old.as_ref(), settings)?;
+    let edits = match settings.drop_edits {
+        true => Vec::new(),
+        false => edits::read(target, &settings.selection, old.as_ref())?,
+    };
+    check_target(path, source, target, old.as_ref(), settings)?;
+    check_assumptions(&source.notes, settings)?;
     let staging = Staging::begin(target)?;
     let writer = Writer::new(staging.content());
 
-    let mut work = Work::new(&source, settings, staging.content(), old.as_ref())?;
+    let mut work = Work::new(source, settings, staging.content(), edits)?;
     let stages: Vec<&Stage> = settings.selection.kinds().filter_map(stages::of).collect();
     let (mut entries, mut modules) = (Vec::new(), Vec::new());
     for (done, stage) in stages.iter().enumerate() {
         progress.module(stage.kind, done, stages.len());
         let (entry, kept) = run(stage, &mut work, &writer, old.as_ref(), &entries)?;
+        check_assumptions(&work.notes, settings)?;
         entries.push(entry);
         modules.push(MadeModule {
             kind: stage.kind,
@@ -124,6 +134,7 @@ pub fn generate(
         });
     }
     let num_dofs = work.dof.dofs.len();
+    let meshes = work.original.as_ref().map(|original| original.count);
     let mut notes = source.notes.clone();
     notes.append(&mut work.notes);
 
@@ -164,13 +175,24 @@ pub fn generate(
         class,
         modules,
         changed,
+        meshes: meshes.unwrap_or_default(),
         notes,
     })
 }
 
+/// Refuses what had to be assumed, where nothing may be.
+fn check_assumptions(notes: &[Note], settings: &Settings) -> Result<(), GenerateError> {
+    let notes = notes.iter().filter(|note| note.kind.changes_robot());
+    let notes: Vec<Note> = notes.filter(|_| settings.strict).cloned().collect();
+    match notes.is_empty() {
+        true => Ok(()),
+        false => Err(GenerateError::Strict { notes }),
+    }
+}
+
 /// Whether the target may be replaced.
 fn check_target(
-    path: &Path,
+    path: Option<&Path>,
     source: &Source,
     target: &Path,
     old: Option<&Old>,
@@ -179,10 +201,8 @@ fn check_target(
     let Ok(canonical) = target.canonicalize() else {
         return Ok(());
     };
-    if path
-        .canonicalize()
-        .is_ok_and(|path| path.starts_with(&canonical))
-    {
+    let path = path.and_then(|path| path.canonicalize().ok());
+    if path.is_some_and(|path| path.starts_with(&canonical)) {
         return Err(GenerateError::SourceInTarget {
             file: source.shown.clone(),
             target: target.to_owned(),
@@ -206,7 +226,10 @@ fn run(
     entries: &[Entry],
 ) -> Result<(Entry, bool), GenerateError> {
     let kind = stage.kind;
-    let inputs = (stage.settings)(work).map(|text| metadata::inputs(kind, &text, entries));
+    let inputs = stage
+        .reuse
+        .inputs(work)
+        .map(|text| metadata::inputs(kind, &text, entries));
     if let (Some(old), Some(inputs)) = (old, &inputs)
         && let Some(files) = old.kept(kind, metadata::MODULE_VERSION, inputs)
     {
@@ -221,7 +244,7 @@ fn run(
     for file in files {
         written.push(match file.content {
             Content::Bytes(bytes) => writer.file(&file.path, &bytes)?,
-            Content::CopyOf(from) => writer.copy(&from, &file.path)?,
+            Content::Shared(bytes) => writer.file(&file.path, &bytes)?,
         });
     }
     Ok((metadata::entry(kind, written, inputs), false))

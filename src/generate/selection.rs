@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use thiserror::Error;
 
-use super::stages;
-use crate::format::registry::ModuleKind;
+use crate::format::registry::{MODULES, ModuleKind, Profile};
 use crate::format::root_metadata::ConformanceClass;
 
 /// A word that names no module.
@@ -17,13 +16,19 @@ pub struct UnknownModule {
 }
 
 fn known() -> String {
-    let names = stages::kinds().into_iter().map(short);
+    let names = kinds().into_iter().map(short);
     let classes = ["core", "geometry", "shapes", "all"];
     names.chain(classes).collect::<Vec<_>>().join(", ")
 }
 
+/// The modules of version 1, in the order of the specification: what this program makes.
+fn kinds() -> Vec<ModuleKind> {
+    let current = MODULES.iter().filter(|spec| spec.profile == Profile::V1);
+    current.map(|spec| spec.kind).collect()
+}
+
 /// A module's name without `_module`.
-pub(super) fn short(kind: ModuleKind) -> &'static str {
+fn short(kind: ModuleKind) -> &'static str {
     kind.name().strip_suffix("_module").unwrap_or(kind.name())
 }
 
@@ -35,7 +40,7 @@ pub struct Selection(BTreeSet<ModuleKind>);
 impl Selection {
     /// Every module that this program can make.
     pub fn all() -> Self {
-        Selection(stages::kinds().into_iter().collect())
+        Selection(kinds().into_iter().collect())
     }
 
     /// Reads words: names of modules, with or without `_module`, and of conformance classes.
@@ -43,7 +48,7 @@ impl Selection {
     /// # Errors
     /// The first word that is neither.
     pub fn parse<'a>(words: impl IntoIterator<Item = &'a str>) -> Result<Self, UnknownModule> {
-        let kinds = stages::kinds();
+        let kinds = kinds();
         let up_to = |class: ConformanceClass| {
             let is_of = move |kind: &ModuleKind| kind.class().is_none_or(|of| of <= class);
             kinds.iter().copied().filter(is_of).collect::<Vec<_>>()

@@ -5,9 +5,13 @@ mod support;
 
 mod batch;
 mod core;
+mod edits;
 mod hostile;
+mod outside;
 mod packages;
 mod shapes;
+mod stage_versions;
+mod strict;
 mod writing;
 mod xacro;
 
@@ -21,6 +25,13 @@ use urdd::report::Report;
 use urdd::validate::rule::Severity;
 use urdd::validate::settings::Settings;
 use urdd::validate::{rules, validate_with};
+
+/// An STL file as text: one triangle, whose third corner says whether it has an area.
+pub fn ascii_stl(name: &str, third: &str) -> String {
+    format!(
+        "solid {name}\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex {third}\nendloop\nendfacet\nendsolid {name}\n"
+    )
+}
 
 /// A JSON file.
 pub fn read_json(path: &Path) -> Value {

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::{read_json, urdd};
+use crate::{ascii_stl, read_json, urdd};
 
 /// Lays out a workspace: the URDF's own package, others, and a mesh in each, which says where it is.
 fn workspace() -> tempfile::TempDir {
@@ -22,7 +22,7 @@ fn workspace() -> tempfile::TempDir {
     ] {
         let path = folder.path().join(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(&path, format!("solid {}", path.display())).unwrap();
+        fs::write(&path, ascii_stl(&path.display().to_string(), "0 1 0")).unwrap();
     }
     for (path, name) in [
         ("ws/own_description", "own"),
@@ -58,7 +58,7 @@ fn found(folder: &Path, filename: &str) -> Result<String, String> {
     match module["references"][0]["path"].as_str() {
         Some(path) => {
             let text = fs::read_to_string(target.join(path)).unwrap();
-            let place = text.strip_prefix("solid ").unwrap();
+            let place = text.lines().next().unwrap().strip_prefix("solid ").unwrap();
             Ok(place
                 .strip_prefix(&format!("{}/", folder.display()))
                 .unwrap()
@@ -151,7 +151,11 @@ fn a_package_that_is_given_is_looked_for_nowhere_else() {
     let folder = workspace();
     // There is one of the same name above the URDF.
     fs::create_dir_all(folder.path().join("ws/given/meshes")).unwrap();
-    fs::write(folder.path().join("ws/given/meshes/b.stl"), "solid b").unwrap();
+    fs::write(
+        folder.path().join("ws/given/meshes/b.stl"),
+        ascii_stl("b", "0 1 0"),
+    )
+    .unwrap();
     let said = found(folder.path(), "package://given/meshes/b.stl").unwrap_err();
     assert!(!said.contains("ws/given"), "{said}");
 }

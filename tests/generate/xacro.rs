@@ -12,6 +12,15 @@ const EXPANDED: &str =
     "<?xml version=\"1.0\"?>\n<robot name=\"expanded\"><link name=\"a\"/></robot>\n";
 
 fn run(folder: &Path, source: &str, program: Option<&str>) -> (Option<i32>, String) {
+    run_with(folder, source, program, &[])
+}
+
+fn run_with(
+    folder: &Path,
+    source: &str,
+    program: Option<&str>,
+    more: &[&str],
+) -> (Option<i32>, String) {
     let programs = folder.join("bin");
     fs::create_dir_all(&programs).unwrap();
     if let Some(script) = program {
@@ -22,6 +31,7 @@ fn run(folder: &Path, source: &str, program: Option<&str>) -> (Option<i32>, Stri
     let output = urdd(&["generate", "-o"])
         .arg(folder.join("out"))
         .arg(folder.join(source))
+        .args(more)
         .env("PATH", programs)
         .output()
         .unwrap();
@@ -72,4 +82,72 @@ fn what_the_program_says_is_passed_on() {
     );
     assert_eq!(status, Some(1));
     assert!(said.contains("no such package: arm"), "{said}");
+}
+
+/// A URDF that holds the word runs nothing, unless the user says so.
+#[test]
+fn a_urdf_is_expanded_only_where_the_user_asks_for_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "<robot name=\"r\"><!-- <xacro:arm/> --><link name=\"a\"/></robot>\n";
+    fs::write(folder.path().join("arm.urdf"), text).unwrap();
+    fs::write(folder.path().join("expanded"), EXPANDED).unwrap();
+    let ran = folder.path().join("ran");
+    let script = format!(
+        "echo > {}; while read -r line; do echo \"$line\"; done < {}",
+        ran.display(),
+        folder.path().join("expanded").display()
+    );
+    let (status, said) = run(folder.path(), "arm.urdf", Some(&script));
+    assert_eq!((status, said.as_str()), (Some(0), ""));
+    assert!(!ran.exists(), "xacro ran on a .urdf");
+    let carried = folder.path().join("out/arm.urdf");
+    assert_eq!(fs::read_to_string(&carried).unwrap(), text);
+    let (status, said) = run_with(folder.path(), "arm.urdf", Some(&script), &["--xacro"]);
+    assert_eq!(status, Some(0), "{said}");
+    assert!(ran.exists());
+    assert_eq!(fs::read_to_string(&carried).unwrap(), EXPANDED);
+}
+
+#[test]
+fn it_gets_arguments_and_packages() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("arm.xacro"), EXPANDED).unwrap();
+    let package = folder.path().join("my_arm");
+    fs::create_dir(&package).unwrap();
+    fs::write(
+        package.join("package.xml"),
+        "<package><name>my_arm</name></package>",
+    )
+    .unwrap();
+    let script = "shift; p=${AMENT_PREFIX_PATH%%:*}; r=${ROS_PACKAGE_PATH%%:*}
+[ -f $p/share/my_arm/package.xml ] && [ -f $p/share/ament_index/resource_index/packages/my_arm ] && [ -f $r/my_arm/package.xml ] || exit 4
+echo \"<robot name='$*'><link name='a'/></robot>\"";
+    let package = format!("my_arm={}", package.display());
+    let more = ["prefix:=left ", "--package", &package, "n:=2"];
+    let (status, said) = run_with(folder.path(), "arm.xacro", Some(script), &more);
+    assert_eq!(status, Some(0), "{said}");
+    let metadata = read_json(&folder.path().join("out/urdd.json"));
+    assert_eq!(metadata["robot_name"], "prefix:=left  n:=2");
+}
+
+#[test]
+fn it_may_not_take_for_ever_nor_write_without_end() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("arm.xacro"), EXPANDED).unwrap();
+    let late = folder.path().join("late");
+    let script = format!("(/bin/sleep 4; echo > {}) & /bin/sleep 60", late.display());
+    let start = std::time::Instant::now();
+    let more = ["--xacro-timeout", "1"];
+    let (status, said) = run_with(folder.path(), "arm.xacro", Some(&script), &more);
+    assert_eq!(status, Some(1));
+    assert!(said.contains("it took more than 1 s"), "{said}");
+    assert!(start.elapsed() < std::time::Duration::from_secs(30));
+    let endless = "while :; do echo 0123456789012345678901234567890123456789012345678901234567890123456789; done";
+    let script = format!("exec /usr/bin/yes '{}'", &endless[..60]);
+    let (status, said) = run(folder.path(), "arm.xacro", Some(&script));
+    assert_eq!(status, Some(1));
+    assert!(said.contains("longer than 64 MiB"), "{said}");
+    assert!(!folder.path().join("out").exists());
+    std::thread::sleep(std::time::Duration::from_secs(4));
+    assert!(!late.exists(), "what xacro started outlived it");
 }

@@ -4,9 +4,12 @@ pub(crate) mod inspect;
 pub(crate) mod layout;
 pub(crate) mod names;
 pub(crate) mod original;
-mod package;
+pub(crate) mod package;
 pub(crate) mod plain;
 pub(crate) mod resolve;
+pub(crate) mod roots;
+mod sniff;
 pub(crate) mod written;
 
+pub use original::MeshCount;
 pub use package::{PackagePathError, Packages};

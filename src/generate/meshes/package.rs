@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::generate::bounded::read_file;
+
 /// How deep the folders of `ROS_PACKAGE_PATH` are searched for packages.
 const CRAWL_DEPTH: usize = 5;
 /// Most folders that are looked into in one search.
@@ -88,6 +90,12 @@ impl Packages {
         Ok(())
     }
 
+    /// The packages that the user named, and their folders.
+    pub(crate) fn given(&self) -> impl Iterator<Item = (&str, &Path)> {
+        let given = self.given.iter();
+        given.map(|(name, path)| (name.as_str(), path.as_path()))
+    }
+
     /// The folders that may be the package, the likeliest first. Where the user has said where it
     /// is, nowhere else.
     pub(super) fn folders(&self, name: &str, urdf_folder: &Path, is_model: bool) -> Vec<PathBuf> {
@@ -131,13 +139,9 @@ fn is_named(folder: &Path, name: &str) -> bool {
 }
 
 /// The name in a folder's `package.xml`.
-fn package_name(folder: &Path) -> Option<String> {
-    let file = folder.join("package.xml");
-    let metadata = fs::metadata(&file).ok()?;
-    if !metadata.is_file() || metadata.len() > MAX_PACKAGE_XML {
-        return None;
-    }
-    let text = fs::read_to_string(file).ok()?;
+pub(super) fn package_name(folder: &Path) -> Option<String> {
+    let bytes = read_file(&folder.join("package.xml"), MAX_PACKAGE_XML).ok()?;
+    let text = String::from_utf8(bytes).ok()?;
     let document = crate::xml::parse(&text, crate::xml::Kind::Other).ok()?;
     let mut elements = document.root_element().children();
     let name = elements.find(|element| element.has_tag_name("name"))?;

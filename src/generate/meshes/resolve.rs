@@ -1,12 +1,11 @@
 //! From the file name in a URDF to a file.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use super::package::Packages;
+use super::roots::{Place, Roots};
 
-/// Largest mesh file that is carried, bytes.
-const MAX_MESH_BYTES: u64 = 2 << 30;
 /// Most places that a message names.
 const MOST_TOLD: usize = 4;
 
@@ -15,21 +14,10 @@ const MOST_TOLD: usize = 4;
 pub(crate) struct FoundMesh {
     /// The file, its links followed: a file that has two names is one file.
     pub file: PathBuf,
-    /// What it belongs to, by which it is named in the URDD.
-    pub home: Home,
+    /// The folder that it lies in, of those that it may be taken from.
+    pub place: Place,
     /// What had to be assumed to find it.
     pub assumed: Option<String>,
-}
-
-/// What a mesh file belongs to.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Home {
-    /// A package, by its name and its folder.
-    Package(String, PathBuf),
-    /// The URDF's surroundings.
-    Urdf,
-    /// A place in the file system, named by its full path.
-    Elsewhere,
 }
 
 /// Why no mesh was found: where it was looked for.
@@ -39,14 +27,15 @@ pub(crate) struct NotFound {
     pub tried: Vec<String>,
     /// What else there is to say.
     pub hint: Option<String>,
+    /// A file that is there, and lies in no folder that it may be taken from.
+    pub outside: Option<PathBuf>,
 }
 
 impl NotFound {
     fn because(hint: &str) -> Self {
-        let hint = Some(hint.to_owned());
         NotFound {
-            tried: Vec::new(),
-            hint,
+            hint: Some(hint.to_owned()),
+            ..NotFound::default()
         }
     }
 
@@ -79,9 +68,13 @@ pub(crate) fn resolve(
     filename: &str,
     urdf_folder: &Path,
     packages: &Packages,
+    roots: &Roots,
 ) -> Result<FoundMesh, NotFound> {
     let trimmed = filename.trim();
-    let mut search = Search::default();
+    let mut search = Search {
+        roots,
+        not_found: NotFound::default(),
+    };
     let found = search.as_written(trimmed, urdf_folder, packages);
     if let Some(found) = found {
         return Ok(found);
@@ -106,12 +99,12 @@ pub(crate) fn resolve(
     Err(search.not_found)
 }
 
-#[derive(Default)]
-struct Search {
+struct Search<'a> {
+    roots: &'a Roots,
     not_found: NotFound,
 }
 
-impl Search {
+impl Search<'_> {
     fn as_written(
         &mut self,
         name: &str,
@@ -160,14 +153,8 @@ impl Search {
             self.not_found = NotFound::because("the file name is empty");
             return None;
         }
-        let path = Path::new(name);
-        let home = if path.is_absolute() {
-            Home::Elsewhere
-        } else {
-            Home::Urdf
-        };
         // An absolute path replaces the folder.
-        self.try_file(&urdf_folder.join(path), home)
+        self.try_file(&urdf_folder.join(name), None)
     }
 
     fn in_package(
@@ -178,20 +165,23 @@ impl Search {
         packages: &Packages,
         is_model: bool,
     ) -> Option<FoundMesh> {
+        if !is_package_name(package) {
+            let words = format!("`{package}` cannot be the name of a package");
+            self.not_found.hint.get_or_insert(words);
+            return None;
+        }
         let folders = packages.folders(package, urdf_folder, is_model);
         let folders = folders.into_iter().filter(|folder| folder.is_dir());
         let mut folders: Vec<PathBuf> = folders.collect();
         folders.dedup();
         for folder in &folders {
-            let home = Home::Package(package.to_owned(), folder.clone());
-            let found = self.try_file(&folder.join(rest), home);
+            let found = self.try_file(&folder.join(rest), Some((package, folder)));
             if found.is_some() {
                 return found;
             }
         }
         if let Some(folder) = packages.crawl(package) {
-            let home = Home::Package(package.to_owned(), folder.clone());
-            let found = self.try_file(&folder.join(rest), home);
+            let found = self.try_file(&folder.join(rest), Some((package, &folder)));
             if found.is_some() {
                 return found;
             }
@@ -208,24 +198,19 @@ impl Search {
         None
     }
 
-    fn try_file(&mut self, path: &Path, home: Home) -> Option<FoundMesh> {
+    fn try_file(&mut self, path: &Path, package: Option<(&str, &Path)>) -> Option<FoundMesh> {
         match fs::metadata(path) {
-            Ok(metadata) if metadata.is_file() && metadata.len() <= MAX_MESH_BYTES => {
-                let file = path.canonicalize().ok()?;
-                let assumed = None;
-                return Some(FoundMesh {
-                    file,
-                    home,
-                    assumed,
-                });
-            }
             Ok(metadata) if metadata.is_file() => {
-                let hint = format!(
-                    "{} is larger than {} GiB",
-                    path.display(),
-                    MAX_MESH_BYTES >> 30
-                );
-                self.not_found.hint.get_or_insert(hint);
+                let file = path.canonicalize().ok()?;
+                if let Some(place) = self.roots.place(&file, package) {
+                    let assumed = None;
+                    return Some(FoundMesh {
+                        file,
+                        place,
+                        assumed,
+                    });
+                }
+                self.not_found.outside.get_or_insert(file);
             }
             Ok(_) => {}
             Err(_) => {
@@ -244,6 +229,12 @@ impl Search {
         }
         None
     }
+}
+
+/// Whether a word can be the name of a package: not `..`, nor a path.
+fn is_package_name(word: &str) -> bool {
+    let mut parts = Path::new(word).components();
+    matches!(parts.next(), Some(Component::Normal(_))) && parts.next().is_none()
 }
 
 /// A file of the same folder whose name differs in case only.

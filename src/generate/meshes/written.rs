@@ -1,10 +1,12 @@
 //! Meshes as files, and from files.
 
+use std::sync::Arc;
+
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
 use crate::directory::root::Root;
 use crate::format::meshes::MeshFiles;
 use crate::generate::error::GenerateError;
-use crate::generate::stages::{Content, MadeFile};
+use crate::generate::made::{Content, MadeFile};
 use crate::geometry::Mesh;
 use crate::geometry::read::{GltfUp, Options, Part, read_with};
 use crate::geometry::write;
@@ -16,6 +18,11 @@ pub(crate) struct WrittenMesh {
     /// Of the most of its surface.
     pub color: Option<[f64; 4]>,
 }
+
+/// For each link its mesh.
+pub(crate) type LinkMeshes = Arc<Vec<Option<WrittenMesh>>>;
+/// For each link its pieces.
+pub(crate) type LinkPieces = Arc<Vec<Vec<WrittenMesh>>>;
 
 impl WrittenMesh {
     /// Of parts of several colours.

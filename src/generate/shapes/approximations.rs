@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::Solids;
+use super::ConvexMeshes;
 use crate::format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,
 };
@@ -15,7 +15,9 @@ use crate::geometry::oriented_box::OrientedBox;
 ///
 /// # Errors
 /// Where a mesh has no hull: a fault of what made it.
-pub(crate) fn approximations(solids: &Solids) -> Result<LinkShapesApproximationsModule, HullError> {
+pub(crate) fn approximations(
+    solids: &ConvexMeshes,
+) -> Result<LinkShapesApproximationsModule, HullError> {
     let full: Vec<Option<(Obb, BoundingSphere)>> = solids
         .hulls
         .par_iter()

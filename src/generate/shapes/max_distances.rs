@@ -1,6 +1,6 @@
 //! `link_shapes_max_distance_from_origin_module`: SPEC 8.3.
 
-use super::Solids;
+use super::ConvexMeshes;
 use crate::format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,
 };
@@ -13,7 +13,7 @@ use crate::kinematics::rotation::from_rpy;
 
 /// Makes the module.
 pub(crate) fn max_distances(
-    solids: &Solids,
+    solids: &ConvexMeshes,
     of: &LinkShapesApproximationsModule,
 ) -> LinkShapesMaxDistanceFromOriginModule {
     LinkShapesMaxDistanceFromOriginModule {

@@ -8,20 +8,20 @@ pub(crate) mod statistics;
 
 use crate::format::index::{LinkIdx, PieceIdx};
 use crate::format::shapes::PieceShape;
-use crate::generate::solids::{LinkMeshes, LinkPieces};
+use crate::generate::meshes::written::{LinkMeshes, LinkPieces};
 
 /// Most pieces of a robot with matrices over pieces, which grow with the square of their number.
 pub(crate) const MOST_PIECES_WITH_MATRICES: usize = 500;
 
 /// The convex meshes that shapes are made of.
-pub(crate) struct Solids {
+pub(crate) struct ConvexMeshes {
     /// For each link its hull.
     pub hulls: LinkMeshes,
     /// For each link its pieces.
     pub pieces: LinkPieces,
 }
 
-impl Solids {
+impl ConvexMeshes {
     /// What index i of a matrix over links stands for.
     pub fn full_shapes(&self) -> Vec<LinkIdx> {
         let links = (0..)

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Translation3, Vector3};
 use rayon::prelude::*;
 
-use super::{MOST_PIECES_WITH_MATRICES, Solids};
+use super::{ConvexMeshes, MOST_PIECES_WITH_MATRICES};
 use crate::format::bounds::BoundsModule;
 use crate::format::chain::ChainModule;
 use crate::format::dof::DofModule;
@@ -24,7 +24,7 @@ use crate::kinematics::{ConfigurationSpace, ForwardKinematics};
 
 /// Makes the module, or says in words why there is none.
 pub(crate) fn statistics(
-    solids: &Solids,
+    solids: &ConvexMeshes,
     approximations: &LinkShapesApproximationsModule,
     dof: &DofModule,
     chain: &ChainModule,

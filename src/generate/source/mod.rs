@@ -2,22 +2,21 @@
 
 mod decode;
 mod repair;
-mod xacro;
+pub(crate) mod xacro;
 
 use std::path::{Path, PathBuf};
 
-use super::bounded::read_file;
+use super::bounded::{MAX_SOURCE_BYTES, read_file};
 use super::error::GenerateError;
-use super::note::{Note, NoteKind, Remark};
+use super::meshes::package::Packages;
+use super::note::{Note, Remark};
 use super::urdf::{self, Reading};
 use crate::directory::path::portable;
 use crate::directory::position::LineIndex;
 use crate::format::urdf::UrdfModule;
 
 pub(crate) use repair::apply;
-
-/// Longest source that is read, bytes; the validator reads no longer one.
-const MAX_SOURCE_BYTES: u64 = 64 << 20;
+pub use xacro::XacroSettings;
 
 /// How often a text is repaired at most; once is enough, unless this program is wrong.
 const MOST_ROUNDS: usize = 4;
@@ -47,7 +46,11 @@ pub(crate) struct Source {
 ///
 /// # Errors
 /// Where it cannot be read, or is no robot.
-pub(crate) fn load(path: &Path) -> Result<Source, GenerateError> {
+pub(crate) fn load(
+    path: &Path,
+    xacro: &XacroSettings,
+    packages: &Packages,
+) -> Result<Source, GenerateError> {
     let shown = path.display().to_string();
     let unreadable = |reason: String| GenerateError::Read {
         file: shown.clone(),
@@ -63,26 +66,85 @@ pub(crate) fn load(path: &Path) -> Result<Source, GenerateError> {
 
     let mut notes = Vec::new();
     let (mut text, mut is_verbatim) = decode::decode(&bytes, &shown, &mut notes)?;
+    // The user's name for it counts, not the file that a link leads to.
     let is_xacro_file = path
         .extension()
         .is_some_and(|extension| extension == "xacro");
-    if is_xacro_file || text.contains("<xacro:") {
-        match xacro::expand(path, &shown) {
-            Ok(expanded) => (text, is_verbatim) = (expanded, false),
-            Err(error) if is_xacro_file => return Err(error),
-            // A URDF with macros in it may be a whole robot without them; each gets its note.
-            Err(GenerateError::NoXacro { .. }) => {}
-            Err(error) => notes.push(Note {
-                kind: NoteKind::XacroLeftOver,
-                file: shown.clone(),
-                line: 0,
-                column: 0,
-                problem: error.to_string(),
-                assumed: "read without expanding it".to_owned(),
-            }),
-        }
+    if is_xacro_file || (xacro.expand_urdf && text.contains("<xacro:")) {
+        text = xacro::expand(path, &shown, xacro, packages)?;
+        is_verbatim = false;
     }
-    let (name, file_name) = names(&canonical);
+    let names = names(&canonical);
+    source(Read {
+        shown,
+        folder,
+        names,
+        bytes,
+        text,
+        is_verbatim,
+        notes,
+    })
+}
+
+/// Takes a URDF from memory, as it came through a pipe; relative names begin in `folder`.
+///
+/// # Errors
+/// Where it is no robot.
+pub(crate) fn load_text(
+    bytes: Vec<u8>,
+    shown: &str,
+    folder: &Path,
+) -> Result<Source, GenerateError> {
+    let shown = shown.to_owned();
+    let unreadable = |reason: String| GenerateError::Read {
+        file: shown.clone(),
+        reason,
+    };
+    if bytes.len() as u64 > MAX_SOURCE_BYTES {
+        let limit = MAX_SOURCE_BYTES >> 20;
+        return Err(unreadable(format!("it is longer than {limit} MiB")));
+    }
+    let folder = folder
+        .canonicalize()
+        .map_err(|error| unreadable(error.to_string()))?;
+    let mut notes = Vec::new();
+    let (text, is_verbatim) = decode::decode(&bytes, &shown, &mut notes)?;
+    let names = names(Path::new("robot.urdf"));
+    source(Read {
+        shown,
+        folder,
+        names,
+        bytes,
+        text,
+        is_verbatim,
+        notes,
+    })
+}
+
+/// A source whose text is there.
+struct Read {
+    shown: String,
+    folder: PathBuf,
+    /// The file's name without its extensions, and the name under which it is carried.
+    names: (String, String),
+    bytes: Vec<u8>,
+    text: String,
+    /// Whether the text is that of the bytes.
+    is_verbatim: bool,
+    notes: Vec<Note>,
+}
+
+fn source(read: Read) -> Result<Source, GenerateError> {
+    let Read {
+        shown,
+        folder,
+        names,
+        bytes,
+        text,
+        mut is_verbatim,
+        mut notes,
+    } = read;
+    let (name, file_name) = names;
     let mended = mend(text, &name, &shown, &mut notes)?;
     is_verbatim &= mended.is_verbatim;
     Ok(Source {

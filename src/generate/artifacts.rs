@@ -7,9 +7,9 @@ use std::sync::Arc;
 use serde::de::DeserializeOwned;
 
 use super::error::GenerateError;
-use super::meshes::written::{WrittenMesh, take_up};
+use super::meshes::written::{LinkMeshes, LinkPieces, take_up};
 use super::old;
-use super::shapes::Solids;
+use super::shapes::ConvexMeshes;
 use crate::directory::root::Root;
 use crate::format::convex_decomposition_meshes::ConvexDecompositionMeshesModule;
 use crate::format::convex_hull_meshes::ConvexHullMeshesModule;
@@ -19,13 +19,8 @@ use crate::format::link_shapes_simple_skips::LinkShapesSimpleSkipsModule;
 use crate::format::plain_meshes::PlainMeshesModule;
 use crate::format::registry::ModuleKind;
 
-/// For each link its mesh.
-pub(crate) type LinkMeshes = Arc<Vec<Option<WrittenMesh>>>;
-/// For each link its pieces.
-pub(crate) type LinkPieces = Arc<Vec<Vec<WrittenMesh>>>;
-
 /// What was made so far.
-pub(super) struct Hoard {
+pub(super) struct Artifacts {
     root: PathBuf,
     pub plain: Option<LinkMeshes>,
     pub hulls: Option<LinkMeshes>,
@@ -35,11 +30,11 @@ pub(super) struct Hoard {
     pub simple_skips: Option<Arc<LinkShapesSimpleSkipsModule>>,
 }
 
-impl Hoard {
+impl Artifacts {
     /// Of a new URDD that is written to `root`: the files of modules that were made, or kept, are
     /// there already.
     pub fn new(root: &Path) -> Self {
-        Hoard {
+        Artifacts {
             root: root.to_owned(),
             plain: None,
             hulls: None,
@@ -53,10 +48,10 @@ impl Hoard {
     /// The plain meshes.
     pub fn plain(&mut self) -> Result<LinkMeshes, GenerateError> {
         self.have(
-            |hoard| &mut hoard.plain,
-            |hoard| {
-                let module: PlainMeshesModule = hoard.document(ModuleKind::PlainMeshes)?;
-                let root = hoard.root()?;
+            |artifacts| &mut artifacts.plain,
+            |artifacts| {
+                let module: PlainMeshesModule = artifacts.document(ModuleKind::PlainMeshes)?;
+                let root = artifacts.root()?;
                 let links = module.link_meshes.iter().map(Option::as_ref);
                 let meshes = links.map(|link| link.map(|mesh| take_up(&root, &mesh.files)));
                 meshes.map(Option::transpose).collect()
@@ -67,11 +62,11 @@ impl Hoard {
     /// The hulls.
     pub fn hulls(&mut self) -> Result<LinkMeshes, GenerateError> {
         self.have(
-            |hoard| &mut hoard.hulls,
-            |hoard| {
+            |artifacts| &mut artifacts.hulls,
+            |artifacts| {
                 let module: ConvexHullMeshesModule =
-                    hoard.document(ModuleKind::ConvexHullMeshes)?;
-                let root = hoard.root()?;
+                    artifacts.document(ModuleKind::ConvexHullMeshes)?;
+                let root = artifacts.root()?;
                 let links = module.link_hulls.iter().map(Option::as_ref);
                 let meshes = links.map(|link| link.map(|files| take_up(&root, files)));
                 meshes.map(Option::transpose).collect()
@@ -82,11 +77,11 @@ impl Hoard {
     /// The pieces.
     pub fn pieces(&mut self) -> Result<LinkPieces, GenerateError> {
         self.have(
-            |hoard| &mut hoard.pieces,
-            |hoard| {
+            |artifacts| &mut artifacts.pieces,
+            |artifacts| {
                 let module: ConvexDecompositionMeshesModule =
-                    hoard.document(ModuleKind::ConvexDecompositionMeshes)?;
-                let root = hoard.root()?;
+                    artifacts.document(ModuleKind::ConvexDecompositionMeshes)?;
+                let root = artifacts.root()?;
                 let links = module.link_pieces.iter();
                 let pieces =
                     links.map(|link| link.iter().map(|files| take_up(&root, files)).collect());
@@ -96,8 +91,8 @@ impl Hoard {
     }
 
     /// The hulls and the pieces, of which shapes are made.
-    pub fn solids(&mut self) -> Result<Solids, GenerateError> {
-        Ok(Solids {
+    pub fn solids(&mut self) -> Result<ConvexMeshes, GenerateError> {
+        Ok(ConvexMeshes {
             hulls: self.hulls()?,
             pieces: self.pieces()?,
         })
@@ -106,32 +101,32 @@ impl Hoard {
     /// The boxes and spheres.
     pub fn approximations(&mut self) -> Result<Arc<LinkShapesApproximationsModule>, GenerateError> {
         self.have(
-            |hoard| &mut hoard.approximations,
-            |hoard| hoard.document(ModuleKind::LinkShapesApproximations),
+            |artifacts| &mut artifacts.approximations,
+            |artifacts| artifacts.document(ModuleKind::LinkShapesApproximations),
         )
     }
 
     /// The distance statistics.
     pub fn statistics(&mut self) -> Result<Arc<LinkShapesDistanceStatisticsModule>, GenerateError> {
         self.have(
-            |hoard| &mut hoard.statistics,
-            |hoard| hoard.document(ModuleKind::LinkShapesDistanceStatistics),
+            |artifacts| &mut artifacts.statistics,
+            |artifacts| artifacts.document(ModuleKind::LinkShapesDistanceStatistics),
         )
     }
 
     /// The simple skips.
     pub fn simple_skips(&mut self) -> Result<Arc<LinkShapesSimpleSkipsModule>, GenerateError> {
         self.have(
-            |hoard| &mut hoard.simple_skips,
-            |hoard| hoard.document(ModuleKind::LinkShapesSimpleSkips),
+            |artifacts| &mut artifacts.simple_skips,
+            |artifacts| artifacts.document(ModuleKind::LinkShapesSimpleSkips),
         )
     }
 
     /// What is at a place: as it was made, or else taken up, once.
     fn have<T>(
         &mut self,
-        place: fn(&mut Hoard) -> &mut Option<Arc<T>>,
-        take_up: fn(&Hoard) -> Result<T, GenerateError>,
+        place: fn(&mut Artifacts) -> &mut Option<Arc<T>>,
+        take_up: fn(&Artifacts) -> Result<T, GenerateError>,
     ) -> Result<Arc<T>, GenerateError> {
         if let Some(made) = place(self) {
             return Ok(Arc::clone(made));

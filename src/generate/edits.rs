@@ -1,0 +1,163 @@
+//! A person's edits of the skips, which outlive a new run.
+//!
+//! They are read before anything is made. Where they cannot be read, nothing is: what a person wrote
+//! must not vanish because of a comma.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::error::{EditsFault, GenerateError};
+use super::old::Old;
+use super::selection::Selection;
+use crate::directory::json;
+use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::directory::position::{self, Position};
+use crate::directory::root::{ReadError, Root};
+use crate::directory::text_fault::{KEPT_PER_KIND, TextFaultKind};
+use crate::directory::yaml;
+use crate::format::chain::ChainModule;
+use crate::format::link_shapes_skips::SkipEdit;
+use crate::format::registry::ModuleKind;
+
+/// The key of the edits.
+const EDITS: &str = "edits";
+
+/// The edits of a robot.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Edits {
+    /// Those that name links of the robot.
+    pub kept: Vec<SkipEdit>,
+    /// The others.
+    pub lost: Vec<SkipEdit>,
+}
+
+impl Edits {
+    /// Of a robot with these links.
+    pub fn of(edits: Vec<SkipEdit>, chain: &ChainModule) -> Self {
+        let is_link = |name: &str| {
+            let mut links = chain.links_in_chain.iter();
+            links.any(|link| link.name == name)
+        };
+        let (kept, lost) = edits
+            .into_iter()
+            .partition(|edit| is_link(&edit.link_a) && is_link(&edit.link_b));
+        Edits { kept, lost }
+    }
+}
+
+/// Reads the edits in a folder that is to be replaced, whatever else is wrong with it.
+///
+/// # Errors
+/// Where there may be edits, and they cannot be read, or the modules asked for do not hold them.
+pub(super) fn read(
+    folder: &Path,
+    selection: &Selection,
+    old: Option<&Old>,
+) -> Result<Vec<SkipEdit>, GenerateError> {
+    let Ok(root) = Root::open(folder) else {
+        return Ok(Vec::new());
+    };
+    let kind = ModuleKind::LinkShapesSkips;
+    let json_path = format!("{}/module.json", kind.folder());
+    let yaml_path = format!("{}/module.yaml", kind.folder());
+    let refused = |path: &str, at: Option<Position>, fault: EditsFault| GenerateError::Edits {
+        file: folder.join(path),
+        at,
+        fault,
+    };
+    let bytes = match root.read(&json_path, MAX_DOCUMENT_BYTES) {
+        Ok(bytes) => bytes,
+        Err(ReadError::Missing) => return Ok(Vec::new()),
+        Err(error) => {
+            let fault = EditsFault::Unreadable(error.to_string());
+            return Err(refused(&json_path, None, fault));
+        }
+    };
+    let document = json::read(&bytes).map_err(|unreadable| {
+        let first = unreadable.faults.iter().next();
+        let words = first.map_or_else(String::new, |fault| fault.message.clone());
+        let at = first.and_then(|fault| fault.position);
+        refused(&json_path, at, EditsFault::Unreadable(words))
+    })?;
+    let twice = document.faults.iter().find(|fault| {
+        let pointer = fault.pointer.as_deref().unwrap_or_default();
+        fault.kind == TextFaultKind::DuplicateKey && is_of_edits(pointer)
+    });
+    if let Some(twice) = twice {
+        let fault = EditsFault::Unreadable(twice.message.clone());
+        return Err(refused(&json_path, twice.position, fault));
+    }
+    let edits = parse(&document.value).map_err(|(pointer, fault)| {
+        let at = position::locate(&document.text, &pointer);
+        refused(&json_path, at, fault)
+    })?;
+    // Somebody may have edited the YAML file alone; one that is as it was made is merely behind.
+    if !is_as_made(old, &yaml_path)
+        && let Ok(bytes) = root.read(&yaml_path, MAX_DOCUMENT_BYTES)
+    {
+        let faults = yaml::check_mirror(&bytes, &document.value);
+        // Of many differences only the first are kept, and the edits may be among the others.
+        let is_cut = faults.total(TextFaultKind::YamlDiffers) > KEPT_PER_KIND;
+        let differs = faults.iter().find(|fault| match fault.kind {
+            TextFaultKind::YamlDiffers => {
+                is_cut || is_of_edits(fault.pointer.as_deref().unwrap_or_default())
+            }
+            TextFaultKind::YamlSyntax | TextFaultKind::YamlNotUtf8 => true,
+            _ => false,
+        });
+        if let Some(fault) = differs {
+            let at = fault.position;
+            return Err(refused(
+                &yaml_path,
+                at,
+                EditsFault::Yaml(fault.message.clone()),
+            ));
+        }
+    }
+    if !edits.is_empty() && !selection.has(kind) {
+        let fault = EditsFault::NotAskedFor(edits.len());
+        return Err(refused(&json_path, None, fault));
+    }
+    Ok(edits)
+}
+
+/// Whether a file is as the metadata of its URDD says.
+fn is_as_made(old: Option<&Old>, path: &str) -> bool {
+    let Some(old) = old else {
+        return false;
+    };
+    let mut files = old.metadata.modules.iter().flat_map(|module| &module.files);
+    files
+        .find(|file| file.path == path)
+        .is_some_and(|file| old.is_intact(file))
+}
+
+fn is_of_edits(pointer: &str) -> bool {
+    let rest = pointer
+        .strip_prefix('/')
+        .and_then(|rest| rest.strip_prefix(EDITS));
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+}
+
+/// The edits of a document, of any draft; or where one is wrong, and how.
+fn parse(document: &Value) -> Result<Vec<SkipEdit>, (String, EditsFault)> {
+    let Some(edits) = document.get(EDITS) else {
+        return Err((String::new(), EditsFault::NoEdits));
+    };
+    let Some(edits) = edits.as_array() else {
+        return Err((format!("/{EDITS}"), EditsFault::NotAList));
+    };
+    let edits = edits.iter().enumerate().map(|(idx, edit)| {
+        let pointer = format!("/{EDITS}/{idx}");
+        let is_null = |key: &str| edit.get(key).is_some_and(Value::is_null);
+        let keys = ["link_a", "link_b", "skip", "reason"];
+        if let Some(key) = keys.into_iter().find(|key| is_null(key)) {
+            let words = format!("`{key}` is null");
+            return Err((format!("{pointer}/{key}"), EditsFault::Edit(words)));
+        }
+        serde_json::from_value::<SkipEdit>(edit.clone())
+            .map_err(|error| (pointer, EditsFault::Edit(error.to_string())))
+    });
+    edits.collect()
+}

@@ -1,0 +1,42 @@
+//! A module that was made: its document, and its files.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use super::error::GenerateError;
+use crate::directory::document::Document;
+
+/// A module that was made.
+pub(super) struct Made {
+    pub document: Document,
+    /// The files that the document names.
+    pub files: Vec<MadeFile>,
+}
+
+/// A file of a module.
+pub(super) struct MadeFile {
+    /// Path relative to the URDD's root.
+    pub path: String,
+    pub content: Content,
+}
+
+/// What a file holds.
+pub(super) enum Content {
+    Bytes(Vec<u8>),
+    /// Of a mesh, which a reader looks at too.
+    Shared(Arc<Vec<u8>>),
+}
+
+/// A module without files of its own.
+pub(super) fn document(module: &impl Serialize) -> Result<Made, GenerateError> {
+    let document = serde_json::to_value(module).map_err(|error| GenerateError::Internal {
+        file: String::new(),
+        reason: error.to_string(),
+    })?;
+    let files = Vec::new();
+    Ok(Made {
+        document: Document::Whole(document),
+        files,
+    })
+}

@@ -1,0 +1,49 @@
+//! How URDDs are made.
+
+use std::path::PathBuf;
+
+use super::meshes::package::Packages;
+use super::selection::Selection;
+use super::source::xacro::XacroSettings;
+use crate::format::meshes::GeometryKind;
+
+/// How URDDs are made.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// The modules to make.
+    pub selection: Selection,
+    /// Where packages are.
+    pub packages: Packages,
+    /// Folders besides the robot's own and its packages from which mesh files may be taken.
+    pub allowed_folders: Vec<PathBuf>,
+    /// Which geometry links are made from; the other one where a link has none of it.
+    pub preferred_geometry: GeometryKind,
+    /// Sampled configurations of the distance statistics.
+    pub num_samples: u32,
+    /// How xacro files are expanded.
+    pub xacro: XacroSettings,
+    /// Whether a mesh that is not found, and all that is assumed and changes the robot, is an error.
+    pub strict: bool,
+    /// Whether edits of skips in the URDD that is replaced may be dropped.
+    pub drop_edits: bool,
+    /// Whether to write into a folder that holds something else.
+    pub force: bool,
+}
+
+impl Default for Settings {
+    /// Every module, from visual geometry, with 1,000 samples, and no packages but those around the
+    /// URDF.
+    fn default() -> Self {
+        Settings {
+            selection: Selection::all(),
+            packages: Packages::none(),
+            allowed_folders: Vec::new(),
+            preferred_geometry: GeometryKind::Visual,
+            num_samples: 1000,
+            xacro: XacroSettings::default(),
+            strict: false,
+            drop_edits: false,
+            force: false,
+        }
+    }
+}

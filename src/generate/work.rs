@@ -1,0 +1,86 @@
+//! What stages work with.
+
+use std::path::Path;
+
+use super::artifacts::Artifacts;
+use super::edits::Edits;
+use super::error::GenerateError;
+use super::fault::{Fault, PlacedFault};
+use super::meshes::original::OriginalMeshes;
+use super::note::{Note, NoteKind};
+use super::settings::Settings;
+use super::source::Source;
+use super::{bounds, chain, dof, kinematics_samples};
+use crate::format::bounds::BoundsModule;
+use crate::format::chain::ChainModule;
+use crate::format::dof::DofModule;
+use crate::format::kinematics_samples::KinematicsSamplesModule;
+use crate::format::link_shapes_skips::SkipEdit;
+
+/// What stages work with.
+pub(super) struct Work<'a> {
+    pub source: &'a Source,
+    pub settings: &'a Settings,
+    pub dof: DofModule,
+    pub chain: ChainModule,
+    pub bounds: BoundsModule,
+    pub samples: KinematicsSamplesModule,
+    pub original: Option<OriginalMeshes>,
+    /// Meshes and shapes.
+    pub artifacts: Artifacts,
+    /// A person's edits of the skips.
+    pub edits: Edits,
+    pub notes: Vec<Note>,
+}
+
+impl<'a> Work<'a> {
+    /// With what nearly every stage needs, and takes no time to make.
+    ///
+    /// # Errors
+    /// Where mimics or poses are beyond 64-bit numbers.
+    pub fn new(
+        source: &'a Source,
+        settings: &'a Settings,
+        root: &Path,
+        edits: Vec<SkipEdit>,
+    ) -> Result<Self, GenerateError> {
+        let reading = &source.reading;
+        let refused = |fault| GenerateError::Refused {
+            file: source.shown.clone(),
+            faults: vec![PlacedFault {
+                line: 1,
+                column: 1,
+                fault,
+            }],
+        };
+        let dof = dof::dof_module(&reading.robot, &reading.tree).map_err(refused)?;
+        let chain = chain::chain_module(&reading.robot, &reading.tree);
+        let bounds = bounds::bounds_module(&reading.robot, &dof);
+        let samples = kinematics_samples::kinematics_samples_module(&dof, &chain, &bounds)
+            .map_err(|error| refused(Fault::NoPoses(error.to_string())))?;
+        Ok(Work {
+            edits: Edits::of(edits, &chain),
+            dof,
+            chain,
+            bounds,
+            samples,
+            source,
+            settings,
+            artifacts: Artifacts::new(root),
+            original: None,
+            notes: Vec::new(),
+        })
+    }
+
+    /// Notes that something is not made of this robot.
+    pub fn leave_out(&mut self, problem: String, assumed: &str) {
+        self.notes.push(Note {
+            kind: NoteKind::LeftOut,
+            file: self.source.shown.clone(),
+            line: 0,
+            column: 0,
+            problem,
+            assumed: assumed.to_owned(),
+        });
+    }
+}
