@@ -261,11 +261,11 @@ fn two_cases(code: &str, family: &str, cases: &str) -> String {
     use urdd::validate::code::Code::{code};
     let base = || {base};
     vec![
-        crate::changed({code}, "todo-name-the-fault", true, base, |urdd| {{
-            todo!("{code}: change {{}} so that exactly this rule catches it", urdd.files.len())
+        crate::changed({code}, "todo-name-the-fault", true, base, |_urdd| {{
+            todo!("{code}: change the URDD so that exactly this rule catches it")
         }}),
-        crate::changed({code}, "todo-name-what-comes-near", false, base, |urdd| {{
-            todo!("{code}: change {{}} so that it comes near the fault, and is right", urdd.files.len())
+        crate::changed({code}, "todo-name-what-comes-near", false, base, |_urdd| {{
+            todo!("{code}: change the URDD so that it comes near the fault, and is right")
         }}),
     ]
 }}
