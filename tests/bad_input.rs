@@ -450,3 +450,54 @@ fn hostile_schemas_of_extensions() {
         assert_findings(&outcome, &["EXT001"]);
     }
 }
+
+/// `rehash` vouches for no document: what it brings up to date may still be broken.
+#[test]
+fn rehash_says_which_document_is_broken() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().join("toy");
+    let mut toy = Fixture::toy();
+    toy.seal();
+    toy.write_to(&root);
+    let rehash = || {
+        let program = env!("CARGO_BIN_EXE_urdd");
+        let output = Command::new(program).arg("rehash").arg(&root).output();
+        let output = output.unwrap();
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), words)
+    };
+    assert_eq!(rehash(), (Some(0), String::new()));
+    let file = root.join("link_shapes_modules/link_shapes_skips_module/module.json");
+    let text = fs::read_to_string(&file).unwrap();
+    fs::write(&file, text.replacen("\"edits\":", "\"edit\":", 1)).unwrap();
+    for _ in 0..2 {
+        let (status, words) = rehash();
+        assert_eq!(status, Some(1));
+        let place = "toy/link_shapes_modules/link_shapes_skips_module/module.json:";
+        assert!(words.contains(place), "{words}");
+    }
+    fs::write(&file, text.replacen('{', "{,", 1)).unwrap();
+    let (status, words) = rehash();
+    assert_eq!(status, Some(1));
+    assert!(words.contains("module.json:1:2: not JSON"), "{words}");
+}
+
+/// A folder for a URDD that is being written is none, under a name of this version or of 0.1.0.
+#[test]
+fn staging_folders_are_not_examined() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut toy = Fixture::toy();
+    toy.seal();
+    for name in ["toy", ".urdd-0123456789abcdef/new", ".toy.urdd-4711-0/new"] {
+        toy.write_to(&folder.path().join(name));
+    }
+    let outcome = validate(folder.path());
+    let report: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    let names: Vec<&str> = report["urdds"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|urdd| urdd["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["toy"]);
+}

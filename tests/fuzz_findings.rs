@@ -31,4 +31,4 @@ macro_rules! targets {
     };
 }
 
-targets! { json yaml urdf stl obj gltf glb dae settings urdd }
+targets! { archive json yaml urdf stl obj gltf glb dae settings urdd }

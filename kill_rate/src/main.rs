@@ -107,7 +107,7 @@ fn main() -> ExitCode {
     let progress = |name: &str, done: usize, of: usize| {
         if bar.length() != Some(of as u64) {
             bar.set_length(of as u64);
-            bar.set_message(crate::format::escape::line(name).into_owned());
+            bar.set_message(urdd::format::escape::line(name).into_owned());
         }
         bar.set_position(done as u64);
     };

@@ -9,6 +9,7 @@ use clap::{Args, ValueEnum};
 
 use super::generate_output::{Format, Printer};
 use super::output;
+use super::signals::Signals;
 use crate::format::escape;
 use crate::format::meshes::GeometryKind;
 use crate::generate::batch::{self, Job, Shard};
@@ -32,8 +33,8 @@ const STANDARD_INPUT: &str = "-";
     expanded by the program `xacro`.\n\n\
     Mesh names are looked up as ROS does: package:// by --package, by package.xml or a folder of that \
     name at or above the URDF, by ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; file://, relative to the URDF, absolute.\n\n\
-    Exit status: 0 every robot was made; 1 some were not; 2 wrong usage, no robot was found, \
-    or results could not be written."
+    Exit status: 0 every robot was made; 1 some were not; 2 wrong usage, no robot was found, or results could not be \
+    written; 130 or 143 stopped by a signal."
 )]
 pub struct GenerateArguments {
     /// A URDF or xacro file, or `-` for a URDF from standard input; or several, or folders of them, for a batch. A word
@@ -110,8 +111,7 @@ enum Preferred {
 /// Runs `urdd generate`.
 pub fn run(arguments: &GenerateArguments) -> ExitCode {
     match generate(arguments) {
-        Ok(0) => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::from(FAILED),
+        Ok(status) => ExitCode::from(status),
         Err(message) => {
             output::error(&message);
             ExitCode::from(USAGE)
@@ -119,10 +119,11 @@ pub fn run(arguments: &GenerateArguments) -> ExitCode {
     }
 }
 
-/// Gives how many robots could not be made.
-fn generate(arguments: &GenerateArguments) -> Result<usize, String> {
+/// Gives the exit status.
+fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
+    let signals = Signals::listen().map_err(|error| error.to_string())?;
     let (robots, xacro_arguments) = split(&arguments.robots);
-    let settings = settings(arguments, xacro_arguments)?;
+    let settings = settings(arguments, xacro_arguments, &signals)?;
     let mut pool = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = arguments.threads {
         pool = pool.num_threads(threads.into());
@@ -147,7 +148,9 @@ fn generate(arguments: &GenerateArguments) -> Result<usize, String> {
         }
         printer.begin(jobs.len());
         let failed = pool.install(|| batch::run(&jobs, &arguments.output, &settings, &printer));
-        printer.end(jobs.len(), failed);
+        if signals.status().is_none() {
+            printer.end(jobs.len(), failed);
+        }
         failed
     } else {
         if arguments.shard.is_some() {
@@ -158,9 +161,14 @@ fn generate(arguments: &GenerateArguments) -> Result<usize, String> {
         one(source, &arguments.output, &settings, &pool, &printer)?
     };
     let _ = std::panic::take_hook();
+    if let Some(status) = signals.status() {
+        output::error("stopped by a signal; URDDs that were not done are as they were before");
+        return Ok(status);
+    }
     match printer.unprinted() {
         Some(message) => Err(message),
-        None => Ok(failed),
+        None if failed > 0 => Ok(FAILED),
+        None => Ok(0),
     }
 }
 
@@ -227,6 +235,7 @@ fn standard_input() -> Result<Vec<u8>, String> {
 fn settings(
     arguments: &GenerateArguments,
     xacro_arguments: Vec<String>,
+    signals: &Signals,
 ) -> Result<Settings, String> {
     let selection = match arguments.modules.is_empty() {
         true => Selection::all(),
@@ -261,5 +270,6 @@ fn settings(
         strict: arguments.strict,
         drop_edits: arguments.drop_edits,
         force: arguments.force,
+        cancellation: signals.cancellation(),
     })
 }

@@ -9,6 +9,7 @@ mod info;
 mod output;
 mod rehash;
 mod schema;
+mod signals;
 mod validate;
 mod words;
 

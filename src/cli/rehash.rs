@@ -6,13 +6,23 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::output;
-use crate::directory::discover::discover;
+use crate::directory::discover::{Found, discover};
 use crate::directory::rehash::rehash;
 use crate::directory::root::Root;
+use crate::document::module::Module;
+use crate::document::urdd::Urdd;
 use crate::format::escape;
+
+/// Exit status: the hashes are up to date, and a document is broken.
+const BROKEN: u8 = 1;
+/// Exit status: hashes could not be brought up to date.
+const FAILED: u8 = 2;
 
 /// Arguments of `urdd rehash`.
 #[derive(Args)]
+#[command(
+    after_help = "Exit status: 0 up to date; 1 up to date, but the document of a module is broken; 2 could not be brought up to date."
+)]
 pub struct RehashArguments {
     /// URDDs of version 1, or folders with URDDs at any depth.
     #[arg(required = true, value_name = "PATH")]
@@ -21,7 +31,7 @@ pub struct RehashArguments {
 
 /// Runs `urdd rehash`.
 pub fn run(arguments: &RehashArguments) -> ExitCode {
-    let mut failed = false;
+    let (mut failed, mut broken) = (false, false);
     for path in &arguments.paths {
         let found = match discover(path) {
             Ok(found) => found,
@@ -34,15 +44,18 @@ pub fn run(arguments: &RehashArguments) -> ExitCode {
         for urdd in found {
             let changed = urdd
                 .closed
+                .clone()
                 .map_or_else(|| Root::open(&urdd.path), Err)
                 .map_err(|error| error.to_string())
                 .and_then(|root| rehash(&root).map_err(|error| error.to_string()));
             let name = escape::line(&urdd.name);
             let mut text = String::new();
             match changed {
-                Ok(changed) if changed.is_empty() => text += &format!("{name}: up to date\n"),
                 Ok(changed) => {
-                    text += &format!("{name}: brought up to date\n");
+                    text += &match changed.is_empty() {
+                        true => format!("{name}: up to date\n"),
+                        false => format!("{name}: brought up to date\n"),
+                    };
                     for path in changed {
                         text += &format!("  {}\n", escape::line(&path));
                     }
@@ -52,15 +65,36 @@ pub fn run(arguments: &RehashArguments) -> ExitCode {
                     failed = true;
                 }
             }
+            let is_up_to_date = !text.is_empty();
             if let Err(error) = output::print(&text) {
                 output::error(&error);
                 failed = true;
             }
+            broken |= is_up_to_date && report_broken(&urdd);
         }
     }
-    if failed {
-        ExitCode::from(2)
-    } else {
-        ExitCode::SUCCESS
+    match (failed, broken) {
+        (true, _) => ExitCode::from(FAILED),
+        (false, true) => ExitCode::from(BROKEN),
+        (false, false) => ExitCode::SUCCESS,
     }
+}
+
+/// Says which documents cannot be used: their hashes are right now, and they are not.
+fn report_broken(found: &Found) -> bool {
+    let Ok(urdd) = Urdd::read(&found.path) else {
+        return false;
+    };
+    let faults: Vec<String> = urdd
+        .modules()
+        .iter()
+        .filter_map(Module::first_fault)
+        .collect();
+    for fault in &faults {
+        output::error(&format!(
+            "{}/{fault}; mend it, and run `urdd rehash` again",
+            found.name
+        ));
+    }
+    !faults.is_empty()
 }

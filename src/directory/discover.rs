@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+pub use super::layout::ROOT_METADATA;
+use super::layout::is_staging;
 use super::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
-use super::root::ReadError;
-use crate::format::registry::ModuleKind;
-
-/// Name of the root metadata file.
-pub const ROOT_METADATA: &str = "urdd.json";
+use super::read_error::ReadError;
+use super::source::{is_archive, is_urdd};
 
 /// A URDD that was found.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,7 +35,7 @@ pub enum DiscoverError {
     },
     /// A file.
     #[error(
-        "{path}: this is a file; a URDD is a folder: give the folder that holds {ROOT_METADATA} or the module folders"
+        "{path}: this is a file; a URDD is a folder, or a zip archive of one: give the folder that holds {ROOT_METADATA} or the module folders"
     )]
     NotAFolder {
         /// The path as given.
@@ -73,17 +72,10 @@ pub enum DiscoverError {
 /// Most entries of folders that are looked at in search of URDDs.
 const MAX_VISITED: usize = 10 * MAX_FILES;
 
-/// Whether a folder is the root of a URDD: it holds `urdd.json`, or a module's folder.
-pub fn is_urdd(folder: &Path) -> bool {
-    folder.join(ROOT_METADATA).is_file()
-        || ModuleKind::ALL
-            .iter()
-            .any(|kind| folder.join(kind.folder()).is_dir())
-}
-
-/// Finds every URDD at or below a path, at any depth, in order of path. A URDD is not searched for
-/// more of them; symbolic links below `path` are not followed. A folder that cannot be searched is
-/// among the found, closed.
+/// Finds every URDD at or below a path, at any depth, in order of path. The path may be that of a zip
+/// archive; archives in folders are not looked into. A URDD is not searched for more of them;
+/// symbolic links below `path` are not followed, and folders in which a URDD is being written are
+/// passed over. A folder that cannot be searched is among the found, closed.
 ///
 /// # Errors
 /// Where the path holds none, or cannot be searched.
@@ -98,10 +90,10 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
             path: shown.clone(),
         },
     })?;
-    if !canonical.is_dir() {
+    if !canonical.is_dir() && !is_archive(&canonical) {
         return Err(DiscoverError::NotAFolder { path: shown });
     }
-    if is_urdd(&canonical) {
+    if !canonical.is_dir() || is_urdd(&canonical) {
         let name = canonical
             .file_name()
             .map_or_else(|| shown.clone(), |name| name.to_string_lossy().into_owned());
@@ -145,6 +137,9 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
                 continue;
             }
             let name = entry.file_name().to_string_lossy().into_owned();
+            if is_staging(&name) {
+                continue;
+            }
             let name = if prefix.is_empty() {
                 name
             } else {
@@ -172,8 +167,8 @@ fn list(folder: &Path, depth: usize) -> Result<fs::ReadDir, ReadError> {
     let entries = fs::read_dir(folder).map_err(|error| ReadError::from_io(&error))?;
     match depth < MAX_FOLDER_DEPTH {
         true => Ok(entries),
-        false => Err(ReadError::Io(format!(
-            "it lies deeper than {MAX_FOLDER_DEPTH} folders; give its path to examine it"
-        ))),
+        false => Err(ReadError::TooDeep {
+            limit: MAX_FOLDER_DEPTH,
+        }),
     }
 }

@@ -11,3 +11,16 @@ pub const MAX_FOLDER_DEPTH: usize = 32;
 
 /// How many containers may stand in one another, in JSON and in YAML.
 pub const DEPTH_LIMIT: usize = 100;
+
+/// Largest zip archive that is read, bytes.
+pub const MAX_ARCHIVE_BYTES: u64 = 1 << 30;
+
+/// Most bytes that the files of a zip archive are in all.
+pub const MAX_INFLATED_BYTES: u64 = 4 << 30;
+
+/// How many times its own size the files of a zip archive may be in all, above
+/// [`SMALL_ARCHIVE_BYTES`]. Modules of long lists of zeros come to some 200.
+pub const MAX_INFLATION: u64 = 250;
+
+/// What the files of a zip archive may be in all, however small it is, bytes.
+pub const SMALL_ARCHIVE_BYTES: u64 = 64 << 20;

@@ -1,6 +1,8 @@
-//! A URDD on disk: finding it, listing it, reading from it safely; JSON and YAML as text; and the
-//! folder of published schemas.
+//! A URDD as files, on disk, in memory or in a zip archive: finding it, listing it, reading from it
+//! safely, writing it; JSON and YAML as text; and the folder of published schemas.
 
+pub mod archive_fault;
+pub mod cancellation;
 pub mod canonical;
 pub mod digest;
 pub mod discover;
@@ -9,15 +11,20 @@ pub mod json;
 mod json_fault;
 mod json_places;
 pub mod json_scan;
+pub mod layout;
 pub mod limits;
+pub mod listing;
 pub mod number_text;
 pub mod path;
 pub mod position;
+pub mod read_error;
 pub mod rehash;
 pub mod root;
 pub mod schema_files;
+pub mod source;
 pub mod staging;
 mod string_text;
+pub mod target_lock;
 pub mod text_fault;
 pub mod writer;
 pub mod yaml;

@@ -28,6 +28,9 @@ pub enum PathFault {
     /// A control character.
     #[error("the path has a control character")]
     ControlCharacter,
+    /// The path of another file, or of a folder.
+    #[error("the path is a file's and a folder's at once")]
+    Taken,
 }
 
 /// Checks that a path is one that SPEC 2.8 allows.

@@ -2,16 +2,22 @@
 
 use std::fs;
 use std::io::{self, Write};
+use std::path::Path;
 
 use serde_json::{Value, json};
 use thiserror::Error;
 
+use super::cancellation::Cancellation;
 use super::canonical;
 use super::digest;
 use super::discover::ROOT_METADATA;
 use super::json;
 use super::limits::MAX_DOCUMENT_BYTES;
 use super::root::{ReadError, Root};
+use super::target_lock::TargetLock;
+
+/// What the name begins with of the file that is to become `urdd.json`.
+const TEMPORARY_PREFIX: &str = ".urdd.json.";
 
 /// Why the hashes could not be brought up to date.
 #[derive(Debug, Error)]
@@ -30,6 +36,9 @@ pub enum RehashError {
         /// What is wrong.
         error: ReadError,
     },
+    /// The URDD lies in an archive.
+    #[error("a zip archive is not written to; unpack it, rehash the folder, and pack it again")]
+    NotAFolder,
     /// `urdd.json` cannot be written.
     #[error("{ROOT_METADATA} cannot be written: {0}")]
     Write(#[from] io::Error),
@@ -44,6 +53,11 @@ pub enum RehashError {
 /// Where `urdd.json` or a listed file cannot be read, or the new one not written; then nothing is
 /// changed.
 pub fn rehash(root: &Root) -> Result<Vec<String>, RehashError> {
+    let folder = root.folder().ok_or(RehashError::NotAFolder)?;
+    // Without one where the folder above cannot be written to: then no run can replace this one.
+    let _lock = fs::canonicalize(folder)
+        .ok()
+        .and_then(|place| TargetLock::acquire(&place, &Cancellation::default()).ok());
     let bytes = root
         .read(ROOT_METADATA, MAX_DOCUMENT_BYTES)
         .map_err(RehashError::Metadata)?;
@@ -60,25 +74,29 @@ pub fn rehash(root: &Root) -> Result<Vec<String>, RehashError> {
         }
     }
     if !changed.is_empty() {
-        // Beside it and renamed: whoever reads at this moment sees the old one or the new one.
-        let mut file = tempfile_beside(root)?;
-        file.1
-            .write_all(canonical::json_string(&metadata).as_bytes())?;
-        file.1.sync_all()?;
-        fs::rename(&file.0, root.path().join(ROOT_METADATA))?;
+        replace(folder, canonical::json_string(&metadata).as_bytes())?;
     }
     Ok(changed)
 }
 
-fn tempfile_beside(root: &Root) -> io::Result<(std::path::PathBuf, fs::File)> {
-    let path = root
-        .path()
-        .join(format!(".{ROOT_METADATA}.{}", std::process::id()));
-    let file = fs::OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(&path)?;
-    Ok((path, file))
+/// Writes `urdd.json` beside itself and renames: whoever reads at this moment sees the old one or the
+/// new one. What cannot be written is taken away, and what a dead run left too.
+fn replace(folder: &Path, text: &[u8]) -> io::Result<()> {
+    let file = folder.join(ROOT_METADATA);
+    for entry in fs::read_dir(folder)?.flatten() {
+        let name = entry.file_name();
+        if name.to_string_lossy().starts_with(TEMPORARY_PREFIX) {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    let mut temporary = tempfile::Builder::new()
+        .prefix(TEMPORARY_PREFIX)
+        .permissions(fs::metadata(&file)?.permissions())
+        .tempfile_in(folder)?;
+    temporary.write_all(text)?;
+    temporary.as_file().sync_all()?;
+    temporary.persist(file)?;
+    Ok(())
 }
 
 fn update(root: &Root, entry: &mut Value, changed: &mut Vec<String>) -> Result<(), RehashError> {

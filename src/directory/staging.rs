@@ -1,17 +1,19 @@
 //! Writing a whole folder at once: it is made beside its place and put there by one rename.
 //!
-//! Beside the target `x` stands, while it is written, a folder `.x.urdd-<process>-<number>`, with
-//! the new content in it and a file `lock`, which the writing process holds locked. A run that dies
-//! leaves that folder behind, and the old content in its place; the next run into the same target
-//! sees that nobody holds the lock, and takes the left-over away. Two runs at one time have a
-//! folder each, and the last to finish stays.
+//! Beside the target stands, while it is written, a folder `.urdd-<hash of the target's name>` with
+//! the new content in it, and a file `.urdd-<hash>.lock`, which the run holds locked from the first
+//! look at the old content until the new one is in its place (see [`super::target_lock`]). A run that
+//! dies leaves both behind, and the old content in its place; the next run into the same target gets
+//! the lock, so nobody else is at work there, and takes them away. A second run waits for the first.
 
-use std::fs::{self, File, TryLockError};
+use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
 
 use thiserror::Error;
+
+use super::cancellation::Cancellation;
+use super::target_lock::{LockError, TargetLock, beside};
 
 /// Why a folder could not be written. What stood in its place still does.
 #[derive(Debug, Error)]
@@ -41,6 +43,15 @@ pub enum StagingError {
         /// What the operating system said.
         error: io::Error,
     },
+    /// A file that is not the URDD's is in the place of one that is.
+    #[error("{}: this file is not of the URDD, and would be overwritten; move it away", path.display())]
+    InTheWay {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It was asked to stop.
+    #[error("stopped before it was done; nothing was changed")]
+    Cancelled,
     /// The target holds something else.
     #[error(
         "{}: this folder is not empty, and no URDD that `urdd generate` wrote; give another one, or --force to write there (files of other names stay)", path.display()
@@ -68,45 +79,53 @@ pub struct Staging {
     workplace: PathBuf,
     /// The new content, in it.
     content: PathBuf,
-    lock: Option<File>,
+    /// Let go last. There is none where the file system cannot lock.
+    _lock: Option<TargetLock>,
 }
 
-const LOCK: &str = "lock";
 const CONTENT: &str = "new";
 const OLD: &str = "old";
 
 impl Staging {
-    /// Makes the folder beside `target`, and takes away what dead runs left there.
+    /// Waits until no other run writes at `target`, takes away what a dead run left there, and makes
+    /// the folder beside it. What stands at `target` stays as it is until [`Staging::commit`].
     ///
     /// # Errors
-    /// Where `target` is a file, the current folder or one above it, or cannot be written beside.
-    pub fn begin(target: &Path) -> Result<Self, StagingError> {
+    /// Where `target` is a file, the current folder or one above it, or cannot be written beside,
+    /// and where the wait was cancelled.
+    pub fn begin(target: &Path, cancellation: &Cancellation) -> Result<Self, StagingError> {
         let target = place(target)?;
-        let parent = parent(&target);
-        let name = target.file_name().unwrap_or_default().to_string_lossy();
-        let prefix = format!(".{name}.urdd-");
-        clean(&parent, &prefix);
-        static NUMBER: AtomicU32 = AtomicU32::new(0);
-        let process = std::process::id();
-        loop {
-            let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-            let workplace = parent.join(format!("{prefix}{process}-{number}"));
-            match make(&workplace) {
-                Ok(lock) => {
-                    return Ok(Staging {
-                        content: workplace.join(CONTENT),
-                        lock: Some(lock),
-                        target,
-                        workplace,
-                    });
-                }
-                // Another's, or one that was cleaned away before its lock was held.
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-                Err(error) if error.kind() == ErrorKind::NotFound && parent.is_dir() => {}
-                Err(error) => {
-                    let path = target;
-                    return Err(StagingError::Write { path, error });
-                }
+        let lock = match TargetLock::acquire(&target, cancellation) {
+            Ok(lock) => Some(lock),
+            Err(LockError::Cancelled) => return Err(StagingError::Cancelled),
+            Err(LockError::Io(error)) if error.kind() == ErrorKind::Unsupported => None,
+            Err(LockError::Io(error)) => {
+                let path = target;
+                return Err(StagingError::Write { path, error });
+            }
+        };
+        let workplace = match lock {
+            Some(_) => beside(&target, ""),
+            // Others may be at work: a folder of this run's own, and nothing is taken away.
+            None => beside(&target, &format!("-{}", std::process::id())),
+        };
+        if lock.is_some() {
+            rescue(&workplace, &target);
+            remove(&workplace);
+        }
+        let content = workplace.join(CONTENT);
+        let made = fs::create_dir(&workplace).and_then(|()| fs::create_dir(&content));
+        let staging = Staging {
+            target,
+            workplace,
+            content,
+            _lock: lock,
+        };
+        match made {
+            Ok(()) => Ok(staging),
+            Err(error) => {
+                let path = staging.target.clone();
+                Err(StagingError::Write { path, error })
             }
         }
     }
@@ -121,34 +140,28 @@ impl Staging {
         &self.target
     }
 
-    /// Puts the new content in its place. On Linux and macOS there is no moment without the one or
-    /// the other; elsewhere there is, between two renames.
+    /// Puts the new content in its place, with the modes of the folders that were there. On Linux
+    /// and macOS there is no moment without the one or the other; elsewhere there is, between two
+    /// renames.
     ///
     /// # Errors
     /// Where it cannot be renamed; then the old content is in its place.
     pub fn commit(self) -> Result<(), StagingError> {
-        put(&self.content, &self.target, &self.workplace.join(OLD)).map_err(|error| {
-            StagingError::Write {
+        keep_modes(&self.target, &self.content)
+            .and_then(|()| put(&self.content, &self.target, &self.workplace.join(OLD)))
+            .map_err(|error| StagingError::Write {
                 path: self.target.clone(),
                 error,
-            }
-        })
+            })
     }
 }
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        let old = self.workplace.join(OLD);
-        let is_gone = fs::symlink_metadata(&self.target).is_err();
-        if is_gone && old.is_dir() && fs::rename(&old, &self.target).is_err() {
-            // The only copy is here: it stays, for the next run to put back.
-            return;
+        // Where the only copy cannot be put back, it stays for the next run to put back.
+        if rescue(&self.workplace, &self.target) {
+            remove(&self.workplace);
         }
-        let _ = fs::remove_dir_all(&self.content);
-        let _ = fs::remove_dir_all(old);
-        // Let go only now: whoever finds the folder without its lock takes it away.
-        drop(self.lock.take());
-        let _ = fs::remove_dir_all(&self.workplace);
     }
 }
 
@@ -192,50 +205,59 @@ fn parent(target: &Path) -> PathBuf {
     }
 }
 
-fn make(workplace: &Path) -> io::Result<File> {
-    fs::create_dir(workplace)?;
-    let lock = File::create_new(workplace.join(LOCK))?;
-    match lock.try_lock() {
-        Ok(()) | Err(TryLockError::Error(_)) => {}
-        Err(TryLockError::WouldBlock) => return Err(ErrorKind::NotFound.into()),
-    }
-    fs::create_dir(workplace.join(CONTENT))?;
-    Ok(lock)
+/// Puts the old content back where a run ended between two renames. `false` where that is needed
+/// and cannot be done.
+fn rescue(workplace: &Path, target: &Path) -> bool {
+    let old = workplace.join(OLD);
+    let is_gone = fs::symlink_metadata(target).is_err();
+    !(is_gone && old.is_dir()) || fs::rename(&old, target).is_ok()
 }
 
-/// Takes away the folders of runs that are no more.
-fn clean(parent: &Path, prefix: &str) {
-    let Ok(entries) = fs::read_dir(parent) else {
+/// Takes a folder away, read-only folders in it too.
+fn remove(folder: &Path) {
+    if fs::remove_dir_all(folder).is_err() {
+        make_writable(folder);
+        let _ = fs::remove_dir_all(folder);
+    }
+}
+
+fn make_writable(folder: &Path) {
+    let Ok(metadata) = fs::symlink_metadata(folder) else {
         return;
     };
-    for entry in entries.flatten() {
-        let is_ours = entry.file_name().to_string_lossy().starts_with(prefix);
-        if !is_ours || !entry.file_type().is_ok_and(|kind| kind.is_dir()) {
-            continue;
-        }
-        match File::open(entry.path().join(LOCK)) {
-            Ok(lock) if lock.try_lock().is_ok() => {
-                rescue(&entry.path(), parent, prefix);
-                let _ = fs::remove_dir_all(entry.path());
-            }
-            Ok(_) => {}
-            // Just made, or hardly begun: goes only while there is nothing in it.
-            Err(_) => {
-                let _ = fs::remove_dir(entry.path());
-            }
-        }
+    if !metadata.is_dir() {
+        return;
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = metadata.permissions().mode() | 0o700;
+        let _ = fs::set_permissions(folder, fs::Permissions::from_mode(mode));
+    }
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        make_writable(&entry.path());
     }
 }
 
-/// Puts the old content back where a run died between two renames.
-fn rescue(workplace: &Path, parent: &Path, prefix: &str) {
-    let name = prefix
-        .strip_prefix('.')
-        .and_then(|name| name.strip_suffix(".urdd-"));
-    if let Some(name) = name
-        && fs::symlink_metadata(parent.join(name)).is_err()
-    {
-        let _ = fs::rename(workplace.join(OLD), parent.join(name));
+/// Gives each folder and file of the new content the mode of what it takes the place of.
+fn keep_modes(old: &Path, new: &Path) -> io::Result<()> {
+    let Ok(before) = fs::symlink_metadata(old) else {
+        return Ok(());
+    };
+    let after = fs::symlink_metadata(new)?;
+    if before.file_type() != after.file_type() || after.is_symlink() {
+        return Ok(());
+    }
+    if after.is_dir() {
+        for entry in fs::read_dir(new)? {
+            let name = entry?.file_name();
+            keep_modes(&old.join(&name), &new.join(&name))?;
+        }
+    }
+    // The folder last: it may be read-only.
+    match before.permissions() == after.permissions() {
+        true => Ok(()),
+        false => fs::set_permissions(new, before.permissions()),
     }
 }
 

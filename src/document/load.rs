@@ -35,12 +35,11 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// Reads a URDD.
+    /// Reads a URDD, wherever its files lie.
     ///
     /// # Errors
-    /// Where the root folder itself cannot be opened or listed.
-    pub fn read(path: &std::path::Path) -> Result<Self, ReadError> {
-        let root = Root::open(path)?;
+    /// Where the root itself cannot be listed.
+    pub fn read(root: Root) -> Result<Self, ReadError> {
         let listing = root.list()?;
         let metadata = read_metadata(&root);
         let folders = module_folders(&listing);
@@ -163,8 +162,7 @@ fn read_module(
         Err(error) => VersionFile::Unreadable(error),
         Ok(bytes) => {
             let text = String::from_utf8_lossy(&bytes);
-            let line = text.strip_suffix('\n').unwrap_or(&text);
-            VersionFile::Text(line.strip_suffix('\r').unwrap_or(line).to_owned())
+            VersionFile::Text(text.strip_suffix('\n').unwrap_or(&text).to_owned())
         }
     };
     let stated = match &version_file {

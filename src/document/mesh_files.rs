@@ -2,10 +2,10 @@
 //! or into a URDD beside it. Nothing else is ever opened.
 
 use std::collections::HashMap;
-use std::fs::File;
 
 use crate::directory::path;
 use crate::directory::root::{ReadError, Root};
+use crate::directory::source::OpenFile;
 use crate::document::urdd::Urdd;
 use crate::format::registry::Profile;
 
@@ -63,7 +63,7 @@ impl<'a> MeshFiles<'a> {
     ///
     /// # Errors
     /// Why it cannot be had.
-    pub fn open(&mut self, profile: Profile, path: &str) -> Result<(File, u64), Absence> {
+    pub fn open(&mut self, profile: Profile, path: &str) -> Result<(OpenFile, u64), Absence> {
         path::check(path).map_err(|fault| Absence::Other(ReadError::Path(fault)))?;
         let opened = match self.own(profile, path) {
             Some(own) => self.urdd.root().open_file(own),

@@ -5,6 +5,7 @@ use std::fmt;
 use super::schema_check::SchemaViolation;
 use crate::directory::json::{self, JsonDocument};
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::directory::position;
 use crate::directory::root::{ReadError, Root};
 use crate::directory::text_fault::TextFaults;
 use crate::format::registry::{ModuleDocument, ModuleKind, ModuleSpec};
@@ -134,6 +135,31 @@ impl Module {
         Some(Unusable {
             folder: self.folder.clone(),
             why,
+        })
+    }
+}
+
+impl Module {
+    /// The first fault of its document, with its place: `file:line:column: what is wrong`.
+    pub fn first_fault(&self) -> Option<String> {
+        let file = self.file("module.json");
+        let (position, message) = match &self.json {
+            JsonFile::Broken(faults) => {
+                let fault = faults.iter().next()?;
+                (fault.position, fault.message.clone())
+            }
+            JsonFile::Read(document) => {
+                let violation = self.violations.first()?;
+                let position = position::locate(&document.text, &violation.pointer);
+                let message = format!("{}: {}", violation.pointer, violation.message);
+                (position, message)
+            }
+            JsonFile::Unreadable(error) => (None, error.to_string()),
+            JsonFile::Missing => return None,
+        };
+        Some(match position {
+            Some(position) => format!("{file}:{position}: {message}"),
+            None => format!("{file}: {message}"),
         })
     }
 }

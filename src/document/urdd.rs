@@ -43,12 +43,20 @@ pub enum RobotFrom {
 }
 
 impl Urdd {
-    /// Reads the URDD in a folder.
+    /// Reads the URDD in a folder or a zip archive.
     ///
     /// # Errors
-    /// Where the folder itself cannot be opened or listed.
+    /// Where the folder or the archive cannot be opened or listed.
     pub fn read(path: &std::path::Path) -> Result<Self, ReadError> {
-        Ok(Urdd::new(Arc::new(Loaded::read(path)?)))
+        Self::of(Root::open(path)?)
+    }
+
+    /// Reads the URDD at a root.
+    ///
+    /// # Errors
+    /// Where the root cannot be listed.
+    pub fn of(root: Root) -> Result<Self, ReadError> {
+        Ok(Urdd::new(Arc::new(Loaded::read(root)?)))
     }
 
     /// For what was loaded.

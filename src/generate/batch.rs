@@ -41,6 +41,14 @@ pub enum BatchError {
         /// What the operating system said.
         reason: String,
     },
+    /// A folder that lies too deep to be searched.
+    #[error(
+        "{path}: deeper than {MAX_FOLDER_DEPTH} folders is not searched; give this folder by itself"
+    )]
+    TooDeep {
+        /// The folder.
+        path: String,
+    },
     /// A folder without URDFs.
     #[error("{path}: there is no .urdf or .urdf.xacro file at any depth")]
     Empty {
@@ -93,8 +101,12 @@ fn search(folder: &Path, depth: usize, sources: &mut Vec<PathBuf>) -> Result<(),
         path: folder.display().to_string(),
         reason: error.to_string(),
     };
-    if depth > MAX_FOLDER_DEPTH || folder.join(ROOT_METADATA).is_file() {
+    if folder.join(ROOT_METADATA).is_file() {
         return Ok(());
+    }
+    if depth > MAX_FOLDER_DEPTH {
+        let path = folder.display().to_string();
+        return Err(BatchError::TooDeep { path });
     }
     let mut entries = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {
@@ -226,11 +238,14 @@ pub trait Observer: Sync {
 
 /// Makes a URDD of each job, in `folder` under the job's name, on the threads of the current pool.
 /// Gives how many could not be made. A crash (a fault of this program) counts as one, and stops
-/// nothing.
+/// nothing. Once it is asked to stop, no robot is begun.
 pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Observer) -> usize {
     // Outcomes that wait for those before them.
     let waiting = Mutex::new((0, BTreeMap::new()));
     let failed = jobs.par_iter().enumerate().map(|(idx, job)| {
+        if settings.cancellation.is_cancelled() {
+            return 0;
+        }
         let progress = observer.begin(job);
         let target = folder.join(&job.name);
         let outcome = caught(&job.source, || {

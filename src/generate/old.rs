@@ -1,6 +1,6 @@
 //! The URDD that a new one replaces.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
@@ -16,6 +16,7 @@ use crate::format::root_metadata::{FileEntry, RootMetadata};
 /// A URDD with root metadata that can be read.
 #[derive(Debug)]
 pub(super) struct Old {
+    pub folder: PathBuf,
     pub root: Root,
     pub metadata: RootMetadata,
     /// The same as a value, with the keys that are an addition to the format.
@@ -25,11 +26,12 @@ pub(super) struct Old {
 impl Old {
     /// Reads the root metadata of a folder, where there is any that fits the format.
     pub fn read(folder: &Path) -> Option<Self> {
-        let root = Root::open(folder).ok()?;
+        let root = Root::open_folder(folder).ok()?;
         let bytes = root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES).ok()?;
         let value = json::read(&bytes).ok()?.value;
         let metadata = serde_json::from_value(value.clone()).ok()?;
         Some(Old {
+            folder: folder.to_owned(),
             root,
             metadata,
             value,

@@ -110,20 +110,25 @@ fn make(
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
     size::check(source)?;
+    check_place(path, source, target)?;
+    check_assumptions(&source.notes, settings)?;
+    // From here on no other run changes what is there.
+    let staging = Staging::begin(target, &settings.cancellation)?;
     let old = Old::read(target);
     let edits = match settings.drop_edits {
         true => Vec::new(),
         false => edits::read(target, &settings.selection, old.as_ref())?,
     };
-    check_target(path, source, target, old.as_ref(), settings)?;
-    check_assumptions(&source.notes, settings)?;
-    let staging = Staging::begin(target)?;
+    check_target(target, old.as_ref(), settings)?;
     let writer = Writer::new(staging.content());
 
     let mut work = Work::new(source, settings, staging.content(), edits)?;
     let stages: Vec<&Stage> = settings.selection.kinds().filter_map(stages::of).collect();
     let (mut entries, mut modules) = (Vec::new(), Vec::new());
     for (done, stage) in stages.iter().enumerate() {
+        if settings.cancellation.is_cancelled() {
+            return Err(StagingError::Cancelled.into());
+        }
         progress.module(stage.kind, done, stages.len());
         let (entry, kept) = run(stage, &mut work, &writer, old.as_ref(), &entries)?;
         check_assumptions(&work.notes, settings)?;
@@ -164,6 +169,9 @@ fn make(
     let changed = !old
         .as_ref()
         .is_some_and(|old| is_same(old, &text, &modules));
+    if settings.cancellation.is_cancelled() {
+        return Err(StagingError::Cancelled.into());
+    }
     if changed {
         staging.commit()?;
     }
@@ -190,14 +198,8 @@ fn check_assumptions(notes: &[Note], settings: &Settings) -> Result<(), Generate
     }
 }
 
-/// Whether the target may be replaced.
-fn check_target(
-    path: Option<&Path>,
-    source: &Source,
-    target: &Path,
-    old: Option<&Old>,
-    settings: &Settings,
-) -> Result<(), GenerateError> {
+/// Whether the source lies outside of the target.
+fn check_place(path: Option<&Path>, source: &Source, target: &Path) -> Result<(), GenerateError> {
     let Ok(canonical) = target.canonicalize() else {
         return Ok(());
     };
@@ -208,6 +210,18 @@ fn check_target(
             target: target.to_owned(),
         });
     }
+    Ok(())
+}
+
+/// Whether what is at the target may be replaced.
+fn check_target(
+    target: &Path,
+    old: Option<&Old>,
+    settings: &Settings,
+) -> Result<(), GenerateError> {
+    let Ok(canonical) = target.canonicalize() else {
+        return Ok(());
+    };
     let is_empty = fs::read_dir(&canonical).is_ok_and(|mut entries| entries.next().is_none());
     let is_free = is_empty || old.is_some_and(Old::is_ours) || !canonical.is_dir();
     if !is_free && !settings.force {
@@ -234,7 +248,7 @@ fn run(
         && let Some(files) = old.kept(kind, metadata::MODULE_VERSION, inputs)
     {
         for file in files {
-            writer.keep(&old.root.path().join(&file.path), &file.path)?;
+            writer.keep(&old.folder.join(&file.path), &file.path)?;
         }
         let entry = metadata::entry(kind, files.to_vec(), Some(inputs.clone()));
         return Ok((entry, true));
@@ -253,7 +267,7 @@ fn run(
 /// Whether the URDD before is the same to the byte: its metadata, and each file as that says. Those
 /// of modules that were kept were looked at then.
 fn is_same(old: &Old, text: &str, made: &[MadeModule]) -> bool {
-    let path = old.root.path().join(ROOT_METADATA);
+    let path = old.folder.join(ROOT_METADATA);
     if fs::read(path).ok().as_deref() != Some(text.as_bytes()) {
         return false;
     }

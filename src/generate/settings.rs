@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::meshes::package::Packages;
 use super::selection::Selection;
 use super::source::xacro::XacroSettings;
+use crate::directory::cancellation::Cancellation;
 use crate::format::meshes::GeometryKind;
 
 /// How URDDs are made.
@@ -28,6 +29,8 @@ pub struct Settings {
     pub drop_edits: bool,
     /// Whether to write into a folder that holds something else.
     pub force: bool,
+    /// Where it is asked to stop: before the next module, and nothing is changed.
+    pub cancellation: Cancellation,
 }
 
 impl Default for Settings {
@@ -44,6 +47,7 @@ impl Default for Settings {
             strict: false,
             drop_edits: false,
             force: false,
+            cancellation: Cancellation::default(),
         }
     }
 }

@@ -254,3 +254,15 @@ fn exit_status_tells_usage_from_failure() {
     }
     assert!(!folder.path().join("o4").exists());
 }
+
+#[test]
+fn folders_too_deep_to_search_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let deep = folder.path().join("d/".repeat(33));
+    fs::create_dir_all(&deep).unwrap();
+    fs::write(folder.path().join("a.urdf"), "<robot name=\"a\"/>").unwrap();
+    let error = jobs(&[folder.path().to_owned()]).unwrap_err().to_string();
+    assert!(error.contains("deeper than 32 folders"), "{error}");
+    fs::remove_dir(&deep).unwrap();
+    assert_eq!(jobs(&[folder.path().to_owned()]).unwrap().len(), 1);
+}

@@ -7,6 +7,7 @@ mod batch;
 mod core;
 mod edits;
 mod hostile;
+mod interrupted;
 mod outside;
 mod packages;
 mod shapes;

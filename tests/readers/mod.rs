@@ -1,6 +1,7 @@
 //! What must hold of each reader, whatever the bytes: the bodies of the fuzz targets in `fuzz/`, and
 //! of `tests/fuzz_findings.rs`, which replays their seeds and findings.
 
+mod archive;
 mod json;
 mod mesh;
 mod settings;
@@ -9,6 +10,7 @@ mod urdd;
 mod urdf;
 mod yaml;
 
+pub use archive::archive;
 pub use json::json;
 pub use mesh::{dae, glb, gltf, obj, stl};
 pub use settings::settings;

@@ -102,6 +102,9 @@ pub fn cases() -> Vec<Case> {
         invalid(DIR006, "two-newlines", |f| {
             f.put_file(VERSION, *b"1.0.0\n\n")
         }),
+        invalid(DIR006, "carriage-return", |f| {
+            f.put_file(VERSION, *b"1.0.0\r\n")
+        }),
         invalid(DIR006, "pre-release", |f| {
             f.put_file(VERSION, *b"1.0.0-rc1")
         }),
@@ -241,6 +244,11 @@ pub fn cases() -> Vec<Case> {
             let pointer = format!("/modules/{m}/files/{i}/path");
             set_root(f, &pointer, json!("dof_module\\module.yaml"));
         }),
+        invalid(DIR015, "control-character-of-c1", |f| {
+            let (m, i) = place(f, YAML);
+            let pointer = format!("/modules/{m}/files/{i}/path");
+            set_root(f, &pointer, json!("dof_module/module\u{85}.yaml"));
+        }),
         near_miss(DIR015, "odd-but-right", |f| {
             f.put_file("dof_module/ä b..c", *b"hello\n");
             f.list("dof_module/ä b..c");
@@ -369,6 +377,37 @@ pub fn cases() -> Vec<Case> {
             add_extension(f);
             f.put_file("x_acme_zero_module/schema.json", *b"true\n");
             f.add_module("x_acme_zero_module", json!({}));
+        }),
+        invalid(DIR027, "listed-files", |f| {
+            for name in ["data.bin", "Data.bin"] {
+                f.put_file(&format!("{EXTENSION}/{name}"), name.as_bytes());
+            }
+            add_extension(f);
+        }),
+        invalid(DIR027, "metadata", |f| f.put_file("URDD.json", *b"{}\n")),
+        invalid(DIR027, "module", |f| {
+            f.put_file("DOF_module/notes.txt", *b"hello\n");
+        }),
+        near_miss(DIR027, "files-that-are-nobodys-business", |f| {
+            f.put_file("README", *b"hello\n");
+            f.put_file("readme", *b"hello\n");
+        }),
+        near_miss(DIR027, "in-other-folders", |f| {
+            f.put_file("docs/A.txt", *b"hello\n");
+            f.put_file(&format!("{EXTENSION}/a.txt"), *b"hello\n");
+            add_extension(f);
+        }),
+        invalid(DIR028, "in-a-folder", |f| {
+            let urdf = f.file(URDF).to_vec();
+            f.remove_file(URDF);
+            f.put_file("source/robot.urdf", urdf);
+            set_root(f, "/source/Urdf/path", json!("source/robot.urdf"));
+        }),
+        near_miss(DIR028, "under-any-name", |f| {
+            let urdf = f.file(URDF).to_vec();
+            f.remove_file(URDF);
+            f.put_file("Some robot.xml", urdf);
+            set_root(f, "/source/Urdf/path", json!("Some robot.xml"));
         }),
     ];
     #[cfg(unix)]

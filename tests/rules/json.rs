@@ -54,6 +54,12 @@ pub fn cases() -> Vec<Case> {
             });
         }),
         replace(
+            JSN001,
+            "half-a-surrogate-pair",
+            "\"samples\"",
+            "\"x_a\": \"\\ud83e\", \"samples\"",
+        ),
+        replace(
             JSN002,
             "same-value",
             "\"kind\": \"Zero\",",

@@ -18,6 +18,27 @@ fn same(code: Code, name: &'static str, from: &'static str, to: &'static str) ->
     })
 }
 
+/// A value of the document, whose scalar stands otherwise in the YAML.
+fn written(
+    code: Code,
+    name: &'static str,
+    caught: bool,
+    value: serde_json::Value,
+    from: &'static str,
+    to: &'static str,
+) -> Case {
+    let change = move |f: &mut crate::support::fixture::Fixture| {
+        f.set("dof_module", "/x_a", value.clone());
+        edit_text(f, FILE, |bytes| {
+            replaced(bytes, &format!("x_a: {from}"), &format!("x_a: {to}"))
+        });
+    };
+    match caught {
+        true => invalid(code, name, change),
+        false => near_miss(code, name, change),
+    }
+}
+
 pub fn cases() -> Vec<Case> {
     vec![
         replace(YML001, "unclosed", "num_dofs: ", "num_dofs: ["),
@@ -68,6 +89,33 @@ pub fn cases() -> Vec<Case> {
             f.set("dof_module", "/x_a", json!(1e-7));
             edit_text(f, FILE, |bytes| replaced(bytes, "1.0e-7", "1e-7"));
         }),
+        written(YML006, "letter-y", true, json!("y"), "\"y\"", "y"),
+        written(
+            YML006,
+            "no-digit-after-a-sign",
+            true,
+            json!(-0.5),
+            "-0.5",
+            "-.5",
+        ),
+        written(YML006, "octal", true, json!("017"), "\"017\"", "017"),
+        written(
+            YML006,
+            "no-digit-before-the-point",
+            false,
+            json!(0.5),
+            "0.5",
+            ".5",
+        ),
+        written(YML006, "hexadecimal-number", false, json!(31), "31", "0x1F"),
+        written(
+            YML007,
+            "hexadecimal-for-a-string",
+            true,
+            json!("0x1"),
+            "\"0x1\"",
+            "0x1",
+        ),
         near_miss(YML006, "quoted", |f| {
             f.set(
                 "dof_module",
@@ -91,6 +139,17 @@ pub fn cases() -> Vec<Case> {
             let file = root.join(FILE);
             let text = std::fs::read(&file).expect("read");
             std::fs::write(&file, replaced(text, "num_dofs: 1", "num_dofs: 2")).expect("written");
+        }),
+        invalid(YML008, "one-hundred-and-one", |f| {
+            let deep = format!("x_a: {}{}\nnum_dofs: ", "[".repeat(100), "]".repeat(100));
+            edit_text(f, FILE, |bytes| replaced(bytes, "num_dofs: ", &deep));
+        }),
+        near_miss(YML008, "one-hundred", |f| {
+            let mut deep = json!([]);
+            for _ in 0..98 {
+                deep = json!([deep]);
+            }
+            f.set("dof_module", "/x_a", deep);
         }),
         invalid(YML008, "two-hundred", |f| {
             let deep = format!("x_a: {}{}\nnum_dofs: ", "[".repeat(200), "]".repeat(200));

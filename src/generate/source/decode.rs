@@ -17,16 +17,16 @@ pub(super) fn decode(
         None => (bytes, None),
     };
     let declared = declared(bytes);
-    if mark.is_none_or(|encoding| encoding == UTF_8) {
-        if let Ok(text) = std::str::from_utf8(bytes) {
-            if declared.is_none_or(|encoding| encoding == UTF_8) {
-                return Ok((text.to_owned(), true));
-            }
-            // Declared as another encoding, in which it would be the same characters, or which the
-            // mark denies.
-            if mark.is_some() || text.is_ascii() {
-                return Ok((redeclared(text), false));
-            }
+    if mark.is_none_or(|encoding| encoding == UTF_8)
+        && let Ok(text) = std::str::from_utf8(bytes)
+    {
+        if declared.is_none_or(|encoding| encoding == UTF_8) {
+            return Ok((text.to_owned(), true));
+        }
+        // Declared as another encoding, in which it would be the same characters, or which the
+        // mark denies.
+        if mark.is_some() || text.is_ascii() {
+            return Ok((redeclared(text), false));
         }
     }
     // Two bytes a character without a mark: the first is `<`.

@@ -14,9 +14,11 @@ pub mod module_json_missing;
 pub mod module_version_unknown;
 pub mod module_yaml_missing;
 pub mod name_not_utf8;
+pub mod names_differ_in_case;
 pub mod newer_version;
 pub mod robot_name_differs;
 pub mod root_metadata_missing;
+pub mod source_not_in_root;
 pub mod stray_file;
 pub mod unknown_major_version;
 pub mod unknown_module;
@@ -57,4 +59,6 @@ pub const RULES: &[&Rule] = &[
     &name_not_utf8::RULE,
     &unknown_major_version::RULE,
     &list_out_of_order::RULE,
+    &names_differ_in_case::RULE,
+    &source_not_in_root::RULE,
 ];

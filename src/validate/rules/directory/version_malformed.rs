@@ -1,3 +1,4 @@
+use crate::directory::digest::{Change, compare};
 use crate::directory::root::ReadError;
 use crate::document::entries;
 use crate::document::module::VersionFile;
@@ -9,7 +10,7 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// A `VERSION` file does not hold a version.
     ///
-    /// It must be three numbers joined by dots and nothing else, but for one newline at the end:
+    /// It must be three numbers joined by dots and nothing else, but for one line feed at the end:
     /// programs compare the text with the versions that they know, and neither trim it nor guess.
     ///
     /// Write the version of the module's format, such as `1.0.0`: no `v` before it, no blanks, no
@@ -29,13 +30,29 @@ fn check(context: &Context, findings: &mut Findings) {
             VersionFile::Unreadable(ReadError::TooLarge { size, .. }) => format!("{size} bytes"),
             _ => continue,
         };
+        if is_converted(context, &module.file("VERSION")) {
+            continue;
+        }
         findings.report(
             Finding::in_file(
                 module.file("VERSION"),
-                "this is no version: write three numbers joined by dots, and at most one newline after them",
+                "this is no version: write three numbers joined by dots, and at most one line feed after them",
             )
             .expected("a version such as 1.0.0")
             .actual(actual),
         );
     }
+}
+
+/// Whether line ends were converted since the file was listed, of which DIR014 tells.
+fn is_converted(context: &Context, path: &str) -> bool {
+    let modules = context.metadata().into_iter().flat_map(|m| &m.modules);
+    let mut listed = modules.flat_map(|module| &module.files);
+    listed
+        .find(|file| file.path == path)
+        .and_then(|file| {
+            let (size, sha256) = (u64::from(file.size.0), file.sha256.as_str());
+            compare(context.root(), path, size, sha256)
+        })
+        .is_some_and(|change| change == Change::LineEndings)
 }

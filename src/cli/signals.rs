@@ -1,0 +1,57 @@
+//! Ctrl-C and other wishes to stop.
+
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
+
+use crate::directory::cancellation::Cancellation;
+
+/// What a shell adds to the number of a signal to make an exit status of it.
+const BY_SIGNAL: i32 = 128;
+
+/// The signals that ask this process to stop. The first is a wish, and work stops where it leaves
+/// nothing half done; the second ends the process at once.
+pub(super) struct Signals {
+    flag: Arc<AtomicBool>,
+    number: Arc<AtomicUsize>,
+}
+
+impl Signals {
+    /// Listens from now on.
+    ///
+    /// # Errors
+    /// Where the operating system has no such signals.
+    pub(super) fn listen() -> io::Result<Self> {
+        let signals = Signals {
+            flag: Arc::default(),
+            number: Arc::default(),
+        };
+        for signal in [SIGINT, SIGTERM] {
+            // In this order: the first signal finds the flag not set yet.
+            flag::register_conditional_shutdown(
+                signal,
+                BY_SIGNAL + signal,
+                Arc::clone(&signals.flag),
+            )?;
+            flag::register(signal, Arc::clone(&signals.flag))?;
+            let number = usize::try_from(signal).unwrap_or_default();
+            flag::register_usize(signal, Arc::clone(&signals.number), number)?;
+        }
+        Ok(signals)
+    }
+
+    /// The wish to stop, for whoever works.
+    pub(super) fn cancellation(&self) -> Cancellation {
+        Cancellation::of(Arc::clone(&self.flag))
+    }
+
+    /// The exit status, where a signal came.
+    pub(super) fn status(&self) -> Option<u8> {
+        let number = i32::try_from(self.number.load(Ordering::Relaxed)).ok()?;
+        let status = u8::try_from(BY_SIGNAL + number).ok()?;
+        (number != 0).then_some(status)
+    }
+}

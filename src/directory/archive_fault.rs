@@ -1,0 +1,95 @@
+//! Why a zip archive cannot be used as a URDD.
+
+use thiserror::Error;
+
+/// Why a zip archive cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum ArchiveFault {
+    /// Not a zip archive, or a damaged one.
+    #[error("it is not a whole zip archive ({reason}); pack the URDD again")]
+    Broken {
+        /// What is wrong.
+        reason: String,
+    },
+    /// An archive of more than 65,535 entries or 4 GiB.
+    #[error(
+        "it is a zip64 archive, of more than 65,535 entries or 4 GiB; unpack it, and give the folder"
+    )]
+    Zip64,
+    /// The archive holds more or fewer entries than it states.
+    #[error("it states {stated} entries and lists {listed}; pack the URDD again")]
+    Count {
+        /// How many it states.
+        stated: usize,
+        /// How many it lists.
+        listed: usize,
+    },
+    /// The archive inflates to more than is read.
+    #[error(
+        "its files are {size} bytes in all, and at most {limit} are read from an archive of its size; unpack it, and give the folder"
+    )]
+    Inflates {
+        /// How many bytes it inflates to, by what it states.
+        size: u64,
+        /// The limit, bytes.
+        limit: u64,
+    },
+    /// An entry cannot be used.
+    #[error("its entry `{}` {fault}", name.escape_debug())]
+    Entry {
+        /// The entry's name.
+        name: String,
+        /// What is wrong with it.
+        fault: EntryFault,
+    },
+    /// There is no URDD in it.
+    #[error(
+        "it holds no URDD: neither the archive itself nor a folder at its top holds urdd.json or a module folder such as urdf_module"
+    )]
+    NoUrdd,
+    /// There are several URDDs in it.
+    #[error(
+        "it holds several URDDs ({} and {}); unpack it, and give the folder, or pack each by itself",
+        first.escape_debug(), second.escape_debug()
+    )]
+    ManyUrdds {
+        /// A folder.
+        first: String,
+        /// Another.
+        second: String,
+    },
+}
+
+/// Why an entry of a zip archive cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum EntryFault {
+    /// A name that leads out of the archive, or is no relative path.
+    #[error("has a name that is not a path inside the archive")]
+    Path,
+    /// The name of another entry, or of a folder and a file.
+    #[error("is there twice")]
+    Duplicate,
+    /// Encrypted.
+    #[error("is encrypted; pack the URDD without a password")]
+    Encrypted,
+    /// A method of compression that is not read.
+    #[error("is compressed by {method}; pack the URDD with deflate")]
+    Method {
+        /// Which.
+        method: String,
+    },
+    /// Larger than what is read.
+    #[error("is {size} bytes long, and at most {limit} are read")]
+    TooLarge {
+        /// Its size, bytes.
+        size: u64,
+        /// The limit, bytes.
+        limit: u64,
+    },
+    /// Its data is not what the archive states.
+    #[error("is damaged ({reason}); pack the URDD again")]
+    Damaged {
+        /// What is wrong.
+        reason: String,
+    },
+}

@@ -1,0 +1,80 @@
+//! What lies below the root of a URDD.
+
+use super::read_error::ReadError;
+
+/// What an entry of a folder is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EntryKind {
+    /// A regular file, or a link to one inside the root.
+    File,
+    /// A folder.
+    Folder,
+    /// A symbolic link that leads out of the root.
+    LinkOut,
+    /// A symbolic link to nothing, or to a folder inside the root (which is not entered).
+    Link,
+    /// Neither file nor folder.
+    Other,
+}
+
+/// A file or folder below the root.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Entry {
+    /// Path relative to the root, with forward slashes; characters that are not UTF-8 replaced.
+    pub path: String,
+    /// What it is.
+    pub kind: EntryKind,
+    /// Size in bytes, for files.
+    pub size: u64,
+    /// Whether the name is UTF-8.
+    pub utf8: bool,
+}
+
+/// What lies below a root.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Listing {
+    /// Every entry, sorted by path.
+    pub entries: Vec<Entry>,
+    /// Folders that could not be listed, with the reason.
+    pub unreadable: Vec<(String, ReadError)>,
+    /// Whether the listing stopped at [`MAX_FILES`](super::limits::MAX_FILES) entries or [`MAX_FOLDER_DEPTH`](super::limits::MAX_FOLDER_DEPTH) levels.
+    pub cut: bool,
+}
+
+impl Listing {
+    /// The entry at a path.
+    pub fn get(&self, path: &str) -> Option<&Entry> {
+        self.entries
+            .binary_search_by(|entry| entry.path.as_str().cmp(path))
+            .ok()
+            .map(|place| &self.entries[place])
+    }
+
+    /// Whether there is a folder at a path.
+    pub fn has_folder(&self, path: &str) -> bool {
+        self.get(path)
+            .is_some_and(|entry| entry.kind == EntryKind::Folder)
+    }
+
+    /// Whether there is a regular file at a path.
+    pub fn has_file(&self, path: &str) -> bool {
+        self.get(path)
+            .is_some_and(|entry| entry.kind == EntryKind::File)
+    }
+
+    /// The entries below a folder, at any depth.
+    pub fn below<'a>(&'a self, folder: &'a str) -> impl Iterator<Item = &'a Entry> {
+        let is_below = move |entry: &&Entry| {
+            entry
+                .path
+                .strip_prefix(folder)
+                .is_some_and(|rest| rest.starts_with('/'))
+        };
+        // In order of path, what is below a folder stands together.
+        let prefix = format!("{folder}/");
+        let first = self
+            .entries
+            .partition_point(|entry| entry.path.as_str() < prefix.as_str());
+        self.entries.iter().skip(first).take_while(is_below)
+    }
+}

@@ -1,0 +1,58 @@
+//! Why something of a URDD could not be read.
+
+use std::io;
+
+use thiserror::Error;
+
+use super::archive_fault::ArchiveFault;
+use super::path::PathFault;
+
+/// Why a file could not be read.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum ReadError {
+    /// There is no such file.
+    #[error("there is no such file")]
+    Missing,
+    /// The path is not one that a URDD may name.
+    #[error("{0}")]
+    Path(#[from] PathFault),
+    /// A symbolic link leads out of the root.
+    #[error("a symbolic link leads out of the URDD's root")]
+    LeavesRoot,
+    /// Not a regular file.
+    #[error("it is not a regular file")]
+    NotAFile,
+    /// Neither a folder nor a zip archive.
+    #[error("it is neither a folder nor a zip archive")]
+    NotAUrdd,
+    /// Larger than what is read.
+    #[error("it is {size} bytes long, and at most {limit} are read")]
+    TooLarge {
+        /// Its size, bytes.
+        size: u64,
+        /// The limit, bytes.
+        limit: u64,
+    },
+    /// The zip archive cannot be used.
+    #[error("{0}")]
+    Archive(#[from] ArchiveFault),
+    /// A folder that lies too deep to be searched.
+    #[error("it lies deeper than {limit} folders; give its path to examine it")]
+    TooDeep {
+        /// How many folders deep is searched.
+        limit: usize,
+    },
+    /// The operating system refused.
+    #[error("it cannot be read: {0}")]
+    Io(String),
+}
+
+impl ReadError {
+    pub(super) fn from_io(error: &io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => ReadError::Missing,
+            io::ErrorKind::PermissionDenied => ReadError::Io("permission denied".to_owned()),
+            _ => ReadError::Io(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! A zip archive.
+
+use urdd::directory::listing::EntryKind;
+use urdd::directory::root::Root;
+use urdd::directory::source::Archive;
+
+/// What is accepted can be listed, every file in it is as long as it says, and all of them are
+/// within what an archive of this size may hold.
+pub fn archive(bytes: &[u8]) {
+    let Ok(archive) = Archive::new("robot", bytes.into()) else {
+        return;
+    };
+    let root = Root::of(archive);
+    let listing = root.list().expect("a listing");
+    let mut total = 0;
+    for entry in &listing.entries {
+        let parts = entry.path.split('/');
+        assert!(!entry.path.starts_with('/'), "{}", entry.path);
+        assert!(parts.clone().all(|part| !matches!(part, "" | "." | "..")));
+        // A path that no document may name is listed, and not opened.
+        let is_named = urdd::directory::path::check(&entry.path).is_ok();
+        if entry.kind == EntryKind::File && is_named && entry.utf8 {
+            let read = root.read(&entry.path, entry.size).expect("a file");
+            assert_eq!(read.len() as u64, entry.size);
+            total += entry.size;
+        }
+    }
+    // Links are counted with what they lead to.
+    let links = listing.entries.len() as u64;
+    assert!(total <= ((64 << 20) + 250 * bytes.len() as u64) * links.max(1));
+}
