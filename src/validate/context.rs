@@ -4,9 +4,10 @@ use std::ops::Deref;
 use std::sync::{Arc, OnceLock};
 
 use super::distances::Distances;
+use super::part::Why;
 use super::skip::SkipReason;
 use super::solids::Solids;
-use super::solids::placed::{self, Misplaced};
+use super::solids::placed::{self, Misplaced, Placed};
 use super::urdf_text;
 use crate::document::robot;
 use crate::document::shapes::Shapes;
@@ -25,7 +26,7 @@ pub struct Context {
     urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
     solids: Arc<OnceLock<Solids>>,
     distances: OnceLock<Result<Distances, SkipReason>>,
-    misplaced: OnceLock<Vec<Misplaced>>,
+    placed: OnceLock<Placed>,
 }
 
 impl Deref for Context {
@@ -47,7 +48,7 @@ impl Context {
             urdf_text: Arc::default(),
             solids: Arc::default(),
             distances: OnceLock::new(),
-            misplaced: OnceLock::new(),
+            placed: OnceLock::new(),
         }
     }
 
@@ -114,7 +115,16 @@ impl Context {
 
     /// The links whose plain mesh is not what the robot shows there.
     pub fn misplaced(&self) -> &[Misplaced] {
-        self.misplaced
+        &self.placed().wrong
+    }
+
+    /// The links of which it cannot be said whether their plain mesh is what the robot shows there.
+    pub fn unplaced(&self) -> &[(usize, Why)] {
+        &self.placed().unknown
+    }
+
+    fn placed(&self) -> &Placed {
+        self.placed
             .get_or_init(|| placed::all(&self.urdd, self.solids()))
     }
 

@@ -9,7 +9,9 @@ use super::code::Code;
 use super::context::Context;
 use super::finding::{Finding, Findings};
 use super::locate::locate;
+use super::part::{NotVerified, Part, Parts};
 use super::rule::{Need, Rule, Severity};
+use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
 use crate::format::registry::{ModuleKind, Profile};
 
@@ -36,6 +38,12 @@ pub struct Check {
     pub outcome: Outcome,
     /// What it found.
     pub findings: Vec<Finding>,
+    /// The parts of the robot that it did not verify.
+    pub not_verified: Vec<NotVerified>,
+    /// The parts in which it found a fault.
+    pub(super) faulted: Faulted,
+    /// The parts that it was to judge.
+    pub(super) scope: Scope,
 }
 
 impl Check {
@@ -45,12 +53,22 @@ impl Check {
             severity: rule.severity,
             outcome,
             findings,
+            not_verified: Vec::new(),
+            faulted: Faulted::default(),
+            scope: Scope::default(),
         }
     }
 }
 
+/// What became of a rule, and where it found a fault.
+#[derive(Debug, Clone)]
+pub(super) struct Ran {
+    pub outcome: Outcome,
+    pub faulted: Faulted,
+}
+
 /// What became of rules, by code.
-pub(super) type Outcomes = HashMap<Code, Outcome>;
+pub(super) type Outcomes = HashMap<Code, Ran>;
 
 /// Runs rules by one description of the robot. `outcomes` says what became of rules that ran
 /// before, and takes what becomes of these.
@@ -68,18 +86,21 @@ pub(super) fn run_all(
         let before = waiting.len();
         let mut later = Vec::new();
         for rule in waiting {
-            let waits = rule.needs.iter().any(|need| match need {
-                Need::Passed(code) | Need::NotFailed(code) | Need::NotFailedInV1(code) => {
-                    !outcomes.contains_key(code) && codes.contains(code)
-                }
-                _ => false,
-            });
-            if waits {
+            let is_open = |code: &Code| !outcomes.contains_key(code) && codes.contains(code);
+            if rule
+                .needs
+                .iter()
+                .any(|need| need.codes().iter().any(is_open))
+            {
                 later.push(rule);
                 continue;
             }
             let check = run_rule(context, rule, outcomes);
-            outcomes.insert(rule.code, check.outcome.clone());
+            let ran = Ran {
+                outcome: check.outcome.clone(),
+                faulted: check.faulted.clone(),
+            };
+            outcomes.insert(rule.code, ran);
             checks.push(check);
         }
         if later.len() == before {
@@ -102,17 +123,62 @@ fn run_rule(context: &Context, rule: &'static Rule, outcomes: &Outcomes) -> Chec
     if let Some(reason) = unmet {
         return Check::new(rule, Outcome::Skipped(reason), Vec::new());
     }
-    judge(context, rule, &mut Findings::default())
+    let mut unsound = HashMap::new();
+    for need in rule.needs {
+        unsound_parts(context, *need, outcomes, &mut unsound);
+    }
+    judge(
+        context,
+        rule,
+        Findings::default().within(Scope::without(unsound)),
+    )
+}
+
+/// The parts that a need leaves out, and the rule that found each at fault.
+fn unsound_parts(
+    context: &Context,
+    need: Need,
+    outcomes: &Outcomes,
+    unsound: &mut HashMap<Part, Code>,
+) {
+    match need {
+        Need::All(needs) => {
+            for need in needs {
+                unsound_parts(context, *need, outcomes, unsound);
+            }
+        }
+        Need::Each(parts) if applies(context, parts) => {
+            for code in parts.codes {
+                let faulted = outcomes.get(code).map(|ran| ran.faulted.parts());
+                for part in faulted.into_iter().flatten() {
+                    unsound.entry(*part).or_insert(*code);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+fn applies(context: &Context, parts: Parts) -> bool {
+    !parts.in_version_1_only || context.profile() == Profile::V1
 }
 
 /// Lets a rule look, with findings to report to.
-pub(super) fn judge(context: &Context, rule: &'static Rule, findings: &mut Findings) -> Check {
+pub(super) fn judge(context: &Context, rule: &'static Rule, findings: Findings) -> Check {
+    judge_into(context, rule, &mut { findings })
+}
+
+/// The same; the findings are left to the caller, without those that are in the check.
+pub(super) fn judge_into(context: &Context, rule: &'static Rule, findings: &mut Findings) -> Check {
     let ran = catch_unwind(AssertUnwindSafe(|| (rule.check)(context, findings)));
     if let Err(panic) = ran {
         let message = panic_message(&*panic);
         return Check::new(rule, Outcome::Crashed(message), Vec::new());
     }
-    let skipped = findings.skipped().cloned();
+    let nothing_left = || findings.scope().nothing_left().map(SkipReason::Failed);
+    let skipped = findings.skipped().cloned().or_else(nothing_left);
+    let not_verified = findings.scope().not_verified();
+    let (scope, faulted) = (findings.scope().afresh(), findings.faulted().clone());
     let mut found = findings.take();
     let outcome = match (found.is_empty(), skipped) {
         (false, _) => Outcome::Failed,
@@ -120,7 +186,12 @@ pub(super) fn judge(context: &Context, rule: &'static Rule, findings: &mut Findi
         (true, None) => Outcome::Passed,
     };
     locate(context, &mut found);
-    Check::new(rule, outcome, found)
+    Check {
+        not_verified,
+        scope,
+        faulted,
+        ..Check::new(rule, outcome, found)
+    }
 }
 
 /// What a panic said.
@@ -149,20 +220,44 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
             None => Some(SkipReason::NoRootMetadata),
         },
         Need::CarriedUrdf => context.urdf().err().cloned().map(SkipReason::NoCarriedUrdf),
-        Need::Passed(code) => match outcomes.get(&code) {
+        Need::All(needs) => needs
+            .iter()
+            .find_map(|need| unmet(context, *need, outcomes)),
+        Need::Each(parts) if !applies(context, parts) => None,
+        Need::Each(parts) => parts.codes.iter().find_map(|code| {
+            let elsewhere = |ran: &&Ran| ran.faulted.elsewhere();
+            obstacle(outcomes.get(code).filter(elsewhere), *code)
+                .or_else(|| crashed(outcomes.get(code), *code))
+        }),
+        Need::NotFailedInV1(_) | Need::NoPartInV1(..) if context.profile() != Profile::V1 => None,
+        Need::NoPartInV1(code, kind) => {
+            let any = |ran: &&Ran| ran.faulted.any(kind);
+            obstacle(outcomes.get(&code).filter(any), code)
+                .or_else(|| crashed(outcomes.get(&code), code))
+        }
+        Need::Passed(code) => match outcomes.get(&code).map(|ran| &ran.outcome) {
             Some(Outcome::Passed) => None,
             Some(Outcome::Failed) => Some(SkipReason::Failed(code)),
             Some(Outcome::Skipped(reason)) => Some(reason.clone()),
             Some(Outcome::Crashed(_)) => Some(SkipReason::Crashed(code)),
             None => Some(SkipReason::DidNotRun(code)),
         },
-        Need::NotFailedInV1(_) if context.profile() != Profile::V1 => None,
-        Need::NotFailed(code) | Need::NotFailedInV1(code) => match outcomes.get(&code) {
-            Some(Outcome::Failed) => Some(SkipReason::Failed(code)),
-            Some(Outcome::Crashed(_)) => Some(SkipReason::Crashed(code)),
-            Some(Outcome::Passed | Outcome::Skipped(_)) | None => None,
-        },
+        Need::NotFailed(code) | Need::NotFailedInV1(code) => obstacle(outcomes.get(&code), code),
         Need::Version1 => (context.profile() != Profile::V1).then_some(SkipReason::NotVersion1),
         Need::Legacy => (context.profile() != Profile::Legacy).then_some(SkipReason::NotLegacy),
     }
+}
+
+/// Why another rule stands in the way, where it failed or crashed.
+fn obstacle(ran: Option<&Ran>, code: Code) -> Option<SkipReason> {
+    match ran?.outcome {
+        Outcome::Failed => Some(SkipReason::Failed(code)),
+        Outcome::Crashed(_) => Some(SkipReason::Crashed(code)),
+        Outcome::Passed | Outcome::Skipped(_) => None,
+    }
+}
+
+/// Why another rule stands in the way, where it crashed.
+fn crashed(ran: Option<&Ran>, code: Code) -> Option<SkipReason> {
+    matches!(ran?.outcome, Outcome::Crashed(_)).then_some(SkipReason::Crashed(code))
 }

@@ -2,6 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::part::{Part, Why};
+use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
 use super::worst::worst_first;
 use crate::directory::position::Position;
@@ -50,6 +52,9 @@ pub struct Finding {
     pub tolerance: Option<f64>,
     /// Where numbers were compared: by how much they differ.
     pub magnitude: Option<Magnitude>,
+    /// The meshes that are at fault, where it is about meshes of single links. Those of findings that
+    /// were folded into this one are not among them.
+    pub parts: Vec<Part>,
     /// How many findings this one stands for.
     pub count: usize,
     /// The next few of these, after this one.
@@ -115,6 +120,7 @@ impl Finding {
             actual: None,
             tolerance: None,
             magnitude: None,
+            parts: Vec::new(),
             count: 1,
             more: Vec::new(),
         }
@@ -153,6 +159,12 @@ impl Finding {
         self
     }
 
+    /// About a mesh of a link.
+    pub fn part(mut self, part: impl Into<Option<Part>>) -> Self {
+        self.parts.extend(part.into());
+        self
+    }
+
     /// Standing for several that were counted elsewhere.
     pub fn count(mut self, count: usize) -> Self {
         self.count = count;
@@ -186,6 +198,8 @@ pub struct Findings {
     skipped: Option<SkipReason>,
     spots: Option<HashSet<Spot>>,
     only: Option<HashSet<Spot>>,
+    faulted: Faulted,
+    scope: Scope,
 }
 
 /// What tells one finding of a rule from another: the file, and the pointer or else the message.
@@ -198,6 +212,34 @@ impl Findings {
             spots: Some(HashSet::new()),
             ..Findings::default()
         }
+    }
+
+    /// Judging the parts of a scope.
+    pub fn within(mut self, scope: Scope) -> Self {
+        self.scope = scope;
+        self
+    }
+
+    /// Whether to judge a part, by itself or by others: not where a rule that this one needs found a
+    /// fault in one of them ([`super::rule::Need::Each`]). What is not judged is noted as not
+    /// verified.
+    pub fn judges(&mut self, part: Part, by: &[Part]) -> bool {
+        self.scope.judges(part, by)
+    }
+
+    /// Notes that a part was not verified.
+    pub fn not_verified(&mut self, part: Part, why: Why) {
+        self.scope.leave_out(part, why);
+    }
+
+    /// The parts that were and were not judged.
+    pub fn scope(&self) -> &Scope {
+        &self.scope
+    }
+
+    /// The parts that were found at fault.
+    pub fn faulted(&self) -> &Faulted {
+        &self.faulted
     }
 
     /// Takes findings at these spots, and drops others.
@@ -231,6 +273,7 @@ impl Findings {
                 spots.insert(spot);
             }
         }
+        self.faulted.add(&finding.parts);
         let kind = match &finding.place.pointer {
             Some(pointer) => without_indices(pointer),
             None => finding.message.clone(),

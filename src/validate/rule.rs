@@ -3,6 +3,7 @@
 use super::code::Code;
 use super::context::Context;
 use super::finding::Findings;
+use super::part::{PartKind, Parts};
 use crate::format::registry::ModuleKind;
 pub use crate::format::report::{Consequence, Severity};
 
@@ -46,10 +47,32 @@ pub enum Need {
     /// The same, but in a URDD of version 1 only: what the other rule finds in legacy ones is often
     /// a convention, and no obstacle.
     NotFailedInV1(Code),
+    /// Each of these.
+    All(&'static [Need]),
+    /// The part is sound by these rules. One that is not is left out ([`Findings::judges`]); a fault
+    /// that is not of single parts leaves out the whole rule.
+    Each(Parts),
+    /// In a URDD of version 1: the other rule found no fault in parts of this kind.
+    NoPartInV1(Code, PartKind),
     /// The URDD is of version 1.
     Version1,
     /// The URDD was published before there was a version 1.
     Legacy,
+}
+
+impl Need {
+    /// The rules that have to run before it is known whether it is met.
+    pub fn codes(&self) -> Vec<Code> {
+        match self {
+            Need::Passed(code)
+            | Need::NotFailed(code)
+            | Need::NotFailedInV1(code)
+            | Need::NoPartInV1(code, _) => vec![*code],
+            Need::Each(parts) => parts.codes.to_vec(),
+            Need::All(needs) => needs.iter().flat_map(Need::codes).collect(),
+            _ => Vec::new(),
+        }
+    }
 }
 
 /// What a rule judges, which decides by which of the two descriptions of the robot it does so.
@@ -149,6 +172,8 @@ macro_rules! declare_rule {
     ) => {
         $(#[doc = $doc])+
         pub static RULE: $crate::validate::rule::Rule = {
+            #[allow(unused_imports)]
+            use $crate::validate::needs::*;
             #[allow(unused_imports)]
             use $crate::validate::rule::Need::*;
             #[allow(unused_imports)]

@@ -69,6 +69,19 @@ impl SkipReason {
         matches!(self, SkipReason::Absent(_) | SkipReason::NoneUsable(_))
     }
 
+    /// Whether a fault stood in the way, so that something is missed.
+    pub fn is_obstacle(&self) -> bool {
+        matches!(
+            self,
+            SkipReason::Unusable(_)
+                | SkipReason::Failed(_)
+                | SkipReason::Crashed(_)
+                | SkipReason::KinematicsOpen
+                | SkipReason::Kinematics(_)
+                | SkipReason::Reference(_)
+        )
+    }
+
     /// Whether the rule is for another family of URDDs.
     pub fn is_for_others(&self) -> bool {
         matches!(self, SkipReason::NotVersion1 | SkipReason::NotLegacy)

@@ -18,7 +18,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::code::Code;
 use super::context::Context;
-use super::engine::{Check, Outcome, Outcomes, judge, run_all};
+use super::engine::{Check, Outcome, Outcomes, judge, judge_into, run_all};
 use super::finding::Findings;
 use super::rule::{Judges, Rule};
 use super::skip::SkipReason;
@@ -82,7 +82,7 @@ fn difference(outcomes: &Outcomes) -> Option<Code> {
     [Code::URD001, Code::URD013].into_iter().find(|code| {
         outcomes
             .get(code)
-            .is_some_and(|outcome| *outcome != Outcome::Passed)
+            .is_some_and(|ran| ran.outcome != Outcome::Passed)
     })
 }
 
@@ -91,7 +91,7 @@ fn put_together(check: &mut Check, second: Check, context: &Context, by_urdf: &C
     let both = match (&check.outcome, &second.outcome) {
         (Outcome::Crashed(_), _) | (_, Outcome::Skipped(_)) => return,
         (Outcome::Skipped(_), _) | (_, Outcome::Crashed(_)) => second,
-        (Outcome::Failed, Outcome::Failed) => at_fault_by_both(check.rule, context, by_urdf),
+        (Outcome::Failed, Outcome::Failed) => at_fault_by_both(check, &second, context, by_urdf),
         (Outcome::Passed, _) | (_, Outcome::Passed) => {
             Check::new(check.rule, Outcome::Passed, Vec::new())
         }
@@ -101,10 +101,11 @@ fn put_together(check: &mut Check, second: Check, context: &Context, by_urdf: &C
 
 /// What a rule that failed twice finds in the same places. It looks once more, since of many
 /// findings only the first few are kept.
-fn at_fault_by_both(rule: &'static Rule, context: &Context, by_urdf: &Context) -> Check {
-    let mut first = Findings::remembering_spots();
-    judge(context, rule, &mut first);
-    judge(by_urdf, rule, &mut Findings::only_at(first.into_spots()))
+fn at_fault_by_both(first: &Check, second: &Check, context: &Context, by_urdf: &Context) -> Check {
+    let mut spots = Findings::remembering_spots().within(first.scope.afresh());
+    judge_into(context, first.rule, &mut spots);
+    let both = Findings::only_at(spots.into_spots()).within(second.scope.afresh());
+    judge(by_urdf, first.rule, both)
 }
 
 /// A rule that was skipped because another failed, and that other one has nothing left to say now:

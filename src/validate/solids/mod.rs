@@ -69,6 +69,11 @@ impl Solids {
         self.derived(kind).get(at)?.sound()
     }
 
+    /// Whether a module names a mesh for a link (piece 0), or such a piece.
+    pub fn holds(&self, kind: ModuleKind, link: usize, piece: usize) -> bool {
+        self.by_place.contains_key(&(kind, link, piece))
+    }
+
     /// A mesh that the URDF names, by its path in `original_meshes_module`.
     pub fn original(&self, path: &str) -> Option<&Original> {
         self.originals.get(path)

@@ -12,6 +12,7 @@ use crate::format::meshes::GeometryKind;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::geometry::Mesh;
 use crate::validate::finding::{metres, point};
+use crate::validate::part::Why;
 use crate::validate::tolerance::{PRIMITIVE_AREA, PRIMITIVE_SAG, mesh_resolution};
 
 /// A link whose mesh is not what it should be.
@@ -31,10 +32,26 @@ pub struct Misplaced {
     pub tolerance: f64,
 }
 
-/// Every link whose mesh is not what it should be, in link order. A mesh whose files differ or are
-/// broken is not judged, nor is one of which a source is missing.
-pub fn all(urdd: &Urdd, solids: &Solids) -> Vec<Misplaced> {
+/// What came of looking at the meshes of all links, in link order.
+#[derive(Debug, Default)]
+pub struct Placed {
+    /// The links whose mesh is not what it should be.
+    pub wrong: Vec<Misplaced>,
+    /// The links of which it cannot be said: files differ or are broken, or a source is missing.
+    pub unknown: Vec<(usize, Why)>,
+}
+
+/// Looks at the mesh of every link.
+pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
     let usable = UsableGeometry::new(urdd);
+    let unknown = |mesh: &Derived| -> Option<Why> {
+        if mesh.sound().is_none() {
+            return Some(Why::Unreadable);
+        }
+        let kind = kind_of(urdd, mesh.link)?;
+        let expected = expected::of_link(urdd, solids, &usable, mesh.link, kind);
+        expected.is_none().then_some(Why::SourceMissing)
+    };
     let judge = |mesh: &Derived| {
         let found = mesh.sound()?;
         let kind = kind_of(urdd, mesh.link)?;
@@ -51,8 +68,14 @@ pub fn all(urdd: &Urdd, solids: &Solids) -> Vec<Misplaced> {
             tolerance,
         })
     };
-    let meshes = solids.derived(ModuleKind::PlainMeshes).par_iter();
-    meshes.filter_map(judge).collect()
+    let meshes = solids.derived(ModuleKind::PlainMeshes);
+    Placed {
+        wrong: meshes.par_iter().filter_map(judge).collect(),
+        unknown: meshes
+            .par_iter()
+            .filter_map(|mesh| Some((mesh.link, unknown(mesh)?)))
+            .collect(),
+    }
 }
 
 /// Which geometry a link's mesh was made from. Legacy modules used what is visual.

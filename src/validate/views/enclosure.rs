@@ -6,6 +6,7 @@ use crate::document::shapes::{ShapeKind, Volume, approximations};
 use crate::document::urdd::Urdd;
 use crate::format::registry::ModuleKind;
 use crate::geometry::{Mesh, farthest};
+use crate::validate::part::Part;
 use crate::validate::solids::Solids;
 use crate::validate::tolerance::HULL_IN_VOLUME;
 
@@ -123,6 +124,11 @@ impl Enclosure<'_> {
             Volume::Box { .. } => "box",
             Volume::Sphere { .. } => "sphere",
         }
+    }
+
+    /// The hull or piece, as a part of the robot.
+    pub fn part(&self) -> Part {
+        Part::of_shape(self.kind, self.link, self.piece)
     }
 
     /// What it is there for.

@@ -2,6 +2,7 @@
 
 pub mod enclosure;
 pub mod extension_schema;
+pub mod judged;
 pub mod schema_work;
 pub mod shape_pair;
 pub mod shared_meshes;

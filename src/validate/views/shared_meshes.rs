@@ -1,11 +1,12 @@
 //! Derived mesh files that several links name.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 
-use crate::document::meshes::DERIVED;
+use crate::document::meshes::{DERIVED, MeshPath, Meshes};
 use crate::document::urdd::Urdd;
 use crate::format::legacy::urdf as legacy;
 use crate::format::registry::{ModuleDocument, ModuleKind, Profile};
+use crate::validate::part::Part;
 
 /// A file that two entries of a mesh module name.
 pub struct SharedMesh {
@@ -17,6 +18,8 @@ pub struct SharedMesh {
     pub other: (usize, String),
     /// The path, as written.
     pub path: String,
+    /// Every mesh of the two that shares a file with the other.
+    pub parts: Vec<Part>,
     /// Whether the file is right for both: both place the very same mesh in the same way. Only
     /// legacy URDDs may share so.
     pub alike: bool,
@@ -25,39 +28,64 @@ pub struct SharedMesh {
 /// Every pair of links of a module that share a file, once, however many formats and pieces they
 /// share.
 pub fn all(urdd: &Urdd) -> Vec<SharedMesh> {
-    let mut shared = Vec::new();
+    let mut shared: Vec<SharedMesh> = Vec::new();
     for kind in DERIVED {
         let Some(meshes) = urdd.meshes(*kind) else {
             continue;
         };
-        let mut first_use: HashMap<&str, (usize, &str)> = HashMap::new();
-        let mut told: BTreeSet<(usize, usize, bool)> = BTreeSet::new();
-        for (link, mesh) in meshes.paths() {
-            let Some((first, first_pointer)) = first_use.get(mesh.path).copied() else {
-                first_use.insert(mesh.path, (link, &mesh.pointer));
+        let mut first_use: HashMap<&str, Use> = HashMap::new();
+        // By links, and by whether they share alike: the place in `shared`.
+        let mut by_links: BTreeMap<(usize, usize, bool), usize> = BTreeMap::new();
+        for (link, piece, path) in places(&meshes) {
+            let other = Use { link, piece, path };
+            let Some(first) = first_use.get(path.path) else {
+                first_use.insert(path.path, other);
                 continue;
             };
             let alike = meshes.profile == Profile::Legacy
-                && first != link
-                && same_piece(*kind, first_pointer, &mesh.pointer)
-                && placed_alike(urdd, first, link);
-            if told.insert((first, link, alike)) {
-                shared.push(SharedMesh {
-                    kind: *kind,
-                    first: (first, first_pointer.to_owned()),
-                    other: (link, mesh.pointer.clone()),
-                    path: mesh.path.to_owned(),
-                    alike,
+                && first.link != link
+                && first.piece == piece
+                && placed_alike(urdd, first.link, link);
+            let at = *by_links
+                .entry((first.link, link, alike))
+                .or_insert_with(|| {
+                    shared.push(SharedMesh {
+                        kind: *kind,
+                        first: (first.link, first.path.pointer.clone()),
+                        other: (link, path.pointer.clone()),
+                        path: path.path.to_owned(),
+                        parts: Vec::new(),
+                        alike,
+                    });
+                    shared.len() - 1
                 });
-            }
+            let both = [(first.link, first.piece), (link, piece)];
+            let parts = both.map(|(link, piece)| Part::of(*kind, link, piece));
+            shared[at].parts.extend(parts.into_iter().flatten());
         }
     }
     shared
 }
 
-/// Whether two places stand for the same piece of two links.
-fn same_piece(kind: ModuleKind, a: &str, b: &str) -> bool {
-    kind != ModuleKind::ConvexDecompositionMeshes || a.rsplit('/').next() == b.rsplit('/').next()
+/// A mesh that names a file.
+#[derive(Clone, Copy)]
+struct Use<'a> {
+    link: usize,
+    piece: usize,
+    path: &'a MeshPath<'a>,
+}
+
+/// Every path of a module, with its link and piece.
+fn places<'a>(meshes: &'a Meshes<'a>) -> impl Iterator<Item = (usize, usize, &'a MeshPath<'a>)> {
+    let links = meshes
+        .lists
+        .iter()
+        .flat_map(|list| list.links.iter().enumerate());
+    let pieces = links.flat_map(|(link, pieces)| {
+        let pieces = pieces.iter().enumerate();
+        pieces.map(move |(piece, mesh)| (link, piece, mesh))
+    });
+    pieces.flat_map(|(link, piece, mesh)| mesh.paths.iter().map(move |path| (link, piece, path)))
 }
 
 /// Whether two links of a legacy URDD place the same meshes in the same way.

@@ -12,7 +12,7 @@ declare_rule! {
     /// Write one entry for every link of `urdf_module`, in its order, with its name and its index. If
     /// the robot has changed since, write `chain_module` and what depends on it again.
     CHN001 "chain-link-wrong", Error, clause "6.3.1", since "0.1.0",
-    phase References, needs [Module(Kind::Chain), Passed(URD004), Passed(URD006)],
+    phase References, needs [Module(Kind::Chain), ROBOT_SOUND],
     check check,
 }
 

@@ -12,7 +12,7 @@ declare_rule! {
     ///
     /// Write the module again from the robot as it is now.
     CON001 "connection-table-size", Error, clause "6.4.1", since "0.1.0",
-    phase References, needs [Module(Kind::Connections), Passed(URD004), Passed(URD006)],
+    phase References, needs [Module(Kind::Connections), ROBOT_SOUND],
     check check,
 }
 

@@ -13,7 +13,7 @@ declare_rule! {
     /// Write one entry for every joint, in joint order: fixed joints have the entries `[]` and null.
     /// If `urdf_module` has changed since, write `dof_module` again.
     DOF002 "joint-lists-length", Error, clause "6.2.1", since "0.1.0",
-    phase References, needs [Module(Kind::Dof), Passed(URD004), Passed(URD006)],
+    phase References, needs [Module(Kind::Dof), ROBOT_SOUND],
     check check,
 }
 

@@ -27,7 +27,7 @@ declare_rule! {
     phase Kinematics, judges AsItStands,
     needs [
         CarriedUrdf, Module(Kind::Urdf), Module(Kind::Chain), Module(Kind::Dof),
-        Passed(URD001), Passed(URD004), Passed(URD006), Passed(URD009), Passed(URD012), Passed(URD010), Passed(CHN002), Passed(CHN003), Passed(CHN006),
+        Passed(URD001), ROBOT_SOUND, Passed(URD009), Passed(URD012), Passed(URD010), Passed(CHN002), Passed(CHN003), Passed(CHN006),
         Passed(DOF003), Passed(DOF004), Passed(DOF005),
         // What these find moves links, and they say where. Legacy modules have no such fields.
         NotFailed(DOF007), NotFailed(CHN007), NotFailed(CHN008), NotFailed(CHN009), NotFailed(CHN010),

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::part::{Part, Why};
 use crate::validate::solids::derived::{Derived, noun};
 use crate::validate::solids::polytope::{NotConvex, not_convex};
 use crate::validate::solids::surface::extent;
@@ -19,6 +20,10 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) {
     let meshes = context.solids().derived(kind);
     let faults: Vec<Option<NotConvex>> = meshes.par_iter().map(judge).collect();
     for (mesh, fault) in meshes.iter().zip(faults) {
+        let part = Part::of(kind, mesh.link, mesh.piece);
+        if let (None, Some(part)) = (mesh.sound(), part) {
+            findings.not_verified(part, Why::Unreadable);
+        }
         let Some(fault) = fault else {
             continue;
         };
@@ -54,7 +59,8 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) {
             )
             .expected("a closed convex surface, faces counter-clockwise seen from outside")
             .actual(what)
-            .tolerance(resolution),
+            .tolerance(resolution)
+            .part(part),
         );
     }
 }

@@ -6,8 +6,11 @@ use crate::format::registry::ModuleKind;
 use crate::geometry::hull::ConvexHull;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::part::Part;
 use crate::validate::rule::declare_rule;
+use crate::validate::solids::derived::Derived;
 use crate::validate::solids::polytope::{Polytope, bits, distinct};
+use crate::validate::views::judged::judged;
 
 declare_rule! {
     /// A convex hull leaves out a part of its link.
@@ -20,7 +23,7 @@ declare_rule! {
     MSH018 "hull-leaves-out-mesh", Error, clause "7.9", since "0.1.0",
     phase Geometry, consequence Collisions, needs [
         Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NotFailed(MSH003), NotFailed(MSH007),
-        NotFailed(MSH017),
+        CONVEX_HULL,
     ],
     check check,
 }
@@ -31,7 +34,16 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     // Before threads ask for it: who works it out shares the work with them.
     context.misplaced();
-    let hulls = context.solids().derived(ModuleKind::ConvexHullMeshes);
+    let hulls = context
+        .solids()
+        .derived(ModuleKind::ConvexHullMeshes)
+        .iter();
+    let hulls: Vec<&Derived> = hulls
+        .filter(|hull| {
+            let by = [Part::Plain(hull.link)];
+            judged(context, findings, Part::Hull(hull.link), &by)
+        })
+        .collect();
     let left_out: Vec<_> = hulls
         .par_iter()
         .map(|hull| farthest_outside(context, hull.link))
@@ -54,7 +66,8 @@ fn check(context: &Context, findings: &mut Findings) {
             .expected("every vertex of the plain mesh inside")
             .actual(format!("{} outside", metres(distance)))
             .tolerance(tolerance)
-            .off_by(distance, "m"),
+            .off_by(distance, "m")
+            .part(Part::Hull(hull.link)),
         );
     }
 }
@@ -63,9 +76,6 @@ fn check(context: &Context, findings: &mut Findings) {
 fn farthest_outside(context: &Context, link: usize) -> Option<([f64; 3], f64, f64)> {
     let solids = context.solids();
     let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
-    if context.is_misplaced(link) {
-        return None;
-    }
     let hull = solids.sound(ModuleKind::ConvexHullMeshes, link, 0)?;
     let polytope = Polytope::new(hull)?;
     let known: HashSet<[u64; 3]> = hull.vertices.iter().copied().map(bits).collect();

@@ -5,10 +5,13 @@ use rayon::prelude::*;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::part::Part;
 use crate::validate::rule::declare_rule;
+use crate::validate::solids::derived::Derived;
 use crate::validate::solids::polytope::{bits, distinct};
 use crate::validate::solids::surface::{extent, nearest};
 use crate::validate::tolerance::mesh_resolution;
+use crate::validate::views::judged::judged;
 
 declare_rule! {
     /// A vertex of a convex hull is no vertex of its link's mesh.
@@ -21,7 +24,7 @@ declare_rule! {
     MSH019 "hull-vertex-off-mesh", Error, clause "7.9", since "0.1.0",
     phase Geometry, consequence Collisions, needs [
         Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NotFailed(MSH003), NotFailed(MSH007),
-        NotFailed(MSH017), NotFailed(MSH018),
+        HULL_ABOUT_MESH,
     ],
     check check,
 }
@@ -35,7 +38,16 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     // Before threads ask for it: who works it out shares the work with them.
     context.misplaced();
-    let hulls = context.solids().derived(ModuleKind::ConvexHullMeshes);
+    let hulls = context
+        .solids()
+        .derived(ModuleKind::ConvexHullMeshes)
+        .iter();
+    let hulls: Vec<&Derived> = hulls
+        .filter(|hull| {
+            let by = [Part::Plain(hull.link)];
+            judged(context, findings, Part::Hull(hull.link), &by)
+        })
+        .collect();
     let off: Vec<_> = hulls
         .par_iter()
         .map(|hull| farthest_off(context, hull.link))
@@ -58,7 +70,8 @@ fn check(context: &Context, findings: &mut Findings) {
             .expected("vertices of the plain mesh only")
             .actual(format!("a vertex {} off", metres(distance)))
             .tolerance(tolerance)
-            .off_by(distance, "m"),
+            .off_by(distance, "m")
+            .part(Part::Hull(hull.link)),
         );
     }
 }
@@ -68,9 +81,6 @@ fn check(context: &Context, findings: &mut Findings) {
 fn farthest_off(context: &Context, link: usize) -> Option<([f64; 3], f64, f64)> {
     let solids = context.solids();
     let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
-    if context.is_misplaced(link) {
-        return None;
-    }
     let hull = solids.sound(ModuleKind::ConvexHullMeshes, link, 0)?;
     let known: HashSet<[u64; 3]> = mesh.vertices.iter().copied().map(bits).collect();
     let unknown = distinct(hull)

@@ -17,9 +17,8 @@ declare_rule! {
         Version1,
         Module(Kind::Urdf),
         AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
-        NotFailed(MSH001),
+        MESHES_LISTED,
         NotFailed(MSH002),
-        NotFailed(MSH003),
         NotFailed(MSH005),
         NotFailed(DIR015),
         NotFailed(URD007),
@@ -27,7 +26,6 @@ declare_rule! {
         NotFailed(URD002),
         // A list that is displaced has the wrong names too.
         NotFailed(MSH004),
-        NotFailed(MSH007),
     ],
     check check,
 }

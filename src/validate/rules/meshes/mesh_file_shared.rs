@@ -40,10 +40,10 @@ fn check(context: &Context, findings: &mut Findings) {
             )
         };
         let file = format!("{}/module.json", shared.kind.folder());
-        findings.report(
-            Finding::at(file, pointer, message)
-                .expected("a file of its own")
-                .actual(format!("`{}` (also {first_pointer})", shared.path)),
-        );
+        let mut finding = Finding::at(file, pointer, message)
+            .expected("a file of its own")
+            .actual(format!("`{}` (also {first_pointer})", shared.path));
+        finding.parts = shared.parts;
+        findings.report(finding);
     }
 }

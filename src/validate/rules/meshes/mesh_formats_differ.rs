@@ -1,6 +1,7 @@
 use crate::document::meshes::DERIVED;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
+use crate::validate::part::Part;
 use crate::validate::rule::declare_rule;
 use crate::validate::solids::derived::noun;
 use crate::validate::solids::surface::extent;
@@ -20,7 +21,7 @@ declare_rule! {
     phase Geometry, consequence WrongPlace, needs [
         AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
         NotFailed(MSH003),
-        NotFailed(MSH005),
+        OWN_FILES,
     ],
     check check,
 }
@@ -34,6 +35,10 @@ fn check(context: &Context, findings: &mut Findings) {
             let (Some(read), Some(first)) = (&mesh.mesh, mesh.files.get(mesh.mesh_of)) else {
                 continue;
             };
+            let part = Part::of(*kind, mesh.link, mesh.piece);
+            if part.is_some_and(|part| !findings.judges(part, &[])) {
+                continue;
+            }
             for (at, difference) in &mesh.differences {
                 let Some(file) = mesh.files.get(*at) else {
                     continue;
@@ -56,7 +61,8 @@ fn check(context: &Context, findings: &mut Findings) {
                         first.path
                     ))
                     .actual(format!("`{}`", file.path))
-                    .tolerance(mesh_resolution(extent(read))),
+                    .tolerance(mesh_resolution(extent(read)))
+                    .part(part),
                 );
             }
         }

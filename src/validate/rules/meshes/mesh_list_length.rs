@@ -21,9 +21,7 @@ declare_rule! {
             Kind::ConvexHullMeshes,
             Kind::ConvexDecompositionMeshes,
         ]),
-        NotFailed(URD004),
-        NotFailed(URD007),
-        NotFailed(URD002),
+        LINKS_NAMED,
     ],
     check check,
 }

@@ -1,6 +1,7 @@
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
+use crate::validate::part::Part;
 use crate::validate::rule::declare_rule;
 use crate::validate::solids::placed;
 
@@ -17,7 +18,7 @@ declare_rule! {
     MSH015 "mesh-misplaced", Error, clause "7.8", since "0.1.0",
     phase Geometry, consequence WrongPlace, needs [
         Module(Kind::Urdf), Module(Kind::OriginalMeshes), Module(Kind::PlainMeshes),
-        NotFailedInV1(MSH001), NotFailed(MSH003), NotFailed(MSH005), NotFailed(MSH008),
+        NotFailedInV1(MSH001), NotFailed(MSH003), NotFailed(MSH008),
         NotFailedInV1(MSH009), NotFailedInV1(MSH012), NotFailed(MSH016),
     ],
     check check,
@@ -27,6 +28,9 @@ fn check(context: &Context, findings: &mut Findings) {
     let Some(module) = context.module(ModuleKind::PlainMeshes) else {
         return;
     };
+    for (link, why) in context.unplaced() {
+        findings.not_verified(Part::Plain(*link), *why);
+    }
     for wrong in context.misplaced() {
         let label = context.link_label(wrong.link);
         let hint = placed::owner(context, context.solids(), wrong.link)
@@ -41,7 +45,8 @@ fn check(context: &Context, findings: &mut Findings) {
             Finding::at(module.file("module.json"), &wrong.pointer, message)
                 .expected(&wrong.expected)
                 .actual(&wrong.actual)
-                .tolerance(wrong.tolerance),
+                .tolerance(wrong.tolerance)
+                .part(Part::Plain(wrong.link)),
         );
     }
 }

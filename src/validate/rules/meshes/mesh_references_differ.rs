@@ -23,10 +23,8 @@ declare_rule! {
     phase References, needs [
         Module(Kind::Urdf),
         Module(Kind::OriginalMeshes),
-        NotFailed(URD004),
         NotFailed(MSH001),
-        NotFailed(URD002),
-        NotFailed(URD007),
+        LINKS_NAMED,
     ],
     check check,
 }

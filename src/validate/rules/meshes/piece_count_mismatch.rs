@@ -19,12 +19,9 @@ declare_rule! {
     phase References, needs [
         Module(Kind::ConvexDecompositionMeshes),
         AnyModule(&[Kind::LinkShapesApproximations, Kind::LinkShapesMaxDistanceFromOrigin]),
-        NotFailed(MSH001),
-        NotFailed(MSH003),
-        NotFailed(MSH007),
+        MESHES_LISTED,
         NotFailed(SHP001),
-        // A piece that is there twice is one too many.
-        NotFailedInV1(MSH005),
+        NO_PIECE_TWICE,
     ],
     check check,
 }

@@ -3,9 +3,11 @@ use rayon::prelude::*;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::part::Part;
 use crate::validate::rule::declare_rule;
 use crate::validate::solids::derived::Derived;
 use crate::validate::solids::polytope::{Polytope, distinct};
+use crate::validate::views::judged::judged;
 
 declare_rule! {
     /// A convex piece reaches out of the hull of its link.
@@ -18,7 +20,7 @@ declare_rule! {
     MSH021 "piece-leaves-hull", Error, clause "7.10", since "0.1.0",
     phase Geometry, consequence Collisions, needs [
         Module(Kind::ConvexHullMeshes), Module(Kind::ConvexDecompositionMeshes),
-        NotFailed(MSH003), NotFailed(MSH007), NotFailed(MSH017), NotFailed(MSH018), NotFailed(MSH019),
+        NotFailed(MSH003), NotFailed(MSH007), SOUND_HULL,
     ],
     check check,
 }
@@ -28,7 +30,16 @@ fn check(context: &Context, findings: &mut Findings) {
     let Some(module) = context.module(kind) else {
         return;
     };
-    let pieces = context.solids().derived(kind);
+    let part = |piece: &Derived| Part::Piece {
+        link: piece.link,
+        piece: piece.piece,
+    };
+    let pieces: Vec<&Derived> = context
+        .solids()
+        .derived(kind)
+        .iter()
+        .filter(|piece| judged(context, findings, part(piece), &[Part::Hull(piece.link)]))
+        .collect();
     let outside: Vec<_> = pieces
         .par_iter()
         .map(|piece| farthest_outside(context, piece))
@@ -52,7 +63,8 @@ fn check(context: &Context, findings: &mut Findings) {
             .expected("every vertex inside the hull")
             .actual(format!("{} outside", metres(distance)))
             .tolerance(tolerance)
-            .off_by(distance, "m"),
+            .off_by(distance, "m")
+            .part(part(piece)),
         );
     }
 }

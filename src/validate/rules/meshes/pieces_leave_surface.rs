@@ -5,10 +5,12 @@ use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::geometry::Mesh;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::part::Part;
 use crate::validate::rule::declare_rule;
 use crate::validate::solids::polytope::{Polytope, step};
 use crate::validate::solids::surface::extent;
 use crate::validate::tolerance::{COVER_WITHOUT_PROMISE, mesh_resolution};
+use crate::validate::views::judged::judged;
 
 declare_rule! {
     /// The convex pieces of a link leave out a part of its surface.
@@ -23,7 +25,7 @@ declare_rule! {
     phase Geometry, consequence Collisions, needs [
         Module(Kind::PlainMeshes), Module(Kind::ConvexDecompositionMeshes),
         NotFailed(MSH003),
-        NotFailed(MSH004), NotFailed(MSH007), NotFailed(MSH020),
+        NotFailed(MSH004), NotFailed(MSH007), CONVEX_PIECE,
     ],
     check check,
 }
@@ -46,29 +48,43 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     // Before threads ask for it: who works it out shares the work with them.
     context.misplaced();
-    let bare: Vec<Option<Bare>> = (0..meshes.num_links())
-        .into_par_iter()
-        .map(|link| bare(context, link, meshes.count(link), promised))
+    let pieces_of = |link: usize| -> Vec<Part> {
+        let pieces = 0..meshes.count(link);
+        pieces.map(|piece| Part::Piece { link, piece }).collect()
+    };
+    let mut links: Vec<usize> = (0..meshes.num_links()).collect();
+    links.retain(|link| {
+        let pieces = pieces_of(*link);
+        let mut by = pieces.clone();
+        by.push(Part::Plain(*link));
+        let judged = pieces
+            .iter()
+            .filter(|piece| judged(context, findings, **piece, &by));
+        judged.count() == pieces.len()
+    });
+    let bare: Vec<Option<Bare>> = links
+        .par_iter()
+        .map(|link| bare(context, *link, meshes.count(*link), promised))
         .collect();
-    for (link, bare) in bare.into_iter().enumerate() {
+    for (link, bare) in links.into_iter().zip(bare) {
         let Some(bare) = bare else {
             continue;
         };
-        findings.report(
-            Finding::at(
-                module.file("module.json"),
-                meshes.pointer(link),
-                format!(
-                    "the pieces of {} leave out its surface at {}, {} outside of all of them",
-                    context.link_label(link),
-                    point(bare.place),
-                    metres(bare.distance)
-                ),
-            )
-            .expected("the whole surface of the plain mesh inside the pieces")
-            .actual(format!("{} outside", metres(bare.distance)))
-            .tolerance(bare.tolerance),
-        );
+        let mut finding = Finding::at(
+            module.file("module.json"),
+            meshes.pointer(link),
+            format!(
+                "the pieces of {} leave out its surface at {}, {} outside of all of them",
+                context.link_label(link),
+                point(bare.place),
+                metres(bare.distance)
+            ),
+        )
+        .expected("the whole surface of the plain mesh inside the pieces")
+        .actual(format!("{} outside", metres(bare.distance)))
+        .tolerance(bare.tolerance);
+        finding.parts = pieces_of(link);
+        findings.report(finding);
     }
 }
 
@@ -76,9 +92,6 @@ fn check(context: &Context, findings: &mut Findings) {
 fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) -> Option<Bare> {
     let solids = context.solids();
     let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
-    if context.is_misplaced(link) {
-        return None;
-    }
     let kind = ModuleKind::ConvexDecompositionMeshes;
     let pieces: Option<Vec<Polytope>> = (0..pieces)
         .map(|piece| Polytope::new(solids.sound(kind, link, piece)?))

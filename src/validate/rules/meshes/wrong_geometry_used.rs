@@ -19,7 +19,6 @@ declare_rule! {
         Version1,
         Module(Kind::Urdf),
         Module(Kind::PlainMeshes),
-        NotFailed(URD004),
         NotFailed(MSH001),
         NotFailed(MSH009),
         NotFailed(MSH012),
@@ -28,8 +27,7 @@ declare_rule! {
         // The entry of another link has the geometry of another link.
         NotFailed(MSH006),
         NotFailed(MSH007),
-        NotFailed(URD002),
-        NotFailed(URD007),
+        LINKS_NAMED,
     ],
     check check,
 }

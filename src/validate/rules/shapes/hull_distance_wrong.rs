@@ -3,8 +3,10 @@ use crate::format::registry::ModuleKind;
 use crate::geometry::farthest;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
+use crate::validate::part::Part;
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::HULL_IN_VOLUME;
+use crate::validate::views::judged::judged;
 
 declare_rule! {
     /// The largest distance of a hull or piece from its link's origin is not that of its farthest vertex.
@@ -18,19 +20,7 @@ declare_rule! {
     phase Geometry, needs [
         Module(Kind::LinkShapesMaxDistanceFromOrigin),
         AnyModule(&[Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
-        NotFailed(MSH001),
-        NotFailed(MSH004),
-        NotFailed(MSH005),
-        NotFailed(MSH007),
-        // What these find is wrong with the hulls and pieces themselves.
-        NotFailedInV1(MSH017),
-        NotFailedInV1(MSH018),
-        NotFailedInV1(MSH019),
-        NotFailedInV1(MSH020),
-        NotFailedInV1(MSH021),
-        NotFailedInV1(MSH022),
-        NotFailed(SHP001),
-        NotFailed(SHP002),
+        PIECES_LISTED, OWN_FILES, SOUND_SHAPES, SHAPES_LISTED,
         // What reaches farther than the box and the sphere is told of already.
         NotFailed(SHP004),
     ],
@@ -52,6 +42,10 @@ fn check(context: &Context, findings: &mut Findings) {
     ] {
         for (link, entry) in list.links.iter().enumerate() {
             for (piece, value) in entry.iter().enumerate() {
+                let part = Part::of_shape(list.kind, link, piece);
+                if !judged(context, findings, part, &[]) {
+                    continue;
+                }
                 let Some(mesh) = context.solids().sound(meshes, link, piece) else {
                     continue;
                 };

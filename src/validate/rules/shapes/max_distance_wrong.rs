@@ -20,8 +20,7 @@ declare_rule! {
         Module(Kind::LinkShapesApproximations),
         Module(Kind::LinkShapesMaxDistanceFromOrigin),
         NotFailed(MSH004),
-        NotFailed(SHP001),
-        NotFailed(SHP002),
+        SHAPES_LISTED,
         NotFailed(SHP003),
         // Of a box that does not fit, the distance may be that of the right one.
         NotFailed(SHP017),

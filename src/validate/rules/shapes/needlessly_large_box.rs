@@ -8,7 +8,8 @@ use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::NEEDLESSLY_LARGE_BOX;
-use crate::validate::views::enclosure::{Enclosure, enclosures};
+use crate::validate::views::enclosure::Enclosure;
+use crate::validate::views::judged::enclosures;
 
 declare_rule! {
     /// A box has more than 1.1 times the volume of a smaller one that holds the same hull or piece.
@@ -22,20 +23,7 @@ declare_rule! {
     phase Geometry, consequence Looseness, needs [
         Module(Kind::LinkShapesApproximations),
         AnyModule(&[Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
-        NotFailed(MSH001),
-        NotFailed(MSH004),
-        NotFailed(MSH005),
-        NotFailed(MSH007),
-        // What these find is wrong with the hulls and pieces themselves.
-        NotFailedInV1(MSH017),
-        NotFailedInV1(MSH018),
-        NotFailedInV1(MSH019),
-        NotFailedInV1(MSH020),
-        NotFailedInV1(MSH021),
-        NotFailedInV1(MSH022),
-        NotFailed(SHP001),
-        NotFailed(SHP002),
-        NotFailed(SHP003),
+        PIECES_LISTED, OWN_FILES, SOUND_SHAPES, SHAPES_LISTED, NotFailed(SHP003),
     ],
     check check,
 }
@@ -47,7 +35,7 @@ fn check(context: &Context, findings: &mut Findings) {
     let tight = context.profile() == Profile::V1;
     // A box that does not fit is told of by SHP017 or SHP018.
     let sound = |e: &Enclosure| e.holds() && (e.touches() || !tight);
-    let mut found: Vec<(Enclosure, f64)> = enclosures(context, context.solids())
+    let mut found: Vec<(Enclosure, f64)> = enclosures(context, findings)
         .into_par_iter()
         .filter(sound)
         .filter_map(|enclosure| {

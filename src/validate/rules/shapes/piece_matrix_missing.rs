@@ -20,9 +20,7 @@ declare_rule! {
             Kind::LinkShapesSimpleSkips,
             Kind::LinkShapesSkips,
         ]),
-        NotFailed(MSH001),
-        NotFailed(MSH004),
-        NotFailed(MSH007),
+        PIECES_LISTED,
     ],
     check check,
 }

@@ -2,7 +2,8 @@ use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings, metres};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::enclosure::{Side, enclosures};
+use crate::validate::views::enclosure::Side;
+use crate::validate::views::judged::enclosures;
 
 declare_rule! {
     /// A box does not touch its hull or piece on all six sides, or a sphere does not touch it.
@@ -18,20 +19,7 @@ declare_rule! {
         Version1,
         Module(Kind::LinkShapesApproximations),
         AnyModule(&[Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
-        NotFailed(MSH001),
-        NotFailed(MSH004),
-        NotFailed(MSH005),
-        NotFailed(MSH007),
-        // What these find is wrong with the hulls and pieces themselves.
-        NotFailedInV1(MSH017),
-        NotFailedInV1(MSH018),
-        NotFailedInV1(MSH019),
-        NotFailedInV1(MSH020),
-        NotFailedInV1(MSH021),
-        NotFailedInV1(MSH022),
-        NotFailed(SHP001),
-        NotFailed(SHP002),
-        NotFailed(SHP003),
+        PIECES_LISTED, OWN_FILES, SOUND_SHAPES, SHAPES_LISTED, NotFailed(SHP003),
     ],
     check check,
 }
@@ -40,7 +28,7 @@ fn check(context: &Context, findings: &mut Findings) {
     let Some(module) = context.module(ModuleKind::LinkShapesApproximations) else {
         return;
     };
-    for enclosure in enclosures(context, context.solids()) {
+    for enclosure in enclosures(context, findings) {
         // What leaves a part out stands off on the other side: SHP017 tells.
         if !enclosure.holds() || enclosure.touches() {
             continue;

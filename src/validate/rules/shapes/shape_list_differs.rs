@@ -24,12 +24,9 @@ declare_rule! {
             Kind::LinkShapesSimpleSkips,
             Kind::LinkShapesSkips,
         ]),
-        NotFailed(MSH001),
-        NotFailed(MSH004),
-        NotFailed(MSH007),
+        PIECES_LISTED,
         NotFailed(SHP002),
-        // A piece that is there twice is one too many.
-        NotFailed(MSH005),
+        NO_PIECE_TWICE,
     ],
     check check,
 }

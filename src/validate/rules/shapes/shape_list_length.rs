@@ -16,9 +16,7 @@ declare_rule! {
     phase References, needs [
         Module(Kind::Urdf),
         AnyModule(&[Kind::LinkShapesApproximations, Kind::LinkShapesMaxDistanceFromOrigin]),
-        NotFailed(URD004),
-        NotFailed(URD007),
-        NotFailed(URD002),
+        LINKS_NAMED,
     ],
     check check,
 }

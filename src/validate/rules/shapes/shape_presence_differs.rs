@@ -15,9 +15,7 @@ declare_rule! {
     phase References, needs [
         Module(Kind::ConvexHullMeshes),
         AnyModule(&[Kind::LinkShapesApproximations, Kind::LinkShapesMaxDistanceFromOrigin]),
-        NotFailed(MSH001),
-        NotFailed(MSH003),
-        NotFailed(MSH007),
+        MESHES_LISTED,
         NotFailed(SHP001),
     ],
     check check,

@@ -12,6 +12,7 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::fold::Fold;
 use crate::validate::rule::declare_rule;
 use crate::validate::skip::SkipReason;
+use crate::validate::views::judged;
 use crate::validate::views::shape_pair::CONTACT;
 use crate::validate::views::tangled::Tangled;
 
@@ -35,14 +36,9 @@ declare_rule! {
         Module(Kind::ConvexHullMeshes),
         Module(Kind::ConvexDecompositionMeshes),
         Module(Kind::LinkShapesApproximations),
-        // Poses.
-        Passed(URD004), Passed(URD006), NotFailed(DOF003), NotFailed(DOF004), NotFailed(DOF005), NotFailed(DOF007),
-        NotFailed(CHN001), NotFailed(CHN002), NotFailed(CHN003), NotFailed(CHN006), NotFailed(CHN007), NotFailed(CHN008),
-        NotFailed(CHN009), NotFailed(CHN010), NotFailed(KIN001), NotFailed(BND001),
-        NotFailedInV1(BND002), NotFailedInV1(BND003), NotFailedInV1(BND006),
-        // Shapes.
-        NotFailed(MSH001), NotFailed(MSH004), NotFailedInV1(MSH005), NotFailed(MSH007),
-        NotFailed(SHP001), NotFailed(SHP002), NotFailed(SHP003), Passed(SHP005), NotFailed(SHP010),
+        POSES_KNOWN, BOUNDS_SOUND_IN_VERSION_1,
+        PIECES_LISTED, OWN_FILES_IN_VERSION_1,
+        SHAPES_LISTED, NotFailed(SHP003), Passed(SHP005), NotFailed(SHP010),
         // What these find makes skips wrong too.
         NotFailedInV1(SHP017), NotFailed(SHP011), NotFailed(SHP013), NotFailed(SHP023), NotFailed(SHP024),
     ],
@@ -113,9 +109,12 @@ fn check(context: &Context, findings: &mut Findings) {
             }
         };
         let tolerances = Tolerances::new(context, context.solids(), &shapes, kind);
+        let judged = judged::shapes(context, findings, &shapes, kind);
+        let judged = |shape: usize| judged.get(shape).copied().unwrap_or(true);
         let mut fold = Fold::new(findings);
         for (i, j) in pairs {
-            let Some(distances) = set.pair(i, j, &motion) else {
+            let pair = set.pair(i, j, &motion).filter(|_| judged(i) && judged(j));
+            let Some(distances) = pair else {
                 continue;
             };
             let apart = CONTACT + tolerances.pair(i, j);

@@ -15,10 +15,8 @@ declare_rule! {
         Version1,
         Module(Kind::Urdf),
         Module(Kind::LinkShapesSkips),
-        NotFailed(URD004),
-        NotFailed(URD007),
         NotFailed(CHN001),
-        NotFailed(URD002),
+        LINKS_NAMED,
     ],
     check check,
 }

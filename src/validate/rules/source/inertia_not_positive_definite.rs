@@ -22,7 +22,7 @@ declare_rule! {
     /// correct the URDF, and write the URDD again.
     SRC004 "inertia-not-positive-definite", Warning, clause "6.1.7", since "0.1.0",
     phase References, judges Source, needs [
-        SourceRobot, Passed(URD004), Passed(URD006),
+        SourceRobot, ROBOT_SOUND,
     ],
     check check,
 }

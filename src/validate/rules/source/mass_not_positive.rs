@@ -16,7 +16,7 @@ declare_rule! {
     /// the URDD again.
     SRC003 "mass-not-positive", Warning, clause "6.1.7", since "0.1.0",
     phase References, judges Source, needs [
-        SourceRobot, Passed(URD004), Passed(URD006),
+        SourceRobot, ROBOT_SOUND,
     ],
     check check,
 }

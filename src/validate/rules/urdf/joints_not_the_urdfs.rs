@@ -20,7 +20,7 @@ declare_rule! {
     URD001 "joints-not-the-urdfs", Error, clause "6.1.2", since "0.1.0",
     phase References, judges AsItStands, needs [
         Module(Kind::Urdf), CarriedUrdf, Passed(URD011), Passed(URD002), Passed(URD003),
-        Passed(URD004), Passed(URD005), Passed(URD006), Passed(URD007), Passed(URD008),
+        ROBOT_SOUND, Passed(URD005), Passed(URD007), Passed(URD008),
         Passed(URD009), Passed(URD010), Passed(URD012),
     ],
     check check,

@@ -1,0 +1,125 @@
+//! Which parts of a robot a rule judges, and what it did not verify.
+
+use std::collections::{BTreeSet, HashMap};
+
+use super::code::Code;
+use super::part::{NotVerified, Part, PartKind, Why};
+
+/// The parts that a rule found at fault.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Faulted {
+    parts: BTreeSet<Part>,
+    elsewhere: bool,
+}
+
+impl Faulted {
+    /// Takes what a finding is about; of none, the fault is not one of single parts.
+    pub fn add(&mut self, parts: &[Part]) {
+        self.parts.extend(parts);
+        self.elsewhere |= parts.is_empty();
+    }
+
+    /// The parts.
+    pub fn parts(&self) -> &BTreeSet<Part> {
+        &self.parts
+    }
+
+    /// Whether there are faults besides those of single parts.
+    pub fn elsewhere(&self) -> bool {
+        self.elsewhere
+    }
+
+    /// Whether a part of this kind is at fault, or something besides single parts.
+    pub fn any(&self, kind: PartKind) -> bool {
+        self.elsewhere || self.parts.iter().any(|part| part.kind() == kind)
+    }
+}
+
+/// What a rule judges of a robot's parts.
+#[derive(Debug, Clone, Default)]
+pub struct Scope {
+    unsound: HashMap<Part, Code>,
+    judged: usize,
+    not_verified: BTreeSet<NotVerified>,
+}
+
+impl Scope {
+    /// All parts but those in which other rules found a fault: which rule, in which part.
+    pub fn without(unsound: HashMap<Part, Code>) -> Self {
+        Scope {
+            unsound,
+            ..Scope::default()
+        }
+    }
+
+    /// The same parts, before any of them was judged.
+    pub fn afresh(&self) -> Self {
+        Scope::without(self.unsound.clone())
+    }
+
+    /// Whether to judge a part, by itself or by others: not where one of them is unsound. What is not
+    /// judged is noted.
+    pub fn judges(&mut self, part: Part, by: &[Part]) -> bool {
+        let mut needed = std::iter::once(&part).chain(by);
+        match needed.find_map(|needed| self.unsound.get(needed)) {
+            Some(code) => {
+                self.leave_out(part, Why::Failed(*code));
+                false
+            }
+            None => {
+                self.judged += 1;
+                true
+            }
+        }
+    }
+
+    /// Notes that a part was not verified.
+    pub fn leave_out(&mut self, part: Part, why: Why) {
+        self.not_verified.insert(NotVerified { part, why });
+    }
+
+    /// Which fault of others left nothing to judge, where that is so.
+    pub fn nothing_left(&self) -> Option<Code> {
+        if self.judged > 0 {
+            return None;
+        }
+        self.not_verified.iter().find_map(|one| match one.why {
+            Why::Failed(code) => Some(code),
+            _ => None,
+        })
+    }
+
+    /// What was not verified, part by part.
+    pub fn not_verified(&self) -> Vec<NotVerified> {
+        self.not_verified.iter().copied().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unsound_part_is_left_out_and_said() {
+        let mut scope = Scope::without(HashMap::from([(Part::Hull(1), Code::MSH017)]));
+        let piece = |link| Part::Piece { link, piece: 0 };
+        assert!(!scope.judges(piece(1), &[Part::Hull(1)]));
+        assert_eq!(scope.nothing_left(), Some(Code::MSH017));
+        assert!(scope.judges(piece(0), &[Part::Hull(0)]));
+        assert_eq!(scope.nothing_left(), None);
+        let left = scope.not_verified();
+        assert_eq!(left.len(), 1);
+        assert_eq!(left[0].part, piece(1));
+        assert_eq!(left[0].why, Why::Failed(Code::MSH017));
+        assert!(scope.afresh().judges(piece(0), &[]));
+    }
+
+    #[test]
+    fn a_fault_without_a_part_is_one_of_all_parts() {
+        let mut faulted = Faulted::default();
+        faulted.add(&[Part::Plain(3)]);
+        assert!(faulted.any(PartKind::Plain) && !faulted.any(PartKind::Piece));
+        faulted.add(&[]);
+        assert!(faulted.any(PartKind::Piece) && faulted.elsewhere());
+    }
+}
