@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::{output, printed};
 use crate::format::escape;
+use crate::validate::code::RetiredCode;
 use crate::validate::rule::Rule;
 use crate::validate::rules;
 use crate::validate::selection::Codes;
@@ -48,14 +49,28 @@ pub fn run(arguments: &ExplainArguments) -> ExitCode {
     };
     let one = arguments.rule.is_some() && wanted.len() == 1;
     match (&wanted[..], arguments.format) {
-        ([], _) => printed(Err(format!(
-            "there is no rule `{}`; `urdd explain` without a code lists them",
-            escape::line(arguments.rule.as_deref().unwrap_or_default())
-        ))),
+        ([], format) => without_rule(arguments.rule.as_deref().unwrap_or_default(), format),
         ([rule], Format::Human) if one => printed(output::print(&in_full(rule))),
         (rules, Format::Human) => printed(output::print(&list(rules))),
         ([rule], Format::Json) if one => print_json(&as_json(rule)),
         (rules, Format::Json) => print_json(&rules.iter().map(|rule| as_json(rule)).collect()),
+    }
+}
+
+/// A code that was taken back is answered; any other word is wrong usage.
+fn without_rule(wanted: &str, format: Format) -> ExitCode {
+    let Some(retired) = RetiredCode::parse(wanted) else {
+        return printed(Err(format!(
+            "there is no rule `{}`; `urdd explain` without a code lists them",
+            escape::line(wanted)
+        )));
+    };
+    let (code, reason) = (retired.code, retired.reason);
+    match format {
+        Format::Human => printed(output::print(&format!(
+            "{code} is retired: {reason}. The code is not used again.\n"
+        ))),
+        Format::Json => print_json(&json!({ "code": code, "retired": reason })),
     }
 }
 

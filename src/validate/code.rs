@@ -1,5 +1,5 @@
 //! The code of every rule there is or was. A code is never used again for something else: a rule
-//! that goes leaves its code here, marked.
+//! that goes leaves its code in [`RETIRED`].
 
 macro_rules! codes {
     ($($code:ident)*) => {
@@ -26,8 +26,8 @@ codes! {
     YML001 YML002 YML003 YML004 YML005 YML006 YML007 YML008
     SCH001
     EXT001 EXT002
-    URD001 URD002 URD003 URD004 URD005 URD006 URD007 URD008 URD009 URD010 URD011 URD012 URD013
-    SRC001 SRC002 SRC003 SRC004 SRC005 SRC006 SRC007 SRC008
+    URD001 URD002 URD003 URD004 URD005 URD006 URD007 URD008 URD009 URD010 URD011 URD012 URD013 URD014
+    SRC001 SRC002 SRC003 SRC004 SRC005 SRC006 SRC007 SRC008 SRC009
     DOF001 DOF002 DOF003 DOF004 DOF005 DOF006 DOF007
     CHN001 CHN002 CHN003 CHN004 CHN005 CHN006 CHN007 CHN008 CHN009 CHN010
     CON001 CON002 CON003 CON004 CON005 CON006
@@ -40,6 +40,30 @@ codes! {
     KIN001 KIN002 KIN003 KIN004 KIN005
     LEG001 LEG002 LEG003 LEG004 LEG006 LEG007
     TST001
+}
+
+/// A code that was taken back. It is never used again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RetiredCode {
+    /// The code, as it was written.
+    pub code: &'static str,
+    /// What became of it.
+    pub reason: &'static str,
+}
+
+/// Every code that was taken back.
+pub const RETIRED: &[RetiredCode] = &[RetiredCode {
+    code: "LEG005",
+    reason: "it was given up before the first release, and no report ever held it",
+}];
+
+impl RetiredCode {
+    /// The retired code written as `text`, in either case.
+    pub fn parse(text: &str) -> Option<&'static RetiredCode> {
+        RETIRED
+            .iter()
+            .find(|retired| retired.code.eq_ignore_ascii_case(text))
+    }
 }
 
 impl Code {
@@ -60,5 +84,31 @@ impl Code {
 impl std::fmt::Display for Code {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.pad(self.as_str())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Between the first code of a family and its last, each number is a rule's or was one's.
+    #[test]
+    fn no_number_is_missing() {
+        for pair in Code::ALL.windows(2) {
+            if pair[0].family() != pair[1].family() {
+                continue;
+            }
+            let number = |code: Code| code.as_str()[3..].parse::<u32>().expect("three digits");
+            for between in number(pair[0]) + 1..number(pair[1]) {
+                let code = format!("{}{between:03}", pair[0].family());
+                assert!(
+                    RetiredCode::parse(&code).is_some(),
+                    "{code} is marked nowhere"
+                );
+            }
+        }
+        for retired in RETIRED {
+            assert_eq!(Code::parse(retired.code), None);
+        }
     }
 }

@@ -56,6 +56,12 @@ pub fn rotation_distance(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {
     (a - b).norm() / std::f64::consts::SQRT_2
 }
 
+/// The angle between two rotations, rad, for messages: a distance d of [`rotation_distance`] is
+/// 2 sin(angle / 2).
+pub fn angle_of_distance(distance: f64) -> f64 {
+    2.0 * (distance / 2.0).min(1.0).asin()
+}
+
 /// The robot's reach, m: the largest sum of joint offsets along a root path, with the largest
 /// travel of the prismatic joints on it, and at least [`LEAST_REACH`].
 pub fn reach(robot: &Robot, tree: &Tree) -> f64 {

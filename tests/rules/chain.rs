@@ -237,6 +237,18 @@ fn motions(
                 f.set(CHAIN, &pointer, json!(-old));
             }
         }),
+        // Its first number is negative, and negating all four would not help.
+        changed(
+            CHN008,
+            "quaternion-with-w-last",
+            true,
+            || turned([-0.5, 0.0, 0.0]),
+            |f| {
+                let pointer = "/joints_in_chain/0/origin/quaternion_wxyz";
+                let (sin, cos) = 0.25_f64.sin_cos();
+                f.set(CHAIN, pointer, json!([-sin, 0.0, 0.0, cos]));
+            },
+        ),
         near_miss(CHN008, "moved-by-rounding", |f| {
             nudge(f, "/joints_in_chain/2/origin/position/2", 1e-12);
             nudge(f, &format!("{QUATERNION}/1"), 1e-13);

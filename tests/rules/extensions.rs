@@ -34,6 +34,16 @@ pub fn cases() -> Vec<Case> {
             "no-such-definition",
             schema(json!({"$ref": "#/$defs/a"})),
         ),
+        invalid(
+            EXT001,
+            "lookahead",
+            schema(json!({"patternProperties": {"^(?=a)": true}})),
+        ),
+        invalid(
+            EXT001,
+            "reference-to-a-group",
+            schema(json!({"propertyNames": {"pattern": "^(a+)\\1$"}})),
+        ),
         near_miss(
             EXT001,
             "all-that-may-be",

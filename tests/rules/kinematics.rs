@@ -1,7 +1,7 @@
 //! KIN.
 
 use serde_json::json;
-use urdd::format::urdf::JointType;
+use urdd::format::urdf::{Axis, JointType};
 use urdd::validate::code::Code::*;
 
 use crate::support::fixture::{Fixture, URDF};
@@ -52,6 +52,27 @@ pub fn cases() -> Vec<Case> {
             || off(0.9e-10),
             |_| {},
         ),
+        // SPEC 6.1.8: absent, as a whole.
+        changed(
+            KIN001,
+            "numbers-that-are-not-finite",
+            false,
+            || {
+                let mut robot = line(0.1);
+                let origin = robot.joint_mut("j3").origin.as_mut().expect("it has");
+                (origin.xyz, origin.rpy) = (None, Some([0.11, 0.22, 0.33]));
+                robot.joint_mut("j4").axis = Some(Axis { xyz: None });
+                Fixture::core(&robot)
+            },
+            |f| {
+                let finite = "<origin rpy=\"0.11 0.22 0.33\"";
+                f.urdf_replace(
+                    finite,
+                    &finite.replace(" rpy", " xyz=\"0 -Infinity 1e999\" rpy"),
+                );
+                f.urdf_replace("<axis/>", "<axis xyz=\"0 NaN 1\"/>");
+            },
+        ),
         invalid(KIN002, "sampled-value-off", |f| {
             nudge(f, "/samples/4/configuration/0", 1e-6)
         }),
@@ -64,6 +85,10 @@ pub fn cases() -> Vec<Case> {
             let first = dofs.iter().position(|dof| dof["name"] == "air/rot_x");
             let pointer = format!("/samples/3/configuration/{}", first.expect("a DOF"));
             nudge(f, &pointer, -2.0 * std::f64::consts::PI);
+        }),
+        invalid(KIN003, "quaternion-with-w-last", |f| {
+            let pointer = "/samples/2/link_poses/1/quaternion_wxyz";
+            f.set(SAMPLES, pointer, json!([0.0, 0.0, 0.0, 1.0]));
         }),
         invalid(KIN003, "link-moved", |f| {
             nudge(f, "/samples/0/link_poses/1/position/0", 1e-5)

@@ -1,4 +1,4 @@
-use urdd::format::urdf::{Inertia, Inertial, JointType, Limit, Mass, Mimic};
+use urdd::format::urdf::{Axis, Inertia, Inertial, JointType, Limit, Mass, Mimic};
 use urdd::validate::code::Code::{self, *};
 
 use crate::support::fixture::{Fixture, toy_robot};
@@ -29,6 +29,16 @@ pub fn cases() -> Vec<Case> {
     cases.extend(inertias());
     cases.extend(files());
     cases
+}
+
+/// Up to 1.
+fn limit_of(lower: f64, effort: Option<f64>, velocity: Option<f64>) -> Option<Limit> {
+    Some(Limit {
+        upper: Some(1.0),
+        effort,
+        velocity,
+        ..lower_only(lower)?
+    })
 }
 
 fn lower_only(lower: f64) -> Option<Limit> {
@@ -95,6 +105,19 @@ fn limits() -> Vec<Case> {
                 deceleration: None,
                 jerk: None,
             });
+        }),
+        odd(SRC009, "revolute-without-effort-and-speed", |robot| {
+            robot.joint_mut("turn").limit = limit_of(-1.0, Some(0.0), Some(0.0));
+        }),
+        fine(SRC009, "one-of-the-two", |robot| {
+            robot.joint_mut("turn").limit = limit_of(-1.0, Some(0.0), Some(1.0));
+            robot.joint_mut("slide").limit = limit_of(0.0, Some(0.0), None);
+        }),
+        fine(SRC009, "locked-or-left-out-or-a-mimic", |robot| {
+            robot.joint_mut("locked").limit = limit_of(1.0, Some(0.0), Some(0.0));
+            robot.joint_mut("turn").limit = limit_of(-1.0, None, None);
+            let limit = robot.joint_mut("right").limit.as_mut().expect("it has");
+            (limit.effort, limit.velocity) = (Some(0.0), Some(0.0));
         }),
         fine(SRC006, "mimic-without-limit", |robot| {
             robot.joint_mut("right").limit = None;
@@ -200,6 +223,17 @@ fn files() -> Vec<Case> {
         invalid(SRC008, "second-shape", |urdd| {
             urdd.urdf_replace("</geometry>", "<sphere radius=\"1\"/></geometry>");
         }),
+        changed(
+            SRC008,
+            "the-first-counts-that-says-nothing",
+            true,
+            || {
+                let mut robot = toy_robot();
+                robot.joint_mut("spin").axis = Some(Axis { xyz: None });
+                Fixture::core(&robot)
+            },
+            |urdd| urdd.urdf_replace("<axis/>", "<axis/><axis xyz=\"0 0 2\"/>"),
+        ),
         near_miss(SRC008, "not-shapes", |urdd| {
             urdd.urdf_replace("</geometry>", "<plane/><plane/></geometry>");
             urdd.urdf_replace("</material>", "<specular/><specular/></material>");

@@ -164,8 +164,11 @@ fn against_the_urdf() -> Vec<Case> {
         invalid(URD013, "visual-gone", |urdd| {
             urdd.urdf_replace("<visual name=\"no\">", "<visual/><visual name=\"no\">");
         }),
-        invalid(URD013, "colour-changed", |urdd| {
+        invalid(URD014, "colour-changed", |urdd| {
             urdd.urdf_replace("rgba=\"0.8", "rgba=\"0.9");
+        }),
+        near_miss(URD014, "colour-in-another-notation", |urdd| {
+            urdd.urdf_replace("rgba=\"0.8", "rgba=\"8e-1");
         }),
         invalid(URD013, "scale-forgotten", |urdd| {
             set_link(
@@ -365,6 +368,51 @@ fn readable() -> Vec<Case> {
         }),
         invalid(URD011, "mesh-without-a-file", |urdd| {
             urdd.urdf_replace("<mesh filename=", "<mesh file=");
+        }),
+        invalid(URD011, "joint-type-in-capitals", |urdd| {
+            urdd.urdf_replace("type=\"spherical\"", "type=\"Spherical\"");
+        }),
+        invalid(URD011, "no-break-space-between-numbers", |urdd| {
+            urdd.urdf_replace("xyz=\"0.05 0 0.2\"", "xyz=\"0.05\u{a0}0 0.2\"");
+        }),
+        invalid(URD011, "empty-number", |urdd| {
+            urdd.urdf_replace("damping=\"0.1\"", "damping=\"\"");
+        }),
+        invalid(URD011, "prefix-not-declared", |urdd| {
+            urdd.urdf_replace("<gazebo/>", "<sensor:camera/>");
+        }),
+        invalid(URD011, "xml-version-0.0", |urdd| {
+            urdd.urdf_replace("<?xml version=\"1.0\"", "<?xml version=\"0.0\"");
+        }),
+        invalid(URD011, "another-encoding-declared", |urdd| {
+            urdd.urdf_replace("encoding=\"utf-8\"", "encoding=\"ISO-8859-1\"");
+        }),
+        near_miss(URD011, "utf-8-declared-otherwise", |urdd| {
+            urdd.urdf_replace("encoding=\"utf-8\"", "encoding='UTF8'");
+        }),
+        // 13,000 levels once ended the whole run.
+        invalid(URD011, "elements-too-deep", |urdd| {
+            let deep = format!("{}{}", "<a>".repeat(20_000), "</a>".repeat(20_000));
+            urdd.urdf_replace("<gazebo/>", &deep);
+        }),
+        // A version is two numbers, of digits.
+        changed(
+            URD011,
+            "two-rotations-in-a-version-with-a-sign",
+            false,
+            || {
+                let mut robot = toy_robot();
+                robot.urdf.version = Some("+1.1".to_owned());
+                let origin = &mut robot.joint_mut("bolt").origin;
+                origin.as_mut().expect("it has").rpy = Some([0.1, 0.2, 0.3]);
+                Fixture::core(&robot)
+            },
+            |_| {},
+        ),
+        near_miss(URD001, "version-of-many-digits", |urdd| {
+            let version = "1.1000000000000000000001";
+            urdd.urdf_replace(" version=\"1.2\"", &format!(" version=\"{version}\""));
+            urdd.set("urdf_module", "/version", json!(version));
         }),
         invalid(URD011, "latin-1", |urdd| {
             let bytes = urdd.files.get_mut(URDF).expect("the URDF");

@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use super::schema_work::{is_affordable, schemas_in};
+use super::schema_work::{affordable_work, schemas_in};
 use crate::directory::json;
 use crate::directory::root::ReadError;
 use crate::document::module::Module;
@@ -12,8 +12,13 @@ use crate::document::urdd::Urdd;
 /// Longest `schema.json` that is read, bytes.
 pub const MAX_SCHEMA_BYTES: u64 = 1 << 20;
 
-/// How often a pattern may go back. Simple patterns never do.
-const BACKTRACKS: usize = 10_000;
+/// Largest automaton of a pattern, bytes. Patterns are matched in time linear in the text; what
+/// would need going back (lookaround, references to groups) is refused.
+const PATTERN_BYTES: usize = 1 << 18;
+
+/// Above this much work, only the first violation is looked for: lists of them take memory with the
+/// document.
+const WORK_FOR_ALL_VIOLATIONS: u64 = 100_000;
 
 /// Compiling and evaluating follow references by recursion.
 const STACK_BYTES: usize = 256 << 20;
@@ -62,7 +67,7 @@ pub fn faults(schema: &Value, document: Option<&Value>) -> Vec<SchemaFault> {
         faults.push(fault);
     }
     if let (true, Some(document)) = (faults.is_empty(), document)
-        && !on_a_large_stack(|| is_affordable(schema, document))
+        && on_a_large_stack(|| affordable_work(schema, document)).is_none()
     {
         faults.push(SchemaFault {
             pointer: String::new(),
@@ -72,24 +77,41 @@ pub fn faults(schema: &Value, document: Option<&Value>) -> Vec<SchemaFault> {
     faults
 }
 
-/// Where a document breaks a schema that has no [`faults`]: pointers and messages, at most `limit`.
-pub fn violations(schema: &Value, document: &Value, limit: usize) -> Vec<(String, String)> {
+/// Where a document breaks a schema.
+#[derive(Debug, Default)]
+pub struct Violations {
+    /// Pointers and messages.
+    pub found: Vec<(String, String)>,
+    /// Whether no others were looked for.
+    pub is_first_only: bool,
+}
+
+/// Where a document breaks a schema that has no [`faults`]: at most `limit` places. In a large
+/// document only the first is looked for.
+pub fn violations(schema: &Value, document: &Value, limit: usize) -> Violations {
     on_a_large_stack(|| {
         let Ok(validator) = compile(schema) else {
-            return Vec::new();
+            return Violations::default();
         };
-        if validator.is_valid(document) {
-            return Vec::new();
-        }
-        let tell = |error: jsonschema::ValidationError<'_>| {
+        let Err(first) = validator.validate(document) else {
+            return Violations::default();
+        };
+        let place = |error: jsonschema::ValidationError<'_>| {
             let message: String = error.masked().to_string().chars().take(200).collect();
             (error.instance_path().to_string(), message)
         };
-        validator
-            .iter_errors(document)
-            .take(limit)
-            .map(tell)
-            .collect()
+        let is_first_only =
+            affordable_work(schema, document).is_none_or(|work| work > WORK_FOR_ALL_VIOLATIONS);
+        let found = match is_first_only {
+            true => vec![place(first)],
+            false => (validator.iter_errors(document).take(limit))
+                .map(place)
+                .collect(),
+        };
+        Violations {
+            found,
+            is_first_only,
+        }
     })
 }
 
@@ -97,9 +119,9 @@ fn compile(schema: &Value) -> Result<jsonschema::Validator, SchemaFault> {
     // No retriever is compiled in, so that a reference to elsewhere fails and opens nothing.
     jsonschema::draft202012::options()
         .with_pattern_options(
-            jsonschema::PatternOptions::fancy_regex()
-                .backtrack_limit(BACKTRACKS)
-                .size_limit(1 << 20),
+            jsonschema::PatternOptions::regex()
+                .size_limit(PATTERN_BYTES)
+                .dfa_size_limit(PATTERN_BYTES),
         )
         .build(schema)
         .map_err(|error| SchemaFault {
@@ -244,12 +266,64 @@ mod tests {
         let schema = json!({"items": {"type": "array", "items": {"type": "number"}}});
         let mut document = json!(vec![vec![0.5; 100]; 3000]);
         assert_eq!(message(&schema, &document), None);
-        assert!(violations(&schema, &document, 10).is_empty());
+        assert!(violations(&schema, &document, 10).found.is_empty());
         document[7][8] = json!("x");
-        assert_eq!(violations(&schema, &document, 10)[0].0, "/7/8");
-        let backtracks = json!({"pattern": "^(?=a)(a+)+$"});
-        let hostile = json!("a".repeat(5000) + "!");
-        assert_eq!(message(&backtracks, &hostile), None);
-        assert_eq!(violations(&backtracks, &hostile, 10).len(), 1);
+        let broken = violations(&schema, &document, 10);
+        assert_eq!(broken.found[0].0, "/7/8");
+        assert!(broken.is_first_only);
+        // Of a million violations one is kept; of a few, all.
+        let all = json!({"items": {"type": "string"}});
+        assert_eq!(
+            violations(&all, &json!(vec![1; 1_000_000]), 10).found.len(),
+            1
+        );
+        let few = violations(&all, &json!([1, 2, "a"]), 10);
+        assert_eq!((few.found.len(), few.is_first_only), (2, false));
+    }
+
+    #[test]
+    fn patterns_are_matched_in_linear_time() {
+        let nested = json!({"pattern": "^(a+)+$"});
+        let hostile = json!("a".repeat(100_000) + "!");
+        let start = std::time::Instant::now();
+        assert_eq!(message(&nested, &hostile), None);
+        assert_eq!(violations(&nested, &hostile, 10).found.len(), 1);
+        assert!(start.elapsed().as_secs() < 2);
+        for pattern in ["^(?=a)(a+)+$", "(?!a)b", "(?<=a)b", "(a)\\1"] {
+            for schema in [
+                json!({"pattern": pattern}),
+                json!({"patternProperties": {pattern: true}}),
+                json!({"propertyNames": {"pattern": pattern}}),
+            ] {
+                assert!(message(&schema, &json!({})).is_some(), "{schema}");
+            }
+        }
+    }
+
+    #[test]
+    fn long_texts_and_lists_of_values_count_as_work() {
+        // A pattern whose automaton has many states, on a long text and on long keys.
+        let states = "[ab]*a[ab]{200}";
+        let text = "ab".repeat(150_000);
+        for (schema, document) in [
+            (json!({"pattern": states}), json!(text)),
+            (
+                json!({"patternProperties": {states: true}}),
+                json!({&text: 1}),
+            ),
+            (
+                json!({"propertyNames": {"pattern": states}}),
+                json!({&text: 1}),
+            ),
+        ] {
+            assert!(message(&schema, &document).is_some());
+        }
+        // Each of many objects against each of many.
+        let object = |i: usize| json!({"a": [1, 2, 3, 4, 5, 6, 7, 8, 9, i]});
+        let objects: Vec<Value> = (0..2000).map(object).collect();
+        let schema = json!({"items": {"enum": objects}});
+        let document = json!((0..2000).map(|i| object(i + 2000)).collect::<Vec<_>>());
+        assert!(message(&schema, &document).is_some());
+        assert_eq!(message(&schema, &json!([object(3)])), None);
     }
 }

@@ -1,4 +1,4 @@
-//! How much work a JSON Schema asks for, told before the work is done.
+//! How much work a JSON Schema asks for, estimated before the work is done.
 
 use std::collections::HashMap;
 
@@ -67,12 +67,14 @@ pub fn schemas_in(schema: &Value) -> impl Iterator<Item = (String, &Value, bool)
     }))
 }
 
-/// Whether checking a document takes no more work than is allowed. Choices within choices multiply,
-/// so that a page of schema can ask for more than any computer will ever do.
-pub fn is_affordable(schema: &Value, document: &Value) -> bool {
+/// The work of checking a document, where it is no more than is allowed. Choices within choices
+/// multiply, so that a page of schema can ask for more than any computer will ever do.
+pub fn affordable_work(schema: &Value, document: &Value) -> Option<u64> {
     let allowed = WORK.max(WORK_PER_VALUE.saturating_mul(count_values(document)));
+    let longest_key = Value::String(longest_key(document).to_owned());
     let mut estimate = Estimate {
         root: schema,
+        longest_key: &longest_key,
         anchors: anchors(schema),
         known: HashMap::new(),
         steps: 0,
@@ -80,7 +82,47 @@ pub fn is_affordable(schema: &Value, document: &Value) -> bool {
     };
     estimate
         .work(schema, document, 0)
-        .is_some_and(|work| work <= allowed)
+        .filter(|work| *work <= allowed)
+}
+
+fn longest_key(value: &Value) -> &str {
+    let mut longest = "";
+    let mut open = vec![value];
+    while let Some(value) = open.pop() {
+        match value {
+            Value::Array(items) => open.extend(items),
+            Value::Object(map) => {
+                let keys = map.keys().map(String::as_str);
+                longest = keys
+                    .chain([longest])
+                    .max_by_key(|key| key.len())
+                    .unwrap_or_default();
+                open.extend(map.values());
+            }
+            _ => {}
+        }
+    }
+    longest
+}
+
+/// The work of matching a pattern: linear in the text, more for each character where it repeats by
+/// number or names classes of Unicode, since its automaton has many states then.
+fn pattern_work(pattern: &str, text: &str) -> u64 {
+    let has_many_states = pattern.contains(['{', '\\']);
+    let each = pattern.len() as u64 / 32 + if has_many_states { 16 } else { 1 };
+    5 + each.saturating_mul(text.len() as u64)
+}
+
+/// The work of looking for a value in a list of values.
+fn search_work(values: &[Value], value: &Value) -> u64 {
+    let is_composite = value.is_array() || value.is_object();
+    let size = if is_composite { count_values(value) } else { 1 };
+    (values.iter())
+        .map(|other| match other.is_array() || other.is_object() {
+            true => count_values(other).min(size),
+            false => 1,
+        })
+        .sum()
 }
 
 fn count_values(value: &Value) -> u64 {
@@ -109,6 +151,8 @@ fn anchors(schema: &Value) -> HashMap<&str, Vec<&Value>> {
 
 struct Estimate<'a> {
     root: &'a Value,
+    /// The longest key in the document: for all of them, where names are checked.
+    longest_key: &'a Value,
     anchors: HashMap<&'a str, Vec<&'a Value>>,
     /// Work of each schema on each value, by address.
     known: HashMap<(*const Value, *const Value), u64>,
@@ -133,9 +177,27 @@ impl<'a> Estimate<'a> {
         // A reference that comes back to itself on the same value is passed over by the validator.
         self.known.insert(key, 1);
         let mut work = keywords.len() as u64;
-        if let (Some(Value::String(pattern)), Value::String(_)) = (keywords.get("pattern"), value) {
-            let may_backtrack = pattern.contains("(?") || pattern.contains('\\');
-            work += if may_backtrack { 100 } else { 5 };
+        if let (Some(Value::String(pattern)), Value::String(text)) =
+            (keywords.get("pattern"), value)
+        {
+            work = work.saturating_add(pattern_work(pattern, text));
+        }
+        if let Some(Value::Array(values)) = keywords.get("enum") {
+            work = work.saturating_add(search_work(values, value));
+        }
+        if keywords.contains_key("const") || keywords.contains_key("uniqueItems") {
+            work = work.saturating_add(count_values(value));
+        }
+        if let (Some(Value::Object(patterns)), Value::Object(map)) =
+            (keywords.get("patternProperties"), value)
+        {
+            for (pattern, key) in patterns
+                .keys()
+                .flat_map(|p| map.keys().map(move |k| (p, k)))
+            {
+                // Once for its own schema, once for `additionalProperties`.
+                work = work.saturating_add(2 * pattern_work(pattern, key));
+            }
         }
         for key in ["$ref", "$dynamicRef"] {
             if let Some(Value::String(target)) = keywords.get(key) {
@@ -152,6 +214,13 @@ impl<'a> Estimate<'a> {
             }
             // Of `properties` each schema is for one value; others may be for all of them.
             if pointer.starts_with("/properties/") {
+                continue;
+            }
+            if pointer == "/propertyNames" {
+                if let Value::Object(map) = value {
+                    let one = self.work(inner, self.longest_key, depth + 1)?;
+                    work = work.saturating_add(one.saturating_mul(map.len() as u64));
+                }
                 continue;
             }
             let values: Box<dyn Iterator<Item = &'a Value>> = match value {

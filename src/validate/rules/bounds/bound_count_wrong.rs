@@ -43,8 +43,15 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     // A stale module is one mistake, though it shows in every list.
     let message = if wrong.len() == lists.len() {
+        // Configurations are sampled within the bounds.
+        let also = match context.module(ModuleKind::LinkShapesDistanceStatistics) {
+            Some(_) => {
+                ", and the distance statistics, which are sampled within these bounds, with what is derived from them"
+            }
+            None => "",
+        };
         format!(
-            "every list here has {length} entries, but dof_module says num_dofs is {}: the module is stale; write it again from the same robot",
+            "every list here has {length} entries, but num_dofs of dof_module is {}: the module is stale; write it again from the same robot{also}",
             dofs.num_dofs
         )
     } else {

@@ -39,7 +39,7 @@ fn check(context: &Context, findings: &mut Findings) {
             .into_iter()
             .enumerate()
         {
-            // A locked joint was published with a range; LEG006 tells of it.
+            // A locked joint was published with a range; LEG006 reports it.
             let widened = bounds.v1.is_none() && end == 1 && lower == upper;
             let agree = numbers_agree(limit, bound)
                 || (widened && numbers_agree(limit + LEGACY_WIDENING, bound));

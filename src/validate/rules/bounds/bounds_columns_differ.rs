@@ -10,7 +10,7 @@ declare_rule! {
     /// The module says the same twice, for programs that want pairs and for programs that want two
     /// vectors. Where the two differ, programs disagree about the robot.
     ///
-    /// Write all three from one source: the limits of the joints, which tell which of the two is right.
+    /// Write all three lists from the limits of the joints, which decide which of the two is right.
     BND002 "bounds-columns-differ", Error, clause "6.5.1", since "0.1.0",
     phase References, needs [Module(Kind::Bounds), Passed(BND001)],
     check check,

@@ -11,11 +11,11 @@ use crate::validate::rule::declare_rule;
 use crate::validate::tolerance::{NUMBER_ABSOLUTE, number_tolerance, numbers_agree};
 
 declare_rule! {
-    /// A DOF without limits has bounds other than the agreed ones, or is frozen by them.
+    /// A DOF without limits does not have the bounds that SPEC 6.5.3 gives it.
     ///
-    /// Bounds are always finite, so that any program can sample them. For a DOF that nothing limits the
-    /// specification settles which: [-pi, pi] for an angle, [-1, 1] for a length. In published URDDs such
-    /// joints often have [0, 1e-7], made from limits that are absent: to a planner they do not move at all.
+    /// Bounds are always finite, so that any program can sample them. For a DOF without limits they are
+    /// [-pi, pi] for an angle and [-1, 1] for a length. In published URDDs such joints often have
+    /// [0, 1e-7], made from limits that are absent: to a planner these joints do not move at all.
     ///
     /// Write these intervals for every DOF that is not limited, those of continuous joints included. If
     /// the joint should have limits, give it some in the URDF. (Legacy modules may repeat what limits the

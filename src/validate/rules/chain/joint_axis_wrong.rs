@@ -34,7 +34,7 @@ fn check(context: &Context, findings: &mut Findings) {
             false => None,
             true => match unit(right.axis) {
                 Some(axis) => Some(axis),
-                // An axis of zero has no direction to compare with; URD010 tells of it.
+                // An axis of zero has no direction to compare with; URD010 reports it.
                 None => continue,
             },
         };

@@ -6,7 +6,9 @@ use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::skip::SkipReason;
-use crate::validate::tolerance::{POSITION_OF_REACH, ROTATION, reach, rotation_distance};
+use crate::validate::tolerance::{
+    POSITION_OF_REACH, ROTATION, UNIT_NORM, angle_of_distance, reach, rotation_distance,
+};
 
 declare_rule! {
     /// `origin` of a joint is not the URDF's.
@@ -18,7 +20,7 @@ declare_rule! {
     /// with w first, or from URDF 1.1 on that of `quat_xyzw` (w last). Common mistakes: x, y, z, w instead of w, x, y, z; the inverse rotation; roll,
     /// pitch and yaw taken about moving axes; numbers that went through 32-bit floats.
     CHN008 "joint-origin-differs", Error, clause "6.3.4", since "0.1.0",
-    phase References, needs [Version1, Passed(CHN002), Passed(CHN010)],
+    phase References, needs [Version1, Passed(CHN002)],
     check check,
 }
 
@@ -41,7 +43,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     module.file("module.json"),
                     format!("/joints_in_chain/{index}/origin/position"),
                     format!(
-                        "joint {index} ({:?}) sits {offset:.3e} m from here in urdf_module",
+                        "joint {index} ({:?}) is {offset:.3e} m from its position in urdf_module",
                         right.name
                     ),
                 )
@@ -51,17 +53,33 @@ fn check(context: &Context, findings: &mut Findings) {
                 .off_by(offset, "m"),
             );
         }
+        // CHN010 reports a quaternion of another length.
+        let unit = origin.quaternion_wxyz;
+        let length = unit.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if !within((length - 1.0).abs(), UNIT_NORM) {
+            continue;
+        }
         let turned = right.origin.rotation();
-        let angle = rotation_distance(&turned, &rotation_of_quaternion(origin.quaternion_wxyz));
-        if !within(angle, ROTATION) {
+        let distance = rotation_distance(&turned, &rotation_of_quaternion(unit));
+        if !within(distance, ROTATION) {
+            let [x, y, z, w] = unit;
+            let reordered = rotation_of_quaternion([w, x, y, z]);
+            let message = match within(rotation_distance(&turned, &reordered), ROTATION) {
+                true => format!(
+                    "the quaternion of joint {index} ({:?}) is written x, y, z, w; write w first",
+                    right.name
+                ),
+                false => format!(
+                    "joint {index} ({:?}) is turned by {:.3e} rad from its rotation in urdf_module",
+                    right.name,
+                    angle_of_distance(distance)
+                ),
+            };
             findings.report(
                 Finding::at(
                     module.file("module.json"),
                     format!("/joints_in_chain/{index}/origin/quaternion_wxyz"),
-                    format!(
-                        "joint {index} ({:?}) is turned otherwise in urdf_module: R and R' are {angle:.3e} apart",
-                        right.name
-                    ),
+                    message,
                 )
                 .expected(match right.origin.quat_xyzw {
                     Some(xyzw) => format!("the rotation of quat_xyzw {xyzw:?}"),
@@ -69,7 +87,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 })
                 .actual(format!("{:?}", origin.quaternion_wxyz))
                 .tolerance(ROTATION)
-                .off_by(angle, "rad"),
+                .off_by(angle_of_distance(distance), "rad"),
             );
         }
     }

@@ -1,9 +1,10 @@
+use crate::document::pose::rotation_of_quaternion;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::skip::SkipReason;
-use crate::validate::tolerance::UNIT_NORM;
+use crate::validate::tolerance::{ROTATION, UNIT_NORM, rotation_distance};
 
 declare_rule! {
     /// A joint's quaternion is not of length 1, or is the negative of the one to write.
@@ -39,13 +40,23 @@ fn check(context: &Context, findings: &mut Findings) {
         if (norm - 1.0).abs() > UNIT_NORM {
             let message = format!("this quaternion has length {norm:?}; divide it by that");
             findings.report(at(&message).expected("length 1").tolerance(UNIT_NORM));
-        } else if is_negative(&quaternion) {
+        } else if is_negative(&quaternion) && !is_other_rotation(context, index, quaternion) {
             let message =
                 "this is the negative of the quaternion to write; negate all four numbers";
             let negated = quaternion.map(|x| if x == 0.0 { 0.0 } else { -x });
             findings.report(at(message).expected(format!("{negated:?}")));
         }
     }
+}
+
+/// Whether it is not the rotation of the joint's origin: CHN008 reports that, and negating the
+/// numbers would not help.
+fn is_other_rotation(context: &Context, index: usize, quaternion: [f64; 4]) -> bool {
+    let joint = context.robot().and_then(|robot| robot.joints.get(index));
+    joint.is_some_and(|joint| {
+        let expected = joint.origin.rotation();
+        rotation_distance(&expected, &rotation_of_quaternion(quaternion)) > ROTATION
+    })
 }
 
 /// Whether the first number that is not 0 is negative.

@@ -6,10 +6,10 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// `root_idx` is not the root link.
     ///
-    /// Forward kinematics starts at the root with the identity. From another link, only what hangs below
+    /// Forward kinematics starts at the root with the identity. From another link, only what is below
     /// that link is ever reached.
     ///
-    /// The root is the one link that is no joint's child.
+    /// The root is the one link that is not the child of a joint.
     CHN006 "root-wrong", Error, clause "6.3.3", since "0.1.0",
     phase References, needs [Passed(CHN002)],
     check check,

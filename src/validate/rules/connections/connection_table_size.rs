@@ -6,7 +6,7 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// A table of `connections_module` does not have one row per link, or a row not one entry per link.
     ///
-    /// The tables are indexed by link, twice where they tell about pairs: with n links, `root_paths` has
+    /// The tables are indexed by link, twice where they are about pairs: with n links, `root_paths` has
     /// n entries, the others n rows of n. A program that looks up a pair in a smaller table fails, or
     /// finds the path between two other links.
     ///

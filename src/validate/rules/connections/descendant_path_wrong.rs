@@ -10,11 +10,12 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// An entry of `link_connection_paths` is not the way down from one link to another.
     ///
-    /// Programs ask this table whether link j hangs on link i, and through which links. A path where
-    /// there is none makes a link move that stands still; a missing one the reverse.
+    /// Programs read from this table whether link j is below link i in the tree, and through which links.
+    /// With a path that does not exist, a link seems to move that stands still; with a missing path, the
+    /// reverse.
     ///
-    /// Element (i, j) is `[i]` where i is j; where j hangs below i, the links from i (left out) to j
-    /// (included); else null.
+    /// Element (i, j) is `[i]` where i is j. Where j is below i, it is the links from i (not included) to
+    /// j (included). Otherwise it is null.
     CON005 "descendant-path-wrong", Error, clause "6.4.5", since "0.1.0",
     phase References, needs [Passed(CON001)],
     check check,
@@ -40,8 +41,8 @@ fn check(context: &Context, findings: &mut Findings) {
             tally.wrong(|| {
                 let message = match below {
                     true if i == j => "the path of a link to itself is that link alone".to_owned(),
-                    true => format!("link {j} hangs below link {i}, by another path"),
-                    false => format!("link {j} does not hang below link {i}; write null"),
+                    true => format!("link {j} is below link {i}, by another path"),
+                    false => format!("link {j} is not below link {i}; write null"),
                 };
                 let pointer = format!("/link_connection_paths/{i}/{j}{place}");
                 Finding::at(module.file("module.json"), pointer, message)

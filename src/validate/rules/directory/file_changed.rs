@@ -16,7 +16,7 @@ declare_rule! {
     /// A file is not the one that `urdd.json` describes: its size or its SHA-256 differs.
     ///
     /// Somebody changed the file, or `urdd.json` was not written after it; so what else was made from
-    /// it may not fit it any more. Two harmless causes are told apart. Git may have converted line
+    /// it may not fit it any more. Two harmless causes are recognised. Git may have converted line
     /// endings: the `.gitattributes` beside `urdd.json` should say `* -text`, which keeps it from doing
     /// so. And with Git LFS a file may still be the pointer that stands for it: `git lfs pull` fetches
     /// it.
@@ -41,7 +41,7 @@ fn check(context: &Context, findings: &mut Findings) {
     let mut left = MAX_HASHED_BYTES;
     let (mut to_read, mut too_large) = (Vec::new(), Vec::new());
     for listed in &listed {
-        // Of what is not there, or cannot be read, other rules tell.
+        // Of what is not there, or cannot be read, other rules report.
         let Ok(size) = entries::look(context, &listed.file.path) else {
             continue;
         };
@@ -107,8 +107,8 @@ fn check(context: &Context, findings: &mut Findings) {
     }
 }
 
-/// Every file with a size and a hash, but for those that are listed twice, of which DIR026 tells,
-/// and those that are no files.
+/// Every file with a size and a hash, but for those that are listed twice, which DIR026 reports,
+/// and those that are not files.
 fn listed(context: &Context) -> Vec<Listed<'_>> {
     let Some(metadata) = context.metadata() else {
         return Vec::new();
@@ -123,7 +123,7 @@ fn listed(context: &Context) -> Vec<Listed<'_>> {
     let modules = entries::all(context).into_iter().flat_map(|entry| {
         let m = entry.index;
         let files = entry.entry.files.iter().enumerate();
-        // A file of another module is not the one that is meant: DIR012 tells.
+        // A file of another module is not the one that is meant: DIR012 reports it.
         files
             .filter(move |(_, file)| entry.holds(&file.path))
             .map(move |(f, file)| Listed {

@@ -33,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) {
         let (Some(kind), Some(version)) = (module.kind, &module.version) else {
             continue;
         };
-        // Of versions that are no versions, DIR006 tells.
+        // DIR006 reports what is not a version.
         let old = context.profile() == Profile::V1
             && module
                 .spec

@@ -69,7 +69,7 @@ fn check(context: &Context, findings: &mut Findings) {
 }
 
 /// Whether the module names a file that is not there, or one file for two things: then what it does
-/// not name follows from that, and rules of its family tell.
+/// not name follows from that, and rules of its family report it.
 fn misnames_files(context: &Context, module: &Module) -> bool {
     let mut seen = HashSet::new();
     paths::of_module(module).iter().any(|path| {

@@ -9,7 +9,7 @@ declare_rule! {
     /// A module folder is there that `urdd.json` does not list.
     ///
     /// Programs that go by the list do not see the module, and programs that look for folders do: two
-    /// readers see two robots. Its files have no hash either, so that nothing tells when they change.
+    /// readers see two robots. Its files have no hash either, so that a change of them is not noticed.
     ///
     /// Add the module to `modules` of `urdd.json`, or delete the folder.
     DIR003 "unlisted-module", Error, clause "2.3", since "0.1.0",
@@ -18,7 +18,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    // By name too: an entry with a wrong path lists its module, and DIR021 tells what is wrong.
+    // By name too: an entry with a wrong path lists its module, and DIR021 reports what is wrong.
     let mut listed = HashSet::new();
     for entry in entries::all(context) {
         listed.insert(entry.entry.path.as_str());

@@ -36,7 +36,7 @@ fn check(context: &Context, findings: &mut Findings) {
         findings.report(
             Finding::in_file(
                 module.file("VERSION"),
-                "this is no version: write three numbers joined by dots, and at most one line feed after them",
+                "this is not a version: write three numbers joined by dots, and at most one newline after them",
             )
             .expected("a version such as 1.0.0")
             .actual(actual),

@@ -8,7 +8,7 @@ use crate::validate::skip::SkipReason;
 declare_rule! {
     /// An entry of `dofs` does not describe its DOF.
     ///
-    /// `dofs[i]` tells people and programs what number i of a configuration is: its joint, its name
+    /// `dofs[i]` says to people and programs what number i of a configuration is: its joint, its name
     /// (the joint's name, and for joints of several DOFs what SPEC 6.2.5 puts behind it), and whether
     /// it is an angle in radians or a length in metres. A user interface that labels its sliders by a
     /// wrong entry moves another joint than it says.

@@ -17,7 +17,7 @@ declare_rule! {
     check check,
 }
 
-/// Most places of one document that are told.
+/// Most places of one document that are reported.
 const MOST: usize = 1000;
 
 fn check(context: &Context, findings: &mut Findings) {
@@ -31,13 +31,18 @@ fn check(context: &Context, findings: &mut Findings) {
         let SchemaFile::Read(schema) = extension_schema::read(context, module) else {
             continue;
         };
-        // Of a schema that cannot be used, EXT001 tells.
+        // EXT001 reports a schema that cannot be used.
         if !extension_schema::faults(&schema, Some(&document.value)).is_empty() {
             continue;
         }
-        for (pointer, message) in extension_schema::violations(&schema, &document.value, MOST) {
+        let violations = extension_schema::violations(&schema, &document.value, MOST);
+        let more = match violations.is_first_only {
+            true => " (the document is large: there may be more)",
+            false => "",
+        };
+        for (pointer, message) in violations.found {
             let actual = document.value.pointer(&pointer).map(schema_check::excerpt);
-            let message = format!("the value does not fit schema.json: {message}");
+            let message = format!("the value does not fit schema.json: {message}{more}");
             let mut finding = Finding::at(module.file("module.json"), pointer, message);
             finding.actual = actual;
             findings.report(finding);

@@ -3,6 +3,7 @@ use nalgebra::Isometry3;
 use crate::document::consumer;
 use crate::format::registry::{ModuleKind, Profile};
 use crate::format::urdf::JointType;
+use crate::kinematics::rotation::canonical;
 use crate::kinematics::unit;
 use crate::kinematics::{ConfigurationError, ForwardKinematics};
 use crate::validate::context::Context;
@@ -10,7 +11,9 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::reference::{MimicDofs, Reference};
 use crate::validate::rule::declare_rule;
 use crate::validate::skip::SkipReason;
-use crate::validate::tolerance::{POSITION_OF_REACH, ROTATION, reach, rotation_distance};
+use crate::validate::tolerance::{
+    POSITION_OF_REACH, ROTATION, angle_of_distance, reach, rotation_distance,
+};
 
 declare_rule! {
     /// The poses that follow from the modules are not those that follow from the carried URDF.
@@ -107,6 +110,7 @@ fn check(context: &Context, findings: &mut Findings) {
         };
         let joint = tree.parent_joint[link].unwrap_or(0);
         let (shift, turn) = difference(found, expected);
+        let turn = angle_of_distance(turn);
         findings.report(
             Finding::at(
                 file.clone(),
@@ -168,7 +172,8 @@ fn difference(a: &Isometry3<f64>, b: &Isometry3<f64>) -> (f64, f64) {
 
 fn describe(pose: &Isometry3<f64>) -> String {
     let p = pose.translation;
-    let q = pose.rotation.quaternion();
+    let rotation = canonical(&pose.rotation);
+    let q = rotation.quaternion();
     format!(
         "position ({:.9}, {:.9}, {:.9}), quaternion ({:.9}, {:.9}, {:.9}, {:.9})",
         p.x, p.y, p.z, q.w, q.i, q.j, q.k

@@ -1,14 +1,15 @@
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Quaternion, UnitQuaternion};
 
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::kinematics::ForwardKinematics;
 use crate::kinematics::pose::to_isometry;
+use crate::kinematics::rotation::canonical;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::skip::SkipReason;
 use crate::validate::tolerance::{
-    POSITION_OF_REACH, ROTATION, UNIT_NORM, reach, rotation_distance,
+    POSITION_OF_REACH, ROTATION, UNIT_NORM, angle_of_distance, reach, rotation_distance,
 };
 
 declare_rule! {
@@ -69,7 +70,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 Ok(found) => found,
                 Err(error) => {
                     let message = format!(
-                        "the pose of link {name:?} in {} is no pose: {error}",
+                        "the pose of link {name:?} in {} cannot be read as a pose: {error}",
                         sample.kind
                     );
                     findings.report(Finding::at(module.file("module.json"), pointer, message));
@@ -92,9 +93,43 @@ fn check(context: &Context, findings: &mut Findings) {
                 );
                 continue;
             }
-            if w < -UNIT_NORM {
+            let (shift, turn) = difference(&found, expected);
+            if shift > tolerance || turn > ROTATION {
+                let reordered = in_order_xyzw(stored.quaternion_wxyz);
+                let is_xyzw = shift <= tolerance
+                    && (difference(
+                        &Isometry3::from_parts(found.translation, reordered),
+                        expected,
+                    )
+                    .1) <= ROTATION;
+                let (off, unit) = match shift > tolerance {
+                    true => (shift, "m"),
+                    false => (angle_of_distance(turn), "rad"),
+                };
+                let message = match is_xyzw {
+                    true => format!(
+                        "in {}, the quaternion of link {name:?} is written x, y, z, w; write w first",
+                        sample.kind
+                    ),
+                    false => format!(
+                        "in {}, link {name:?} is {shift:.3e} m and {:.3e} rad from where forward kinematics puts it",
+                        sample.kind,
+                        angle_of_distance(turn)
+                    ),
+                };
+                findings.report(
+                    Finding::at(module.file("module.json"), pointer, message)
+                        .expected(describe(expected))
+                        .actual(format!(
+                            "position {:?}, quaternion {:?}",
+                            stored.position, stored.quaternion_wxyz
+                        ))
+                        .tolerance(tolerance)
+                        .off_by(off, unit),
+                );
+            } else if w < -UNIT_NORM {
                 let message = format!(
-                    "the quaternion of link {name:?} in {} has w < 0; write its opposite, the same rotation",
+                    "the quaternion of link {name:?} in {} has w < 0; negate all four numbers, which is the same rotation",
                     sample.kind
                 );
                 findings.report(
@@ -102,27 +137,14 @@ fn check(context: &Context, findings: &mut Findings) {
                         .expected("w >= 0")
                         .actual(w),
                 );
-                continue;
-            }
-            let (shift, turn) = difference(&found, expected);
-            if shift > tolerance || turn > ROTATION {
-                findings.report(
-                    Finding::at(
-                        module.file("module.json"),
-                        pointer,
-                        format!(
-                            "in {}, link {name:?} is {shift:.3e} m and {turn:.3e} rad from where forward kinematics puts it",
-                            sample.kind
-                        ),
-                    )
-                    .expected(describe(expected))
-                    .actual(describe(&found))
-                    .tolerance(tolerance)
-                    .off_by(shift, "m"),
-                );
             }
         }
     }
+}
+
+/// The rotation of four numbers that were written x, y, z, w.
+fn in_order_xyzw([x, y, z, w]: [f64; 4]) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
 }
 
 fn difference(a: &Isometry3<f64>, b: &Isometry3<f64>) -> (f64, f64) {
@@ -136,9 +158,10 @@ fn difference(a: &Isometry3<f64>, b: &Isometry3<f64>) -> (f64, f64) {
 
 fn describe(pose: &Isometry3<f64>) -> String {
     let p = pose.translation;
-    let q = pose.rotation.quaternion();
+    let rotation = canonical(&pose.rotation);
+    let q = rotation.quaternion();
     format!(
-        "position ({}, {}, {}), quaternion ({}, {}, {}, {})",
+        "position [{}, {}, {}], quaternion [{}, {}, {}, {}]",
         p.x, p.y, p.z, q.w, q.i, q.j, q.k
     )
 }

@@ -4,13 +4,12 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 
 declare_rule! {
-    /// The folder of a URDD from before version 1 is not named as its robot is.
+    /// The folder of a URDD from before version 1 does not have its robot's name.
     ///
-    /// The programs of that time know a robot by its folder's name, and mesh paths begin with it; a
-    /// program that goes by the name in the URDF looks in the wrong place. Many published URDDs are
-    /// like that.
+    /// Programs of that time find a robot by its folder's name, and mesh paths begin with it. A program
+    /// that uses the name in the URDF looks in the wrong place. This is so in many published URDDs.
     ///
-    /// Go by the folder's name, not by the robot's. In version 1 the folder may have any name, and
+    /// Use the folder's name, not the robot's. In version 1 the folder may have any name, and
     /// `robot_name` of `urdd.json` says the robot's.
     LEG003 "folder-name-differs", Info, clause "10.2", since "0.1.0",
     phase References, needs [Legacy, Module(Kind::Urdf)],

@@ -9,10 +9,10 @@ declare_rule! {
     /// The upper bound of a joint whose two limits are equal was raised by 1e-7.
     ///
     /// Published modules never have equal bounds. The joint stays locked for every purpose, but a program
-    /// that looks for lower = upper does not see it. (Where published modules could not tell absent limits
-    /// from zeros, the joint may also be one without limits, and frozen by mistake: look into its URDF.)
+    /// that looks for lower = upper does not see it. (Where published modules could not distinguish absent limits
+    /// from zeros, the joint may also have no limits and be frozen by mistake: look into its URDF.)
     ///
-    /// Nothing need be done. From version 1 on, a locked joint has equal bounds.
+    /// Nothing needs to be done. From version 1 on, a locked joint has equal bounds.
     LEG006 "locked-bound-widened", Info, clause "10.3", since "0.1.0",
     phase References, needs [Legacy, Passed(DOF005), Passed(BND002)],
     check check,

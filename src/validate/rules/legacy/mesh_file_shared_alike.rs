@@ -10,10 +10,10 @@ declare_rule! {
     ///
     /// The first producer named derived files after the mesh that they came from, so that links with
     /// one mesh name had one file, and the last of them overwrote it. Here these links place the mesh
-    /// in the same way, and the file is right for all of them. Where they do not, MSH005 tells.
+    /// in the same way, and the file is right for all of them. Where they do not, MSH005 reports it.
     ///
-    /// Nothing needs to be done; but give one of these links another visual origin or scale, and the
-    /// meshes of the others go wrong without a word. In version 1 each link has its own file.
+    /// Nothing needs to be done now. When one of these links gets another visual origin or scale, the
+    /// meshes of the others become wrong without notice. In version 1 each link has its own file.
     LEG007 "mesh-file-shared-alike", Info, clause "10.6", since "0.1.0",
     phase References, needs [Legacy, Module(Kind::Urdf), NotFailed(MSH001), NotFailed(MSH003)],
     check check,

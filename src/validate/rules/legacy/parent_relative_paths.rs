@@ -8,7 +8,7 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// Mesh paths begin with a robot's folder name and are relative to the folder above the URDD.
     ///
-    /// That was the custom before version 1. Such a URDD cannot be renamed; and one whose paths lead
+    /// That was usual before version 1. Such a URDD cannot be renamed; and one whose paths lead
     /// into another URDD, as those of composed robots do, works only beside that one.
     ///
     /// Keep the folder's name, and keep the URDDs together that belong together. In version 1 paths

@@ -5,10 +5,10 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// The URDD is from before version 1, and has no `urdd.json`.
     ///
-    /// That was the custom then. So nothing says what the URDD was made from, which of its files
-    /// belong together, or whether one was changed; it is held to the rules that make sense for it.
+    /// That was usual then. Nothing says what the URDD was made from, which of its files
+    /// belong together, or whether one was changed; it is checked by the rules that apply to it.
     ///
-    /// Nothing need be done. To have it in version 1, write it again from its URDF.
+    /// Nothing needs to be done. For a URDD of version 1, write it again from its URDF.
     LEG001 "legacy-without-root-metadata", Info, clause "10.2", since "0.1.0",
     phase Files, needs [Legacy],
     check check,

@@ -22,7 +22,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    // The schema is that of version 1: of another one, DIR025 tells.
+    // The schema is that of version 1: DIR025 reports another one.
     if unknown_major_version::other_major(context).is_none() {
         report(ROOT_METADATA, &context.metadata_file().violations, findings);
     }

@@ -5,8 +5,8 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// The lower limit of a joint is above its upper limit.
     ///
-    /// No position is allowed to such a joint: planners find no configuration, and what clamps a
-    /// position to the limits does one thing or another. Of two limits, one that is absent is 0.
+    /// No position is within the limits. Planners find no configuration, and programs that clamp a
+    /// position to the limits disagree. Where one of the two limits is absent, it is 0.
     ///
     /// Swap or correct `lower` and `upper` in the URDF, and write the URDD again.
     SRC001 "crossed-limits", Warning, clause "6.1.7", since "0.1.0",

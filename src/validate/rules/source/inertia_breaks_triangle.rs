@@ -8,10 +8,10 @@ use crate::validate::tolerance::INERTIA_TRIANGLE;
 declare_rule! {
     /// A principal moment of inertia is larger than the sum of the other two.
     ///
-    /// No distribution of mass has such moments: of a flat plate the largest is the sum of the
-    /// others, and of every other body it is less. Simulators that check refuse the link (MuJoCo,
-    /// Drake), others simulate a body that cannot be. Mostly the numbers were made up, the axes
-    /// mixed, or the units (g mm² for kg m²) changed in some of them.
+    /// No body has such moments. For a flat plate the largest is the sum of the others; for every other
+    /// body it is less. Some simulators refuse the link (MuJoCo, Drake), others simulate an impossible
+    /// body. Most often the numbers were made up, the axes mixed, or the units wrong in some of them
+    /// (g mm² for kg m²).
     ///
     /// Compute the tensor again, correct the URDF, and write the URDD again.
     SRC005 "inertia-breaks-the-triangle-inequality", Warning, clause "6.1.7", since "0.1.0",

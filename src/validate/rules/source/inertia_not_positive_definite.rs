@@ -9,10 +9,9 @@ use crate::validate::tolerance::INERTIA_DEFINITE;
 declare_rule! {
     /// An inertia tensor is not positive definite.
     ///
-    /// The principal moments of a body are positive; turning it about any axis takes effort. With
-    /// a moment that is negative or 0, dynamics cannot be solved about that axis, and simulators
-    /// refuse the link or let it spin for ever. Mostly a sign is wrong, or products of inertia are
-    /// larger than the moments, or a number was cut to `0`.
+    /// The principal moments of a body are positive. Where one is negative or 0, dynamics cannot be
+    /// solved about its axis: simulators refuse the link, or it spins without end. Most often a sign is
+    /// wrong, products of inertia are larger than the moments, or a number was rounded to `0`.
     ///
     /// A link without mass may have a zero tensor, and so may a link with mass (a point mass) that
     /// is fixed to a link with inertia, or that no joint turns. A moment counts as positive when

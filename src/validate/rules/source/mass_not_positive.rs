@@ -6,14 +6,13 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// A mass is negative, or 0 where something moves.
     ///
-    /// Dynamics divide by mass: a body that a joint moves and that weighs nothing, or less, makes
-    /// simulators refuse, or fly apart. Links that fixed joints hold together are one body, so a
-    /// frame without mass on a body with mass is fine, and so is a frame that nothing moves, or a
-    /// robot whose URDF has no inertials at that place. A link with inertia and without mass is
-    /// reported too: no body is like that.
+    /// Dynamics divide by mass. A body without mass that a joint moves makes simulators refuse the robot,
+    /// or become unstable. Links that fixed joints connect are one body, so a frame without mass on a
+    /// body with mass is fine. So is a frame that nothing moves, and a body without `<inertial>`. A link
+    /// with inertia and without mass is reported too: no such body exists.
     ///
-    /// Give the link its mass in the URDF, or take the `<inertial>` out of a mere frame, and write
-    /// the URDD again.
+    /// Give the link its mass in the URDF, or remove the `<inertial>` of a link that is only a frame.
+    /// Then write the URDD again.
     SRC003 "mass-not-positive", Warning, clause "6.1.7", since "0.1.0",
     phase References, judges Source, needs [
         SourceRobot, ROBOT_SOUND,

@@ -7,12 +7,12 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// A mesh that the URDF names is not carried.
     ///
-    /// Its file was not found when the URDD was made, so that the link lacks this part of its
-    /// geometry: it does not show, and nothing collides with it. Mostly a `package://` could not be
-    /// resolved, or a file is missing from the package.
+    /// The file was not found when the URDD was made. The link lacks this part of its geometry: it is
+    /// not shown, and nothing collides with it. Most often a `package://` could not be resolved, or a
+    /// file is missing from the package.
     ///
-    /// Make the mesh available (tell the producer where the package is), or take the element out
-    /// of the URDF, and write the URDD again.
+    /// Give the producer the folder of the package, or remove the element from the URDF. Then write the
+    /// URDD again.
     SRC007 "mesh-not-carried", Warning, clause "6.1.7", since "0.1.0",
     phase References, judges AsItStands, needs [Module(Kind::Urdf), Module(Kind::OriginalMeshes), Version1, NotFailed(MSH012)],
     check check,

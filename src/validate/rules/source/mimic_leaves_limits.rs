@@ -7,10 +7,10 @@ use crate::validate::tolerance::MIMIC_LIMIT;
 declare_rule! {
     /// A mimic joint leaves its own limits while its driver is within its limits.
     ///
-    /// A URDD's bounds are those of the driver, so that a position that is within bounds puts the
-    /// mimic where its own `<limit>` forbids it: some programs refuse such a state, some stop the
-    /// driver early, some take no notice. Mimics are resolved through chains of mimics. A driver
-    /// without limits is not judged.
+    /// The bounds in a URDD are those of the driver. A position within these bounds puts the mimic joint
+    /// beyond its own `<limit>`: some programs refuse such a state, some stop the driver early, some
+    /// ignore it. Chains of mimics are followed to their end. Mimics of a driver without limits are not
+    /// checked.
     ///
     /// Narrow the driver's limits, widen the mimic's, or correct `multiplier` and `offset`, in the
     /// URDF, and write the URDD again.

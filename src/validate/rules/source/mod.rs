@@ -7,6 +7,7 @@ pub mod mass_not_positive;
 pub mod mesh_not_carried;
 pub mod mimic_leaves_limits;
 mod moments;
+pub mod no_effort_and_no_speed;
 pub mod no_limits;
 pub mod repeated_element;
 
@@ -22,4 +23,5 @@ pub const RULES: &[&Rule] = &[
     &no_limits::RULE,
     &mesh_not_carried::RULE,
     &repeated_element::RULE,
+    &no_effort_and_no_speed::RULE,
 ];

@@ -5,12 +5,13 @@ use crate::validate::rule::declare_rule;
 use crate::validate::urdf_text::compare::first_names;
 
 declare_rule! {
-    /// Links hang on each other in a circle.
+    /// Joints connect links in a circle.
     ///
-    /// Going from a link to its parent, and on, must end at the root. Links in a circle, and what
-    /// hangs on them, have no pose; a program that walks the tree may never come to an end.
+    /// A URDF is a tree: from every link, going from parent to parent ends at the root. Links in a
+    /// circle, and the links below them, have no pose. A program that walks the tree may never end.
     ///
-    /// Turn one of the joints round, or take it out, in the URDF, and write the URDD again.
+    /// Swap parent and child of one of the joints, or remove the joint, in the URDF. Then write the URDD
+    /// again.
     URD006 "links-in-a-circle", Error, clause "6.1.4", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD005)],
     check check,
@@ -34,7 +35,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 file.clone(),
                 format!("/links/{first}"),
                 format!(
-                    "{} hang on each other in a circle, each on the next: take out or turn round one of their joints",
+                    "{} are in a circle, each the child of the next: remove one of their joints, or swap its parent and child",
                     first_names(&names)
                 ),
             )

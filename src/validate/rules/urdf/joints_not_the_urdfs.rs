@@ -1,3 +1,4 @@
+use super::parts::Part;
 use super::source_differences;
 use crate::validate::context::Context;
 use crate::validate::finding::Findings;
@@ -10,7 +11,8 @@ declare_rule! {
     /// never opens the URDF. Links and joints must be those of the file, in its order; and type,
     /// origin, parent, child, axis, limits and mimic of each joint too. What the URDF leaves out
     /// must be null, never a default: a missing limit is not a limit of 0. Numbers may differ by
-    /// rounding in the tenth digit. (Everything else in the module: URD013.)
+    /// rounding in the tenth digit. (The rest of the module: URD013, and
+    /// materials: URD014.)
     ///
     /// Modules of legacy versions are held to the conventions of their time: there, what is absent
     /// is written as zeros.
@@ -27,5 +29,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    source_differences::report(context, findings, source_differences::is_kinematic);
+    source_differences::report(context, findings, Part::Joints);
 }

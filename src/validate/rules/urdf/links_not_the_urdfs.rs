@@ -1,3 +1,4 @@
+use super::parts::Part;
 use super::source_differences;
 use crate::validate::context::Context;
 use crate::validate::finding::Findings;
@@ -6,11 +7,11 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// What `urdf_module` says of a link, or of the robot, is not what the carried URDF says.
     ///
-    /// Geometry, collision shapes, masses, inertias, materials, joint dynamics and the elements
-    /// that URDF does not define must be those of the file: a collision shape that lost its origin
-    /// is a collision that is not found. What the URDF leaves out must be null, never a default.
-    /// Numbers may differ by rounding in the tenth digit. (Joints, and which links there are:
-    /// URD001.)
+    /// Shapes and where they are, masses, inertias, joint dynamics and the elements that URDF does not
+    /// define must be those of the file. A collision shape that lost its origin is in the wrong place,
+    /// and the robot collides there. What the URDF leaves out must be null, never a default. Numbers
+    /// may differ by rounding in the tenth digit. (Joints, and which links there are: URD001.
+    /// Materials: URD014.)
     ///
     /// Modules of legacy versions are held to the conventions of their time: there, what is absent
     /// is written as zeros, and elements that URDF does not define are lost.
@@ -25,7 +26,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    source_differences::report(context, findings, |pointer| {
-        !source_differences::is_kinematic(pointer)
-    });
+    source_differences::report(context, findings, Part::Rest);
 }

@@ -7,10 +7,10 @@ use crate::validate::urdf_text::compare::first_names;
 declare_rule! {
     /// Mimic joints follow each other in a circle.
     ///
-    /// A mimic must lead, directly or by way of other mimics, to a joint that follows nothing. In
-    /// a circle (or of itself) no joint has a position of its own.
+    /// A mimic joint must lead, directly or through other mimic joints, to a joint that follows
+    /// nothing. In a circle, no joint has a position of its own. A joint that follows itself is one too.
     ///
-    /// Take the `<mimic>` out of the joint that is driven, in the URDF, and write the URDD again.
+    /// Remove the `<mimic>` of the joint that is driven, in the URDF, and write the URDD again.
     URD009 "mimics-in-a-circle", Error, clause "6.1.5", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD008)],
     check check,

@@ -5,9 +5,11 @@ pub mod duplicate_joint_name;
 pub mod duplicate_link_name;
 pub mod joints_not_the_urdfs;
 pub mod links_not_the_urdfs;
+pub mod materials_not_the_urdfs;
 pub mod mimic_circle;
 pub mod mimic_of_many_dofs;
 pub mod not_one_root;
+mod parts;
 mod source_differences;
 pub mod two_parents;
 pub mod unknown_link;
@@ -32,4 +34,5 @@ pub const RULES: &[&Rule] = &[
     &unreadable_urdf::RULE,
     &mimic_of_many_dofs::RULE,
     &links_not_the_urdfs::RULE,
+    &materials_not_the_urdfs::RULE,
 ];

@@ -6,8 +6,8 @@ use crate::validate::urdf_text::compare::first_names;
 declare_rule! {
     /// The robot has several roots, or no link at all.
     ///
-    /// Poses are told from the one link that is no joint's child. With two such links the robot
-    /// falls into parts that nothing holds together, and readers keep one part or refuse.
+    /// The root is the one link that is not the child of a joint; all poses are in its frame. With two
+    /// such links the robot is in parts that no joint connects: readers keep one part, or refuse.
     ///
     /// Connect the parts by joints (a fixed one will do) in the URDF, or make each a robot of its
     /// own. Then write the URDD again.
@@ -38,13 +38,13 @@ fn check(context: &Context, findings: &mut Findings) {
         .collect();
     let message = match roots.len() {
         0 if robot.links.is_empty() => "the robot has no link".to_owned(),
-        // Without any root all links go in circles: URD006 tells of these.
+        // Without any root all links are in circles: URD006 reports these.
         0 | 1 => return,
         _ => "the robot falls into parts: connect these links by joints".to_owned(),
     };
     findings.report(
         Finding::at(file, "/links", message)
-            .expected("one link that is no joint's child")
+            .expected("one link that is not the child of a joint")
             .actual(match roots.len() {
                 0 => "no link".to_owned(),
                 count => format!("{count}: {}", first_names(&roots)),

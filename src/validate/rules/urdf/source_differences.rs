@@ -1,32 +1,18 @@
-//! What URD001 and URD013 share: `urdf_module` against the carried URDF.
+//! What URD001, URD013 and URD014 share: `urdf_module` against the carried URDF.
 
 use serde_json::Value;
 
+use super::parts::{Part, element_part};
 use crate::directory::position::LineIndex;
 use crate::document::schema_check::excerpt;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::urdf_text::as_legacy;
 use crate::validate::urdf_text::compare::{Difference, differences};
+use crate::validate::urdf_text::{Reading, as_legacy};
 
-/// Whether kinematics depend on the value at a JSON Pointer of `urdf_module`.
-pub(super) fn is_kinematic(pointer: &str) -> bool {
-    let mut parts = pointer.split('/').skip(1);
-    match (parts.next(), parts.next(), parts.next()) {
-        // By the version, a quaternion counts or does not.
-        (Some("links" | "joints" | "version"), None, _) => true,
-        (Some("links" | "joints"), Some(_), Some("name")) => true,
-        (Some("joints"), Some(_), Some(key)) => matches!(
-            key,
-            "joint_type" | "origin" | "parent" | "child" | "axis" | "limit" | "mimic"
-        ),
-        _ => false,
-    }
-}
-
-/// Reports where the module differs from the URDF, at the pointers that are asked for.
-pub(super) fn report(context: &Context, findings: &mut Findings, asked: impl Fn(&str) -> bool) {
+/// Reports where a part of the module differs from the URDF.
+pub(super) fn report(context: &Context, findings: &mut Findings, part: Part) {
     let (Some(module), Ok(carried), Some(reading)) = (
         context.module(ModuleKind::Urdf),
         context.urdf(),
@@ -47,23 +33,70 @@ pub(super) fn report(context: &Context, findings: &mut Findings, asked: impl Fn(
     };
     let Some(expected) = expected else { return };
     let lines = LineIndex::new(&carried.text);
-    let found = differences(&expected, actual);
-    for difference in found.iter().filter(|found| asked(&found.pointer)) {
+    let mut last = None;
+    for mut found in differences(&expected, actual) {
+        if Part::of(&found.pointer) != part {
+            continue;
+        }
+        let mut words = message(&found);
+        if let (Some(pointer), Some(source)) =
+            (element_part(&found.pointer), element_part(&found.source))
+        {
+            let (pointer, source) = (pointer.to_owned(), source.to_owned());
+            if last.as_ref() == Some(&pointer) {
+                continue;
+            }
+            found.expected = expected.pointer(&source).cloned().unwrap_or_default();
+            found.actual = actual.pointer(&pointer).cloned().unwrap_or_default();
+            if is_nothing(&found.actual) && !is_nothing(&found.expected) {
+                words = lost(reading, &source);
+                found.tolerance = None;
+            }
+            last = Some(pointer.clone());
+            (found.pointer, found.source) = (pointer, source);
+        }
         let line = reading
-            .position(&lines, &difference.source)
+            .position(&lines, &found.source)
             .map_or(String::new(), |place| {
                 format!(" ({}, line {})", carried.path, place.line)
             });
-        let mut finding = Finding::at(
-            module.file("module.json"),
-            difference.pointer.clone(),
-            message(difference),
-        )
-        .expected(format!("{}{line}", excerpt(&difference.expected)))
-        .actual(excerpt(&difference.actual));
-        finding.tolerance = difference.tolerance;
+        let mut finding = Finding::at(module.file("module.json"), found.pointer, words)
+            .expected(format!("{}{line}", excerpt(&found.expected)))
+            .actual(excerpt(&found.actual));
+        finding.tolerance = found.tolerance;
         findings.report(finding);
     }
+}
+
+/// Whether a value says nothing: null, zeros, empty texts, and what is made of these.
+fn is_nothing(value: &Value) -> bool {
+    match value {
+        Value::Null => true,
+        Value::Bool(_) => false,
+        Value::Number(number) => number.as_f64() == Some(0.0),
+        Value::String(text) => text.is_empty(),
+        Value::Array(values) => values.iter().all(is_nothing),
+        Value::Object(values) => values.values().all(is_nothing),
+    }
+}
+
+/// What it means that an origin or a material of a shape is lost.
+fn lost(reading: &Reading, source: &str) -> String {
+    let (element, name) = source.rsplit_once('/').unwrap_or((source, ""));
+    let geometry = reading.offset(&format!("{element}/geometry"));
+    let after = match (geometry, reading.offset(source)) {
+        (Some(geometry), Some(offset)) if offset > geometry => {
+            ", as is all that stands after `<geometry>` in its element"
+        }
+        _ => "",
+    };
+    let means = match name {
+        "origin" => "the shape is in the wrong place",
+        _ => "the shape has another colour",
+    };
+    format!(
+        "the URDF's `<{name}>` is lost here{after}: {means}; write the module again from the URDF"
+    )
 }
 
 fn message(difference: &Difference) -> String {
@@ -85,27 +118,14 @@ fn message(difference: &Difference) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::is_kinematic;
+    use super::is_nothing;
+    use serde_json::json;
 
     #[test]
-    fn tells_kinematics_from_the_rest() {
-        for pointer in [
-            "/links",
-            "/joints",
-            "/links/3/name",
-            "/version",
-            "/joints/1/mimic/offset",
-        ] {
-            assert!(is_kinematic(pointer), "{pointer}");
-        }
-        for pointer in [
-            "/name",
-            "/links/3/visual/0/name",
-            "/joints/1/dynamics",
-            "/materials",
-            "",
-        ] {
-            assert!(!is_kinematic(pointer), "{pointer}");
-        }
+    fn zeros_and_nulls_say_nothing() {
+        assert!(is_nothing(
+            &json!({"xyz": [0.0, -0.0], "rpy": null, "name": ""})
+        ));
+        assert!(!is_nothing(&json!({"xyz": [0.0, 1e-9]})));
     }
 }

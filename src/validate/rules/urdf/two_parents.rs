@@ -5,11 +5,10 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// A link is the child of two joints.
     ///
-    /// A URDF is a tree: where a link is held by two joints, its pose would be given twice, and
-    /// each reader takes one or refuses. Closed chains (parallel grippers, delta robots) cannot be
-    /// written this way.
+    /// A URDF is a tree. A link with two parents would have two poses; readers take one of them, or
+    /// refuse. Closed chains (parallel grippers, delta robots) cannot be written this way.
     ///
-    /// Keep one of the joints in the URDF; say the other as a constraint in an element of the
+    /// Keep one of the joints in the URDF. Write the other as a constraint, in an element for the
     /// program that solves it (`<gazebo>`, `<loop_joint>`). Then write the URDD again.
     URD005 "link-with-two-parents", Error, clause "6.1.4", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD003), Passed(URD007)],
@@ -38,7 +37,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 file.clone(),
                 format!("/joints/{index}/child/link"),
                 format!(
-                    "link `{}` is the child of joint `{}` and of joint `{other}`; it can hang on one only",
+                    "link `{}` is the child of joint `{}` and of joint `{other}`; a link has one parent",
                     joint.child, joint.name
                 ),
             )

@@ -5,9 +5,9 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// A joint names a parent or child link that does not exist.
     ///
-    /// Such a joint hangs in the air: no tree can be built, and everything that follows from the
-    /// tree has no meaning. Mostly a link was renamed and its joints were not, or a part of the
-    /// robot was left out.
+    /// The joint connects nothing: no tree can be built, and nothing that is derived from the tree has
+    /// a meaning. Most often a link was renamed and its joints were not, or a part of the robot was
+    /// left out.
     ///
     /// Correct the name, or add the link, in the URDF, and write the URDD again.
     URD007 "unknown-link", Error, clause "6.1.4", since "0.1.0",
@@ -26,7 +26,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     Finding::at(
                         file.clone(),
                         format!("/joints/{index}/{end}/link"),
-                        format!("{end} of joint `{}` is no link of the robot", joint.name),
+                        format!("{end} of joint `{}` is not a link of the robot", joint.name),
                     )
                     .expected("the name of a link")
                     .actual(format!("`{link}`")),

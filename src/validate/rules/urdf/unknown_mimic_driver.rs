@@ -5,12 +5,11 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// A mimic joint names a joint that does not exist.
     ///
-    /// The joint has no DOF of its own and nothing to follow, so that its position is unknown.
-    /// Mostly the driver was renamed, or its part of the robot was left out. (A mimic on a fixed
-    /// joint has no meaning, and is passed over.)
+    /// The joint has no DOF of its own and nothing to follow, so its position is unknown. Most often
+    /// the driver was renamed, or its part of the robot was left out. (`<mimic>` on a fixed joint has no
+    /// meaning and is ignored.)
     ///
-    /// Correct `joint` of the `<mimic>`, or take the `<mimic>` out, in the URDF, and write the
-    /// URDD again.
+    /// Correct `joint` of the `<mimic>`, or remove the `<mimic>`, in the URDF. Then write the URDD again.
     URD008 "unknown-mimic-driver", Error, clause "6.1.5", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD003)],
     check check,

@@ -9,12 +9,12 @@ declare_rule! {
     ///
     /// The file must be well-formed XML in UTF-8 with a `<robot>` that has a name; every link a
     /// name; every joint a name, a type that URDF defines, a parent and a child; every mimic a
-    /// joint; every shape its sizes or its file name; and every number must be a number, three to a
-    /// vector and four to a colour. Where it is not so, each reader does something else: some
-    /// refuse, some drop a word of `0 x 0 1`, some take zeros.
+    /// joint; every shape its sizes or its file name. Numbers must be numbers: three to a vector, four to
+    /// a colour. Where that fails, readers differ: some refuse, some drop a word of `0 x 0 1`, some take
+    /// zeros. SPEC 6.1.8 lists every element and attribute.
     ///
-    /// Correct the URDF at the places that are named (a `$(arg …)` or `${…}` means that xacro was
-    /// not run), and write the URDD again.
+    /// Correct the URDF at the places that are given, and write the URDD again. A `$(arg …)` or `${…}`
+    /// means that xacro was not run.
     URD011 "unreadable-urdf", Error, clause "6.1.2", since "0.1.0",
     phase Syntax, needs [CarriedUrdf],
     check check,

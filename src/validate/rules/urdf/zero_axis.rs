@@ -3,11 +3,11 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 
 declare_rule! {
-    /// The axis of a joint that moves along or about it is zero.
+    /// A joint that needs an axis has an axis without a direction.
     ///
-    /// A zero vector has no direction: made a unit vector it is 0/0, and NaN spreads into every
-    /// pose below the joint. Fixed, floating and spherical joints use no axis, and may have any. An
-    /// axis so short or so long that its length is lost in binary64 counts as zero.
+    /// Made a unit vector, a zero vector is 0/0, and every pose below the joint becomes NaN. An axis is
+    /// reported too when the square of its length is 0 or infinite in binary64. Fixed, floating and
+    /// spherical joints do not use their axis: it may be anything.
     ///
     /// Give the joint an axis in the URDF (without one it is `1 0 0`), and write the URDD again.
     URD010 "zero-axis", Error, clause "6.1.6", since "0.1.0",

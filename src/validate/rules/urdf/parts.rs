@@ -1,0 +1,96 @@
+//! To which rule a value of `urdf_module` belongs, where it is compared with the carried URDF.
+
+/// The parts of a robot, each of which one rule compares.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    /// Which links and joints there are, and what kinematics depend on: URD001.
+    Joints,
+    /// Materials: URD014.
+    Materials,
+    /// All else: URD013.
+    Rest,
+}
+
+impl Part {
+    /// The part to which the value at a JSON Pointer of `urdf_module` belongs.
+    pub(super) fn of(pointer: &str) -> Part {
+        let parts: Vec<&str> = pointer.split('/').skip(1).collect();
+        match parts.as_slice() {
+            // By the version, a quaternion counts or does not.
+            ["links" | "joints" | "version"] | ["links" | "joints", _, "name", ..] => Part::Joints,
+            [
+                "joints",
+                _,
+                "joint_type" | "origin" | "parent" | "child" | "axis" | "limit" | "mimic",
+                ..,
+            ] => Part::Joints,
+            ["materials", ..] | ["links", _, "visual", _, "material", ..] => Part::Materials,
+            _ => Part::Rest,
+        }
+    }
+}
+
+/// The origin or material of a visual or collision element, where a JSON Pointer leads into one.
+/// What differs in it is one finding.
+pub(super) fn element_part(pointer: &str) -> Option<&str> {
+    let mut ends = pointer.match_indices('/').map(|(at, _)| at).skip(1);
+    // /links/3/visual/0/origin/xyz/2
+    let mut parts = pointer.split('/').skip(1);
+    let is_shape = parts.next() == Some("links")
+        && matches!(parts.nth(1), Some("visual" | "collision"))
+        && matches!(parts.nth(1), Some("origin" | "material"));
+    let end = ends.nth(4).unwrap_or(pointer.len());
+    is_shape.then(|| &pointer[..end])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Part, element_part};
+
+    #[test]
+    fn each_value_belongs_to_one_part() {
+        for pointer in [
+            "/links",
+            "/joints",
+            "/links/3/name",
+            "/version",
+            "/joints/1/mimic/offset",
+        ] {
+            assert_eq!(Part::of(pointer), Part::Joints, "{pointer}");
+        }
+        for pointer in [
+            "/materials",
+            "/materials/0/name",
+            "/links/3/visual/0/material",
+        ] {
+            assert_eq!(Part::of(pointer), Part::Materials, "{pointer}");
+        }
+        for pointer in [
+            "/name",
+            "/links/3/visual/0/name",
+            "/links/3/visual/0/origin/xyz/0",
+            "/joints/1/dynamics",
+            "",
+        ] {
+            assert_eq!(Part::of(pointer), Part::Rest, "{pointer}");
+        }
+    }
+
+    #[test]
+    fn an_origin_is_one_place() {
+        for pointer in [
+            "/links/3/collision/0/origin",
+            "/links/3/collision/0/origin/xyz/2",
+        ] {
+            assert_eq!(element_part(pointer), Some("/links/3/collision/0/origin"));
+        }
+        for pointer in [
+            "/links/3/inertial/origin/xyz",
+            "/joints/3/origin",
+            "/links",
+            "",
+        ] {
+            assert_eq!(element_part(pointer), None, "{pointer}");
+        }
+    }
+}
