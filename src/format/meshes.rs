@@ -20,7 +20,7 @@ object! {
         pub stl: String,
         /// Wavefront OBJ.
         pub obj: String,
-        /// Binary glTF 2.0, one identity node, vertices in link axes, with the source's colours.
+        /// Binary glTF 2.0, no node with a transform, vertices in link axes, with the source's colours.
         pub glb: String,
     }
 }

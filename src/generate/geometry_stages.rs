@@ -9,7 +9,7 @@ use super::error::GenerateError;
 use super::made::{Made, MadeFile, document};
 use super::meshes::names::mesh_files;
 use super::meshes::plain::link_geometries;
-use super::meshes::written::{WrittenMesh, files_of};
+use super::meshes::written::{Shading, WrittenMesh, files_of};
 use super::shapes::MOST_PIECES_WITH_MATRICES;
 use super::shapes::approximations::approximations;
 use super::shapes::max_distances::max_distances;
@@ -29,11 +29,10 @@ use crate::geometry::hull::ConvexHull;
 use crate::geometry::read::Part;
 
 pub(super) fn plain_settings(work: &Work) -> String {
-    let geometry = match work.settings.preferred_geometry {
-        GeometryKind::Visual => "visual",
-        GeometryKind::Collision => "collision",
-    };
-    geometry.to_owned()
+    match work.settings.preferred_geometry {
+        GeometryKind::Visual => "visual; smooth normals".to_owned(),
+        GeometryKind::Collision => "collision; smooth normals".to_owned(),
+    }
 }
 
 pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
@@ -53,7 +52,7 @@ pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
                 return Ok(None);
             };
             let files = mesh_files(kind, link, name(link), None);
-            let contents = files_of(&geometry.parts, &files)?;
+            let contents = files_of(&geometry.parts, &files, Shading::Smooth)?;
             let mesh = WrittenMesh::of(&geometry.parts);
             let geometry = geometry.geometry;
             Ok(Some((PlainMesh { geometry, files }, contents, mesh)))
@@ -242,7 +241,7 @@ fn write<'a>(
                 let name = &work.chain.links_in_chain[link].name;
                 let files = mesh_files(kind, link, name, piece);
                 let part: Part = mesh.part();
-                let contents = files_of(&[part], &files)?;
+                let contents = files_of(&[part], &files, Shading::Flat)?;
                 Ok((files, contents))
             });
             meshes.collect()

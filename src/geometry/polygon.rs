@@ -5,12 +5,18 @@ use nalgebra::Vector3;
 
 /// Cutting ears can take time with the square of the corners: 0.5 s for so many in a tangle. Real faces have up to 40.
 const MOST_CORNERS: usize = 10_000;
+/// The squares of the numbers of corners of all polygons that one splitter cuts by ears, each of more corners
+/// than [`FEW_CORNERS`]: some seconds, were all of them tangles.
+const MOST_WORK: usize = 500_000_000;
+/// Polygons of so few corners cost next to nothing.
+const FEW_CORNERS: usize = 100;
 
 /// Splits polygons; keeps its buffers between them.
 pub(crate) struct Splitter {
     ears: Earcut<f64>,
     flat: Vec<[f64; 2]>,
     found: Vec<u32>,
+    work: usize,
 }
 
 impl Splitter {
@@ -19,6 +25,7 @@ impl Splitter {
             ears: Earcut::new(),
             flat: Vec::new(),
             found: Vec::new(),
+            work: 0,
         }
     }
 
@@ -26,7 +33,7 @@ impl Splitter {
     ///
     /// Three corners are a triangle; a convex polygon is a fan around its first corner, which is what every reader
     /// of quads does; one that is not convex is cut by ears in the plane that it faces most. Fewer than three
-    /// corners are nothing, and more than [`MOST_CORNERS`] always a fan.
+    /// corners are nothing; more than [`MOST_CORNERS`] are always a fan, and so is what comes after [`MOST_WORK`].
     pub(crate) fn split(
         &mut self,
         vertices: &[[f64; 3]],
@@ -61,6 +68,13 @@ impl Splitter {
         if corners.len() > MOST_CORNERS || is_convex(&places, normal) {
             fan(out);
             return;
+        }
+        if corners.len() > FEW_CORNERS {
+            self.work = self.work.saturating_add(corners.len() * corners.len());
+            if self.work > MOST_WORK {
+                fan(out);
+                return;
+            }
         }
         let start = out.len();
         self.cut_ears(&places, normal, corners, out);

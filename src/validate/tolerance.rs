@@ -92,6 +92,25 @@ pub fn mesh_resolution(extent: f64) -> f64 {
     extent * MESH_VERTEX
 }
 
+/// A mesh is in its place where its vertices are within this of it, m, though they be known better: what no
+/// program that moves a robot can tell.
+pub const PLACING: f64 = 1e-6;
+
+/// The same for what is small, as a part of its largest coordinate.
+pub const PLACING_RELATIVE: f64 = 1e-4;
+
+/// How far vertices of a plain mesh may be from their places, m.
+pub fn placing_resolution(extent: f64) -> f64 {
+    mesh_resolution(extent).max(PLACING.min(PLACING_RELATIVE * extent))
+}
+
+/// A piece may reach out of its link's hull by this part of the hull's diagonal: programs in use that make pieces
+/// round, simplify, or fit them to voxels, and leave it by up to 1.3 %.
+pub const PIECE_OUT_OF_HULL: f64 = 0.02;
+
+/// And below this part nothing is said of it.
+pub const PIECE_BARELY_OUT_OF_HULL: f64 = 1e-4;
+
 /// A normal in an STL file may be this far from that of the triangle's corners: those who compute it
 /// before they round the corners, or in binary32, are off by some 1e-6, more on small triangles.
 pub const STL_NORMAL: f64 = 1e-3;

@@ -14,6 +14,7 @@ mod mesh_read_hostile;
 mod mesh_read_obj;
 mod mesh_read_stl;
 mod mesh_write;
+mod often;
 mod oriented_box;
 mod solids;
 mod statistics;

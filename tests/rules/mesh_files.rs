@@ -1,4 +1,4 @@
-//! MSH013 to MSH022: what mesh files hold.
+//! MSH013 to MSH023: what mesh files hold.
 
 use serde_json::{Value, json};
 use urdd::geometry::Mesh;
@@ -98,6 +98,63 @@ fn bare() -> Fixture {
     fixture
 }
 
+/// Changes the JSON of a GLB.
+fn change_gltf(f: &mut Fixture, module: &str, change: impl Fn(&mut Value)) {
+    let path = path(f, module, BASE, "glb");
+    let bytes = f.file(&path).to_vec();
+    let length = |at: usize| {
+        let four: [u8; 4] = bytes[at..at + 4].try_into().expect("four");
+        u32::from_le_bytes(four) as usize
+    };
+    let end = 20 + length(12);
+    let mut gltf: Value = serde_json::from_slice(&bytes[20..end]).expect("JSON");
+    change(&mut gltf);
+    let mut json = gltf.to_string().into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let mut new = bytes[..12].to_vec();
+    new.extend((json.len() as u32).to_le_bytes());
+    new.extend(b"JSON");
+    new.extend(json);
+    new.extend(&bytes[end..]);
+    let total = (new.len() as u32).to_le_bytes();
+    new[8..12].copy_from_slice(&total);
+    f.put_file(&path, new);
+}
+
+/// A box that is its own only piece, and a link without a shape.
+fn lone_box() -> Fixture {
+    Fixture::full(&robot_of(vec![boxy("a"), link("b")]))
+}
+
+/// Makes the piece of the lone box larger, and its box and sphere with it.
+fn grow_piece(f: &mut Fixture, factor: f64) {
+    const APPROXIMATIONS: &str = "link_shapes_approximations_module";
+    const REACH: &str = "link_shapes_max_distance_from_origin_module";
+    let mut mesh = read(f, PIECES, 0);
+    for vertex in &mut mesh.vertices {
+        *vertex = vertex.map(|x| f64::from((x * factor) as f32));
+    }
+    for format in ALL {
+        put(f, PIECES, 0, format, &mesh);
+    }
+    let half = mesh.vertices[0].map(f64::abs);
+    let reach = half.iter().map(|h| h * h).sum::<f64>().sqrt();
+    f.set(
+        APPROXIMATIONS,
+        "/decomposition_obbs/0/0/half_extents",
+        json!(half),
+    );
+    f.set(
+        APPROXIMATIONS,
+        "/decomposition_bounding_spheres/0/0/radius",
+        json!(reach),
+    );
+    for list in ["convex_hulls", "obbs", "bounding_spheres"] {
+        let pointer = format!("/decomposition_{list}_maximum_distances/0/0");
+        f.set(REACH, &pointer, json!(reach));
+    }
+}
+
 pub fn cases() -> Vec<Case> {
     let mut cases = files();
     cases.extend(sources());
@@ -148,6 +205,70 @@ fn files() -> Vec<Case> {
             let stl = f.file(&path(f, HULLS, BASE, "stl")).to_vec();
             let path = path(f, HULLS, BASE, "obj");
             f.put_file(&path, stl);
+        }),
+        invalid(MSH013, "vertex-that-no-face-uses-in-the-obj", |f| {
+            let path = path(f, HULLS, BASE, "obj");
+            let obj = String::from_utf8(f.file(&path).to_vec()).expect("text");
+            f.put_file(&path, format!("{obj}v 1000 0 0\n"));
+        }),
+        invalid(MSH013, "vertex-that-no-face-uses-in-the-glb", |f| {
+            let mut mesh = read(f, PIECES, BASE);
+            mesh.vertices.push([1000.0, 0.0, 0.0]);
+            put(f, PIECES, BASE, "glb", &mesh);
+        }),
+        invalid(MSH013, "material-library-outside", |f| {
+            let path = path(f, PLAIN, BASE, "obj");
+            let obj = String::from_utf8(f.file(&path).to_vec()).expect("text");
+            f.put_file(&path, format!("mtllib ../../../../secret.mtl\n{obj}"));
+        }),
+        invalid(MSH013, "image-outside", |f| {
+            change_gltf(f, PLAIN, |gltf| {
+                gltf["images"] = json!([{ "uri": "../../../../secret.png" }]);
+            });
+        }),
+        invalid(MSH013, "morph-target", |f| {
+            change_gltf(f, PLAIN, |gltf| {
+                let primitive = &mut gltf["meshes"][0]["primitives"][0];
+                primitive["targets"] = json!([{ "POSITION": 0 }]);
+            });
+        }),
+        invalid(MSH013, "skin", |f| {
+            change_gltf(f, PLAIN, |gltf| gltf["nodes"][0]["skin"] = json!(0));
+        }),
+        invalid(MSH013, "instances", |f| {
+            change_gltf(f, HULLS, |gltf| {
+                gltf["nodes"][0]["extensions"] = json!({ "EXT_mesh_gpu_instancing": {} });
+            });
+        }),
+        invalid(MSH013, "animation", |f| {
+            change_gltf(f, PLAIN, |gltf| {
+                gltf["animations"] = json!([{ "channels": [], "samplers": [] }]);
+            });
+        }),
+        invalid(MSH013, "least-coordinate-of-other-positions", |f| {
+            change_gltf(f, HULLS, |gltf| gltf["accessors"][0]["min"][0] = json!(-1));
+        }),
+        invalid(MSH013, "node-with-a-transform", |f| {
+            change_gltf(f, HULLS, |gltf| {
+                // As far as the resolution goes all is where it was.
+                gltf["nodes"][0]["translation"] = json!([1e-9, 0, 0]);
+            });
+        }),
+        invalid(MSH013, "normals-of-no-length", |f| {
+            // The positions, for normals.
+            change_gltf(f, PLAIN, |gltf| {
+                gltf["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(0);
+            });
+        }),
+        near_miss(MSH013, "embedded-image-and-nodes-in-their-place", |f| {
+            change_gltf(f, PLAIN, |gltf| {
+                gltf["images"] = json!([{ "uri": "data:image/png;base64,iVBORw0KGgo=" }]);
+                gltf["nodes"] = json!([
+                    { "mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] },
+                    { "children": [0], "translation": [0, 0, 0], "scale": [1, 1, 1] },
+                ]);
+                gltf["scenes"][0]["nodes"] = json!([1]);
+            });
         }),
         near_miss(MSH013, "what-formats-leave-open", |f| {
             let stl = path(f, HULLS, BASE, "stl");
@@ -318,10 +439,23 @@ fn bodies() -> Vec<Case> {
         invalid(MSH021, "larger-than-the-link", |f| {
             rewrite(f, PIECES, ALL, |mesh| {
                 for vertex in &mut mesh.vertices {
-                    *vertex = vertex.map(|x| f64::from((x * 1.01) as f32));
+                    *vertex = vertex.map(|x| f64::from((x * 1.1) as f32));
                 }
             });
         }),
+        changed(MSH023, "barely-larger-than-the-link", true, lone_box, |f| {
+            grow_piece(f, 1.01);
+        }),
+        changed(
+            MSH023,
+            "larger-by-rounding-of-voxels",
+            false,
+            lone_box,
+            |f| {
+                // 15 micrometres of a hull that is 0.37 m across.
+                grow_piece(f, 1.0001);
+            },
+        ),
         near_miss(MSH021, "rounded-otherwise", |f| {
             rewrite(f, PIECES, ALL, |mesh| {
                 mesh.vertices[7] = mesh.vertices[7].map(up);

@@ -87,12 +87,23 @@ pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
         }
     }
     let is_said = |code| {
-        use NoteCode::{NoTriangles, SideFileMissing, TurnedToZUp, UnitApplied, UpAxisIgnored};
+        use NoteCode::{
+            NoTriangles, NodeTransform, SideFileMissing, TurnedToZUp, UnitApplied, UnusedVertices,
+            UpAxisIgnored, WrongBounds, WrongNormals,
+        };
         // The first is said as why the mesh is unusable, the second of each file. The others are how
         // such files are read; to say so of every mesh helps nobody.
         !matches!(
             code,
-            NoTriangles | SideFileMissing | TurnedToZUp | UnitApplied | UpAxisIgnored
+            NoTriangles
+                | NodeTransform
+                | SideFileMissing
+                | TurnedToZUp
+                | UnitApplied
+                | UnusedVertices
+                | UpAxisIgnored
+                | WrongBounds
+                | WrongNormals
         )
     };
     let notes = scene.notes.iter().filter(|note| is_said(note.code));

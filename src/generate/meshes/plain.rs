@@ -1,6 +1,6 @@
 //! `plain_meshes_module` from the URDF and its mesh files: SPEC 7.2 and 7.4.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -69,9 +69,9 @@ pub(crate) fn link_geometries(
                 let parts: Vec<Part> = usable
                     .flat_map(|element| placed(element, &robot.materials, quaternions))
                     .collect();
-                (!parts.is_empty()).then_some(LinkGeometry {
+                (!parts.is_empty()).then(|| LinkGeometry {
                     geometry: kind,
-                    parts,
+                    parts: by_look(parts),
                 })
             })
         })
@@ -149,6 +149,27 @@ fn placed(element: &Element, materials: &[Material], quaternions: bool) -> Vec<P
     moved
         .filter(|part| !part.mesh.triangles.is_empty())
         .collect()
+}
+
+/// Parts that look alike made one, in the order in which each look first appears: a link may have many
+/// thousand elements, and a viewer draws each part by itself.
+fn by_look(parts: Vec<Part>) -> Vec<Part> {
+    let mut place: HashMap<(Option<[u64; 4]>, Option<String>), usize> = HashMap::new();
+    let mut joined: Vec<Part> = Vec::new();
+    for part in parts {
+        let look = (
+            part.color.map(|color| color.map(f64::to_bits)),
+            part.material.clone(),
+        );
+        match place.get(&look) {
+            Some(at) => joined[*at].mesh.append(&part.mesh),
+            None => {
+                place.insert(look, joined.len());
+                joined.push(part);
+            }
+        }
+    }
+    joined
 }
 
 fn tidy(mut mesh: Mesh, place: &nalgebra::Matrix4<f64>) -> Mesh {

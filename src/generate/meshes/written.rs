@@ -56,8 +56,25 @@ impl WrittenMesh {
     }
 }
 
+/// How a .glb is shaded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shading {
+    /// Each face by itself, as hulls and pieces are.
+    Flat,
+    /// With normals.
+    Smooth,
+}
+
 /// The three files of a mesh.
-pub(crate) fn files_of(parts: &[Part], files: &MeshFiles) -> Result<[MadeFile; 3], GenerateError> {
+pub(crate) fn files_of(
+    parts: &[Part],
+    files: &MeshFiles,
+    shading: Shading,
+) -> Result<[MadeFile; 3], GenerateError> {
+    let glb = match shading {
+        Shading::Flat => write::glb(parts),
+        Shading::Smooth => write::smooth_glb(parts),
+    };
     let internal = |error: write::WriteError| GenerateError::Internal {
         file: files.glb.clone(),
         reason: error.to_string(),
@@ -69,7 +86,7 @@ pub(crate) fn files_of(parts: &[Part], files: &MeshFiles) -> Result<[MadeFile; 3
     Ok([
         file(&files.stl, write::stl(parts).map_err(internal)?),
         file(&files.obj, write::obj(parts).map_err(internal)?),
-        file(&files.glb, write::glb(parts).map_err(internal)?),
+        file(&files.glb, glb.map_err(internal)?),
     ])
 }
 
@@ -86,7 +103,11 @@ pub(crate) fn take_up(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, Gen
         gltf_up: GltfUp::Keep,
         ..Options::default()
     };
-    let scene = read_with(&bytes, &files.glb, &mut |_| None, &options)
+    let mut scene = read_with(&bytes, &files.glb, &mut |_| None, &options)
         .map_err(|error| internal(error.to_string()))?;
+    for part in &mut scene.parts {
+        // Vertices that have several normals.
+        part.mesh.weld();
+    }
     Ok(WrittenMesh::of(&scene.parts))
 }

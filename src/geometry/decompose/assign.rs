@@ -8,6 +8,7 @@ use super::clean::Surface;
 use super::part::Plane;
 use super::search::Node;
 use super::vector::{dot, lerp};
+use crate::geometry::hull::ConvexHull;
 
 /// A corner on its way down: its place in unit coordinates, and which vertex or point it is.
 #[derive(Clone, Copy)]
@@ -31,6 +32,7 @@ pub(super) fn assign(
 ) -> Vec<Vec<[f64; 3]>> {
     let mut out = Hands {
         points: vec![Vec::new(); groups],
+        most: vec![MOST_POINTS; groups],
         last: vec![u32::MAX; surface.vertices.len()],
         nodes,
         group_of_leaf,
@@ -52,8 +54,13 @@ pub(super) fn assign(
     out.points
 }
 
+/// So many points of a group are gathered before they are thinned out.
+const MOST_POINTS: usize = 1 << 21;
+
 struct Hands<'a> {
     points: Vec<Vec<[f64; 3]>>,
+    /// For each group, at how many points it is thinned out next.
+    most: Vec<usize>,
     /// The group that a vertex was last given to: most belong to one only.
     last: Vec<u32>,
     nodes: &'a [Node],
@@ -122,6 +129,18 @@ impl Hands<'_> {
             }
             self.points[group].push(c.at);
         }
+        if self.points[group].len() >= self.most[group] {
+            self.thin_out(group);
+        }
+    }
+
+    /// Keeps the corners of a group's hull: each triangle of a tangle leaves some points in every group, and
+    /// all of them together would take many times the memory of the mesh.
+    fn thin_out(&mut self, group: usize) {
+        if let Ok(hull) = ConvexHull::new(&self.points[group]) {
+            self.points[group] = hull.into_mesh().vertices;
+        }
+        self.most[group] = MOST_POINTS.max(2 * self.points[group].len());
     }
 }
 

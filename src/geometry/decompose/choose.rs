@@ -10,12 +10,20 @@ use super::growing_hull::GrowingHull;
 use super::support::Support;
 use super::vector::{cross, distance_to_triangle, dot, norm, sub};
 
+/// So often a point may be held against a face. Links need some tens of millions; where the tolerance asks for
+/// many thousand faces about many points, all corners of their hull are taken instead.
+const MOST_LOOKS: usize = 2_000_000_000;
+
 /// A subset of the points, none of them farther than `tolerance` from its hull; all of them where they
 /// are flat.
 pub(super) fn choose(points: &[[f64; 3]], tolerance: f64) -> Vec<[f64; 3]> {
     let Some((mut hull, mut taken, eps)) = start(points) else {
         return points.to_vec();
     };
+    let mut looks = points.len().saturating_mul(hull.slots());
+    if looks > MOST_LOOKS {
+        return points.to_vec();
+    }
     let mut outside: Vec<Outside> = points
         .iter()
         .filter_map(|&p| look(&hull, &taken, p, eps, tolerance))
@@ -29,10 +37,12 @@ pub(super) fn choose(points: &[[f64; 3]], tolerance: f64) -> Vec<[f64; 3]> {
         taken.push(p);
         let mut gone = vec![false; hull.slots()];
         hull.removed.iter().for_each(|&f| gone[f as usize] = true);
+        looks = looks.saturating_add(outside.len());
         outside.retain_mut(|o| {
             if !gone[o.face as usize] {
                 return true;
             }
+            looks = looks.saturating_add(gone.len());
             match look(&hull, &taken, o.point, eps, tolerance) {
                 Some(again) => {
                     *o = again;
@@ -41,6 +51,9 @@ pub(super) fn choose(points: &[[f64; 3]], tolerance: f64) -> Vec<[f64; 3]> {
                 None => false,
             }
         });
+        if looks > MOST_LOOKS {
+            return points.to_vec();
+        }
     }
     hull.used().into_iter().map(|i| taken[i]).collect()
 }

@@ -29,6 +29,7 @@ impl Surface {
             }
         }
         let ignored = mesh.triangles.len() - triangles.len();
+        let triangles = each_once(triangles);
         let mut low = [f64::INFINITY; 3];
         let mut high = [f64::NEG_INFINITY; 3];
         for &i in triangles.as_flattened() {
@@ -94,6 +95,29 @@ impl Surface {
     }
 }
 
+/// The triangles without repetitions: of those with the same corners that face the same way, the first.
+/// A file of a few bytes a triangle can say one many thousand times, and once is all that it means.
+fn each_once(triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
+    let from_lowest = |[a, b, c]: [u32; 3]| {
+        if a <= b && a <= c {
+            [a, b, c]
+        } else if b <= c {
+            [b, c, a]
+        } else {
+            [c, a, b]
+        }
+    };
+    let mut numbered: Vec<([u32; 3], u32)> = (0..)
+        .zip(&triangles)
+        .map(|(at, t)| (from_lowest(*t), at))
+        .collect();
+    numbered.sort_unstable();
+    numbered.dedup_by_key(|(t, _)| *t);
+    let mut first: Vec<u32> = numbered.into_iter().map(|(_, at)| at).collect();
+    first.sort_unstable();
+    first.into_iter().map(|at| triangles[at as usize]).collect()
+}
+
 /// Different vertices in order of first use, and for each given vertex its place among them
 /// (`u32::MAX` where it is not finite). An open-addressing table keyed by the bits of the coordinates.
 fn weld(given: &[[f64; 3]]) -> (Vec<[f64; 3]>, Vec<u32>) {
@@ -146,11 +170,19 @@ mod tests {
                 [0.0, 3.0, 0.0],
                 [nan, 0.0, 0.0],
             ],
-            triangles: vec![[0, 2, 3], [1, 2, 3], [0, 2, 9], [0, 2, 4]],
+            triangles: vec![
+                [0, 2, 3],
+                [1, 2, 3],
+                [2, 3, 0],
+                [0, 3, 2],
+                [0, 2, 9],
+                [0, 2, 4],
+            ],
         };
         let s = Surface::new(&mesh).unwrap();
         assert_eq!(s.vertices.len(), 3);
-        assert_eq!(s.triangles, vec![[0, 1, 2], [0, 1, 2]]);
+        // Three times the same, and once from behind.
+        assert_eq!(s.triangles, vec![[0, 1, 2], [0, 2, 1]]);
         assert_eq!(s.ignored, 2);
         assert_eq!(s.scale, 1.5);
         assert!(

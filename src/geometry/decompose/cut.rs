@@ -21,11 +21,8 @@ const SEED: f64 = 1e-4;
 /// left out of a cylinder's volume is less than two hundredths.
 const STEP: f64 = 2.5e-3;
 
-/// Planes tried across an axis, evenly spaced; flat coordinates come on top.
+/// Planes tried across a direction, evenly spaced; flat coordinates come on top.
 const EVEN: usize = 11;
-
-/// The same across a diagonal.
-const EVEN_DIAGONAL: usize = 11;
 
 /// Weight of a cut through the middle of the longest extent, as a part of the part's cost. It decides
 /// where no cut helps at once, as in a ring, where only the second one does.
@@ -171,8 +168,8 @@ pub(super) fn frames(flats: [Vec<f64>; 3]) -> Vec<Frame> {
 }
 
 /// Offsets of the planes tried between `low` and `high`, ascending.
-fn offsets(low: f64, high: f64, even: usize, flats: &[f64], eps: f64) -> Vec<f64> {
-    let step = (high - low) / (even + 1) as f64;
+fn offsets(low: f64, high: f64, flats: &[f64], eps: f64) -> Vec<f64> {
+    let step = (high - low) / (EVEN + 1) as f64;
     let near = (0.02 * (high - low)).max(2.0 * eps);
     let mut out: Vec<f64> = flats
         .iter()
@@ -182,7 +179,7 @@ fn offsets(low: f64, high: f64, even: usize, flats: &[f64], eps: f64) -> Vec<f64
     out.dedup_by(|b, a| *b - *a < 2.0 * eps);
     out.truncate(MOST_OFFSETS - EVEN);
     let flat = out.len();
-    for k in 1..=even {
+    for k in 1..=EVEN {
         let x = low + step * k as f64;
         if out[..flat].iter().all(|f| (f - x).abs() > 0.3 * step) {
             out.push(x);
@@ -211,14 +208,7 @@ fn best_across(
     if high - low <= (8.0 * eps).max(10.0 * SEED) {
         return None;
     }
-    let diagonal = normal.iter().all(|c| c.abs() < 0.9);
-    let planes = offsets(
-        low,
-        high,
-        if diagonal { EVEN_DIAGONAL } else { EVEN },
-        flats,
-        eps,
-    );
+    let planes = offsets(low, high, flats, eps);
     let slices = Slices::new(part, turned, frame, &planes, places);
     let (below, whole) = slices.sweep(turned, true, bounds.extent());
     let (above, _) = slices.sweep(turned, false, bounds.extent());

@@ -17,6 +17,10 @@ const CELLS: f64 = 8000.0;
 /// Most cells along the largest extent, so that flat links do not get a huge grid.
 const MOST_ALONG: f64 = 64.0;
 
+/// Most samples of the surface. Links need up to some 50 million (long thin triangles); a tangle that
+/// needs more is taken to have no inside.
+const MOST_SAMPLES: usize = 100_000_000;
+
 /// Centres of the cells inside, in the part's coordinates, and half the cells' side: so far around each
 /// centre all is inside.
 pub(super) fn inside(part: &Part) -> (Vec<[f64; 3]>, f64) {
@@ -34,11 +38,23 @@ pub(super) fn inside(part: &Part) -> (Vec<[f64; 3]>, f64) {
         let i = [0, 1, 2].map(|a| (((p[a] - bounds.low[a]) / cell) as usize + 1).min(count[a] - 2));
         (i[2] * count[1] + i[1]) * count[0] + i[0]
     };
+    // Into how many parts the sides of a triangle are divided.
+    let parts = |[a, b, c]: [[f64; 3]; 3]| {
+        let longest = norm(sub(b, a)).max(norm(sub(c, a))).max(norm(sub(c, b)));
+        (longest / cell * 3.0).ceil().max(1.0) as usize
+    };
+    let samples = part.triangles.iter().map(|t| {
+        let n = parts(t.map(|i| part.points[i as usize]));
+        (n + 1) * (n + 2) / 2
+    });
+    if samples.sum::<usize>() > MOST_SAMPLES {
+        return (Vec::new(), cell / 2.0);
+    }
     let mut state = vec![State::Inside; count.iter().product()];
     for t in &part.triangles {
-        let [a, b, c] = t.map(|i| part.points[i as usize]);
-        let longest = norm(sub(b, a)).max(norm(sub(c, a))).max(norm(sub(c, b)));
-        let n = (longest / cell * 3.0).ceil().max(1.0) as usize;
+        let corners = t.map(|i| part.points[i as usize]);
+        let n = parts(corners);
+        let [a, b, c] = corners;
         for i in 0..=n {
             for j in 0..=n - i {
                 let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);

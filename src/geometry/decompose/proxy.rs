@@ -11,18 +11,22 @@ use super::vector::{dot, sub};
 /// Clusters aimed at.
 const TARGET: f64 = 1500.0;
 
+/// Most triangles of the stand-in. Surfaces of so few points have half as many; a tangle that has more
+/// is searched by some of them, evenly spread.
+const MOST_TRIANGLES: usize = 8000;
+
 /// Most cells along one axis, so that the grid's memory is bounded.
 const MOST_CELLS: f64 = 96.0;
 
 /// The stand-in, and the side of its cells (0 where the surface was small enough to be taken whole).
 pub(super) fn proxy(surface: &Surface) -> (Part, f64) {
     if surface.vertices.len() as f64 <= TARGET {
-        let part = Part {
-            points: surface.unit.clone(),
-            triangles: surface.triangles.clone(),
-            inner: Vec::new(),
-        };
-        return (part, 0.0);
+        let cluster: Vec<u32> = (0..surface.vertices.len() as u32).collect();
+        let triangles = surface.triangles.clone();
+        return (
+            stand_in(surface, surface.unit.clone(), &cluster, triangles),
+            0.0,
+        );
     }
     // A surface passes through about 1.5 cells per cell's area.
     let cell = (1.5 * surface.area() / TARGET).sqrt().max(2.0 / MOST_CELLS);
@@ -76,7 +80,21 @@ pub(super) fn proxy(surface: &Surface) -> (Part, f64) {
         .collect();
     triangles.sort_unstable();
     triangles.dedup();
-    // A cluster that no triangle is left of still has a point to keep.
+    (stand_in(surface, points, &cluster, triangles), cell)
+}
+
+/// The stand-in of these points and triangles. `cluster` says which point stands for each vertex.
+fn stand_in(
+    surface: &Surface,
+    points: Vec<[f64; 3]>,
+    cluster: &[u32],
+    mut triangles: Vec<[u32; 3]>,
+) -> Part {
+    let every = triangles.len().div_ceil(MOST_TRIANGLES).max(1);
+    if every > 1 {
+        triangles = triangles.into_iter().step_by(every).collect();
+    }
+    // A point that no triangle is left of is still to be kept.
     let mut used = vec![false; points.len()];
     triangles
         .as_flattened()
@@ -93,14 +111,11 @@ pub(super) fn proxy(surface: &Surface) -> (Part, f64) {
             triangles.push([c, c, c]);
         }
     }
-    (
-        Part {
-            points,
-            triangles,
-            inner: Vec::new(),
-        },
-        cell,
-    )
+    Part {
+        points,
+        triangles,
+        inner: Vec::new(),
+    }
 }
 
 /// Coordinates along each axis where much of the surface lies flat across it: where CAD parts change

@@ -55,8 +55,14 @@ const COARSE_ABOVE: usize = 150;
 /// Directions in which a coarse hull reaches as far as the hull.
 const COARSE_DIRECTIONS: usize = 64;
 
+/// Triangles that shadows of the hull itself may be cast of, in all. Hulls of links need some tens of millions. On a
+/// round hull of many thousand triangles each promises as much as the next, and all would be tried.
+const MOST_CAST: usize = 500_000_000;
+
 struct Search {
     fine: Caster,
+    /// What is left of [`MOST_CAST`].
+    left: usize,
     coarse: Option<Caster>,
     best: f64,
     /// Boxes that were within [`TIE`] of the best when they were found.
@@ -67,6 +73,7 @@ struct Search {
 pub fn smallest_boxes(hull: &ConvexHull) -> Vec<Candidate> {
     let mut search = Search {
         fine: Caster::new(hull),
+        left: MOST_CAST,
         coarse: coarse(hull),
         best: f64::INFINITY,
         found: Vec::new(),
@@ -112,6 +119,7 @@ fn spread(count: usize) -> impl Iterator<Item = Vector3<f64>> {
 impl Search {
     /// The smallest box with this axis, which counts if it is among the best.
     fn try_axis(&mut self, axis: &Vector3<f64>) -> Known {
+        self.left = self.left.saturating_sub(self.fine.triangles());
         let Some(candidate) = self.fine.smallest_box(axis) else {
             return Known::NOTHING;
         };
@@ -129,7 +137,9 @@ impl Search {
             .as_mut()
             .and_then(|coarse| coarse.smallest_box(axis));
         match coarse {
-            Some(candidate) if candidate.volume > self.best => Known::of(&candidate),
+            Some(candidate) if candidate.volume > self.best || self.left == 0 => {
+                Known::of(&candidate)
+            }
             _ => self.try_axis(axis),
         }
     }
@@ -151,7 +161,7 @@ impl Search {
         let mut order: Vec<usize> = (0..normals.len()).collect();
         order.sort_by(|s, t| known[*s].volume.total_cmp(&known[*t].volume));
         for t in order {
-            if known[t].volume > self.best {
+            if known[t].volume > self.best || self.left == 0 {
                 break;
             }
             known[t] = self.try_axis(&normals[t]);

@@ -18,6 +18,10 @@ pub(super) struct Assembly {
     pub(super) notes: Notes,
 }
 
+/// So many parts are told apart; what would be another goes to the part without a look. Real files have up
+/// to some hundred materials, and a part costs some hundred bytes for the ten that name it.
+pub(super) const MOST_PARTS: usize = 4096;
+
 /// How a part looks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Material {
@@ -64,10 +68,14 @@ impl Assembly {
         if placed.triangles.is_empty() {
             return Ok(());
         }
-        let look = (
-            material.name.clone(),
-            material.color.map(|color| color.map(f64::to_bits)),
-        );
+        let mut look = look_of(material);
+        let mut material = material;
+        let plain = Material::default();
+        if self.parts.len() >= MOST_PARTS && !self.part_of.contains_key(&look) {
+            self.notes.add(NoteCode::Assumed, TOO_MANY_PARTS);
+            material = &plain;
+            look = look_of(material);
+        }
         if let Some(part) = self.part_of.get(&look) {
             self.parts[*part].mesh.append(&placed);
         } else {
@@ -79,6 +87,22 @@ impl Assembly {
             });
         }
         Ok(())
+    }
+
+    /// Notes vertices of an array that no triangle uses.
+    pub(super) fn note_unused(&mut self, vertices: &[[f64; 3]], used: &[bool]) {
+        let mut unused = vertices.iter().zip(used).filter(|(_, used)| !**used);
+        let Some(([x, y, z], _)) = unused.next() else {
+            return;
+        };
+        let text = match unused.count() {
+            0 => format!("no triangle uses the vertex ({x}, {y}, {z})"),
+            more => format!(
+                "no triangle uses {} vertices, the first at ({x}, {y}, {z})",
+                more + 1
+            ),
+        };
+        self.notes.add(NoteCode::UnusedVertices, text);
     }
 
     /// Whether so many triangles may be held.
@@ -111,6 +135,17 @@ impl Assembly {
             notes: self.notes.0,
         }
     }
+}
+
+/// What a note says where parts are not told apart.
+pub(super) const TOO_MANY_PARTS: &str =
+    "more than 4096 materials; what has another one is taken without material";
+
+fn look_of(material: &Material) -> Look {
+    (
+        material.name.clone(),
+        material.color.map(|color| color.map(f64::to_bits)),
+    )
 }
 
 fn within(what: &'static str, count: usize, limit: usize) -> Result<(), Failure> {

@@ -163,6 +163,16 @@ pub enum NoteCode {
     Assumed,
     /// There is no triangle.
     NoTriangles,
+    /// Vertices that no triangle uses were left out.
+    UnusedVertices,
+    /// The least and greatest coordinates that a glTF gives are not those of its positions.
+    WrongBounds,
+    /// Normals of a glTF are not of unit length.
+    WrongNormals,
+    /// A node of a glTF places its mesh by a transform.
+    NodeTransform,
+    /// A glTF shows something else than its triangles: morph targets, animations, instances.
+    ShownOtherwise,
 }
 
 /// Notes in the order in which they came up; equal ones are counted.

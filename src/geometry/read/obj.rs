@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::Matrix4;
 
-use super::assembly::{Assembly, Material, Picker};
+use super::assembly::{Assembly, MOST_PARTS, Material, Picker, TOO_MANY_PARTS};
 use super::error::{Failure, Fault, NoteCode, Place};
 use super::mtl;
 use super::number::Words;
@@ -21,6 +21,8 @@ pub(super) fn read(
         vertices: Vec::new(),
         groups: vec![Group::default()],
         current: 0,
+        wanted: None,
+        too_many: false,
         group_of: HashMap::new(),
     };
     let mut faces = Faces {
@@ -51,7 +53,22 @@ pub(super) fn read(
     assembly
         .notes
         .add_many(NoteCode::IndexOutOfRange, text, faces.bad);
+    if file.too_many {
+        assembly.notes.add(NoteCode::Assumed, TOO_MANY_PARTS);
+    }
     let materials = read_libraries(&file.libraries, fetch, assembly);
+    let mut used = vec![false; file.vertices.len()];
+    for corner in file
+        .groups
+        .iter()
+        .flat_map(|group| group.triangles.as_flattened())
+    {
+        if let Some(used) = used.get_mut(*corner as usize) {
+            *used = true;
+        }
+    }
+    assembly.note_unused(&file.vertices, &used);
+    drop(used);
     let mut picker = Picker::default();
     for group in &file.groups {
         let color = group
@@ -89,6 +106,10 @@ struct File {
     vertices: Vec<[f64; 3]>,
     groups: Vec<Group>,
     current: usize,
+    /// The material that was named since the last face.
+    wanted: Option<String>,
+    /// Whether there were more materials than are told apart.
+    too_many: bool,
     group_of: HashMap<String, usize>,
 }
 
@@ -115,12 +136,15 @@ impl File {
                 self.vertices.push(vertex);
             }
             // `fo` is an old spelling of `f`.
-            Some(b"f" | b"fo") => faces.face(
-                words,
-                &self.vertices,
-                &mut self.groups[self.current].triangles,
-            ),
-            Some(b"usemtl") => self.use_material(&rest_of(line, b"usemtl")),
+            Some(b"f" | b"fo") => {
+                self.begin_group();
+                faces.face(
+                    words,
+                    &self.vertices,
+                    &mut self.groups[self.current].triangles,
+                );
+            }
+            Some(b"usemtl") => self.wanted = Some(rest_of(line, b"usemtl")),
             Some(b"mtllib") => {
                 let library = rest_of(line, b"mtllib");
                 if self.libraries.len() < MOST_LIBRARIES && !self.libraries.contains(&library) {
@@ -132,15 +156,27 @@ impl File {
         Ok(())
     }
 
-    fn use_material(&mut self, name: &str) {
+    /// Turns to the group of the material that was last named; a face follows. A name without faces costs nothing.
+    fn begin_group(&mut self) {
+        let Some(name) = self.wanted.take() else {
+            return;
+        };
         let next = self.groups.len();
-        self.current = *self.group_of.entry(name.to_owned()).or_insert(next);
-        if self.current == next {
-            self.groups.push(Group {
-                material: Some(name.to_owned()),
-                triangles: Vec::new(),
-            });
-        }
+        self.current = match self.group_of.get(&name) {
+            Some(known) => *known,
+            None if next >= MOST_PARTS => {
+                self.too_many = true;
+                0
+            }
+            None => {
+                self.group_of.insert(name.clone(), next);
+                self.groups.push(Group {
+                    material: Some(name),
+                    triangles: Vec::new(),
+                });
+                next
+            }
+        };
     }
 }
 

@@ -2,7 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
+use super::super::mesh::Mesh;
 use super::super::read::Part;
+use super::normals::shaded;
 use super::{WriteError, checked, single};
 
 const FLOAT: u32 = 5126;
@@ -20,17 +22,37 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 /// # Errors
 /// [`WriteError`] without triangles, or where a part is broken.
 pub fn glb(parts: &[Part]) -> Result<Vec<u8>, WriteError> {
+    write(parts, false)
+}
+
+/// As [`glb`], with normals, so that what is round looks round: vertices at an edge of the surface are given once for
+/// each side of it. Their positions are those of the parts, bit for bit.
+///
+/// # Errors
+/// As [`glb`].
+pub fn smooth_glb(parts: &[Part]) -> Result<Vec<u8>, WriteError> {
+    write(parts, true)
+}
+
+fn write(parts: &[Part], smooth: bool) -> Result<Vec<u8>, WriteError> {
     let parts = checked(parts, "GLB")?;
     let mut data = Data::default();
     let mut materials: Vec<Value> = Vec::new();
     let mut primitives = Vec::with_capacity(parts.len());
     for part in parts {
         let mut primitive = Map::new();
-        primitive.insert(
-            "attributes".to_owned(),
-            json!({ "POSITION": data.push_positions(part) }),
-        );
-        primitive.insert("indices".to_owned(), json!(data.push_indices(part)));
+        let (attributes, indices) = if smooth {
+            let shaded = shaded(&part.mesh);
+            let position = data.push_positions(&shaded.mesh);
+            let normal = data.push_normals(&shaded.normals);
+            let attributes = json!({ "POSITION": position, "NORMAL": normal });
+            (attributes, data.push_indices(&shaded.mesh))
+        } else {
+            let attributes = json!({ "POSITION": data.push_positions(&part.mesh) });
+            (attributes, data.push_indices(&part.mesh))
+        };
+        primitive.insert("attributes".to_owned(), attributes);
+        primitive.insert("indices".to_owned(), json!(indices));
         if let Some(color) = part.color {
             let material = material(part.material.as_deref(), color);
             let index = materials
@@ -104,11 +126,11 @@ struct Data {
 }
 
 impl Data {
-    fn push_positions(&mut self, part: &Part) -> usize {
+    fn push_positions(&mut self, mesh: &Mesh) -> usize {
         let start = self.bytes.len();
         let mut low = [f32::INFINITY; 3];
         let mut high = [f32::NEG_INFINITY; 3];
-        for vertex in &part.mesh.vertices {
+        for vertex in &mesh.vertices {
             let vertex = single(*vertex);
             for (axis, coordinate) in vertex.iter().enumerate() {
                 low[axis] = low[axis].min(*coordinate);
@@ -119,16 +141,27 @@ impl Data {
         let view = self.push_view(start, ARRAY_BUFFER);
         let (low, high) = (low.map(f64::from), high.map(f64::from));
         self.accessors.push(json!({
-            "bufferView": view, "componentType": FLOAT, "count": part.mesh.vertices.len(), "type": "VEC3", "min": low, "max": high,
+            "bufferView": view, "componentType": FLOAT, "count": mesh.vertices.len(), "type": "VEC3", "min": low, "max": high,
         }));
         self.accessors.len() - 1
     }
 
-    fn push_indices(&mut self, part: &Part) -> usize {
+    fn push_normals(&mut self, normals: &[[f32; 3]]) -> usize {
         let start = self.bytes.len();
-        let corners = part.mesh.triangles.iter().flatten();
+        let numbers = normals.as_flattened().iter();
+        self.bytes.extend(numbers.flat_map(|x| x.to_le_bytes()));
+        let view = self.push_view(start, ARRAY_BUFFER);
+        self.accessors.push(json!({
+            "bufferView": view, "componentType": FLOAT, "count": normals.len(), "type": "VEC3",
+        }));
+        self.accessors.len() - 1
+    }
+
+    fn push_indices(&mut self, mesh: &Mesh) -> usize {
+        let start = self.bytes.len();
+        let corners = mesh.triangles.iter().flatten();
         // 65535 as an index would restart the primitive.
-        let component = if part.mesh.vertices.len() <= 65535 {
+        let component = if mesh.vertices.len() <= 65535 {
             self.bytes.extend(
                 corners
                     .filter_map(|corner| u16::try_from(*corner).ok())
@@ -143,7 +176,7 @@ impl Data {
         let view = self.push_view(start, ELEMENT_ARRAY_BUFFER);
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         self.accessors.push(json!({
-            "bufferView": view, "componentType": component, "count": part.mesh.triangles.len() * 3, "type": "SCALAR",
+            "bufferView": view, "componentType": component, "count": mesh.triangles.len() * 3, "type": "SCALAR",
         }));
         self.accessors.len() - 1
     }

@@ -6,10 +6,11 @@
 //! does. What is written depends on the parts alone: no time, no name of a machine.
 
 mod glb;
+mod normals;
 mod obj;
 mod stl;
 
-pub use glb::glb;
+pub use glb::{glb, smooth_glb};
 pub use obj::obj;
 pub use stl::stl;
 

@@ -122,7 +122,7 @@ fn read(
         let read = file::bytes(files, profile, path.path).and_then(|bytes| {
             file.not_glb = format == Format::Glb
                 && header_fault(&bytes[..bytes.len().min(HEADER)], bytes.len() as u64).is_some();
-            let (scene, fault) = file::derived(&bytes, path.path)?;
+            let (scene, fault) = file::derived(&bytes, path.path, profile)?;
             let of_stl = profile == Profile::V1 && scene.format == Content::StlBinary;
             let fault = fault.or_else(|| stl_records::fault(&bytes).filter(|_| of_stl));
             Ok((scene, fault))

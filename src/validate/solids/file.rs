@@ -40,7 +40,11 @@ pub fn bytes(files: &mut MeshFiles, profile: Profile, path: &str) -> Result<Vec<
 ///
 /// # Errors
 /// Where it is no mesh at all.
-pub fn derived(bytes: &[u8], path: &str) -> Result<(Scene, Option<String>), MeshFault> {
+pub fn derived(
+    bytes: &[u8],
+    path: &str,
+    profile: Profile,
+) -> Result<(Scene, Option<String>), MeshFault> {
     let options = Options {
         gltf_up: GltfUp::Keep,
         ..Options::default()
@@ -48,8 +52,15 @@ pub fn derived(bytes: &[u8], path: &str) -> Result<(Scene, Option<String>), Mesh
     // A derived mesh stands for itself: a material file beside it is no part of the surface.
     let scene = read_with(bytes, path, &mut |_| None, &options)
         .map_err(|error| MeshFault::Broken(without_name(&error)))?;
-    let repaired = scene.notes.iter().find(|note| is_fault(note.code));
-    let fault = repaired.map(ToString::to_string);
+    let named = scene.side_files.first().filter(|_| profile == Profile::V1);
+    let fault = match named {
+        Some(name) => Some(format!("it names another file, `{name}`")),
+        None => scene
+            .notes
+            .iter()
+            .find(|note| is_fault(note.code, profile))
+            .map(ToString::to_string),
+    };
     Ok((scene, fault))
 }
 
@@ -61,13 +72,19 @@ pub fn without_name(error: &MeshError) -> String {
     }
 }
 
-/// Whether what the reader noted makes a derived mesh unsound.
-fn is_fault(code: NoteCode) -> bool {
-    !matches!(
-        code,
+/// Whether what the reader noted makes a derived mesh unsound. Legacy modules say nothing of a node's
+/// transform, nor of what a file has besides its triangles.
+fn is_fault(code: NoteCode, profile: Profile) -> bool {
+    match code {
         NoteCode::SideFileMissing
-            | NoteCode::TurnedToZUp
-            | NoteCode::Assumed
-            | NoteCode::WrongExtension
-    )
+        | NoteCode::TurnedToZUp
+        | NoteCode::Assumed
+        | NoteCode::WrongExtension => false,
+        NoteCode::NodeTransform
+        | NoteCode::UnusedVertices
+        | NoteCode::WrongBounds
+        | NoteCode::WrongNormals
+        | NoteCode::ShownOtherwise => profile == Profile::V1,
+        _ => true,
+    }
 }

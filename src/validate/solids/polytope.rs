@@ -90,6 +90,16 @@ impl Polytope {
         if most == f64::NEG_INFINITY { 0.0 } else { most }
     }
 
+    /// How deep a point lies inside, m: its distance from the nearest face's plane; not positive outside.
+    pub fn depth(&self, point: [f64; 3]) -> f64 {
+        let point = Vector3::from(point);
+        let depths = self
+            .planes
+            .iter()
+            .map(|plane| plane.offset - plane.normal.dot(&point));
+        depths.fold(f64::INFINITY, f64::min)
+    }
+
     /// Whether a point is within a distance of every face's inner side.
     pub fn holds(&self, point: [f64; 3], distance: f64) -> bool {
         let near = (0..3).all(|i| {

@@ -1,7 +1,7 @@
 //! Accessors of a glTF: positions and indices.
 
 use super::super::assembly::Assembly;
-use super::super::error::{Failure, Fault};
+use super::super::error::{Failure, Fault, NoteCode};
 use super::buffer::Buffers;
 use super::json::{Accessor, Root};
 
@@ -82,8 +82,71 @@ pub(super) fn positions(
                 element(value);
         }
     }
+    if accessor.component_type == FLOAT && !bounds_are(accessor, &positions) {
+        let text = format!(
+            "`min` and `max` of accessor {index} are not the least and greatest of its positions"
+        );
+        assembly.notes.add(NoteCode::WrongBounds, text);
+    }
     Ok(positions)
 }
+
+/// Whether the bounds that an accessor gives are those of its positions, as binary32 has them.
+fn bounds_are(accessor: &Accessor, positions: &[[f64; 3]]) -> bool {
+    type Pick = fn(f64, f64) -> f64;
+    let sides: [(&Vec<f64>, Pick); 2] = [(&accessor.min, f64::min), (&accessor.max, f64::max)];
+    sides.into_iter().all(|(given, pick)| {
+        #[allow(clippy::cast_possible_truncation)]
+        let is = |(axis, given): (usize, &f64)| {
+            let found = positions.iter().map(|position| position[axis]).reduce(pick);
+            found.is_none_or(|found| found as f32 == *given as f32)
+        };
+        given.is_empty() || (given.len() == 3 && given.iter().enumerate().all(is))
+    })
+}
+
+/// Checks the normals of an accessor: finite, of unit length, one for each of the positions.
+pub(super) fn check_normals(
+    root: &Root,
+    index: usize,
+    count: usize,
+    buffers: &mut Buffers<'_, '_>,
+    assembly: &mut Assembly,
+) -> Result<(), Failure> {
+    let accessor = get(root, index)?;
+    let float = accessor.component_type == FLOAT && accessor.shape == "VEC3";
+    let (Some(view), true, None) = (accessor.buffer_view, float, &accessor.sparse) else {
+        // Quantized or sparse: what a glTF of a robot's part does not have.
+        return Ok(());
+    };
+    let (bytes, stride) = buffers.view(view, assembly)?;
+    let component = |bytes: &[u8], at: usize| {
+        f64::from(f32::from_le_bytes([
+            bytes[at],
+            bytes[at + 1],
+            bytes[at + 2],
+            bytes[at + 3],
+        ]))
+    };
+    let wrong = elements(bytes, accessor.byte_offset, stride, 12, accessor.count)?
+        .map(|bytes| [0, 4, 8].map(|at| component(bytes, at)))
+        .filter(|n| {
+            !((n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt() - 1.0)
+                .abs()
+                .le(&UNIT_NORMAL)
+        })
+        .count();
+    let text = "a normal is not of unit length";
+    assembly.notes.add_many(NoteCode::WrongNormals, text, wrong);
+    if accessor.count != count {
+        let text = format!("{} normals for {count} positions", accessor.count);
+        assembly.notes.add(NoteCode::WrongNormals, text);
+    }
+    Ok(())
+}
+
+/// How far the length of a normal may be from 1.
+const UNIT_NORMAL: f64 = 1e-3;
 
 /// The vertex indices of an accessor.
 pub(super) fn indices(

@@ -17,6 +17,7 @@ pub(super) struct Root {
     pub(super) buffer_views: Vec<BufferView>,
     pub(super) buffers: Vec<Buffer>,
     pub(super) images: Vec<Image>,
+    pub(super) animations: Vec<serde::de::IgnoredAny>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -43,6 +44,7 @@ pub(super) struct Node {
     /// Quaternion x, y, z, w.
     pub(super) rotation: Option<[f64; 4]>,
     pub(super) scale: Option<[f64; 3]>,
+    pub(super) extensions: Value,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -58,6 +60,7 @@ pub(super) struct Primitive {
     pub(super) indices: Option<usize>,
     pub(super) material: Option<usize>,
     pub(super) mode: Option<u32>,
+    pub(super) targets: Vec<serde::de::IgnoredAny>,
     pub(super) extensions: Value,
 }
 
@@ -66,6 +69,8 @@ pub(super) struct Primitive {
 pub(super) struct Attributes {
     #[serde(rename = "POSITION")]
     pub(super) position: Option<usize>,
+    #[serde(rename = "NORMAL")]
+    pub(super) normal: Option<usize>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -87,6 +92,8 @@ pub(super) struct Accessor {
     #[serde(rename = "type")]
     pub(super) shape: String,
     pub(super) sparse: Option<Sparse>,
+    pub(super) min: Vec<f64>,
+    pub(super) max: Vec<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -121,7 +121,17 @@ fn read_document(
             ),
         }
     }
-    for uri in root.images.iter().filter_map(|image| image.uri.as_deref()) {
+    if !root.animations.is_empty() {
+        assembly
+            .notes
+            .add(NoteCode::ShownOtherwise, "its animations were left out");
+    }
+    let images = root.images.iter().filter_map(|image| image.uri.as_deref());
+    let buffers = root
+        .buffers
+        .iter()
+        .filter_map(|buffer| buffer.uri.as_deref());
+    for uri in images.chain(buffers) {
         if !buffer::is_data(uri) {
             assembly.add_side_file(&super::collada::path_of_url(uri));
         }

@@ -1,6 +1,6 @@
 //! The nodes of a glTF, and the meshes that they place.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3};
 use serde_json::Value;
@@ -76,6 +76,7 @@ pub(super) fn walk<'r>(
         picker: Picker::default(),
         meshes: HashMap::new(),
         positions: HashMap::new(),
+        used: BTreeMap::new(),
         num_positions: 0,
         num_triangles: 0,
         path: Vec::new(),
@@ -83,6 +84,15 @@ pub(super) fn walk<'r>(
     };
     for node in nodes {
         walker.node(node, &start)?;
+    }
+    let Walker {
+        positions,
+        used,
+        assembly,
+        ..
+    } = walker;
+    for (accessor, used) in used {
+        assembly.note_unused(&positions[&accessor], &used);
     }
     Ok(())
 }
@@ -96,6 +106,8 @@ struct Walker<'r, 'b, 'f, 'a> {
     meshes: HashMap<usize, Vec<(Mesh, Material)>>,
     /// Each accessor of positions is read once, however many primitives share it.
     positions: HashMap<usize, Vec<[f64; 3]>>,
+    /// For each of these, which positions a triangle uses.
+    used: BTreeMap<usize, Vec<bool>>,
     /// Vertices and triangles that were read, placed or not: accessors may all name the same bytes.
     num_positions: usize,
     num_triangles: usize,
@@ -128,7 +140,16 @@ impl Walker<'_, '_, '_, '_> {
             }
             .into());
         }
-        let matrix = parent * local(node).map_err(|failure| failure.within("node", index))?;
+        let own = local(node).map_err(|failure| failure.within("node", index))?;
+        if own != Matrix4::identity() {
+            let text = "a node has a transform of its own";
+            self.assembly.notes.add(NoteCode::NodeTransform, text);
+        }
+        if node.extensions.get("EXT_mesh_gpu_instancing").is_some() {
+            let text = "its instances (EXT_mesh_gpu_instancing) were left out";
+            self.assembly.notes.add(NoteCode::ShownOtherwise, text);
+        }
+        let matrix = parent * own;
         if node.skin.is_some() {
             self.assembly.notes.add(
                 NoteCode::SkinAsShape,
@@ -201,7 +222,21 @@ impl Walker<'_, '_, '_, '_> {
             self.assembly.check_vertices(self.num_positions)?;
             self.positions.insert(position, read);
         }
+        if !primitive.targets.is_empty() {
+            let text = "its morph targets were left out";
+            self.assembly.notes.add(NoteCode::ShownOtherwise, text);
+        }
         let vertices = &self.positions[&position];
+        if let Some(normal) = primitive.attributes.normal {
+            let count = vertices.len();
+            // The surface does not hang on them.
+            if accessor::check_normals(self.root, normal, count, self.buffers, self.assembly)
+                .is_err()
+            {
+                let text = "its normals cannot be read";
+                self.assembly.notes.add(NoteCode::WrongNormals, text);
+            }
+        }
         let corners = match primitive.indices {
             Some(indices) => accessor::indices(self.root, indices, self.buffers, self.assembly)
                 .map_err(|failure| failure.within("accessor", indices))?,
@@ -222,6 +257,13 @@ impl Walker<'_, '_, '_, '_> {
         };
         self.num_triangles += triangles.len();
         self.assembly.check_triangles(self.num_triangles)?;
+        let used = self.used.entry(position).or_default();
+        used.resize(vertices.len(), false);
+        for corner in triangles.as_flattened() {
+            if let Some(used) = used.get_mut(*corner as usize) {
+                *used = true;
+            }
+        }
         let (mesh, left_out) = self.picker.pick(vertices, &triangles);
         let text = "a triangle was dropped: it names a vertex that is not there";
         self.assembly

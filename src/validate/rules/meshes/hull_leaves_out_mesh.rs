@@ -9,7 +9,7 @@ use crate::validate::finding::{Finding, Findings, metres, point};
 use crate::validate::part::Part;
 use crate::validate::rule::declare_rule;
 use crate::validate::solids::derived::Derived;
-use crate::validate::solids::polytope::{Polytope, bits, distinct};
+use crate::validate::solids::polytope::{Polytope, bits, distinct, step};
 use crate::validate::views::judged::judged;
 
 declare_rule! {
@@ -84,10 +84,14 @@ fn farthest_outside(context: &Context, link: usize) -> Option<([f64; 3], f64, f6
         Ok(own) => own.into_mesh().vertices,
         Err(_) => mesh.vertices.clone(),
     };
-    let unknown = corners
+    let unknown: Vec<[f64; 3]> = corners
         .into_iter()
-        .filter(|corner| !known.contains(&bits(*corner)));
+        .filter(|corner| !known.contains(&bits(*corner)))
+        .collect();
+    let every = step(unknown.len(), polytope.num_faces());
     let worst = unknown
+        .into_iter()
+        .step_by(every)
         .map(|corner| (corner, polytope.outside(corner)))
         .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
     (worst.1 > polytope.resolution).then_some((worst.0, worst.1, polytope.resolution))

@@ -18,6 +18,8 @@ pub mod mesh_presence_differs;
 pub mod mesh_references_differ;
 pub mod mesh_unsound;
 pub mod original_misdescribed;
+mod outreach;
+pub mod piece_barely_leaves_hull;
 pub mod piece_count_mismatch;
 pub mod piece_leaves_hull;
 pub mod piece_not_convex;
@@ -50,4 +52,5 @@ pub const RULES: &[&Rule] = &[
     &piece_not_convex::RULE,
     &piece_leaves_hull::RULE,
     &pieces_leave_surface::RULE,
+    &piece_barely_leaves_hull::RULE,
 ];

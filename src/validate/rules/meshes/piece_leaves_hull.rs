@@ -1,20 +1,14 @@
-use rayon::prelude::*;
-
-use crate::format::registry::ModuleKind;
+use super::outreach::{self, How};
 use crate::validate::context::Context;
-use crate::validate::finding::{Finding, Findings, metres, point};
-use crate::validate::part::Part;
+use crate::validate::finding::Findings;
 use crate::validate::rule::declare_rule;
-use crate::validate::solids::derived::Derived;
-use crate::validate::solids::polytope::{Polytope, distinct};
-use crate::validate::views::judged::judged;
 
 declare_rule! {
-    /// A convex piece reaches out of the hull of its link.
+    /// A convex piece reaches far out of the hull of its link.
     ///
-    /// Pieces stand for parts of the link, so that all of them are inside its hull. A piece that is not
-    /// is of another link, in another place, or larger than what it stands for: then programs see
-    /// collisions that are none.
+    /// Pieces stand for parts of the link, so all of them are inside its hull. This one reaches out by more
+    /// than 2 % of the hull's diagonal: it is of another link, in another place, or larger than what it
+    /// stands for. Programs then report collisions that do not happen.
     ///
     /// Decompose the link's plain mesh, and cut the pieces to its hull.
     MSH021 "piece-leaves-hull", Error, clause "7.10", since "0.1.0",
@@ -26,58 +20,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let kind = ModuleKind::ConvexDecompositionMeshes;
-    let Some(module) = context.module(kind) else {
-        return;
-    };
-    let part = |piece: &Derived| Part::Piece {
-        link: piece.link,
-        piece: piece.piece,
-    };
-    let pieces: Vec<&Derived> = context
-        .solids()
-        .derived(kind)
-        .iter()
-        .filter(|piece| judged(context, findings, part(piece), &[Part::Hull(piece.link)]))
-        .collect();
-    let outside: Vec<_> = pieces
-        .par_iter()
-        .map(|piece| farthest_outside(context, piece))
-        .collect();
-    for (piece, outside) in pieces.iter().zip(outside) {
-        let Some((place, distance, tolerance)) = outside else {
-            continue;
-        };
-        findings.report(
-            Finding::at(
-                module.file("module.json"),
-                piece.pointer(),
-                format!(
-                    "piece {} of {} reaches out of its hull: the vertex at {} is {} outside",
-                    piece.piece,
-                    context.link_label(piece.link),
-                    point(place),
-                    metres(distance)
-                ),
-            )
-            .expected("every vertex inside the hull")
-            .actual(format!("{} outside", metres(distance)))
-            .tolerance(tolerance)
-            .off_by(distance, "m")
-            .part(part(piece)),
-        );
-    }
-}
-
-/// The vertex of a piece that is farthest outside of its link's hull, how far, and the tolerance.
-fn farthest_outside(context: &Context, piece: &Derived) -> Option<([f64; 3], f64, f64)> {
-    let hull = context
-        .solids()
-        .sound(ModuleKind::ConvexHullMeshes, piece.link, 0)?;
-    let polytope = Polytope::new(hull)?;
-    let worst = distinct(piece.sound()?)
-        .into_iter()
-        .map(|vertex| (vertex, polytope.outside(vertex)))
-        .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
-    (worst.1 > polytope.resolution).then_some((worst.0, worst.1, polytope.resolution))
+    outreach::report(context, How::Far, findings);
 }

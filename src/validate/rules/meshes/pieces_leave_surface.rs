@@ -82,7 +82,8 @@ fn check(context: &Context, findings: &mut Findings) {
         )
         .expected("the whole surface of the plain mesh inside the pieces")
         .actual(format!("{} outside", metres(bare.distance)))
-        .tolerance(bare.tolerance);
+        .tolerance(bare.tolerance)
+        .off_by(bare.distance, "m");
         finding.parts = pieces_of(link);
         findings.report(finding);
     }

@@ -1,0 +1,91 @@
+//! Files that say the same thing very often, or name very many things: what they cost.
+
+use urdd::geometry::Mesh;
+use urdd::geometry::decompose::{Settings, decompose};
+use urdd::geometry::primitives::cuboid;
+use urdd::geometry::read::{NoteCode, Scene, read};
+
+fn read_obj(text: &str) -> Scene {
+    read(text.as_bytes(), "a.obj", &mut |_| None).expect("an OBJ")
+}
+
+/// Pieces of a surface are those of its triangles, however often the file has each.
+#[test]
+fn a_triangle_that_is_said_often_makes_what_it_makes_once() {
+    let mut once = cuboid([1.0, 0.2, 0.3]);
+    once.append(&cuboid([0.2, 1.0, 0.3]));
+    let often = Mesh {
+        // Each time beginning with another corner.
+        triangles: (0..500)
+            .flat_map(|n| {
+                once.triangles.iter().map(move |t| {
+                    let mut t = *t;
+                    t.rotate_left(n % 3);
+                    t
+                })
+            })
+            .collect(),
+        vertices: once.vertices.clone(),
+    };
+    let settings = Settings::default();
+    let found = decompose(&once, &settings);
+    assert!(found.pieces.len() > 1);
+    assert_eq!(decompose(&often, &settings), found);
+}
+
+#[test]
+fn a_material_without_a_face_is_no_part() {
+    let names: String = (0..5000).map(|n| format!("usemtl m{n}\n")).collect();
+    let scene = read_obj(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{names}f 1 2 3\n"));
+    assert_eq!(scene.parts.len(), 1);
+    assert_eq!(scene.parts[0].material.as_deref(), Some("m4999"));
+    assert!(
+        scene
+            .notes
+            .iter()
+            .all(|note| note.code != NoteCode::Assumed)
+    );
+}
+
+#[test]
+fn materials_beyond_the_limit_keep_their_triangles() {
+    let faces: String = (0..6000)
+        .map(|n| format!("usemtl m{n}\nf 1 2 3\n"))
+        .collect();
+    let scene = read_obj(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{faces}"));
+    assert!(scene.parts.len() <= 4097, "{}", scene.parts.len());
+    assert_eq!(scene.triangle_count(), 6000);
+    let without = scene.parts.iter().find(|part| part.material.is_none());
+    assert!(without.is_some_and(|part| part.mesh.triangles.len() >= 6000 - 4097));
+    assert!(
+        scene
+            .notes
+            .iter()
+            .any(|note| note.code == NoteCode::Assumed)
+    );
+}
+
+/// The number of triangles is that of the corners less two for each polygon, cut by ears or as a fan.
+#[test]
+fn many_tangled_polygons_are_cut_within_bounds() {
+    let corners = 3000;
+    let mut text = String::new();
+    for polygon in 0..80_u64 {
+        for corner in 0..corners {
+            // Any places that cross: the bits of a product.
+            let mixed = (polygon * corners + corner).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let (x, y) = (mixed >> 40 & 0xffff, mixed >> 20 & 0xffff);
+            text += &format!("v {x} {y} 0\n");
+        }
+        text += "f";
+        for corner in 1..=corners {
+            text += &format!(" -{corner}");
+        }
+        text += "\n";
+    }
+    let start = std::time::Instant::now();
+    let scene = read_obj(&text);
+    assert!(scene.triangle_count() > 0);
+    // Ears alone take more than a minute here.
+    assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
+}
