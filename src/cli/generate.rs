@@ -11,6 +11,7 @@ use super::generate_output::{Format, Printer};
 use super::output;
 use super::signals::Signals;
 use crate::format::escape;
+use crate::format::link_shapes_skips::SkippedReason;
 use crate::format::meshes::GeometryKind;
 use crate::generate::batch::{self, Job, Shard};
 use crate::generate::{
@@ -67,6 +68,11 @@ pub struct GenerateArguments {
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     samples: u32,
 
+    /// For which reasons pairs of shapes are skipped in collision checks, separated by commas. Without it, those of the
+    /// URDD that is replaced; of a new one same-link, always, adjacent and default. `never` rests on samples alone.
+    #[arg(long, value_enum, value_name = "REASONS", value_delimiter = ',')]
+    skip: Option<Vec<Skip>>,
+
     /// Threads; without it, one for each processor. The URDD is the same for any number.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -106,6 +112,32 @@ enum Preferred {
     Visual,
     /// The collision elements.
     Collision,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Skip {
+    /// Both shapes are on one link.
+    SameLink,
+    /// In contact in every sampled configuration.
+    Always,
+    /// A joint connects the two links.
+    Adjacent,
+    /// In contact in the default configuration: zero, clamped to the bounds.
+    Default,
+    /// In contact in no sampled configuration.
+    Never,
+}
+
+impl From<Skip> for SkippedReason {
+    fn from(skip: Skip) -> Self {
+        match skip {
+            Skip::SameLink => SkippedReason::SameLink,
+            Skip::Always => SkippedReason::Always,
+            Skip::Adjacent => SkippedReason::Adjacent,
+            Skip::Default => SkippedReason::Default,
+            Skip::Never => SkippedReason::Never,
+        }
+    }
 }
 
 /// Runs `urdd generate`.
@@ -269,6 +301,10 @@ fn settings(
         },
         strict: arguments.strict,
         drop_edits: arguments.drop_edits,
+        skipped_reasons: arguments.skip.as_ref().map(|skip| {
+            let reasons = skip.iter().copied();
+            reasons.map(SkippedReason::from).collect()
+        }),
         force: arguments.force,
         cancellation: signals.cancellation(),
     })

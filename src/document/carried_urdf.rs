@@ -26,9 +26,6 @@ pub enum NoUrdf {
     /// The root metadata cannot be used, so the source is not known.
     #[error("{ROOT_METADATA} does not fit its schema, so the source is not known")]
     MetadataUnusable,
-    /// The root metadata says that the robot is a composition.
-    #[error("the source is a composition; no URDF is carried")]
-    Composition,
     /// The root metadata names no source.
     #[error("the root metadata names no source")]
     NoSource,
@@ -64,9 +61,6 @@ pub(super) fn read(
         }
         (_, Some(metadata)) => match &metadata.source {
             Some(Source::Urdf(file)) => file.path.clone(),
-            Some(Source::Composition(_)) => {
-                return Err(NoUrdf::Composition);
-            }
             None => return Err(NoUrdf::NoSource),
         },
     };

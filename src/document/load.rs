@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use serde::Deserialize;
 
 use super::carried_urdf::{self, CarriedUrdf, NoUrdf};
+use super::draft;
 use super::module::{JsonFile, MetadataFile, Mirror, Module, VersionFile, is_extension};
 use super::schema_check;
 use crate::directory::discover::ROOT_METADATA;
@@ -202,11 +203,15 @@ fn read_module(
         mirror,
         violations: Vec::new(),
         document: None,
+        is_draft: false,
     };
     if let (Some(spec), Some(document)) = (module.spec, module.json.document()) {
         let (read, violations) = schema_check::read(spec, &document.value, newer);
         module.document = read;
-        module.violations = violations;
+        module.is_draft = module.document.is_none() && draft::is_draft(spec, &document.value);
+        if !module.is_draft {
+            module.violations = violations;
+        }
     }
     module
 }

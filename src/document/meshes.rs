@@ -231,17 +231,20 @@ fn legacy_key(format: Format) -> &'static str {
 }
 
 fn three<'a>(files: &'a MeshFiles, at: &str) -> Mesh<'a> {
-    let path = |format: Format, path: &'a str| MeshPath {
-        path,
-        pointer: format!("{at}/{}", format.extension()),
-        format: Some(format),
-    };
+    let each = [
+        (Format::Stl, files.stl.as_ref()),
+        (Format::Obj, files.obj.as_ref()),
+        (Format::Glb, Some(&files.glb)),
+    ];
+    let given = each.into_iter().filter_map(|(format, path)| {
+        Some(MeshPath {
+            path: path?,
+            pointer: format!("{at}/{}", format.extension()),
+            format: Some(format),
+        })
+    });
     Mesh {
-        paths: vec![
-            path(Format::Stl, &files.stl),
-            path(Format::Obj, &files.obj),
-            path(Format::Glb, &files.glb),
-        ],
+        paths: given.collect(),
     }
 }
 

@@ -11,6 +11,7 @@ pub mod connections;
 pub mod consumer;
 pub mod dof_layout;
 pub mod dofs;
+pub mod draft;
 pub mod entries;
 pub mod load;
 pub mod mesh_files;

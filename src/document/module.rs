@@ -107,6 +107,8 @@ pub struct Module {
     pub violations: Vec<SchemaViolation>,
     /// The document, where it fits its schema.
     pub document: Option<ModuleDocument>,
+    /// Whether the document breaks its schema only as those of the draft do: see [`super::draft`].
+    pub is_draft: bool,
 }
 
 impl Module {
@@ -130,6 +132,7 @@ impl Module {
             (JsonFile::Read(_), None) if self.spec.is_none() => {
                 DocumentFault::UnknownVersion(self.version.clone())
             }
+            (JsonFile::Read(_), None) if self.is_draft => DocumentFault::IsDraft,
             (JsonFile::Read(_), None) => DocumentFault::BreaksSchema,
         };
         Some(Unusable {
@@ -184,6 +187,8 @@ pub enum DocumentFault {
     NotJson,
     /// The module's version is not known, or it has none.
     UnknownVersion(Option<String>),
+    /// It follows the draft of urdd 0.1.0.
+    IsDraft,
     /// It breaks its schema.
     BreaksSchema,
 }
@@ -200,6 +205,9 @@ impl fmt::Display for Unusable {
                 write!(f, "version {version} of {name} is not known")
             }
             DocumentFault::UnknownVersion(None) => write!(f, "the version of {name} is not known"),
+            DocumentFault::IsDraft => {
+                write!(f, "{folder}/module.json follows the draft of urdd 0.1.0")
+            }
             DocumentFault::BreaksSchema => write!(f, "{folder}/module.json breaks its schema"),
         }
     }

@@ -234,8 +234,12 @@ impl<'a> Paths<'a> {
     }
 
     fn add_mesh(&mut self, pointer: &str, files: &'a MeshFiles) {
-        self.add(format!("{pointer}/stl"), &files.stl, PathRole::Stl);
-        self.add(format!("{pointer}/obj"), &files.obj, PathRole::Obj);
+        if let Some(stl) = &files.stl {
+            self.add(format!("{pointer}/stl"), stl, PathRole::Stl);
+        }
+        if let Some(obj) = &files.obj {
+            self.add(format!("{pointer}/obj"), obj, PathRole::Obj);
+        }
         self.add(format!("{pointer}/glb"), &files.glb, PathRole::Glb);
     }
 

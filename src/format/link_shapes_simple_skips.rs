@@ -5,8 +5,8 @@ use super::object::{module, object, string_enum};
 use super::shapes::PieceShape;
 
 module! {
-    /// For each pair of shapes, whether a collision check may skip it because the two are always in
-    /// contact, and how the pair is classed.
+    /// For each pair of shapes, whether the two are always in contact, so that a collision check says
+    /// nothing about them, and the reason by which the pair is classed.
     pub struct LinkShapesSimpleSkipsModule {
         /// What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
         pub full_shapes: Vec<LinkIdx>,
@@ -25,13 +25,13 @@ module! {
         pub decomposition_obbs_simple_skips: Option<Vec<Vec<bool>>>,
         /// Skips between the spheres of convex pieces; null where the statistics are.
         pub decomposition_bounding_spheres_simple_skips: Option<Vec<Vec<bool>>>,
-        /// Why, for each of the matrices above.
+        /// The reason of each pair, for each of the matrices above.
         pub reasons: SkipReasons,
     }
 }
 
 object! {
-    /// The class of each pair, for each kind of shape.
+    /// The reason of each pair, for each kind of shape.
     pub struct SkipReasons {
         /// Between the links' convex hulls.
         pub full_convex_hulls: Vec<Vec<SkipReason>>,
@@ -49,17 +49,21 @@ object! {
 }
 
 string_enum! {
-    /// The class of a pair of shapes: the first of these that applies.
+    /// The reason of a pair of shapes: the first of these that applies.
     pub enum SkipReason {
-        /// Both shapes are on one link. Skipped.
+        /// Both shapes are on one link. A simple skip.
         SameLink,
-        /// The largest sampled distance is at most 0.001 m: always in contact. Skipped.
+        /// The largest sampled distance is at most 0.001 m: always in contact. A simple skip.
         Always,
-        /// A joint connects the two links. Not skipped by this module.
+        /// A joint connects the two links. Not a simple skip.
         Adjacent,
-        /// The smallest sampled distance is more than 0.001 m: never in contact. Not skipped by this module.
+        /// The distance in the default configuration is at most 0.001 m: in contact when the robot
+        /// stands still at zero. Not a simple skip.
+        Default,
+        /// The smallest sampled distance is more than 0.001 m: never in contact, as far as the samples
+        /// show. Not a simple skip.
         Never,
-        /// In contact in some of the sampled configurations and not in others.
+        /// None of these: in contact in some of the sampled configurations and not in others.
         None,
     }
 }

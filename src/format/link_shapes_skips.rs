@@ -1,13 +1,17 @@
-//! `link_shapes_skips_module`: the simple skips, after a person's edits.
+//! `link_shapes_skips_module`: the pairs to skip, by reason and by a person's edits.
 
 use super::index::LinkIdx;
-use super::object::{module, object};
+use super::link_shapes_simple_skips::SkipReason;
+use super::object::{module, object, string_enum};
 use super::shapes::PieceShape;
 
 module! {
-    /// The pairs of shapes that a collision check may skip: the simple skips with a person's edits
-    /// applied in order.
+    /// The pairs of shapes that a collision check skips: those with one of the skipped reasons, and
+    /// then a person's edits, applied in order.
     pub struct LinkShapesSkipsModule {
+        /// The reasons of `link_shapes_simple_skips_module` for which a pair is skipped, each once, in
+        /// the order of the specification.
+        pub skipped_reasons: Vec<SkippedReason>,
         /// The edits, applied in order. What a person decides is free; the names must exist.
         pub edits: Vec<SkipEdit>,
         /// What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
@@ -30,15 +34,53 @@ module! {
 }
 
 object! {
-    /// A person's word on a pair of links, for all their shapes of every kind.
+    /// A person's decision on a pair of links, for all their shapes of every kind.
     pub struct SkipEdit {
         /// Name of one link.
         pub link_a: String,
         /// Name of the other link; may be the same.
         pub link_b: String,
-        /// Whether checks between the two are skipped from here on.
+        /// Whether checks between the two are skipped.
         pub skip: bool,
         /// Why.
         pub reason: String,
+    }
+}
+
+string_enum! {
+    /// A reason of `link_shapes_simple_skips_module` for which pairs can be skipped: all but `None`.
+    pub enum SkippedReason {
+        /// Both shapes are on one link.
+        SameLink,
+        /// Always in contact, as far as the samples show.
+        Always,
+        /// A joint connects the two links.
+        Adjacent,
+        /// In contact in the default configuration.
+        Default,
+        /// Never in contact, as far as the samples show: the number of samples is `num_samples` of
+        /// `link_shapes_distance_statistics_module`.
+        Never,
+    }
+}
+
+impl SkippedReason {
+    /// The reasons that are skipped where nobody says otherwise.
+    pub const USUAL: &[SkippedReason] = &[
+        SkippedReason::SameLink,
+        SkippedReason::Always,
+        SkippedReason::Adjacent,
+        SkippedReason::Default,
+    ];
+
+    /// The reason of a pair that is skipped for this.
+    pub fn of_pair(self) -> SkipReason {
+        match self {
+            SkippedReason::SameLink => SkipReason::SameLink,
+            SkippedReason::Always => SkipReason::Always,
+            SkippedReason::Adjacent => SkipReason::Adjacent,
+            SkippedReason::Default => SkipReason::Default,
+            SkippedReason::Never => SkipReason::Never,
+        }
     }
 }

@@ -13,13 +13,13 @@ string_enum! {
 }
 
 object! {
-    /// One mesh in three formats, the same triangles in each: vertices in metres, in the link's
+    /// One mesh in up to three formats, the same triangles in each: vertices in metres, in the link's
     /// frame, binary32. Paths are relative to the URDD's root, with forward slashes.
     pub struct MeshFiles {
-        /// Binary STL.
-        pub stl: String,
-        /// Wavefront OBJ.
-        pub obj: String,
+        /// Binary STL; null where the module has none.
+        pub stl: Option<String>,
+        /// Wavefront OBJ; null where the module has none.
+        pub obj: Option<String>,
         /// Binary glTF 2.0, no node with a transform, vertices in link axes, with the source's colours.
         pub glb: String,
     }

@@ -92,9 +92,9 @@ kinds! {
     LinkShapesMaxDistanceFromOrigin = "link_shapes_max_distance_from_origin_module" in "link_shapes_modules/", Some(Shapes), needs [ConvexHullMeshes, ConvexDecompositionMeshes, LinkShapesApproximations];
     /// How near shapes come.
     LinkShapesDistanceStatistics = "link_shapes_distance_statistics_module" in "link_shapes_modules/", Some(Shapes), needs [Dof, Chain, Bounds, ConvexHullMeshes, ConvexDecompositionMeshes, LinkShapesApproximations];
-    /// Pairs that are always in contact.
-    LinkShapesSimpleSkips = "link_shapes_simple_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Chain, LinkShapesDistanceStatistics];
-    /// Pairs to skip, after a person's edits.
+    /// Pairs that are always in contact, and the reason of every pair.
+    LinkShapesSimpleSkips = "link_shapes_simple_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Dof, Chain, Bounds, ConvexHullMeshes, ConvexDecompositionMeshes, LinkShapesApproximations, LinkShapesDistanceStatistics];
+    /// Pairs to skip, by reason and by a person's edits.
     LinkShapesSkips = "link_shapes_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Urdf, LinkShapesSimpleSkips];
     /// Error of linearised distances. Legacy only.
     LinkShapesLieAlgErrorModels = "link_shapes_lie_alg_error_models_module" in "link_shapes_modules/", None, needs [];

@@ -73,16 +73,6 @@ tagged! {
     pub enum Source {
         /// A URDF, carried verbatim in the URDD's root.
         Urdf(FileEntry),
-        /// Several robots, put together.
-        Composition(Composition),
-    }
-}
-
-object! {
-    /// Robots that were put together into one.
-    pub struct Composition {
-        /// Names of the robots, in the order in which they were attached.
-        pub robot_names: Vec<String>,
     }
 }
 

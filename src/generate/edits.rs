@@ -17,15 +17,38 @@ use crate::directory::root::{ReadError, Root};
 use crate::directory::text_fault::{KEPT_PER_KIND, TextFaultKind};
 use crate::directory::yaml;
 use crate::format::chain::ChainModule;
-use crate::format::link_shapes_skips::SkipEdit;
+use crate::format::link_shapes_skips::{SkipEdit, SkippedReason};
 use crate::format::registry::ModuleKind;
 
 /// The key of the edits.
 const EDITS: &str = "edits";
+/// The key of the reasons for which pairs are skipped.
+const SKIPPED_REASONS: &str = "skipped_reasons";
 
-/// The edits of a robot.
+/// What a person decided about the skips of a URDD.
+#[derive(Debug, Clone)]
+pub(super) struct Decisions {
+    /// The reasons for which pairs are skipped.
+    pub skipped_reasons: Vec<SkippedReason>,
+    /// The edits.
+    pub edits: Vec<SkipEdit>,
+}
+
+impl Default for Decisions {
+    /// Where nobody decided anything.
+    fn default() -> Self {
+        Decisions {
+            skipped_reasons: SkippedReason::USUAL.to_vec(),
+            edits: Vec::new(),
+        }
+    }
+}
+
+/// What a person decided about the skips of a robot.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Edits {
+    /// The reasons for which pairs are skipped.
+    pub skipped_reasons: Vec<SkippedReason>,
     /// Those that name links of the robot.
     pub kept: Vec<SkipEdit>,
     /// The others.
@@ -34,15 +57,20 @@ pub(super) struct Edits {
 
 impl Edits {
     /// Of a robot with these links.
-    pub fn of(edits: Vec<SkipEdit>, chain: &ChainModule) -> Self {
+    pub fn of(decisions: Decisions, chain: &ChainModule) -> Self {
         let is_link = |name: &str| {
             let mut links = chain.links_in_chain.iter();
             links.any(|link| link.name == name)
         };
-        let (kept, lost) = edits
+        let (kept, lost) = decisions
+            .edits
             .into_iter()
             .partition(|edit| is_link(&edit.link_a) && is_link(&edit.link_b));
-        Edits { kept, lost }
+        Edits {
+            skipped_reasons: decisions.skipped_reasons,
+            kept,
+            lost,
+        }
     }
 }
 
@@ -54,9 +82,9 @@ pub(super) fn read(
     folder: &Path,
     selection: &Selection,
     old: Option<&Old>,
-) -> Result<Vec<SkipEdit>, GenerateError> {
+) -> Result<Decisions, GenerateError> {
     let Ok(root) = Root::open(folder) else {
-        return Ok(Vec::new());
+        return Ok(Decisions::default());
     };
     let kind = ModuleKind::LinkShapesSkips;
     let json_path = format!("{}/module.json", kind.folder());
@@ -68,7 +96,7 @@ pub(super) fn read(
     };
     let bytes = match root.read(&json_path, MAX_DOCUMENT_BYTES) {
         Ok(bytes) => bytes,
-        Err(ReadError::Missing) => return Ok(Vec::new()),
+        Err(ReadError::Missing) => return Ok(Decisions::default()),
         Err(error) => {
             let fault = EditsFault::Unreadable(error.to_string());
             return Err(refused(&json_path, None, fault));
@@ -88,7 +116,7 @@ pub(super) fn read(
         let fault = EditsFault::Unreadable(twice.message.clone());
         return Err(refused(&json_path, twice.position, fault));
     }
-    let edits = parse(&document.value).map_err(|(pointer, fault)| {
+    let decisions = parse(&document.value).map_err(|(pointer, fault)| {
         let at = position::locate(&document.text, &pointer);
         refused(&json_path, at, fault)
     })?;
@@ -115,11 +143,11 @@ pub(super) fn read(
             ));
         }
     }
-    if !edits.is_empty() && !selection.has(kind) {
-        let fault = EditsFault::NotAskedFor(edits.len());
+    if !decisions.edits.is_empty() && !selection.has(kind) {
+        let fault = EditsFault::NotAskedFor(decisions.edits.len());
         return Err(refused(&json_path, None, fault));
     }
-    Ok(edits)
+    Ok(decisions)
 }
 
 /// Whether a file is as the metadata of its URDD says.
@@ -134,14 +162,20 @@ fn is_as_made(old: Option<&Old>, path: &str) -> bool {
 }
 
 fn is_of_edits(pointer: &str) -> bool {
-    let rest = pointer
-        .strip_prefix('/')
-        .and_then(|rest| rest.strip_prefix(EDITS));
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+    let first = pointer.split('/').nth(1);
+    first.is_some_and(|key| key == EDITS || key == SKIPPED_REASONS)
 }
 
-/// The edits of a document, of any draft; or where one is wrong, and how.
-fn parse(document: &Value) -> Result<Vec<SkipEdit>, (String, EditsFault)> {
+/// The decisions in a document, of any draft; or where one is wrong, and how.
+fn parse(document: &Value) -> Result<Decisions, (String, EditsFault)> {
+    let skipped_reasons = match document.get(SKIPPED_REASONS) {
+        // A draft of the format had no reasons to choose from, and had edits.
+        None => SkippedReason::USUAL.to_vec(),
+        Some(reasons) => serde_json::from_value(reasons.clone()).map_err(|error| {
+            let words = format!("{SKIPPED_REASONS}: {error}");
+            (format!("/{SKIPPED_REASONS}"), EditsFault::Edit(words))
+        })?,
+    };
     let Some(edits) = document.get(EDITS) else {
         return Err((String::new(), EditsFault::NoEdits));
     };
@@ -159,5 +193,8 @@ fn parse(document: &Value) -> Result<Vec<SkipEdit>, (String, EditsFault)> {
         serde_json::from_value::<SkipEdit>(edit.clone())
             .map_err(|error| (pointer, EditsFault::Edit(error.to_string())))
     });
-    edits.collect()
+    Ok(Decisions {
+        skipped_reasons,
+        edits: edits.collect::<Result<_, _>>()?,
+    })
 }

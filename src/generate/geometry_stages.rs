@@ -14,19 +14,20 @@ use super::shapes::MOST_PIECES_WITH_MATRICES;
 use super::shapes::approximations::approximations;
 use super::shapes::max_distances::max_distances;
 use super::shapes::simple_skips::simple_skips;
-use super::shapes::skips::skips;
-use super::shapes::statistics::statistics;
+use super::shapes::statistics::{at_default_configuration, statistics};
 use super::work::Work;
 use crate::format::convex_decomposition_meshes::{
     ConvexDecompositionMeshesModule, DecompositionMethod,
 };
 use crate::format::convex_hull_meshes::ConvexHullMeshesModule;
+use crate::format::link_shapes_skips::SkippedReason;
 use crate::format::meshes::{GeometryKind, MeshFiles};
 use crate::format::plain_meshes::{PlainMesh, PlainMeshesModule};
 use crate::format::registry::ModuleKind;
 use crate::geometry::decompose;
 use crate::geometry::hull::ConvexHull;
 use crate::geometry::read::Part;
+use crate::skips::skips_module;
 
 pub(super) fn plain_settings(work: &Work) -> String {
     match work.settings.preferred_geometry {
@@ -178,11 +179,8 @@ pub(super) fn distance_statistics(work: &mut Work) -> Result<Made, GenerateError
     let approximations = work.artifacts.approximations()?;
     let num_samples = work.settings.num_samples;
     let (dof, chain, bounds) = (&work.dof, &work.chain, &work.bounds);
-    let module = statistics(&solids, &approximations, dof, chain, bounds, num_samples);
-    let module = module.map_err(|reason| GenerateError::Geometry {
-        file: work.source.shown.clone(),
-        reason,
-    })?;
+    let module = statistics(&solids, &approximations, (dof, chain, bounds), num_samples);
+    let module = module.map_err(|reason| unmeasurable(work, reason))?;
     let document = document(&module)?;
     if module.decomposition_convex_hulls.is_none() {
         let pieces = module.decomposition_shapes.len();
@@ -197,21 +195,34 @@ pub(super) fn distance_statistics(work: &mut Work) -> Result<Made, GenerateError
     Ok(document)
 }
 
+fn unmeasurable(work: &Work, reason: String) -> GenerateError {
+    GenerateError::Geometry {
+        file: work.source.shown.clone(),
+        reason,
+    }
+}
+
 pub(super) fn skips_by_distance(work: &mut Work) -> Result<Made, GenerateError> {
     let statistics = work.artifacts.statistics()?;
-    let module = simple_skips(&statistics, &work.chain);
+    let solids = work.artifacts.solids()?;
+    let approximations = work.artifacts.approximations()?;
+    let kinematics = (&work.dof, &work.chain, &work.bounds);
+    let default = at_default_configuration(&solids, &approximations, kinematics)
+        .map_err(|reason| unmeasurable(work, reason))?;
+    let module = simple_skips(&statistics, &default, &work.chain);
     let document = document(&module)?;
     work.artifacts.simple_skips = Some(Arc::new(module));
     Ok(document)
 }
 
 pub(super) fn skips_settings(work: &Work) -> String {
-    serde_json::json!(work.edits.kept).to_string()
+    serde_json::json!((skipped_reasons(work), &work.edits.kept)).to_string()
 }
 
 pub(super) fn edited_skips(work: &mut Work) -> Result<Made, GenerateError> {
     let simple = work.artifacts.simple_skips()?;
-    let Edits { kept, lost } = std::mem::take(&mut work.edits);
+    let skipped_reasons = skipped_reasons(work);
+    let Edits { kept, lost, .. } = std::mem::take(&mut work.edits);
     for edit in lost {
         work.leave_out(
             format!(
@@ -221,7 +232,18 @@ pub(super) fn edited_skips(work: &mut Work) -> Result<Made, GenerateError> {
             "the edit is left out",
         );
     }
-    document(&skips(&simple, kept, &work.chain))
+    let links = work.chain.links_in_chain.iter();
+    let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
+    document(&skips_module(&simple, skipped_reasons, kept, &names))
+}
+
+/// The reasons for which pairs are skipped: as asked for, or else as before; each once, in order.
+fn skipped_reasons(work: &Work) -> Vec<SkippedReason> {
+    let asked = work.settings.skipped_reasons.as_deref();
+    let mut reasons = asked.unwrap_or(&work.edits.skipped_reasons).to_vec();
+    reasons.sort();
+    reasons.dedup();
+    reasons
 }
 
 /// A link, the index of a piece, and the mesh.
@@ -234,7 +256,7 @@ fn write<'a>(
     links: impl Iterator<Item = Vec<Named<'a>>>,
 ) -> Result<(Vec<Vec<MeshFiles>>, Vec<MadeFile>), GenerateError> {
     let links: Vec<Vec<Named>> = links.collect();
-    let written: Vec<Vec<(MeshFiles, [MadeFile; 3])>> = links
+    let written: Vec<Vec<(MeshFiles, Vec<MadeFile>)>> = links
         .into_par_iter()
         .map(|meshes| {
             let meshes = meshes.into_iter().map(|(link, piece, mesh)| {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::carry_over::{carry_over, extensions};
-use super::edits;
+use super::edits::{self, Decisions};
 use super::error::GenerateError;
 use super::made::{Content, Made};
 use super::meshes::MeshCount;
@@ -116,7 +116,7 @@ fn make(
     let staging = Staging::begin(target, &settings.cancellation)?;
     let old = Old::read(target);
     let edits = match settings.drop_edits {
-        true => Vec::new(),
+        true => Decisions::default(),
         false => edits::read(target, &settings.selection, old.as_ref())?,
     };
     check_target(target, old.as_ref(), settings)?;

@@ -6,6 +6,7 @@ use super::meshes::package::Packages;
 use super::selection::Selection;
 use super::source::xacro::XacroSettings;
 use crate::directory::cancellation::Cancellation;
+use crate::format::link_shapes_skips::SkippedReason;
 use crate::format::meshes::GeometryKind;
 
 /// How URDDs are made.
@@ -21,6 +22,9 @@ pub struct Settings {
     pub preferred_geometry: GeometryKind,
     /// Sampled configurations of the distance statistics.
     pub num_samples: u32,
+    /// For which reasons pairs of shapes are skipped; `None` for those of the URDD that is replaced,
+    /// or the usual ones where there is none.
+    pub skipped_reasons: Option<Vec<SkippedReason>>,
     /// How xacro files are expanded.
     pub xacro: XacroSettings,
     /// Whether a mesh that is not found, and all that is assumed and changes the robot, is an error.
@@ -43,6 +47,7 @@ impl Default for Settings {
             allowed_folders: Vec::new(),
             preferred_geometry: GeometryKind::Visual,
             num_samples: 1000,
+            skipped_reasons: None,
             xacro: XacroSettings::default(),
             strict: false,
             drop_edits: false,

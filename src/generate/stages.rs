@@ -114,7 +114,7 @@ const STAGES: &[Stage] = &[
     },
     Stage {
         kind: ModuleKind::LinkShapesSimpleSkips,
-        reuse: Reuse::SameInputs(""),
+        reuse: Reuse::SameInputs("2"),
         make: geometry::skips_by_distance,
     },
     Stage {

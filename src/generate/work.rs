@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::artifacts::Artifacts;
-use super::edits::Edits;
+use super::edits::{Decisions, Edits};
 use super::error::GenerateError;
 use super::fault::{Fault, PlacedFault};
 use super::meshes::original::OriginalMeshes;
@@ -15,7 +15,6 @@ use crate::format::bounds::BoundsModule;
 use crate::format::chain::ChainModule;
 use crate::format::dof::DofModule;
 use crate::format::kinematics_samples::KinematicsSamplesModule;
-use crate::format::link_shapes_skips::SkipEdit;
 
 /// What stages work with.
 pub(super) struct Work<'a> {
@@ -42,7 +41,7 @@ impl<'a> Work<'a> {
         source: &'a Source,
         settings: &'a Settings,
         root: &Path,
-        edits: Vec<SkipEdit>,
+        edits: Decisions,
     ) -> Result<Self, GenerateError> {
         let reading = &source.reading;
         let refused = |fault| GenerateError::Refused {

@@ -92,6 +92,13 @@ impl ConfigurationSpace {
         vec![0.0; self.bounds.len()]
     }
 
+    /// The default configuration: every DOF 0, or the bound nearest to 0 where 0 is out of bounds. A
+    /// rotation vector is (0, 0, 0).
+    pub fn default_configuration(&self) -> Vec<f64> {
+        let nearest_to_zero = |[a, b]: [f64; 2]| 0.0_f64.max(f64::min(a, b)).min(f64::max(a, b));
+        self.build(|_, pair| nearest_to_zero(pair), |_| [0.0; 3])
+    }
+
     /// Every DOF half-way between its bounds: `lower/2 + upper/2`, which cannot overflow, is 0 for
     /// symmetric bounds, and the bound itself where both are equal. A rotation vector is (0, 0, 0).
     pub fn middle(&self) -> Vec<f64> {
@@ -109,8 +116,7 @@ impl ConfigurationSpace {
     }
 
     /// Sampled configuration `k`, with `u(i)` = [`unit()`]`(k, i)` for DOF `i`:
-    /// `q = lower + u(i) * (upper - lower)`. Where `upper - lower` overflows, this is done with half
-    /// of each bound, and the result doubled. A rotation vector is that of the
+    /// `q = lower * (1 - u(i)) + upper * u(i)`, which cannot overflow. A rotation vector is that of the
     /// [`uniform_rotation`] made of the `u(i)` of its three DOFs, in order.
     pub fn sampled(&self, k: u64) -> Vec<f64> {
         self.build(
@@ -136,12 +142,7 @@ impl ConfigurationSpace {
 }
 
 fn between([lower, upper]: [f64; 2], u: f64) -> f64 {
-    let width = upper - lower;
-    if width.is_finite() {
-        lower + u * width
-    } else {
-        2.0 * (lower / 2.0 + u * (upper / 2.0 - lower / 2.0))
-    }
+    lower * (1.0 - u) + upper * u
 }
 
 #[cfg(test)]

@@ -66,7 +66,7 @@ def configuration(label, k=None):
     for kind, bounds in JOINTS:
         ball = 3 if kind in ("spherical", "floating") else 0
         for lower, upper in bounds[:len(bounds) - ball]:
-            q.append({"Zero": 0.0, "Middle": lower / 2 + upper / 2, "Lower": lower, "Upper": upper}.get(label) if k is None else lower + u(k, len(q)) * (upper - lower))
+            q.append({"Zero": 0.0, "Middle": lower / 2 + upper / 2, "Lower": lower, "Upper": upper}.get(label) if k is None else lower * (1 - u(k, len(q))) + upper * u(k, len(q)))
         if ball and k is None:
             q += {"Lower": (-math.pi, 0.0, 0.0), "Upper": (math.pi, 0.0, 0.0)}.get(label, (0.0, 0.0, 0.0))
         elif ball:

@@ -16,6 +16,36 @@ pub fn add_extension(f: &mut Fixture) {
     f.add_module(EXTENSION, json!({"grip": 1}));
 }
 
+const SKIPS: &str = "link_shapes_skips_module";
+
+/// As the draft of the format had them.
+fn set_simple_skips_dependencies(f: &mut Fixture) {
+    let modules = f.get(ROOT, "/modules").as_array().expect("a list");
+    let name = json!("link_shapes_simple_skips_module");
+    let place = modules.iter().position(|module| module["name"] == name);
+    let pointer = format!("/modules/{}/depends_on", place.expect("the module"));
+    let names = json!(["chain_module", "link_shapes_distance_statistics_module"]);
+    set_root(f, &pointer, names);
+}
+
+/// Matrices that skip the diagonal alone, without edits.
+fn unskip_all(f: &mut Fixture) {
+    f.set(SKIPS, "/edits", json!([]));
+    let document = f.doc_mut(SKIPS).as_object_mut().expect("an object");
+    for (key, matrix) in document {
+        if !key.ends_with("_skips") {
+            continue;
+        }
+        let rows = matrix.as_array_mut().expect("a matrix").iter_mut();
+        for (i, row) in rows.enumerate() {
+            let row = row.as_array_mut().expect("a row").iter_mut();
+            for (j, element) in row.enumerate() {
+                *element = json!(i == j);
+            }
+        }
+    }
+}
+
 /// A mesh file that a module names.
 fn mesh(f: &Fixture) -> String {
     let inside = "mesh_modules/plain_meshes_module/meshes/stl/";
@@ -147,6 +177,37 @@ pub fn cases() -> Vec<Case> {
         }),
         near_miss(DIR009, "as-known", |f| {
             set_root(f, "/urdd_version", json!("1.0.0"))
+        }),
+        invalid(DIR029, "urdf-in-the-root", |f| {
+            set_root(f, "/source", json!(null));
+        }),
+        invalid(DIR029, "named-in-upper-case", |f| {
+            let urdf = f.file(URDF).to_vec();
+            f.remove_file(URDF);
+            f.put_file("ROBOT.URDF", urdf);
+            set_root(f, "/source", json!(null));
+        }),
+        near_miss(DIR029, "no-urdf-in-the-root", |f| {
+            let urdf = f.file(URDF).to_vec();
+            f.remove_file(URDF);
+            f.put_file("notes/robot.urdf", urdf);
+            set_root(f, "/source", json!(null));
+        }),
+        invalid(DIR030, "as-urdd-0-1-0-wrote-it", |f| {
+            f.remove(SKIPS, "/skipped_reasons");
+            set_simple_skips_dependencies(f);
+        }),
+        invalid(DIR030, "without-skipped-reasons", |f| {
+            f.remove(SKIPS, "/skipped_reasons");
+        }),
+        invalid(
+            DIR030,
+            "dependencies-of-the-draft",
+            set_simple_skips_dependencies,
+        ),
+        near_miss(DIR030, "nothing-skipped", |f| {
+            f.set(SKIPS, "/skipped_reasons", json!([]));
+            unskip_all(f);
         }),
         invalid(DIR010, "no-yaml", |f| {
             f.remove_file(YAML);

@@ -142,6 +142,17 @@ fn files() -> Vec<Case> {
             let obj = text(f, HULLS, "/link_hulls/1/obj");
             f.set(HULLS, "/link_hulls/1/stl", json!(obj));
         }),
+        invalid(MSH003, "one-mesh-without-stl", |f| {
+            let path = text(f, HULLS, "/link_hulls/1/stl");
+            f.set(HULLS, "/link_hulls/1/stl", Value::Null);
+            f.remove_file(&path);
+            f.unlist(&path);
+        }),
+        near_miss(MSH003, "glb-alone", |f| {
+            for module in [PLAIN, HULLS, PIECES] {
+                without_formats(f, module);
+            }
+        }),
         legacy(MSH003, "not-in-every-format", true, || {
             let mut robot = LegacyRobot::new("robot", 0.0);
             robot.doc(PLAIN)[GLB][1] = Value::Null;
@@ -385,4 +396,32 @@ fn links() -> Vec<Case> {
             |_| {},
         ),
     ]
+}
+
+/// Takes the STL and OBJ files of a module away.
+fn without_formats(f: &mut Fixture, module: &str) {
+    fn clear(value: &mut Value, paths: &mut Vec<String>) {
+        match value {
+            Value::Object(object) => {
+                for (key, value) in object {
+                    match (key.as_str(), &value) {
+                        ("stl" | "obj", Value::String(path)) => {
+                            paths.push(path.clone());
+                            *value = Value::Null;
+                        }
+                        _ => clear(value, paths),
+                    }
+                }
+            }
+            Value::Array(list) => list.iter_mut().for_each(|value| clear(value, paths)),
+            _ => {}
+        }
+    }
+    let mut paths = Vec::new();
+    clear(f.doc_mut(module), &mut paths);
+    assert!(!paths.is_empty());
+    for path in paths {
+        f.remove_file(&path);
+        f.unlist(&path);
+    }
 }

@@ -5,7 +5,7 @@ mod fits;
 
 use serde_json::{Value, json};
 use urdd::format::link_shapes_skips::SkipEdit;
-use urdd::format::urdf::Link;
+use urdd::format::urdf::{Axis, Joint, JointType, Link};
 use urdd::validate::code::Code::*;
 
 use crate::legacy_robot::LegacyRobot;
@@ -56,6 +56,21 @@ fn pair_that_is(fixture: &Fixture, reason: &str) -> (usize, usize) {
 /// Two boxes that stay 0.9 m apart.
 fn two_boxes() -> Fixture {
     Fixture::full(&robot_of(vec![boxy("a"), boxy("b")]))
+}
+
+/// Two boxes of 0.1 m, of which one slides towards the other: their middles are `apart` at 0. A link
+/// without a shape is between them.
+fn sliding(apart: f64, lower: f64, upper: f64) -> Fixture {
+    let mut robot = robot_of(vec![boxy("a"), link("b"), boxy("c")]);
+    robot.urdf.joints[1] = Joint {
+        origin: origin([apart - 1.0, 0.0, 0.0], [0.0; 3]),
+        axis: Some(Axis {
+            xyz: Some([1.0, 0.0, 0.0]),
+        }),
+        limit: limit(lower, upper),
+        ..joint("slide", JointType::Prismatic, "b", "c")
+    };
+    Fixture::full_with_edits(&robot, Vec::new())
 }
 
 fn edit(link_a: &str, link_b: &str, skip: bool) -> SkipEdit {
@@ -360,6 +375,57 @@ fn skips() -> Vec<Case> {
                 assert_eq!(reason, &json!("Always"));
             },
         ),
+        invalid(SHP013, "adjacent-and-not-skipped", |f| {
+            let pair = pair_that_is(f, "Adjacent");
+            set_pair(f, SKIPS, "/full_convex_hulls_skips", pair, json!(false));
+        }),
+        invalid(SHP013, "reason-no-longer-skipped", |f| {
+            let reasons = json!(["SameLink", "Always", "Default"]);
+            f.set(SKIPS, "/skipped_reasons", reasons);
+        }),
+        changed(
+            SHP026,
+            "touching-at-zero-is-default",
+            true,
+            || sliding(0.1, -0.3, 0.3),
+            |f| {
+                let pair = (0, 1);
+                assert_eq!(f.get(SIMPLE, "/reasons/full_obbs/0/1"), &json!("Default"));
+                set_pair(f, SIMPLE, "/reasons/full_obbs", pair, json!("None"));
+                set_pair(f, SKIPS, "/full_obbs_skips", pair, json!(false));
+            },
+        ),
+        changed(
+            SHP026,
+            "apart-at-zero-is-not",
+            true,
+            || sliding(0.3, -0.3, 0.1),
+            |f| {
+                set_pair(f, SIMPLE, "/reasons/full_obbs", (0, 1), json!("Default"));
+                set_pair(f, SKIPS, "/full_obbs_skips", (0, 1), json!(true));
+            },
+        ),
+        // 0 is out of bounds: at the bound nearest to it the boxes are in contact.
+        changed(
+            SHP026,
+            "touching-at-the-nearest-bound",
+            false,
+            || sliding(0.3, -0.9, -0.2),
+            |f| {
+                assert_eq!(f.get(SIMPLE, "/reasons/full_obbs/0/1"), &json!("Default"));
+            },
+        ),
+        invalid(SHP027, "out-of-order", |f| {
+            let reasons = json!(["SameLink", "Adjacent", "Always", "Default"]);
+            f.set(SKIPS, "/skipped_reasons", reasons);
+        }),
+        invalid(SHP027, "twice", |f| {
+            f.set(SKIPS, "/skipped_reasons/-", json!("Default"));
+        }),
+        changed(SHP027, "never-too", false, two_boxes, |f| {
+            assert_eq!(f.get(SIMPLE, "/reasons/full_obbs/0/1"), &json!("Adjacent"));
+            f.set(SKIPS, "/skipped_reasons/-", json!("Never"));
+        }),
         invalid(SHP013, "skipped-without-an-edit", |f| {
             let pair = pair_that_is(f, "None");
             let old = f.get(

@@ -376,7 +376,9 @@ pub fn sampled_configuration(robot: &Robot, core: &Core, k: u32) -> Vec<f64> {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     };
     let bounds = core.bounds.bounds.iter().enumerate();
-    let mut q: Vec<f64> = bounds.map(|(i, [l, h])| l + uniform(i) * (h - l)).collect();
+    let mut q: Vec<f64> = bounds
+        .map(|(i, [l, h])| l * (1.0 - uniform(i)) + h * uniform(i))
+        .collect();
     for i in rotation_vectors(robot, &core.dof) {
         let [u1, u2, u3] = [uniform(i), uniform(i + 1), uniform(i + 2)];
         let (a, b) = (u1.sqrt(), (1.0 - u1).sqrt());
@@ -386,6 +388,22 @@ pub fn sampled_configuration(robot: &Robot, core: &Core, k: u32) -> Vec<f64> {
         let v = [b * s2, b * c2, a * s3].map(|c| sign * c);
         let angle = 2.0 * norm(v).atan2(sign * a * c3);
         q[i..i + 3].copy_from_slice(&unit(v).map(|c| c * angle));
+    }
+    q
+}
+
+/// The default configuration (9.4): 0, moved into the bounds; rotation vectors 0.
+pub fn default_configuration(robot: &Robot, core: &Core) -> Vec<f64> {
+    let bounds = core.bounds.bounds.iter();
+    let mut q: Vec<f64> = bounds
+        .map(|[l, h]| match (*l > 0.0, *h < 0.0) {
+            (true, _) => *l,
+            (_, true) => *h,
+            _ => 0.0,
+        })
+        .collect();
+    for i in rotation_vectors(robot, &core.dof) {
+        q[i..i + 3].fill(0.0);
     }
     q
 }

@@ -118,12 +118,12 @@ impl Meshes {
                     format!("{}/meshes/{extension}/{stem}.{extension}", kind.folder())
                 };
                 let named = MeshFiles {
-                    stl: path("stl"),
-                    obj: path("obj"),
+                    stl: Some(path("stl")),
+                    obj: Some(path("obj")),
                     glb: path("glb"),
                 };
-                files.insert(named.stl.clone(), stl(&solid.corners));
-                files.insert(named.obj.clone(), obj(&solid.corners, None));
+                files.insert(path("stl"), stl(&solid.corners));
+                files.insert(path("obj"), obj(&solid.corners, None));
                 files.insert(named.glb.clone(), glb(&solid.corners, solids.color));
                 named
             };

@@ -10,8 +10,8 @@ use urdd::format::link_shapes_skips::*;
 use urdd::format::shapes::PieceShape;
 
 use super::core::{
-    Core, Transform, apply, link_transforms, norm, rotation_of_rpy, sampled_configuration,
-    transform, unit,
+    Core, Transform, apply, default_configuration, link_transforms, norm, rotation_of_rpy,
+    sampled_configuration, transform, unit,
 };
 use super::meshes::{Meshes, Point, Solid, TRIANGLES, cross, dot, minus};
 use super::robot::Robot;
@@ -33,7 +33,9 @@ impl Shapes {
         let full = Group::new(meshes, |solids| vec![solids.whole.clone()]);
         let pieces = Group::new(meshes, |solids| solids.pieces.clone());
         let statistics = statistics(robot, core, &full, &pieces);
-        let simple_skips = simple_skips(core, &statistics);
+        let default = [default_configuration(robot, core)];
+        let default = statistics_over(robot, core, &full, &pieces, &default);
+        let simple_skips = simple_skips(core, &statistics, &default);
         let skips = skips(robot, &simple_skips, edits);
         Shapes {
             approximations: LinkShapesApproximationsModule {
@@ -164,8 +166,22 @@ fn statistics(
     full: &Group,
     pieces: &Group,
 ) -> LinkShapesDistanceStatisticsModule {
-    let poses: Vec<Vec<Transform>> = (0..NUM_SAMPLES)
-        .map(|k| link_transforms(robot, core, &sampled_configuration(robot, core, k)))
+    let configurations: Vec<Vec<f64>> = (0..NUM_SAMPLES)
+        .map(|k| sampled_configuration(robot, core, k))
+        .collect();
+    statistics_over(robot, core, full, pieces, &configurations)
+}
+
+fn statistics_over(
+    robot: &Robot,
+    core: &Core,
+    full: &Group,
+    pieces: &Group,
+    configurations: &[Vec<f64>],
+) -> LinkShapesDistanceStatisticsModule {
+    let poses: Vec<Vec<Transform>> = configurations
+        .iter()
+        .map(|q| link_transforms(robot, core, q))
         .collect();
     let [full_convex_hulls, full_obbs, full_bounding_spheres] = three_kinds(full, &poses);
     let [piece_hulls, piece_obbs, piece_spheres] = three_kinds(pieces, &poses);
@@ -175,7 +191,7 @@ fn statistics(
     };
     let full_shapes = full.shapes();
     LinkShapesDistanceStatisticsModule {
-        num_samples: Count(NUM_SAMPLES),
+        num_samples: Count(configurations.len() as u32),
         full_shapes: full_shapes.iter().map(|s| LinkIdx(s.0 as u32)).collect(),
         decomposition_shapes: pieces.shapes().iter().map(piece_shape).collect(),
         full_convex_hulls,
@@ -337,15 +353,16 @@ const CONTACT: f64 = 0.001;
 fn simple_skips(
     core: &Core,
     statistics: &LinkShapesDistanceStatisticsModule,
+    default: &LinkShapesDistanceStatisticsModule,
 ) -> LinkShapesSimpleSkipsModule {
-    let s = statistics;
+    let (s, at_default) = (statistics, default);
     let full: Vec<LinkIdx> = s.full_shapes.clone();
     let pieces: Vec<LinkIdx> = s.decomposition_shapes.iter().map(|p| p.link_idx).collect();
-    let of = |d: &DistanceStatistics, links: &[LinkIdx]| {
+    let of = |d: &DistanceStatistics, default: &DistanceStatistics, links: &[LinkIdx]| {
         let reasons: Vec<Vec<SkipReason>> = (0..links.len())
             .map(|i| {
                 (0..links.len())
-                    .map(|j| reason(core, d, links, i, j))
+                    .map(|j| reason(core, (d, default), links, i, j))
                     .collect()
             })
             .collect();
@@ -359,13 +376,28 @@ fn simple_skips(
             .collect();
         (skips, reasons)
     };
-    let maybe = |d: &Option<DistanceStatistics>| d.as_ref().map(|d| of(d, &pieces)).unzip();
-    let (full_hulls, full_hull_reasons) = of(&s.full_convex_hulls, &full);
-    let (full_obbs, full_obb_reasons) = of(&s.full_obbs, &full);
-    let (full_spheres, full_sphere_reasons) = of(&s.full_bounding_spheres, &full);
-    let (piece_hulls, piece_hull_reasons) = maybe(&s.decomposition_convex_hulls);
-    let (piece_obbs, piece_obb_reasons) = maybe(&s.decomposition_obbs);
-    let (piece_spheres, piece_sphere_reasons) = maybe(&s.decomposition_bounding_spheres);
+    let maybe = |d: &Option<DistanceStatistics>, default: &Option<DistanceStatistics>| {
+        let both = d.as_ref().zip(default.as_ref());
+        both.map(|(d, default)| of(d, default, &pieces)).unzip()
+    };
+    let (full_hulls, full_hull_reasons) =
+        of(&s.full_convex_hulls, &at_default.full_convex_hulls, &full);
+    let (full_obbs, full_obb_reasons) = of(&s.full_obbs, &at_default.full_obbs, &full);
+    let (full_spheres, full_sphere_reasons) = of(
+        &s.full_bounding_spheres,
+        &at_default.full_bounding_spheres,
+        &full,
+    );
+    let (piece_hulls, piece_hull_reasons) = maybe(
+        &s.decomposition_convex_hulls,
+        &at_default.decomposition_convex_hulls,
+    );
+    let (piece_obbs, piece_obb_reasons) =
+        maybe(&s.decomposition_obbs, &at_default.decomposition_obbs);
+    let (piece_spheres, piece_sphere_reasons) = maybe(
+        &s.decomposition_bounding_spheres,
+        &at_default.decomposition_bounding_spheres,
+    );
     LinkShapesSimpleSkipsModule {
         full_shapes: s.full_shapes.clone(),
         decomposition_shapes: s.decomposition_shapes.clone(),
@@ -388,7 +420,7 @@ fn simple_skips(
 
 fn reason(
     core: &Core,
-    distances: &DistanceStatistics,
+    (distances, default): (&DistanceStatistics, &DistanceStatistics),
     links: &[LinkIdx],
     i: usize,
     j: usize,
@@ -401,6 +433,7 @@ fn reason(
         () if links[i] == links[j] => SkipReason::SameLink,
         () if distances.max_distances[i][j] <= CONTACT => SkipReason::Always,
         () if joined(links[i], links[j]) || joined(links[j], links[i]) => SkipReason::Adjacent,
+        () if default.max_distances[i][j] <= CONTACT => SkipReason::Default,
         () if distances.min_distances[i][j] > CONTACT => SkipReason::Never,
         () => SkipReason::None,
     }
@@ -414,8 +447,15 @@ fn skips(
     let full: Vec<LinkIdx> = simple.full_shapes.clone();
     let pieces = simple.decomposition_shapes.iter();
     let pieces: Vec<LinkIdx> = pieces.map(|p| p.link_idx).collect();
-    let edited = |matrix: &Vec<Vec<bool>>, links: &[LinkIdx]| {
-        let mut matrix = matrix.clone();
+    let edited = |reasons: &Vec<Vec<SkipReason>>, links: &[LinkIdx]| {
+        let by_reason = |reason: &SkipReason| match reason {
+            SkipReason::SameLink | SkipReason::Always => true,
+            SkipReason::Adjacent | SkipReason::Default => true,
+            SkipReason::Never | SkipReason::None => false,
+        };
+        let rows = reasons.iter();
+        let rows = rows.map(|row| row.iter().map(by_reason).collect());
+        let mut matrix: Vec<Vec<bool>> = rows.collect();
         for edit in &edits {
             let [a, b] = [&edit.link_a, &edit.link_b].map(|name| robot.link_idx(name));
             for i in 0..links.len() {
@@ -429,20 +469,26 @@ fn skips(
         }
         matrix
     };
-    let of_pieces = |matrix: &Option<Vec<Vec<bool>>>| matrix.as_ref().map(|m| edited(m, &pieces));
+    let of_pieces = |reasons: &Option<Vec<Vec<SkipReason>>>| {
+        let reasons = reasons.as_ref();
+        reasons.map(|reasons| edited(reasons, &pieces))
+    };
+    let reasons = &simple.reasons;
     LinkShapesSkipsModule {
         full_shapes: simple.full_shapes.clone(),
         decomposition_shapes: simple.decomposition_shapes.clone(),
-        full_convex_hulls_skips: edited(&simple.full_convex_hulls_simple_skips, &full),
-        full_obbs_skips: edited(&simple.full_obbs_simple_skips, &full),
-        full_bounding_spheres_skips: edited(&simple.full_bounding_spheres_simple_skips, &full),
-        decomposition_convex_hulls_skips: of_pieces(
-            &simple.decomposition_convex_hulls_simple_skips,
-        ),
-        decomposition_obbs_skips: of_pieces(&simple.decomposition_obbs_simple_skips),
-        decomposition_bounding_spheres_skips: of_pieces(
-            &simple.decomposition_bounding_spheres_simple_skips,
-        ),
+        full_convex_hulls_skips: edited(&reasons.full_convex_hulls, &full),
+        full_obbs_skips: edited(&reasons.full_obbs, &full),
+        full_bounding_spheres_skips: edited(&reasons.full_bounding_spheres, &full),
+        decomposition_convex_hulls_skips: of_pieces(&reasons.decomposition_convex_hulls),
+        decomposition_obbs_skips: of_pieces(&reasons.decomposition_obbs),
+        decomposition_bounding_spheres_skips: of_pieces(&reasons.decomposition_bounding_spheres),
+        skipped_reasons: vec![
+            SkippedReason::SameLink,
+            SkippedReason::Always,
+            SkippedReason::Adjacent,
+            SkippedReason::Default,
+        ],
         edits,
     }
 }

@@ -42,8 +42,8 @@ pub(crate) fn mesh_files(
         format!("{}/meshes/{extension}/{name}.{extension}", kind.folder())
     };
     MeshFiles {
-        stl: path("stl"),
-        obj: path("obj"),
+        stl: Some(path("stl")),
+        obj: Some(path("obj")),
         glb: path("glb"),
     }
 }
@@ -65,8 +65,8 @@ mod tests {
     fn pieces_lie_in_a_folder_of_their_link() {
         let files = mesh_files(ModuleKind::PlainMeshes, 3, "a b", None);
         assert_eq!(
-            files.obj,
-            "mesh_modules/plain_meshes_module/meshes/obj/3_a_b.obj"
+            files.obj.as_deref(),
+            Some("mesh_modules/plain_meshes_module/meshes/obj/3_a_b.obj")
         );
         let kind = ModuleKind::ConvexDecompositionMeshes;
         let files = mesh_files(kind, 3, "a", Some(12));

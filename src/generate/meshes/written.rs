@@ -65,12 +65,12 @@ pub(crate) enum Shading {
     Smooth,
 }
 
-/// The three files of a mesh.
+/// The files of a mesh, in the formats that are named.
 pub(crate) fn files_of(
     parts: &[Part],
     files: &MeshFiles,
     shading: Shading,
-) -> Result<[MadeFile; 3], GenerateError> {
+) -> Result<Vec<MadeFile>, GenerateError> {
     let glb = match shading {
         Shading::Flat => write::glb(parts),
         Shading::Smooth => write::smooth_glb(parts),
@@ -83,11 +83,15 @@ pub(crate) fn files_of(
         path: path.clone(),
         content: Content::Bytes(bytes),
     };
-    Ok([
-        file(&files.stl, write::stl(parts).map_err(internal)?),
-        file(&files.obj, write::obj(parts).map_err(internal)?),
-        file(&files.glb, glb.map_err(internal)?),
-    ])
+    let mut made = Vec::with_capacity(3);
+    if let Some(stl) = &files.stl {
+        made.push(file(stl, write::stl(parts).map_err(internal)?));
+    }
+    if let Some(obj) = &files.obj {
+        made.push(file(obj, write::obj(parts).map_err(internal)?));
+    }
+    made.push(file(&files.glb, glb.map_err(internal)?));
+    Ok(made)
 }
 
 /// Takes up a mesh that was written before.

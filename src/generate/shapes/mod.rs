@@ -3,7 +3,6 @@
 pub(crate) mod approximations;
 pub(crate) mod max_distances;
 pub(crate) mod simple_skips;
-pub(crate) mod skips;
 pub(crate) mod statistics;
 
 use crate::format::index::{LinkIdx, PieceIdx};

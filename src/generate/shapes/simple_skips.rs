@@ -1,4 +1,5 @@
-//! `link_shapes_simple_skips_module` from the distance statistics: SPEC 8.6.
+//! `link_shapes_simple_skips_module` from the distance statistics, and the distances in the default
+//! configuration: SPEC 8.6.
 
 use std::collections::HashSet;
 
@@ -16,9 +17,10 @@ const CONTACT: f64 = 0.001;
 type Skips = Vec<Vec<bool>>;
 type Reasons = Vec<Vec<SkipReason>>;
 
-/// Makes the module.
+/// Makes the module. `default` has as its smallest distances those in the default configuration.
 pub(crate) fn simple_skips(
     statistics: &LinkShapesDistanceStatisticsModule,
+    default: &LinkShapesDistanceStatisticsModule,
     chain: &ChainModule,
 ) -> LinkShapesSimpleSkipsModule {
     let joined: HashSet<[usize; 2]> = chain
@@ -29,18 +31,25 @@ pub(crate) fn simple_skips(
     let full: Vec<usize> = statistics.full_shapes.iter().map(|l| l.get()).collect();
     let pieces = statistics.decomposition_shapes.iter();
     let pieces: Vec<usize> = pieces.map(|piece| piece.link_idx.get()).collect();
-    let of_full = |of: &DistanceStatistics| classed(&full, of, &joined);
-    let of_pieces = |of: &Option<DistanceStatistics>| {
-        let classed = of.as_ref().map(|of| classed(&pieces, of, &joined));
-        classed.unzip()
+    let of_full = |of: &DistanceStatistics, default: &DistanceStatistics| {
+        classed(&full, of, &default.min_distances, &joined)
     };
-    let (hulls, hull_reasons) = of_full(&statistics.full_convex_hulls);
-    let (obbs, obb_reasons) = of_full(&statistics.full_obbs);
-    let (spheres, sphere_reasons) = of_full(&statistics.full_bounding_spheres);
-    let (piece_hulls, piece_hull_reasons) = of_pieces(&statistics.decomposition_convex_hulls);
-    let (piece_obbs, piece_obb_reasons) = of_pieces(&statistics.decomposition_obbs);
-    let (piece_spheres, piece_sphere_reasons) =
-        of_pieces(&statistics.decomposition_bounding_spheres);
+    let of_pieces = |of: &Option<DistanceStatistics>, default: &Option<DistanceStatistics>| {
+        let both = of.as_ref().zip(default.as_ref());
+        both.map(|(of, default)| classed(&pieces, of, &default.min_distances, &joined))
+            .unzip()
+    };
+    let (s, d) = (statistics, default);
+    let (hulls, hull_reasons) = of_full(&s.full_convex_hulls, &d.full_convex_hulls);
+    let (obbs, obb_reasons) = of_full(&s.full_obbs, &d.full_obbs);
+    let (spheres, sphere_reasons) = of_full(&s.full_bounding_spheres, &d.full_bounding_spheres);
+    let (piece_hulls, piece_hull_reasons) =
+        of_pieces(&s.decomposition_convex_hulls, &d.decomposition_convex_hulls);
+    let (piece_obbs, piece_obb_reasons) = of_pieces(&s.decomposition_obbs, &d.decomposition_obbs);
+    let (piece_spheres, piece_sphere_reasons) = of_pieces(
+        &s.decomposition_bounding_spheres,
+        &d.decomposition_bounding_spheres,
+    );
     LinkShapesSimpleSkipsModule {
         full_shapes: statistics.full_shapes.clone(),
         decomposition_shapes: statistics.decomposition_shapes.clone(),
@@ -61,10 +70,11 @@ pub(crate) fn simple_skips(
     }
 }
 
-/// Whether each pair is skipped, and its class. `links[i]` is the link of shape i.
+/// Whether each pair is a simple skip, and its reason. `links[i]` is the link of shape i.
 fn classed(
     links: &[usize],
     statistics: &DistanceStatistics,
+    default: &[Vec<f64>],
     joined: &HashSet<[usize; 2]>,
 ) -> (Skips, Reasons) {
     let reason = |i: usize, j: usize| {
@@ -75,6 +85,8 @@ fn classed(
             SkipReason::Always
         } else if joined.contains(&[a, b]) || joined.contains(&[b, a]) {
             SkipReason::Adjacent
+        } else if default[i][j] <= CONTACT {
+            SkipReason::Default
         } else if statistics.min_distances[i][j] > CONTACT {
             SkipReason::Never
         } else {

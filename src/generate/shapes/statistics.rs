@@ -26,12 +26,43 @@ use crate::kinematics::{ConfigurationSpace, ForwardKinematics};
 pub(crate) fn statistics(
     solids: &ConvexMeshes,
     approximations: &LinkShapesApproximationsModule,
-    dof: &DofModule,
-    chain: &ChainModule,
-    bounds: &BoundsModule,
+    (dof, chain, bounds): Kinematics,
     num_samples: u32,
 ) -> Result<LinkShapesDistanceStatisticsModule, String> {
-    let motion = motion(dof, chain, bounds, num_samples)?;
+    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
+    let configuration = |sample: u32| {
+        let name = format!("sampled configuration {sample}");
+        (name, space.sampled(u64::from(sample)))
+    };
+    let configurations = (0..num_samples).into_par_iter().map(configuration);
+    let motion = motion(dof, chain, configurations)?;
+    over(&motion, solids, approximations, chain, num_samples)
+}
+
+/// The same over the default configuration alone (SPEC 9.4): each smallest distance is the distance.
+pub(crate) fn at_default_configuration(
+    solids: &ConvexMeshes,
+    approximations: &LinkShapesApproximationsModule,
+    (dof, chain, bounds): Kinematics,
+) -> Result<LinkShapesDistanceStatisticsModule, String> {
+    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
+    let name = "the default configuration".to_owned();
+    let configuration = [(name, space.default_configuration())];
+    let motion = motion(dof, chain, configuration.into_par_iter())?;
+    over(&motion, solids, approximations, chain, 1)
+}
+
+/// What sampled configurations and their poses follow from.
+pub(crate) type Kinematics<'a> = (&'a DofModule, &'a ChainModule, &'a BoundsModule);
+
+/// The distances of all shapes while the robot moves.
+fn over(
+    motion: &Motion,
+    solids: &ConvexMeshes,
+    approximations: &LinkShapesApproximationsModule,
+    chain: &ChainModule,
+    num_samples: u32,
+) -> Result<LinkShapesDistanceStatisticsModule, String> {
     let full = |(link, error): (usize, ShapeError)| {
         let name = &chain.links_in_chain[link].name;
         format!("the mesh of link `{name}` is not one that distances can be taken of: {error}")
@@ -47,34 +78,30 @@ pub(crate) fn statistics(
         num_samples: Count(num_samples),
         full_shapes: solids.full_shapes(),
         decomposition_shapes: pieces,
-        full_convex_hulls: pairs(&solids.hulls, &motion, of_mesh).map_err(full)?,
-        full_obbs: pairs(&of.full_obbs, &motion, of_box).map_err(full)?,
-        full_bounding_spheres: pairs(&of.full_bounding_spheres, &motion, of_sphere)
-            .map_err(full)?,
-        decomposition_convex_hulls: over(with_pieces, &|| pairs(&solids.pieces, &motion, of_mesh))?,
+        full_convex_hulls: pairs(&solids.hulls, motion, of_mesh).map_err(full)?,
+        full_obbs: pairs(&of.full_obbs, motion, of_box).map_err(full)?,
+        full_bounding_spheres: pairs(&of.full_bounding_spheres, motion, of_sphere).map_err(full)?,
+        decomposition_convex_hulls: over(with_pieces, &|| pairs(&solids.pieces, motion, of_mesh))?,
         decomposition_obbs: over(with_pieces, &|| {
-            pairs(&of.decomposition_obbs, &motion, of_box)
+            pairs(&of.decomposition_obbs, motion, of_box)
         })?,
         decomposition_bounding_spheres: over(with_pieces, &|| {
-            pairs(&of.decomposition_bounding_spheres, &motion, of_sphere)
+            pairs(&of.decomposition_bounding_spheres, motion, of_sphere)
         })?,
     })
 }
 
-/// The links' poses in the first `num_samples` sampled configurations.
+/// The links' poses in configurations, each with its name.
 fn motion(
     dof: &DofModule,
     chain: &ChainModule,
-    bounds: &BoundsModule,
-    num_samples: u32,
+    configurations: impl IndexedParallelIterator<Item = (String, Vec<f64>)>,
 ) -> Result<Motion, String> {
-    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
     let kinematics = ForwardKinematics::new(chain, dof).map_err(|error| error.to_string())?;
-    let poses: Vec<Vec<Isometry3<f64>>> = (0..num_samples)
-        .into_par_iter()
-        .map(|sample| {
-            let poses = kinematics.link_poses(&space.sampled(u64::from(sample)));
-            poses.map_err(|error| format!("sampled configuration {sample}: {error}"))
+    let poses: Vec<Vec<Isometry3<f64>>> = configurations
+        .map(|(name, configuration)| {
+            let poses = kinematics.link_poses(&configuration);
+            poses.map_err(|error| format!("{name}: {error}"))
         })
         .collect::<Result<_, String>>()?;
     Motion::new(&poses, &rigid_groups(chain)).map_err(|error| error.to_string())

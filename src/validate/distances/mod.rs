@@ -30,6 +30,8 @@ pub struct Distances {
     kinds: [Option<KindDistances>; 6],
     /// Where links are in the first configurations.
     first: Motion,
+    /// Where links are in the default configuration.
+    default: Motion,
 }
 
 /// The distances of one kind of shapes.
@@ -83,6 +85,7 @@ impl Distances {
         let budget = plan::budget(deep);
         let configurations = plan::configurations(&work, num_samples, budget);
 
+        let default = poses.default_motion()?;
         let first = poses.motion(0..num_samples.min(AT_ONCE))?;
         let mut kinds: [Option<KindDistances>; 6] = Default::default();
         for ((kind, set), n) in kinds.iter_mut().zip(sets).zip(configurations) {
@@ -97,12 +100,22 @@ impl Distances {
                 found,
             });
         }
-        Ok(Distances { kinds, first })
+        Ok(Distances {
+            kinds,
+            first,
+            default,
+        })
     }
 
     /// The kinds in the order of [`KINDS`]; `None` for one without statistics.
     pub fn kinds(&self) -> &[Option<KindDistances>; 6] {
         &self.kinds
+    }
+
+    /// The distances of all pairs in the default configuration, by the places of the shapes
+    /// ([`ShapeSet::place`]).
+    pub fn at_default_configuration(&self, kind: &KindDistances) -> Vec<Vec<f64>> {
+        kind.shapes.statistics(&self.default).min
     }
 
     /// The configuration among the first ones in which a pair is at a distance that `outside` is true

@@ -66,6 +66,19 @@ impl Poses {
         self.groups.get(a) == self.groups.get(b)
     }
 
+    /// The poses in the default configuration (SPEC 9.4).
+    ///
+    /// # Errors
+    /// Where numbers go beyond 64 bits.
+    pub fn default_motion(&self) -> Result<Motion, SkipReason> {
+        let configuration = self.space.default_configuration();
+        let poses = self.kinematics.link_poses(&configuration);
+        let poses = poses
+            .map_err(|error| SkipReason::Kinematics(format!("default configuration: {error}")))?;
+        Motion::new(&[poses], &self.groups)
+            .map_err(|error| SkipReason::Kinematics(error.to_string()))
+    }
+
     /// The poses in some of the sampled configurations.
     ///
     /// # Errors

@@ -44,7 +44,7 @@ impl Derived {
     pub fn pointer(&self) -> &str {
         let first = self.files.first().map_or("", |file| &file.pointer);
         match first.rsplit_once('/') {
-            Some((entry, "stl")) => entry,
+            Some((entry, "stl" | "obj" | "glb")) => entry,
             _ => first,
         }
     }

@@ -3,6 +3,7 @@
 pub mod bad_path;
 pub mod class_incomplete;
 pub mod dependency_missing;
+pub mod draft_format;
 pub mod file_changed;
 pub mod file_list_incomplete;
 pub mod link_leaves_root;
@@ -19,6 +20,7 @@ pub mod newer_version;
 pub mod robot_name_differs;
 pub mod root_metadata_missing;
 pub mod source_not_in_root;
+pub mod source_not_named;
 pub mod stray_file;
 pub mod unknown_major_version;
 pub mod unknown_module;
@@ -61,4 +63,6 @@ pub const RULES: &[&Rule] = &[
     &list_out_of_order::RULE,
     &names_differ_in_case::RULE,
     &source_not_in_root::RULE,
+    &source_not_named::RULE,
+    &draft_format::RULE,
 ];

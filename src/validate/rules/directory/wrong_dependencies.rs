@@ -15,7 +15,7 @@ declare_rule! {
     /// Write the names of the table in SPEC §12, each once. (An extension names whatever it was
     /// derived from.)
     DIR018 "wrong-dependencies", Error, clause "2.10", since "0.1.0",
-    phase Files, needs [Version1, RootMetadata, NotFailed(DIR021)],
+    phase Files, needs [Version1, RootMetadata, NotFailed(DIR021), NotFailed(DIR030)],
     check check,
 }
 

@@ -1,19 +1,20 @@
-use crate::document::meshes::DERIVED;
-use crate::document::meshes::Meshes;
+use crate::document::meshes::{DERIVED, Format, Mesh, Meshes};
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 
 declare_rule! {
-    /// A mesh is not given once in each of the three formats.
+    /// A mesh is not given in the same formats as the others of its module.
     ///
-    /// `stl`, `obj` and `glb` are the same mesh for programs that read different formats. Here a file
-    /// has the extension of another format, or (in legacy modules, which have one list per format) a
-    /// link has a mesh, or some number of pieces, in one format and not in another: then two programs
-    /// see two different robots.
+    /// `stl`, `obj` and `glb` are the same mesh for programs that read different formats. A module may
+    /// do without `stl`, or without `obj`, and then has null there for every mesh. Here a file has the
+    /// extension of another format, or one mesh has a format that another one of the module has not; in
+    /// legacy modules, which have one list per format, a link has more meshes in one format than in
+    /// another. Then two programs see two different robots.
     ///
-    /// Name a file with the format's own extension in each place, and give every mesh in all three.
+    /// Name a file with the format's own extension in each place, and give every mesh of a module in the
+    /// same formats.
     MSH003 "mesh-format-mismatch", Error, clause "7.1", since "0.1.0",
     phase References, needs [
         AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
@@ -30,6 +31,7 @@ fn check(context: &Context, findings: &mut Findings) {
         };
         let file = module.file("module.json");
         counts(context, &meshes, *kind, &file, findings);
+        formats(context, &meshes, &file, findings);
         for (link, mesh) in meshes.paths() {
             let Some(format) = mesh.format else {
                 continue;
@@ -55,6 +57,38 @@ fn check(context: &Context, findings: &mut Findings) {
                     .actual(format!("`{}`", mesh.path)),
                 );
             }
+        }
+    }
+}
+
+/// Whether the meshes of a module of version 1 are there in the same formats: those of most of them.
+fn formats(context: &Context, meshes: &Meshes, file: &str, findings: &mut Findings) {
+    let [list] = meshes.lists.as_slice() else {
+        return;
+    };
+    let links = list.links.iter().enumerate();
+    let all = links.flat_map(|(link, meshes)| meshes.iter().map(move |mesh| (link, mesh)));
+    for format in [Format::Stl, Format::Obj] {
+        let given = |mesh: &Mesh| mesh.paths.iter().any(|path| path.format == Some(format));
+        let with = all.clone().filter(|(_, mesh)| given(mesh)).count();
+        let expected = 2 * with >= all.clone().count();
+        for (link, mesh) in all.clone().filter(|(_, mesh)| given(mesh) != expected) {
+            let entry = mesh.paths.first().map_or("", |path| &path.pointer);
+            let entry = entry.rsplit_once('/').map_or("", |(entry, _)| entry);
+            let key = format.extension();
+            let word = |given: bool| if given { "a path" } else { "null" };
+            findings.report(
+                Finding::at(
+                    file,
+                    format!("{entry}/{key}"),
+                    format!(
+                        "{} has not the formats of the other meshes: give all meshes of the module as {key}, or none",
+                        context.link_label(link)
+                    ),
+                )
+                .expected(word(expected))
+                .actual(word(!expected)),
+            );
         }
     }
 }

@@ -1,6 +1,7 @@
 //! SHP: the link shape modules, by themselves and held to the meshes and the kinematics.
 
 pub mod asymmetric_matrix;
+pub mod default_reason_wrong;
 pub mod diagonal_wrong;
 pub mod distance_out_of_range;
 pub mod hull_distance_wrong;
@@ -21,6 +22,7 @@ pub mod shape_presence_differs;
 pub mod simple_skip_wrong;
 pub mod skip_reason_wrong;
 pub mod skipped_pair_moves_apart;
+pub mod skipped_reasons_disordered;
 pub mod skips_not_from_edits;
 pub mod statistics_differ;
 pub mod statistics_out_of_order;
@@ -55,4 +57,6 @@ pub const RULES: &[&Rule] = &[
     &distance_out_of_range::RULE,
     &statistics_differ::RULE,
     &skipped_pair_moves_apart::RULE,
+    &default_reason_wrong::RULE,
+    &skipped_reasons_disordered::RULE,
 ];

@@ -15,10 +15,12 @@ declare_rule! {
     /// The reason given for a pair of shapes is not the first that applies.
     ///
     /// The reasons, in their order: `SameLink`; `Always` in contact (largest sampled distance at most
-    /// 0.001 m); `Adjacent`, connected by a joint; `Never` in contact (smallest distance more than 0.001 m);
-    /// `None` of these. A person goes by them when deciding what else to skip.
+    /// 0.001 m); `Adjacent`, connected by a joint; `Default`, in contact in the default configuration;
+    /// `Never` in contact (smallest distance more than 0.001 m); `None` of these. Which pairs a collision
+    /// check skips follows from them.
     ///
-    /// Write the reasons again from `chain_module` and the distance statistics.
+    /// Write the reasons again from `chain_module` and the distance statistics. (`Default` is held to the
+    /// meshes: SHP026.)
     SHP012 "skip-reason-wrong", Error, clause "8.6", since "0.1.0",
     phase References, needs [
         Version1,
@@ -79,6 +81,11 @@ fn check(context: &Context, findings: &mut Findings) {
                 let Some(expected) = expected else {
                     continue;
                 };
+                // Whether the pair is in contact in the default configuration is SHP026's.
+                let after_default = matches!(expected, SkipReason::Never | SkipReason::None);
+                if reason == SkipReason::Default && after_default {
+                    continue;
+                }
                 // Where the skip itself is wrong, SHP011 says so.
                 let skipped = matches!(expected, SkipReason::SameLink | SkipReason::Always);
                 let skip = skips.and_then(|skips| at(skips, i, j)).unwrap_or(skipped);

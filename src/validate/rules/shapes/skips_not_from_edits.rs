@@ -1,6 +1,6 @@
 use std::collections::HashMap;
 
-use crate::document::shape_matrices::{Elements, at, skips, skips_pointer};
+use crate::document::shape_matrices::{Elements, at, reasons, skips, skips_pointer};
 use crate::document::shapes::KINDS;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
@@ -10,14 +10,14 @@ use crate::validate::rule::declare_rule;
 use crate::validate::views::tangled::Tangled;
 
 declare_rule! {
-    /// A skip is not the simple skip with the edits applied.
+    /// A skip does not follow from the reason of the pair and the edits.
     ///
-    /// `link_shapes_skips_module` is the simple skips and a person's edits on top, in order, each with
-    /// its reason. A skip that neither gives has no reason on record, and is lost when the module is
-    /// written again.
+    /// A pair is skipped where its reason in `link_shapes_simple_skips_module` is one of
+    /// `skipped_reasons`; then `edits` apply, in order. A skip that neither gives has no reason on
+    /// record, and is lost when the module is written again.
     ///
-    /// Record the change in `edits`, by the names of the two links, and write the matrices from it; or
-    /// write them again from the simple skips.
+    /// Record the change in `edits`, by the names of the two links, and run `urdd generate` again, which
+    /// writes the matrices from it.
     SHP013 "skips-not-from-edits", Error, clause "8.7", since "0.1.0",
     phase References, needs [
         Version1,
@@ -25,7 +25,7 @@ declare_rule! {
         Module(Kind::LinkShapesSimpleSkips),
         Module(Kind::LinkShapesSkips),
         Passed(SHP005),
-        NotFailed(SHP011),
+        NotFailed(SHP012),
         Passed(SHP014),
     ],
     check check,
@@ -43,7 +43,7 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     let simple = context
         .document(ModuleKind::LinkShapesSimpleSkips)
-        .and_then(skips);
+        .and_then(reasons);
     let (ModuleDocument::LinkShapesSkips(edited), Some(simple), Some(six)) =
         (document, simple, skips(document))
     else {
@@ -61,7 +61,7 @@ fn check(context: &Context, findings: &mut Findings) {
             continue;
         };
         let tangled = Tangled::new(Elements::Skips(rows));
-        let tangled_simple = Tangled::new(Elements::Skips(simple));
+        let tangled_simple = Tangled::new(Elements::Reasons(simple));
         let mut fold = Fold::new(findings);
         for i in 0..rows.len() {
             for j in i + 1..rows.len() {
@@ -72,18 +72,27 @@ fn check(context: &Context, findings: &mut Findings) {
                     continue;
                 };
                 let edit = last.get(&(a.min(b), a.max(b))).copied();
-                // A pair whose two elements differ is SHP006's, here and in the simple skips.
-                let plain = at(simple, i, j)
-                    .filter(|skip| at(simple, j, i) == Some(*skip) && !tangled_simple.pair(i, j));
-                let expected = edit.map(|(_, skip)| skip).or(plain);
+                // A pair whose two elements differ is SHP006's, here and in the reasons.
+                let reason = at(simple, i, j).filter(|reason| {
+                    at(simple, j, i) == Some(*reason) && !tangled_simple.pair(i, j)
+                });
+                let by_reason = reason.map(|reason| {
+                    let mut skipped = edited.skipped_reasons.iter();
+                    skipped.any(|skipped| skipped.of_pair() == reason)
+                });
+                let expected = edit.map(|(_, skip)| skip).or(by_reason);
                 let right = expected.is_none_or(|expected| expected == skip);
                 if skip != mirror || right || tangled.pair(i, j) {
                     continue;
                 }
                 fold.add(|| {
-                    let why = match edit {
-                        Some((place, skip)) => format!("/edits/{place} says {skip}"),
-                        None => format!("no edit is about it, and the simple skip is {}", !skip),
+                    let why = match (edit, reason) {
+                        (Some((place, skip)), _) => format!("/edits/{place} says {skip}"),
+                        (None, reason) => format!(
+                            "no edit is about it, and its reason, {}, is {}one of `skipped_reasons`",
+                            reason.map_or("unknown", |reason| reason.as_str()),
+                            if skip { "not " } else { "" }
+                        ),
                     };
                     Finding::at(
                         module.file("module.json"),
