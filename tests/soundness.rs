@@ -159,7 +159,18 @@ fn the_misplaced_one_of_two_links_that_share_a_file_is_named() {
             .collect::<BTreeSet<_>>(),
         BTreeSet::from([1, 2])
     );
-    assert_eq!(at_fault(&examined, MSH015), [Part::Plain(2)]);
+    let message = &check(&examined, MSH005).findings[0].message;
+    assert!(
+        message.contains("of link 2 (`link 2`): ") && !message.contains("of link 1 "),
+        "{message}"
+    );
+    assert_eq!(
+        left_out(&examined, MSH015),
+        BTreeSet::from([1, 2].map(|link| NotVerified {
+            part: Part::Plain(link),
+            why: Why::Failed(MSH005),
+        }))
+    );
     assert_eq!(pointers(&examined, SHP017), ["/full_obbs/3"]);
     // Hulls and pieces cannot be held to a mesh that is elsewhere.
     let not_held = NotVerified {
@@ -174,31 +185,27 @@ fn the_misplaced_one_of_two_links_that_share_a_file_is_named() {
 #[test]
 fn a_folded_piece_leaves_the_other_pieces_judged() {
     let mut urdd = Fixture::full(&robot(None));
-    put(&mut urdd, PIECES, "/link_pieces/1/0", &corners(1.0, true));
-    put(&mut urdd, PIECES, "/link_pieces/2/0", &corners(0.5, false));
+    put(&mut urdd, PIECES, "/link_pieces/2/0", &corners(1.0, true));
+    put(&mut urdd, PIECES, "/link_pieces/1/0", &corners(0.5, false));
     urdd.set(
         APPROXIMATIONS,
         "/decomposition_obbs/3/0/half_extents",
         json!([0.0625, 0.125, 0.1]),
     );
     let examined = examine(urdd);
-    // Every link has two pieces.
+    // Links of even numbers have two pieces, the others one.
     let piece = |link, piece| Part::Piece { link, piece };
-    assert_eq!(at_fault(&examined, MSH020), [piece(1, 0)]);
-    assert_eq!(at_fault(&examined, MSH022), [piece(2, 0), piece(2, 1)]);
+    assert_eq!(at_fault(&examined, MSH020), [piece(2, 0)]);
+    assert_eq!(at_fault(&examined, MSH022), [piece(1, 0)]);
     assert_eq!(pointers(&examined, SHP017), ["/decomposition_obbs/3/0"]);
     let left = |part, code| NotVerified {
         part,
         why: Why::Failed(code),
     };
     // Whether a link's pieces cover it is a question to all of them; a box is about one.
-    let folded = [piece(1, 0), piece(1, 1)].map(|part| left(part, MSH020));
+    let folded = [piece(2, 0), piece(2, 1)].map(|part| left(part, MSH020));
     assert_eq!(left_out(&examined, MSH022), BTreeSet::from(folded));
-    let unsound = BTreeSet::from([
-        left(piece(1, 0), MSH020),
-        left(piece(2, 0), MSH022),
-        left(piece(2, 1), MSH022),
-    ]);
+    let unsound = BTreeSet::from([left(piece(2, 0), MSH020), left(piece(1, 0), MSH022)]);
     assert_eq!(left_out(&examined, SHP017), unsound);
     assert_eq!(examined.links_not_verified(), BTreeSet::from([1, 2]));
 }

@@ -123,34 +123,34 @@ fn change_gltf(f: &mut Fixture, module: &str, change: impl Fn(&mut Value)) {
 
 /// A box that is its own only piece, and a link without a shape.
 fn lone_box() -> Fixture {
-    Fixture::full(&robot_of(vec![boxy("a"), link("b")]))
+    Fixture::full(&robot_of(vec![link("a"), boxy("b")]))
 }
 
 /// Makes the piece of the lone box larger, and its box and sphere with it.
 fn grow_piece(f: &mut Fixture, factor: f64) {
     const APPROXIMATIONS: &str = "link_shapes_approximations_module";
     const REACH: &str = "link_shapes_max_distance_from_origin_module";
-    let mut mesh = read(f, PIECES, 0);
+    let mut mesh = read(f, PIECES, BASE);
     for vertex in &mut mesh.vertices {
         *vertex = vertex.map(|x| f64::from((x * factor) as f32));
     }
     for format in ALL {
-        put(f, PIECES, 0, format, &mesh);
+        put(f, PIECES, BASE, format, &mesh);
     }
     let half = mesh.vertices[0].map(f64::abs);
     let reach = half.iter().map(|h| h * h).sum::<f64>().sqrt();
     f.set(
         APPROXIMATIONS,
-        "/decomposition_obbs/0/0/half_extents",
+        "/decomposition_obbs/1/0/half_extents",
         json!(half),
     );
     f.set(
         APPROXIMATIONS,
-        "/decomposition_bounding_spheres/0/0/radius",
+        "/decomposition_bounding_spheres/1/0/radius",
         json!(reach),
     );
     for list in ["convex_hulls", "obbs", "bounding_spheres"] {
-        let pointer = format!("/decomposition_{list}_maximum_distances/0/0");
+        let pointer = format!("/decomposition_{list}_maximum_distances/1/0");
         f.set(REACH, &pointer, json!(reach));
     }
 }

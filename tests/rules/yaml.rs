@@ -98,7 +98,7 @@ pub fn cases() -> Vec<Case> {
             "-0.5",
             "-.5",
         ),
-        written(YML006, "octal", true, json!("017"), "\"017\"", "017"),
+        written(YML006, "octal", true, json!(17), "17", "017"),
         written(
             YML006,
             "no-digit-before-the-point",
