@@ -101,6 +101,13 @@ impl LegacyRobot {
         }
     }
 
+    /// Without the meshes that the URDF names.
+    pub fn without_originals(mut self) -> Self {
+        let is_original = |folder: &str| folder.ends_with("original_meshes_module");
+        self.modules.retain(|(folder, ..)| !is_original(folder));
+        self
+    }
+
     /// With a joint that slides along x within these limits, and the core modules that say so.
     pub fn sliding(mut self, lower: f64, upper: f64) -> Self {
         let joint = &mut self.doc("urdf_module")["joints"][0];

@@ -1,8 +1,7 @@
-use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
-use crate::validate::views::shared_meshes::{self, SharedMesh};
+use crate::validate::views::shared_meshes;
 
 declare_rule! {
     /// Two entries of a mesh module name the same file, which can be right for one of them only.
@@ -30,15 +29,14 @@ fn check(context: &Context, findings: &mut Findings) {
         if shared.alike {
             continue;
         }
-        let wrong = wrong_for(context, &shared);
         let ((first, first_pointer), (link, pointer)) = (shared.first, shared.other);
         let message = if first == link {
             format!("{} names one file twice", context.link_label(link))
         } else {
             format!(
-                "{} and {} name the same file, and it can be right for one of them only{wrong}: write each link's own",
+                "{} and {} name the same file, and it can be right for one of them only: write each link's own",
                 context.link_label(first),
-                context.link_label(link),
+                context.link_label(link)
             )
         };
         let file = format!("{}/module.json", shared.kind.folder());
@@ -48,21 +46,4 @@ fn check(context: &Context, findings: &mut Findings) {
         finding.parts = shared.parts;
         findings.report(finding);
     }
-}
-
-/// For which of the two links a plain mesh is wrong, and how, where that is known.
-fn wrong_for(context: &Context, shared: &SharedMesh) -> String {
-    if shared.kind != ModuleKind::PlainMeshes {
-        return String::new();
-    }
-    let links = [shared.first.0, shared.other.0];
-    let wrong = context.misplaced().iter();
-    let wrong = wrong.filter(|wrong| links.contains(&wrong.link));
-    let wrong: Vec<String> = wrong
-        .map(|wrong| {
-            let label = context.link_label(wrong.link);
-            format!("; of {label}: {}", wrong.what)
-        })
-        .collect();
-    wrong.concat()
 }

@@ -18,7 +18,7 @@ declare_rule! {
     MSH015 "mesh-misplaced", Error, clause "7.8", since "0.1.0",
     phase Geometry, consequence WrongPlace, needs [
         Module(Kind::Urdf), Module(Kind::OriginalMeshes), Module(Kind::PlainMeshes),
-        NotFailedInV1(MSH001), NotFailed(MSH003), OWN_FILES, NotFailed(MSH008),
+        NotFailedInV1(MSH001), NotFailed(MSH003), NotFailed(MSH008),
         NotFailedInV1(MSH009), NotFailedInV1(MSH012), NotFailed(MSH016),
     ],
     check check,
@@ -31,13 +31,7 @@ fn check(context: &Context, findings: &mut Findings) {
     for (link, why) in context.unplaced() {
         findings.not_verified(Part::Plain(*link), *why);
     }
-    // Of links that share a file MSH005 says which one has the other's mesh.
-    let wrong = context.misplaced().iter();
-    let links = context.robot().map_or(0, |robot| robot.links.len());
-    let judged: Vec<bool> = (0..links)
-        .map(|link| findings.judges(Part::Plain(link), &[]))
-        .collect();
-    for wrong in wrong.filter(|wrong| judged.get(wrong.link).copied().unwrap_or(true)) {
+    for wrong in context.misplaced() {
         let label = context.link_label(wrong.link);
         let hint = placed::owner(context, context.solids(), wrong.link)
             .map_or_else(String::new, |owner| {
