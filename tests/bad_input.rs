@@ -497,7 +497,7 @@ fn staging_folders_are_not_examined() {
         .as_array()
         .unwrap()
         .iter()
-        .map(|urdd| urdd["name"].as_str().unwrap())
+        .map(|urdd| urdd["path"].as_str().unwrap())
         .collect();
     assert_eq!(names, ["toy"]);
 }

@@ -507,7 +507,7 @@ fn many_urdds_are_summed_up() {
     // One cause, however many URDDs, and motion before format.
     let cause = text
         .lines()
-        .filter(|line| line.contains("6 URDDs; "))
+        .filter(|line| line.contains("6 times in 6 URDDs"))
         .count();
     assert_eq!(cause, 1, "{text}");
     let motion = text.find("  wrong motion").expect("motion");
@@ -682,7 +682,7 @@ fn workflow_commands_hold_no_others() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut toy = Fixture::toy();
     toy.set(ROOT, "/robot_name", json!("a%0A::error::b\n::error::c,d:e"));
-    toy.put_file("::stop-commands::x", "y");
+    toy.put_file("dof_module/::stop-commands::x", "y");
     toy.seal();
     toy.write_to(&folder.path().join("::add-mask::robot,1"));
     let output = validate(folder.path(), &[".", "--format", "github"]);

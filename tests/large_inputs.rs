@@ -77,7 +77,7 @@ fn very_many_attributes_in_another_case() {
 
 #[test]
 fn a_long_chain_of_mimics() {
-    let count = 100_000;
+    let count = 90_000;
     let links = (0..=count).map(|n| format!("<link name=\"{n}\"/>"));
     let joints = (0..count).map(|n| {
         let next = n + 1;

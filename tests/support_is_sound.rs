@@ -39,7 +39,7 @@ fn toy_holds_what_it_promises() {
         .collect();
     assert_eq!(
         words.into_iter().collect::<Vec<_>>(),
-        ["Adjacent", "Always", "Never", "None", "SameLink"]
+        ["Adjacent", "Always", "Default", "Never", "None", "SameLink"]
     );
     let simple = toy.get("link_shapes_simple_skips_module", "/full_obbs_simple_skips");
     let edited = toy.get("link_shapes_skips_module", "/full_obbs_skips");

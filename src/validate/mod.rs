@@ -15,6 +15,7 @@ mod locate;
 mod names;
 pub mod needs;
 pub mod part;
+pub mod place;
 pub mod reference;
 pub mod rule;
 pub mod rules;

@@ -278,7 +278,7 @@ fn the_default_scene_counts() {
     let scene = load(&root, &data).unwrap();
     assert_eq!(
         (scene.triangle_count(), codes(&scene)),
-        (12, vec![NoteCode::Assumed])
+        (12, vec![NoteCode::Assumed, NoteCode::NodeTransform])
     );
 }
 

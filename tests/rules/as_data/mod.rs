@@ -127,7 +127,11 @@ impl Bases {
             .retain(|path, node| path.as_str().is_some() && matches!(node, Node::File(_)));
         let name = format!("{}-{}", case.code.as_str().to_lowercase(), case.name);
         self.0.push((name, base));
-        self.nearest(&tree)
+        let found = self.nearest(&tree);
+        if found.0 + 1 != self.0.len() {
+            self.0.pop();
+        }
+        found
     }
 }
 
