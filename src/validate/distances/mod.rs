@@ -4,6 +4,7 @@
 //! How many configurations are looked at is a matter of work, counted and not timed, so that results
 //! repeat: see [`plan`].
 
+pub mod other_reasons;
 pub mod plan;
 pub mod poses;
 pub mod shape_set;

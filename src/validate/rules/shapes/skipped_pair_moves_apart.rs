@@ -2,9 +2,9 @@ use std::collections::HashSet;
 
 use crate::document::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
 use crate::document::shapes::{KINDS, ShapeKind, Shapes};
-use crate::format::link_shapes_skips::SkippedReason;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
+use crate::validate::distances::other_reasons::OtherReasons;
 use crate::validate::distances::plan;
 use crate::validate::distances::poses::Poses;
 use crate::validate::distances::shape_set::ShapeSet;
@@ -188,46 +188,4 @@ fn pairs(
         }
     }
     pairs
-}
-
-/// The reasons besides `Always` for which `link_shapes_skips_module` may skip a pair.
-struct OtherReasons<'a> {
-    set: &'a ShapeSet,
-    /// The pairs of links that a joint connects, where these are skipped.
-    adjacent: HashSet<(usize, usize)>,
-    /// The distances in the default configuration, where those in contact there are skipped.
-    at_default: Option<Vec<Vec<f64>>>,
-}
-
-impl<'a> OtherReasons<'a> {
-    fn new(context: &Context, document: &ModuleDocument, poses: &Poses, set: &'a ShapeSet) -> Self {
-        let skipped = |reason: SkippedReason| match document {
-            ModuleDocument::LinkShapesSkips(module) => module.skipped_reasons.contains(&reason),
-            _ => false,
-        };
-        let chain = context.chain().filter(|_| skipped(SkippedReason::Adjacent));
-        let joints = chain.iter().flat_map(|chain| &chain.joints);
-        let adjacent = joints.map(|joint| {
-            let (a, b) = (joint.parent_link_idx.get(), joint.child_link_idx.get());
-            (a.min(b), a.max(b))
-        });
-        let default = skipped(SkippedReason::Default);
-        let motion = poses.default_motion().ok().filter(|_| default);
-        OtherReasons {
-            set,
-            adjacent: adjacent.collect(),
-            at_default: motion.map(|motion| set.statistics(&motion).min),
-        }
-    }
-
-    fn may_skip(&self, shapes: &Shapes, (i, j): (usize, usize)) -> bool {
-        let kind = self.set.kind();
-        let links = shapes.link(kind, i).zip(shapes.link(kind, j));
-        let adjacent = links.is_some_and(|(a, b)| self.adjacent.contains(&(a.min(b), a.max(b))));
-        let places = self.set.place(i).zip(self.set.place(j));
-        let distance =
-            (self.at_default.as_ref().zip(places)).and_then(|(rows, (a, b))| at(rows, a, b));
-        // What a tolerance decides may be skipped.
-        adjacent || distance.is_some_and(|distance| distance <= 2.0 * CONTACT)
-    }
 }
