@@ -70,7 +70,7 @@ fn robots() -> tempfile::TempDir {
 /// The schema of SARIF 2.1.0, as OASIS published it. It is not ours to keep here: the package of
 /// serde-sarif brings it.
 fn sarif_schema() -> Value {
-    let metadata = ["metadata", "--format-version=1", "--locked", "--offline"];
+    let metadata = ["metadata", "--format-version=1", "--locked"];
     let metadata = cargo(&metadata, &repository());
     let metadata: Value = serde_json::from_slice(&metadata).expect("cargo's metadata");
     let packages = metadata["packages"].as_array().expect("a list");

@@ -18,6 +18,7 @@ pub mod number_text;
 pub mod path;
 pub mod position;
 pub mod read_error;
+#[cfg(feature = "generate")]
 pub mod rehash;
 pub mod root;
 pub mod schema_files;

@@ -43,7 +43,7 @@ pub fn line(text: &str) -> Cow<'_, str> {
     replaced(text, is_hidden, escape)
 }
 
-/// Text of several lines: its line feeds stay, everything else is as for [`line`].
+/// Text of several lines: its line feeds stay, everything else is as for [`line()`].
 pub fn lines(text: &str) -> Cow<'_, str> {
     replaced(text, |c| c != '\n' && is_hidden(c), escape)
 }

@@ -1,5 +1,5 @@
 //! The report for a person: by URDD, then by module; what is wrong, where, and what to do. Of many
-//! URDDs the summary comes alone: see [`super::summary`].
+//! URDDs the summary comes alone: see `summary`.
 //!
 //! Whatever came from a file is escaped here, field by field: see [`crate::format::escape`].
 

@@ -132,7 +132,7 @@ impl Reference {
     }
 
     /// For each DOF, an interval to take configurations from: the URDF's limits, or [-pi, pi]
-    /// where there are none, or an angle is beyond [`MOST_RADIANS`].
+    /// where there are none, or an angle is beyond 1e6 rad.
     pub fn intervals(&self) -> Vec<[f64; 2]> {
         let free = [-std::f64::consts::PI, std::f64::consts::PI];
         let mut intervals = vec![free; self.dofs];
