@@ -272,17 +272,21 @@ fn settings(
     let selection = match arguments.modules.is_empty() {
         true => Selection::all(),
         false => Selection::parse(arguments.modules.iter().map(String::as_str))
-            .map_err(|error| format!("--modules: {error}"))?,
+            .map_err(|error| format!("--modules: {}", escape::line(&error.to_string())))?,
     };
     let mut packages = Packages::from_environment(|name| std::env::var_os(name));
     for argument in &arguments.packages {
         packages
             .add(argument)
-            .map_err(|error| format!("--package: {error}"))?;
+            .map_err(|error| format!("--package: {}", escape::line(&error.to_string())))?;
     }
     for folder in &arguments.allowed_folders {
         if !folder.is_dir() {
-            return Err(format!("--allow-folder: {} is no folder", folder.display()));
+            let folder = folder.display().to_string();
+            return Err(format!(
+                "--allow-folder: {} is not a folder",
+                escape::line(&folder)
+            ));
         }
     }
     Ok(Settings {

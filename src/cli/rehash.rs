@@ -92,8 +92,9 @@ fn report_broken(found: &Found) -> bool {
         .collect();
     for fault in &faults {
         output::error(&format!(
-            "{}/{fault}; mend it, and run `urdd rehash` again",
-            found.name
+            "{}/{}; mend it, and run `urdd rehash` again",
+            found.name,
+            escape::line(fault)
         ));
     }
     !faults.is_empty()
