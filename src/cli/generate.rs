@@ -15,7 +15,7 @@ use crate::format::link_shapes_skips::SkippedReason;
 use crate::format::meshes::GeometryKind;
 use crate::generate::batch::{self, Job, Shard};
 use crate::generate::{
-    MAX_SOURCE_BYTES, Packages, Selection, Settings, XacroSettings, generate_text,
+    MAX_SOURCE_BYTES, MeshFormats, Packages, Selection, Settings, XacroSettings, generate_text,
 };
 
 /// Exit status: a robot could not be made.
@@ -63,6 +63,17 @@ pub struct GenerateArguments {
     /// Which geometry links are made from; a link that has none of it gets the other.
     #[arg(long, value_enum, default_value_t = Preferred::Visual)]
     geometry: Preferred,
+
+    /// The files of each plain mesh, hull and piece, separated by commas. The .glb is always made; `glb` alone makes a
+    /// URDD about half as large.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "FORMATS",
+        value_delimiter = ',',
+        default_value = "glb,stl,obj"
+    )]
+    mesh_formats: Vec<MeshFormat>,
 
     /// Sampled configurations of the distance statistics, 100,000 at most.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -112,6 +123,16 @@ enum Preferred {
     Visual,
     /// The collision elements.
     Collision,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MeshFormat {
+    /// Binary glTF, with colours, normals and textures.
+    Glb,
+    /// Binary STL.
+    Stl,
+    /// Wavefront OBJ.
+    Obj,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -296,6 +317,10 @@ fn settings(
         preferred_geometry: match arguments.geometry {
             Preferred::Visual => GeometryKind::Visual,
             Preferred::Collision => GeometryKind::Collision,
+        },
+        mesh_formats: MeshFormats {
+            stl: arguments.mesh_formats.contains(&MeshFormat::Stl),
+            obj: arguments.mesh_formats.contains(&MeshFormat::Obj),
         },
         num_samples: arguments.samples,
         xacro: XacroSettings {

@@ -30,14 +30,27 @@ use crate::geometry::read::Part;
 use crate::skips::skips_module;
 
 pub(super) fn plain_settings(work: &Work) -> String {
-    match work.settings.preferred_geometry {
-        GeometryKind::Visual => "visual; smooth normals".to_owned(),
-        GeometryKind::Collision => "collision; smooth normals".to_owned(),
+    let geometry = match work.settings.preferred_geometry {
+        GeometryKind::Visual => "visual",
+        GeometryKind::Collision => "collision",
+    };
+    format!("{geometry}; smooth normals{}", formats_settings(work))
+}
+
+/// Part of the settings of each stage that writes meshes.
+fn formats_settings(work: &Work) -> &'static str {
+    let formats = work.settings.mesh_formats;
+    match (formats.stl, formats.obj) {
+        (true, true) => "",
+        (true, false) => "; no obj",
+        (false, true) => "; no stl",
+        (false, false) => "; glb only",
     }
 }
 
 pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
     let kind = ModuleKind::PlainMeshes;
+    let formats = work.settings.mesh_formats;
     let robot = &work.source.reading.robot;
     let preferred = work.settings.preferred_geometry;
     let geometries = match &work.original {
@@ -52,7 +65,7 @@ pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
             let Some(geometry) = geometry else {
                 return Ok(None);
             };
-            let files = mesh_files(kind, link, name(link), None);
+            let files = mesh_files(kind, link, name(link), None, formats);
             let contents = files_of(&geometry.parts, &files, Shading::Smooth)?;
             let mesh = WrittenMesh::of(&geometry.parts);
             let geometry = geometry.geometry;
@@ -77,6 +90,10 @@ pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
         },
         files,
     )
+}
+
+pub(super) fn hulls_settings(work: &Work) -> String {
+    formats_settings(work).to_owned()
 }
 
 pub(super) fn hulls(work: &mut Work) -> Result<Made, GenerateError> {
@@ -111,8 +128,9 @@ pub(super) fn hulls(work: &mut Work) -> Result<Made, GenerateError> {
 /// The name of our way to decompose; another one where it comes out differently.
 const DECOMPOSITION: &str = "urdd cut and merge 1";
 
-pub(super) fn decomposition_settings(_: &Work) -> String {
-    format!("{DECOMPOSITION} {:?}", decompose::Settings::default())
+pub(super) fn decomposition_settings(work: &Work) -> String {
+    let settings = decompose::Settings::default();
+    format!("{DECOMPOSITION} {settings:?}{}", formats_settings(work))
 }
 
 pub(super) fn pieces(work: &mut Work) -> Result<Made, GenerateError> {
@@ -261,7 +279,7 @@ fn write<'a>(
         .map(|meshes| {
             let meshes = meshes.into_iter().map(|(link, piece, mesh)| {
                 let name = &work.chain.links_in_chain[link].name;
-                let files = mesh_files(kind, link, name, piece);
+                let files = mesh_files(kind, link, name, piece, work.settings.mesh_formats);
                 let part: Part = mesh.part();
                 let contents = files_of(&[part], &files, Shading::Flat)?;
                 Ok((files, contents))

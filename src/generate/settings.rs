@@ -20,6 +20,8 @@ pub struct Settings {
     pub allowed_folders: Vec<PathBuf>,
     /// Which geometry links are made from; the other one where a link has none of it.
     pub preferred_geometry: GeometryKind,
+    /// The files of each derived mesh.
+    pub mesh_formats: MeshFormats,
     /// Sampled configurations of the distance statistics.
     pub num_samples: u32,
     /// For which reasons pairs of shapes are skipped; `None` for those of the URDD that is replaced,
@@ -37,6 +39,25 @@ pub struct Settings {
     pub cancellation: Cancellation,
 }
 
+/// Which files a derived mesh has besides its .glb, which is always made: SPEC 7.1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MeshFormats {
+    /// Binary STL.
+    pub stl: bool,
+    /// Wavefront OBJ.
+    pub obj: bool,
+}
+
+impl Default for MeshFormats {
+    /// All of them.
+    fn default() -> Self {
+        MeshFormats {
+            stl: true,
+            obj: true,
+        }
+    }
+}
+
 impl Default for Settings {
     /// Every module, from visual geometry, with 1,000 samples, and no packages but those around the
     /// URDF.
@@ -46,6 +67,7 @@ impl Default for Settings {
             packages: Packages::none(),
             allowed_folders: Vec::new(),
             preferred_geometry: GeometryKind::Visual,
+            mesh_formats: MeshFormats::default(),
             num_samples: 1000,
             skipped_reasons: None,
             xacro: XacroSettings::default(),

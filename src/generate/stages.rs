@@ -89,7 +89,7 @@ const STAGES: &[Stage] = &[
     },
     Stage {
         kind: ModuleKind::ConvexHullMeshes,
-        reuse: Reuse::SameInputs(""),
+        reuse: Reuse::SameSettings(geometry::hulls_settings),
         make: geometry::hulls,
     },
     Stage {

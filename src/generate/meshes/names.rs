@@ -2,6 +2,7 @@
 
 use crate::format::meshes::MeshFiles;
 use crate::format::registry::ModuleKind;
+use crate::generate::settings::MeshFormats;
 
 /// Longest slug, characters.
 const LONGEST: usize = 64;
@@ -32,6 +33,7 @@ pub(crate) fn mesh_files(
     link_idx: usize,
     link: &str,
     piece_idx: Option<usize>,
+    formats: MeshFormats,
 ) -> MeshFiles {
     let slug = slug(link);
     let path = |extension: &str| {
@@ -42,8 +44,8 @@ pub(crate) fn mesh_files(
         format!("{}/meshes/{extension}/{name}.{extension}", kind.folder())
     };
     MeshFiles {
-        stl: Some(path("stl")),
-        obj: Some(path("obj")),
+        stl: formats.stl.then(|| path("stl")),
+        obj: formats.obj.then(|| path("obj")),
         glb: path("glb"),
     }
 }
@@ -63,13 +65,19 @@ mod tests {
 
     #[test]
     fn pieces_lie_in_a_folder_of_their_link() {
-        let files = mesh_files(ModuleKind::PlainMeshes, 3, "a b", None);
+        let files = mesh_files(
+            ModuleKind::PlainMeshes,
+            3,
+            "a b",
+            None,
+            MeshFormats::default(),
+        );
         assert_eq!(
             files.obj.as_deref(),
             Some("mesh_modules/plain_meshes_module/meshes/obj/3_a_b.obj")
         );
         let kind = ModuleKind::ConvexDecompositionMeshes;
-        let files = mesh_files(kind, 3, "a", Some(12));
+        let files = mesh_files(kind, 3, "a", Some(12), MeshFormats::default());
         assert_eq!(
             files.glb,
             "mesh_modules/convex_decomposition_meshes_module/meshes/glb/3_a/12.glb"
