@@ -17,6 +17,10 @@ pub type Files = BTreeMap<String, Vec<u8>>;
 ///
 /// # Errors
 /// Where something cannot be read, or a name is not UTF-8.
+#[allow(
+    dead_code,
+    reason = "build.rs reads it, and a debug build of the library"
+)]
 pub fn read_folder(folder: &Path) -> io::Result<Files> {
     let mut files = Files::new();
     let mut folders = vec![(folder.to_owned(), String::new())];

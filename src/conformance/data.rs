@@ -1,13 +1,29 @@
 //! The suite's files. A release build carries them as one archive; a debug build reads them from the
 //! repository, so that a new case needs no build.
 
+#[cfg(any(test, suite_in_repository))]
 use std::path::Path;
 use std::sync::LazyLock;
 
 use super::archive::{self, Files};
 
-/// The archive; without a byte in a debug build.
-static ARCHIVE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/suite.tar.gz"));
+/// The suite's files by their paths.
+#[cfg(not(suite_in_repository))]
+fn read() -> Result<Files, String> {
+    let archive = include_bytes!(concat!(env!("OUT_DIR"), "/suite.tar.gz"));
+    archive::unpack(archive).map_err(|error| error.to_string())
+}
+
+/// The suite's files by their paths.
+#[cfg(suite_in_repository)]
+fn read() -> Result<Files, String> {
+    archive::read_folder(Path::new(REPOSITORY))
+        .map_err(|error| format!("{error}; a debug build reads it from the repository"))
+}
+
+/// Where the suite is in the repository.
+#[cfg(any(test, suite_in_repository))]
+const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance");
 
 /// The robots that producers are run on: URDF files, and their meshes below.
 pub const ROBOTS: &str = "robots";
@@ -27,14 +43,7 @@ pub const VECTORS: &str = "vectors";
 #[error("the conformance suite cannot be read: {0}")]
 pub struct DataError(String);
 
-static SUITE: LazyLock<Result<Files, DataError>> = LazyLock::new(|| {
-    let files = match ARCHIVE.is_empty() {
-        true => archive::read_folder(Path::new(env!("URDD_SUITE")))
-            .map_err(|error| format!("{error}; a debug build reads it from the repository")),
-        false => archive::unpack(ARCHIVE).map_err(|error| error.to_string()),
-    };
-    files.map_err(DataError)
-});
+static SUITE: LazyLock<Result<Files, DataError>> = LazyLock::new(|| read().map_err(DataError));
 
 /// Whether the suite can be read. Where it cannot, [`below`] gives nothing.
 ///
@@ -64,7 +73,7 @@ mod tests {
 
     #[test]
     fn an_archive_holds_what_the_folder_holds() {
-        let files = archive::read_folder(Path::new(env!("URDD_SUITE"))).expect("the repository's");
+        let files = archive::read_folder(Path::new(REPOSITORY)).expect("the repository's");
         let cases = files.keys().filter(|path| path.starts_with("invalid/"));
         assert!(cases.count() > 500, "{} files", files.len());
         let packed = archive::pack(&files).expect("an archive");
