@@ -485,7 +485,7 @@ fn a_folder_to_allow_that_is_none_is_wrong_usage() {
     assert_eq!(output.status.code(), Some(2), "{output:?}");
     let words = String::from_utf8(output.stderr).unwrap();
     assert!(
-        words.contains("--allow-folder: no/such/folder is no folder"),
+        words.contains("--allow-folder: no/such/folder is not a folder"),
         "{words}"
     );
 }

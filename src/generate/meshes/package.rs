@@ -23,7 +23,7 @@ pub enum PackagePathError {
     #[error("`{0}`: write NAME=PATH, the name of the package and its folder")]
     NoEquals(String),
     /// No such folder.
-    #[error("package `{name}`: {} is no folder", path.display())]
+    #[error("package `{name}`: {} is not a folder", path.display())]
     NoFolder {
         /// The package.
         name: String,
@@ -73,7 +73,7 @@ impl Packages {
     /// Adds `NAME=PATH`; a later one of the same name counts.
     ///
     /// # Errors
-    /// Where that is not its form, or the path is no folder.
+    /// Where that is not its form, or the path is not a folder.
     pub fn add(&mut self, argument: &str) -> Result<(), PackagePathError> {
         let split = argument
             .split_once('=')
