@@ -169,7 +169,7 @@ fn a_warning_counts() {
         .into_iter()
         .filter(|rule| rule.severity != Severity::Error)
         .collect();
-    let measured = measured(folder.path(), &rules, &plan(&["dof_module"])).expect("a measure");
+    let measured = measured(folder.path(), &rules, &plan(&["source"])).expect("a measure");
     let warned = |trial: &&Trial| matches!(trial.plain, Outcome::Warned(_));
     assert!(measured.trials.iter().any(|trial| warned(&trial)));
     assert!(!measured.survivors().any(|trial| warned(&trial)));

@@ -238,7 +238,7 @@ fn exit_status_tells_usage_from_failure() {
         (&["arm/arm.urdf", "-o", "o4", "--package", "x"], "NAME=PATH"),
         (
             &["arm/arm.urdf", "-o", "o4", "--package", "x=/no/such"],
-            "no folder",
+            "not a folder",
         ),
         (&["arm/arm.urdf", "-o", "o4", "--shard", "1/2"], "batches"),
         (&["arm/arm.urdf", "-o", "o4", "--samples", "0"], "1.."),

@@ -392,14 +392,15 @@ pub fn sampled_configuration(robot: &Robot, core: &Core, k: u32) -> Vec<f64> {
     q
 }
 
-/// The default configuration (9.4): 0, moved into the bounds; rotation vectors 0.
+/// The default configuration (9.4): 0, or the bound nearest to 0 where 0 is not between the bounds,
+/// in whatever order they are; rotation vectors 0.
 pub fn default_configuration(robot: &Robot, core: &Core) -> Vec<f64> {
     let bounds = core.bounds.bounds.iter();
     let mut q: Vec<f64> = bounds
-        .map(|[l, h]| match (*l > 0.0, *h < 0.0) {
-            (true, _) => *l,
-            (_, true) => *h,
-            _ => 0.0,
+        .map(|[l, h]| match l.signum() * h.signum() > 0.0 {
+            true if l.abs() < h.abs() => *l,
+            true => *h,
+            false => 0.0,
         })
         .collect();
     for i in rotation_vectors(robot, &core.dof) {
