@@ -190,6 +190,34 @@ fn a_report_file_beside_the_text() {
 }
 
 #[test]
+fn settings_are_read_up_to_a_limit() {
+    let folder = collection();
+    let comment = "# a comment\n".repeat(100_000);
+    fs::write(folder.path().join("urdd.toml"), comment).expect("written");
+    let output = validate(folder.path(), &["good"]);
+    assert_eq!(output.status.code(), Some(2));
+    let words = stderr(&output);
+    assert!(
+        words.contains("urdd.toml: it is longer than 1 MiB"),
+        "{words}"
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn devices_are_no_settings_and_no_urdds() {
+    let folder = collection();
+    for arguments in [
+        ["good", "--config", "/dev/zero"].as_slice(),
+        // The kernel's log waits for its next line.
+        &["/proc/kmsg"],
+    ] {
+        let output = validate(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    }
+}
+
+#[test]
 fn settings() {
     let folder = collection();
     let with = |text: &str, arguments: &[&str]| {

@@ -1,10 +1,10 @@
 //! What to do with a file that is no URDD.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use crate::directory::discover::DiscoverError;
+use crate::directory::regular;
 use crate::format::escape;
 
 /// How much of a file is looked at to tell what it is, bytes.
@@ -52,7 +52,7 @@ const MJCF: &str = "this is MJCF, the format of MuJoCo; URDDs are made of URDF: 
 
 fn by_content(path: &Path) -> Option<&'static str> {
     let mut head = Vec::new();
-    let file = path.is_file().then(|| File::open(path).ok())??;
+    let file = regular::open(path).ok()?;
     file.take(HEAD).read_to_end(&mut head).ok()?;
     let head = String::from_utf8_lossy(&head);
     if head.contains("<mujoco") {

@@ -161,7 +161,10 @@ impl Observer for Printer {
 fn message(error: &GenerateError) -> String {
     let text = error.to_string();
     match error {
-        GenerateError::Refused { .. } | GenerateError::Xacro { .. } => text,
+        GenerateError::Refused { .. }
+        | GenerateError::Outside { .. }
+        | GenerateError::Strict { .. }
+        | GenerateError::Xacro { .. } => text,
         _ => escape::line(&text).into_owned(),
     }
 }

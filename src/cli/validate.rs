@@ -1,6 +1,5 @@
 //! `urdd validate`.
 
-use std::fs;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -10,6 +9,7 @@ use clap::{Args, ValueEnum};
 use super::foreign;
 use super::output::{self, Color};
 use super::words::{Class, Level};
+use crate::directory::regular;
 use crate::format::escape;
 use crate::report::human::{self, Style};
 use crate::report::model::Verdict;
@@ -19,6 +19,9 @@ use crate::validate::rule::Severity;
 use crate::validate::selection::Codes;
 use crate::validate::settings::{Exclude, Settings};
 use crate::validate::{self, rules};
+
+/// Longest settings file, bytes.
+const MAX_SETTINGS_BYTES: u64 = 1 << 20;
 
 /// Exit status: conforming.
 const CONFORMING: u8 = 0;
@@ -231,8 +234,9 @@ fn read_settings(arguments: &ValidateArguments) -> Result<Settings, String> {
         Some(file) => {
             let shown = file.display().to_string();
             let shown = escape::line(&shown);
-            let text = fs::read_to_string(file)
-                .map_err(|error| format!("{shown}: cannot be read: {error}"))?;
+            let bytes = regular::read(file, MAX_SETTINGS_BYTES)
+                .map_err(|error| format!("{shown}: {error}"))?;
+            let text = String::from_utf8(bytes).map_err(|_| format!("{shown}: it is not UTF-8"))?;
             Settings::from_toml(&text).map_err(|error| format!("{shown}: {error}"))?
         }
     };

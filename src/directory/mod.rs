@@ -18,6 +18,7 @@ pub mod number_text;
 pub mod path;
 pub mod position;
 pub mod read_error;
+pub mod regular;
 #[cfg(feature = "generate")]
 pub mod rehash;
 pub mod root;

@@ -33,6 +33,12 @@ pub enum ReadError {
         /// The limit, bytes.
         limit: u64,
     },
+    /// Longer than what is read; how long is not known.
+    #[error("it is longer than {} MiB", .limit >> 20)]
+    TooLong {
+        /// The limit, bytes.
+        limit: u64,
+    },
     /// The zip archive cannot be used.
     #[error("{0}")]
     Archive(#[from] ArchiveFault),

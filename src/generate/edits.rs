@@ -3,6 +3,7 @@
 //! They are read before anything is made. Where they cannot be read, nothing is: what a person wrote
 //! must not vanish because of a comma.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use serde_json::Value;
@@ -96,7 +97,12 @@ pub(super) fn read(
     };
     let bytes = match root.read(&json_path, MAX_DOCUMENT_BYTES) {
         Ok(bytes) => bytes,
-        Err(ReadError::Missing) => return Ok(Decisions::default()),
+        Err(ReadError::Missing) => {
+            return match root.read(&yaml_path, MAX_DOCUMENT_BYTES) {
+                Err(ReadError::Missing) => Ok(Decisions::default()),
+                _ => Err(refused(&yaml_path, None, EditsFault::NoJson)),
+            };
+        }
         Err(error) => {
             let fault = EditsFault::Unreadable(error.to_string());
             return Err(refused(&json_path, None, fault));
@@ -120,6 +126,10 @@ pub(super) fn read(
         let at = position::locate(&document.text, &pointer);
         refused(&json_path, at, fault)
     })?;
+    if let Some((idx, link)) = unknown_link(&root, &decisions.edits) {
+        let at = position::locate(&document.text, &format!("/{EDITS}/{idx}"));
+        return Err(refused(&json_path, at, EditsFault::UnknownLink(link)));
+    }
     // Somebody may have edited the YAML file alone; one that is as it was made is merely behind.
     if !is_as_made(old, &yaml_path)
         && let Ok(bytes) = root.read(&yaml_path, MAX_DOCUMENT_BYTES)
@@ -148,6 +158,25 @@ pub(super) fn read(
         return Err(refused(&json_path, None, fault));
     }
     Ok(decisions)
+}
+
+/// The first edit that names a link which the URDD's own robot does not have, and the link: a name that
+/// was mistyped. One that only the new robot lacks is another matter.
+fn unknown_link(root: &Root, edits: &[SkipEdit]) -> Option<(usize, String)> {
+    if edits.is_empty() {
+        return None;
+    }
+    let path = format!("{}/module.json", ModuleKind::Urdf.folder());
+    let robot = json::read(&root.read(&path, MAX_DOCUMENT_BYTES).ok()?).ok()?;
+    let links = robot.value.get("links")?.as_array()?;
+    let names = links.iter().map(|link| link.get("name")?.as_str());
+    let names = names.collect::<Option<HashSet<&str>>>()?;
+    edits.iter().enumerate().find_map(|(idx, edit)| {
+        let unknown = [&edit.link_a, &edit.link_b]
+            .into_iter()
+            .find(|name| !names.contains(name.as_str()))?;
+        Some((idx, unknown.clone()))
+    })
 }
 
 /// Whether a file is as the metadata of its URDD says.

@@ -144,12 +144,19 @@ pub enum EditsFault {
     /// One edit is wrong.
     #[error("this edit cannot be used: {0}")]
     Edit(String),
+    /// An edit names a link that the URDD does not have.
+    #[error("this edit names the link `{}`, and the robot of this URDD has no such link", escape::line(.0))]
+    UnknownLink(String),
+    /// There is a YAML file, and no JSON file.
+    #[error("there is no module.json beside this file, and it may hold edits")]
+    NoJson,
     /// The YAML file says something else than the JSON file.
     #[error("this file differs from module.json, which is the one that counts: {0}")]
     Yaml(String),
     /// The modules that were asked for hold no edits.
     #[error(
-        "it holds {0} edits, and the modules asked for leave out link_shapes_skips_module; add `link_shapes_skips` to `--modules`"
+        "it holds {0} edit{s}, and the modules asked for leave out link_shapes_skips_module; add `link_shapes_skips` to `--modules`",
+        s = if *.0 == 1 { "" } else { "s" }
     )]
     NotAskedFor(usize),
 }

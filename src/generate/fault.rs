@@ -150,6 +150,34 @@ pub enum Fault {
         /// How many it may have.
         limit: usize,
     },
+    /// A link with more triangles than URDDs are made for.
+    #[error(
+        "the shapes of link `{link}` have {found} triangles, and URDDs are made of up to {limit} a link; make its meshes coarser, or leave them out: `--modules core`"
+    )]
+    TooManyTriangles {
+        /// The link.
+        link: String,
+        /// How many it has.
+        found: usize,
+        /// How many it may have.
+        limit: usize,
+    },
+    /// More triangles of all links than URDDs are made for.
+    #[error(
+        "the shapes of all links have more than {limit} triangles, which is the most that URDDs are made of; make the meshes coarser, or leave them out: `--modules core`"
+    )]
+    TooManyTrianglesInAll {
+        /// How many they may have.
+        limit: usize,
+    },
+    /// A shape that 32-bit numbers do not hold.
+    #[error(
+        "link `{link}`: its shape is too thin, or too far from the link's frame, for the 32-bit numbers of mesh files; check its units and origin, or leave meshes out: `--modules core`"
+    )]
+    Unresolved {
+        /// The link.
+        link: String,
+    },
     /// More than the format counts.
     #[error("there are more than {0} elements")]
     TooMany(u32),

@@ -54,7 +54,8 @@ pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
     let robot = &work.source.reading.robot;
     let preferred = work.settings.preferred_geometry;
     let geometries = match &work.original {
-        Some(original) => link_geometries(robot, &original.module, &original.scenes, preferred),
+        Some(original) => link_geometries(robot, &original.module, &original.scenes, preferred)
+            .map_err(|fault| work.source.refused(fault))?,
         None => Vec::new(),
     };
     let name = |link: usize| robot.links[link].name.as_str();

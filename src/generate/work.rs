@@ -5,7 +5,7 @@ use std::path::Path;
 use super::artifacts::Artifacts;
 use super::edits::{Decisions, Edits};
 use super::error::GenerateError;
-use super::fault::{Fault, PlacedFault};
+use super::fault::Fault;
 use super::meshes::original::OriginalMeshes;
 use super::note::{Note, NoteKind};
 use super::settings::Settings;
@@ -44,14 +44,7 @@ impl<'a> Work<'a> {
         edits: Decisions,
     ) -> Result<Self, GenerateError> {
         let reading = &source.reading;
-        let refused = |fault| GenerateError::Refused {
-            file: source.shown.clone(),
-            faults: vec![PlacedFault {
-                line: 1,
-                column: 1,
-                fault,
-            }],
-        };
+        let refused = |fault| source.refused(fault);
         let dof = dof::dof_module(&reading.robot, &reading.tree).map_err(refused)?;
         let chain = chain::chain_module(&reading.robot, &reading.tree);
         let bounds = bounds::bounds_module(&reading.robot, &dof);

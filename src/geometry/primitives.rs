@@ -23,6 +23,15 @@ pub const RINGS: usize = SEGMENTS / 4;
 /// How often the faces of the icosahedron are split.
 const SPLITS: usize = 3;
 
+/// Triangles of a box.
+pub const CUBOID_TRIANGLES: usize = 12;
+/// Triangles of a cylinder.
+pub const CYLINDER_TRIANGLES: usize = 4 * SEGMENTS - 4;
+/// Triangles of a capsule.
+pub const CAPSULE_TRIANGLES: usize = 4 * RINGS * SEGMENTS;
+/// Triangles of a sphere.
+pub const SPHERE_TRIANGLES: usize = 20 << (2 * SPLITS);
+
 /// A box. `size` is its full lengths along x, y and z, metres.
 #[must_use]
 pub fn cuboid(size: [f64; 3]) -> Mesh {

@@ -222,3 +222,37 @@ fn modules_without_the_edits_do_not_replace_them() {
     generate(&source, &target, &core, &()).unwrap();
     assert!(!target.join(SKIPS).exists());
 }
+
+#[test]
+fn edits_of_which_only_the_yaml_file_is_left_stop_the_run() {
+    let (_folder, source, target) = edited();
+    generate(&source, &target, &settings(), &()).unwrap();
+    fs::remove_file(target.join(SKIPS).join("module.json")).unwrap();
+    let before = bytes_below(&target);
+    let error = generate(&source, &target, &settings(), &()).unwrap_err();
+    assert_eq!(error.code(), "edits");
+    assert!(error.to_string().contains("no module.json"), "{error}");
+    assert!(bytes_below(&target) == before);
+}
+
+#[test]
+fn an_edit_of_a_link_that_never_was_stops_the_run() {
+    let (_folder, source, target) = edited();
+    let mut mistyped = edit();
+    mistyped["link_b"] = json!("B");
+    write_edits(&target, &json!([edit(), mistyped]));
+    let before = bytes_below(&target);
+    let error = generate(&source, &target, &settings(), &()).unwrap_err();
+    assert_eq!(error.code(), "edits");
+    assert!(error.to_string().contains("names the link `B`"), "{error}");
+    assert!(bytes_below(&target) == before);
+    // A link that the robot no longer has is another matter: that is said in a note.
+    write_edits(&target, &json!([edit()]));
+    fs::write(&source, ROBOT.replace("\"b\"", "\"c\"")).unwrap();
+    let made = generate(&source, &target, &settings(), &()).unwrap();
+    assert!(
+        made.notes
+            .iter()
+            .any(|note| note.to_string().contains("`b`"))
+    );
+}

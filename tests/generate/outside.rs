@@ -163,6 +163,21 @@ fn a_mesh_outside_of_the_robots_folders_is_refused() {
 }
 
 #[test]
+fn each_mesh_outside_is_a_line_of_its_own() {
+    let machine = machine();
+    let urdf = machine.path().join("ws/robot/urdf/r.urdf");
+    fs::write(&urdf, robot(&["/etc/passwd", "../../../secret/id_rsa"])).unwrap();
+    let output = urdd(&["generate", "--output"])
+        .arg(machine.path().join("out"))
+        .arg(&urdf)
+        .output()
+        .unwrap();
+    let words = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(words.lines().count(), 3, "{words}");
+    assert!(!words.contains("\\n"), "{words}");
+}
+
+#[test]
 fn a_batch_goes_on_and_the_status_says_so() {
     let machine = machine();
     let folder = machine.path().join("ws/robot/urdf");

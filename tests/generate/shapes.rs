@@ -361,7 +361,7 @@ fn edits_of_skips_outlive_a_new_run() {
 fn a_mesh_beyond_all_measure_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let source = folder.path().join("robot.urdf");
-    let text = "v 0 0 0\nv 1 0 0\nv 0 1e12 0\nf 1 2 3\n";
+    let text = "v 0 0 0\nv 1e12 0 0\nv 0 1e12 0\nf 1 2 3\n";
     fs::write(folder.path().join("far.obj"), text).expect("written");
     let link = "<link name=\"probe\"><visual><geometry><mesh filename=\"far.obj\"/></geometry></visual></link>";
     fs::write(&source, format!("<robot name=\"r\">{link}</robot>")).expect("written");

@@ -8,7 +8,7 @@ use std::process::{Output, Stdio};
 
 use serde_json::Value;
 
-use crate::{ascii_stl, read_json, urdd};
+use crate::{ascii_stl, findings_of, read_json, urdd};
 
 const ROBOT: &str = r#"<robot name="r"><link name="a">
 <visual><geometry><mesh filename="here.stl"/></geometry></visual>
@@ -28,12 +28,16 @@ fn workshop(robot: &str) -> tempfile::TempDir {
     folder
 }
 
-fn run(folder: &Path, more: &[&str]) -> (Option<i32>, String, String) {
-    let output = urdd(&["generate", "--modules", "plain_meshes", "-o", "out"])
+fn generate(folder: &Path, more: &[&str]) -> Output {
+    urdd(&["generate", "-o", "out"])
         .args(more)
         .current_dir(folder)
         .output()
-        .unwrap();
+        .unwrap()
+}
+
+fn run(folder: &Path, more: &[&str]) -> (Option<i32>, String, String) {
+    let output = generate(folder, &[&["--modules", "plain_meshes"], more].concat());
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (
         output.status.code(),
@@ -204,4 +208,80 @@ fn a_robot_beyond_the_limits_is_refused() {
         .output()
         .unwrap();
     assert!(output.status.success(), "{output:?}");
+}
+
+#[test]
+fn more_triangles_than_files_hold_are_refused() {
+    // A sphere has 1280 triangles: 3,000,000 are those of 2,343 spheres, and 10,000,000 of 7,812.
+    let spheres = |number: usize| {
+        "<visual><geometry><sphere radius=\"1\"/></geometry></visual>".repeat(number)
+    };
+    let link =
+        |name: &str, number: usize| format!("<link name=\"{name}\">{}</link>", spheres(number));
+    let robot = |links: &[usize]| {
+        let mut text: String = (links.iter().enumerate())
+            .map(|(idx, number)| link(&format!("l{idx}"), *number))
+            .collect();
+        for idx in 1..links.len() {
+            text += &format!(
+                "<joint name=\"j{idx}\" type=\"fixed\"><parent link=\"l0\"/><child link=\"l{idx}\"/></joint>"
+            );
+        }
+        format!("<robot name=\"r\">{text}</robot>")
+    };
+    for (links, words) in [
+        (
+            vec![1, 2_344],
+            "the shapes of link `l1` have 3000320 triangles, and URDDs are made of up to 3000000 a link",
+        ),
+        (
+            vec![1_954, 1_954, 1_954, 1_954],
+            "the shapes of all links have more than 10000000 triangles",
+        ),
+    ] {
+        let folder = workshop(&robot(&links));
+        let (status, _, said) = run(folder.path(), &["r.urdf"]);
+        assert_eq!(status, Some(1), "{said}");
+        assert!(said.contains(words), "{said}");
+        assert!(!folder.path().join("out").exists());
+        let output = generate(folder.path(), &["--modules", "core", "r.urdf"]);
+        assert!(output.status.success(), "{output:?}");
+    }
+}
+
+#[test]
+fn shapes_that_files_do_not_tell_from_points_or_lines_are_refused() {
+    let robot = |at: &str, size: &str| {
+        format!(
+            "<robot name=\"r\"><link name=\"a\"><visual><origin xyz=\"{at} 0 0\"/><geometry><box size=\"{size}\"/></geometry></visual></link></robot>"
+        )
+    };
+    for (at, size, made) in [
+        ("1e9", "1 1 1", false),
+        ("100", "1e-6 1e-6 1e-6", false),
+        ("1e300", "1 1 1", false),
+        ("0", "1 1e-7 1e-7", false),
+        ("0", "1e-50 1e-50 1e-50", false),
+        ("1e5", "1 1 1", true),
+        ("0", "1 1e-5 1e-5", true),
+        ("0", "1 1 1e-9", true),
+        ("0", "1e-20 1e-20 1e-20", true),
+        ("0", "1e8 1e8 1e8", true),
+    ] {
+        let folder = workshop(&robot(at, size));
+        let output = generate(folder.path(), &["r.urdf"]);
+        let (status, said) = (
+            output.status.code(),
+            String::from_utf8(output.stderr).unwrap(),
+        );
+        let out = folder.path().join("out");
+        if made {
+            assert_eq!(status, Some(0), "{at}, {size}: {said}");
+            assert_eq!(findings_of(&out), [], "{at}, {size}");
+        } else {
+            assert_eq!(status, Some(1), "{at}, {size}: {said}");
+            assert!(said.contains("link `a`: its shape is too thin"), "{said}");
+            assert!(!out.exists());
+        }
+    }
 }

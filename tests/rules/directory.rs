@@ -449,6 +449,9 @@ pub fn cases() -> Vec<Case> {
         invalid(DIR027, "module", |f| {
             f.put_file("DOF_module/notes.txt", *b"hello\n");
         }),
+        invalid(DIR027, "folder-of-modules", |f| {
+            f.put_file("Mesh_Modules/notes.txt", *b"hello\n");
+        }),
         near_miss(DIR027, "files-that-are-nobodys-business", |f| {
             f.put_file("README", *b"hello\n");
             f.put_file("readme", *b"hello\n");

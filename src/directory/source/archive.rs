@@ -6,7 +6,6 @@
 //! reads it later reads it to the end.
 
 use std::collections::{BTreeSet, HashSet};
-use std::fs::File;
 use std::io::{self, Cursor, Read};
 use std::path::Path;
 use std::sync::Arc;
@@ -24,6 +23,7 @@ use crate::directory::limits::{
 };
 use crate::directory::listing::Listing;
 use crate::directory::read_error::ReadError;
+use crate::directory::regular;
 use crate::format::registry::ModuleKind;
 
 /// Longest target of a symbolic link, bytes.
@@ -39,8 +39,8 @@ pub fn is_archive(path: &Path) -> bool {
         .is_some_and(|extension| extension.eq_ignore_ascii_case("zip"));
     let begins = || {
         let mut start = [0; 4];
-        File::open(path)?.read_exact(&mut start)?;
-        io::Result::Ok(matches!(&start, b"PK\x03\x04" | b"PK\x05\x06"))
+        regular::open(path).ok()?.read_exact(&mut start).ok()?;
+        Some(matches!(&start, b"PK\x03\x04" | b"PK\x05\x06"))
     };
     path.is_file() && (by_name || begins().unwrap_or(false))
 }
@@ -77,7 +77,7 @@ impl Archive {
     /// Where it cannot be read, or is not an archive of one URDD.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let from_io = |error: io::Error| ReadError::from_io(&error);
-        let file = File::open(path).map_err(from_io)?;
+        let file = regular::open(path)?;
         let limit = MAX_ARCHIVE_BYTES;
         let mut bytes = Vec::new();
         file.take(limit + 1)

@@ -10,6 +10,7 @@ use crate::directory::layout::ROOT_METADATA;
 use crate::directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use crate::directory::listing::{Entry, EntryKind, Listing};
 use crate::directory::read_error::ReadError;
+use crate::directory::regular;
 use crate::format::registry::ModuleKind;
 
 /// Whether a folder is the root of a URDD: it holds `urdd.json`, or a module's folder.
@@ -132,13 +133,10 @@ impl Source for Disk {
         if !target.starts_with(&self.canonical) {
             return Err(ReadError::LeavesRoot);
         }
-        // Looked at before it is opened: opening a pipe would wait for ever.
-        let metadata = fs::metadata(&target).map_err(|error| ReadError::from_io(&error))?;
-        if !metadata.is_file() {
-            return Err(ReadError::NotAFile);
-        }
-        let file = fs::File::open(&target).map_err(|error| ReadError::from_io(&error))?;
-        Ok((Box::new(file), metadata.len()))
+        let file = regular::open(&target)?;
+        let metadata = file.metadata();
+        let size = metadata.map_err(|error| ReadError::from_io(&error))?.len();
+        Ok((Box::new(file), size))
     }
 
     fn sibling(&self, folder_name: &str) -> Option<Arc<dyn Source>> {

@@ -8,7 +8,9 @@ use rayon::prelude::*;
 use crate::format::meshes::GeometryKind;
 use crate::format::original_meshes::OriginalMeshesModule;
 use crate::format::urdf::{Geometry, Link, Material, Origin, UrdfModule};
+use crate::generate::fault::Fault;
 use crate::generate::pose;
+use crate::generate::size::{TriangleBudget, check_resolved};
 use crate::geometry::Mesh;
 use crate::geometry::mesh::placement;
 use crate::geometry::primitives;
@@ -32,12 +34,15 @@ struct Element<'a> {
 
 /// The geometry of every link; `None` for a link without any. `scenes` are the meshes by their paths
 /// in the URDD.
+///
+/// # Errors
+/// Where a link has too many triangles, or too small a shape too far away.
 pub(crate) fn link_geometries(
     robot: &UrdfModule,
     original: &OriginalMeshesModule,
     scenes: &BTreeMap<String, Arc<Scene>>,
     preferred: GeometryKind,
-) -> Vec<Option<LinkGeometry>> {
+) -> Result<Vec<Option<LinkGeometry>>, Fault> {
     let named: BTreeMap<(usize, GeometryKind, usize), &Scene> = original
         .references
         .iter()
@@ -56,26 +61,39 @@ pub(crate) fn link_geometries(
         GeometryKind::Collision => GeometryKind::Visual,
     };
     let quaternions = pose::has_quaternions(robot.version.as_deref());
+    let budget = TriangleBudget::default();
     let links: Vec<_> = robot.links.iter().enumerate().collect();
-    links
+    let geometries: Vec<Result<Option<LinkGeometry>, Fault>> = links
         .into_par_iter()
         .map(|(link_idx, link)| {
-            [preferred, other].into_iter().find_map(|kind| {
+            for kind in [preferred, other] {
                 let mut elements = elements(link, kind);
                 for (element_idx, element) in elements.iter_mut().enumerate() {
                     element.scene = named.get(&(link_idx, kind, element_idx)).copied();
                 }
-                let usable = elements.iter().filter(|element| is_usable(element));
-                let parts: Vec<Part> = usable
+                elements.retain(is_usable);
+                if !budget.take(&link.name, elements.iter().map(num_triangles).sum())? {
+                    return Ok(None);
+                }
+                let parts: Vec<Part> = elements
+                    .iter()
                     .flat_map(|element| placed(element, &robot.materials, quaternions))
                     .collect();
-                (!parts.is_empty()).then(|| LinkGeometry {
-                    geometry: kind,
-                    parts: by_look(parts),
-                })
-            })
+                let has_shapes = elements.iter().any(|element| element.scene.is_none());
+                if !parts.is_empty() || has_shapes {
+                    check_resolved(&link.name, &parts)?;
+                    return Ok(Some(LinkGeometry {
+                        geometry: kind,
+                        parts: by_look(parts),
+                    }));
+                }
+            }
+            Ok(None)
         })
-        .collect()
+        .collect();
+    let geometries = geometries.into_iter().collect::<Result<_, Fault>>()?;
+    budget.check()?;
+    Ok(geometries)
 }
 
 fn elements(link: &Link, kind: GeometryKind) -> Vec<Element<'_>> {
@@ -115,6 +133,18 @@ fn is_usable(element: &Element) -> bool {
         Some(Geometry::Cylinder(of)) => of.radius > 0.0 && of.length >= 0.0,
         Some(Geometry::Capsule(of)) => of.radius > 0.0 && of.length >= 0.0,
         Some(Geometry::Sphere(of)) => of.radius > 0.0,
+    }
+}
+
+/// How many triangles a usable element has, before those without an area are dropped.
+fn num_triangles(element: &Element) -> usize {
+    match element.geometry {
+        None => 0,
+        Some(Geometry::Mesh(_)) => element.scene.map_or(0, Scene::triangle_count),
+        Some(Geometry::Box(_)) => primitives::CUBOID_TRIANGLES,
+        Some(Geometry::Cylinder(_)) => primitives::CYLINDER_TRIANGLES,
+        Some(Geometry::Capsule(_)) => primitives::CAPSULE_TRIANGLES,
+        Some(Geometry::Sphere(_)) => primitives::SPHERE_TRIANGLES,
     }
 }
 

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use super::bounded::{MAX_SOURCE_BYTES, read_file};
 use super::error::GenerateError;
+use super::fault::{Fault, PlacedFault};
 use super::meshes::package::Packages;
 use super::note::{Note, Remark};
 use super::urdf::{self, Reading};
@@ -40,6 +41,20 @@ pub(crate) struct Source {
     pub notes: Vec<Note>,
     /// Where each mesh is named, as line and column of the file (reading.mesh_offsets).
     pub mesh_places: Vec<(u32, u32)>,
+}
+
+impl Source {
+    /// An error about the robot as a whole.
+    pub fn refused(&self, fault: Fault) -> GenerateError {
+        GenerateError::Refused {
+            file: self.shown.clone(),
+            faults: vec![PlacedFault {
+                line: 1,
+                column: 1,
+                fault,
+            }],
+        }
+    }
 }
 
 /// Reads a URDF, or a xacro file that makes one.
@@ -215,7 +230,7 @@ fn mend(
 
     let mut mesh_places = None;
     for _ in 0..MOST_ROUNDS {
-        let refused = |mut faults: Vec<super::fault::PlacedFault>| {
+        let refused = |mut faults: Vec<PlacedFault>| {
             for placed in &mut faults {
                 placed.line += first_line;
             }

@@ -33,7 +33,8 @@ fn check(context: &Context, findings: &mut Findings) {
         };
         path == ROOT_METADATA
             || Some(path) == source
-            || entries::known_modules(context).any(|module| within(&module.folder))
+            || entries::known_modules(context)
+                .any(|module| within(&module.folder) || is_above(path, &module.folder))
     };
     let mut alike: BTreeMap<(&str, String), Vec<&str>> = BTreeMap::new();
     for entry in &context.listing().entries {
@@ -55,4 +56,11 @@ fn check(context: &Context, findings: &mut Findings) {
             );
         }
     }
+}
+
+/// Whether a folder lies above another.
+fn is_above(folder: &str, other: &str) -> bool {
+    other
+        .strip_prefix(folder)
+        .is_some_and(|rest| rest.starts_with('/'))
 }
