@@ -1,0 +1,111 @@
+//! How much memory inputs take: the multiples that docs/security.md states, held by the system's limit.
+
+#![cfg(target_os = "linux")]
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// What the program takes for itself, and its threads, bytes.
+const OWN: usize = 64 << 20;
+
+/// Runs the program with so many bytes of data, and no more.
+fn urdd(limit: usize, arguments: &[&str], folder: &Path) -> Output {
+    let kibibytes = limit / 1024;
+    Command::new("sh")
+        .args(["-c", &format!("ulimit -d {kibibytes} && exec \"$@\""), "sh"])
+        .arg(env!("CARGO_BIN_EXE_urdd"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+/// Asserts that a run ends with this status, with memory of this multiple of the input.
+fn assert_within(multiple: usize, size: usize, status: i32, arguments: &[&str], folder: &Path) {
+    let output = urdd(OWN + multiple * size, arguments, folder);
+    assert_eq!(
+        output.status.code(),
+        Some(status),
+        "{arguments:?}, {size} bytes: {output:?}"
+    );
+}
+
+#[test]
+fn documents_take_a_stated_multiple_of_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(
+        folder.path().join("r.urdf"),
+        "<robot name=\"r\"><link name=\"a\"/></robot>",
+    )
+    .unwrap();
+    let made = ["generate", "--modules", "core", "-o", "r", "r.urdf"];
+    assert_within(0, 0, 0, &made, folder.path());
+    let nested = "[".repeat(80) + &"]".repeat(80);
+    let list = |element: &str| {
+        format!(
+            "[{}0]",
+            format!("{element},").repeat(2_000_000 / (element.len() + 1))
+        )
+    };
+    for (multiple, file, text) in [
+        (200, "module.json", list(&nested)),
+        (200, "module.json", list("{\"\":0}")),
+        (200, "module.json", list("[]")),
+        (40, "module.json", list("0.25")),
+        (200, "module.yaml", list("[]")),
+        (200, "module.yaml", list("a")),
+        (10, "module.yaml", "- 0.25\n".repeat(300_000)),
+    ] {
+        let path = folder.path().join("r/urdf_module").join(file);
+        let before = fs::read(&path).unwrap();
+        fs::write(&path, &text).unwrap();
+        assert_within(multiple, text.len(), 1, &["validate", "r"], folder.path());
+        assert_within(multiple, text.len(), 0, &["info", "r"], folder.path());
+        fs::write(&path, before).unwrap();
+    }
+}
+
+#[test]
+fn a_urdf_takes_a_stated_multiple_of_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    for element in ["<a/>", "<a b=\"c\" d=\"e\"/>", "<!--x-->", "<?a?>"] {
+        let many = element.repeat(1_600_000 / element.len());
+        let text = format!("<robot name=\"r\"><link name=\"a\"/>{many}</robot>");
+        fs::write(folder.path().join("r.urdf"), &text).unwrap();
+        assert_within(100, text.len(), 0, &["validate", "r.urdf"], folder.path());
+    }
+}
+
+#[test]
+fn a_mesh_takes_a_stated_multiple_of_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    let urdf = "<robot name=\"r\"><link name=\"a\"><visual><geometry><mesh filename=\"m.obj\"/></geometry></visual></link></robot>";
+    fs::write(folder.path().join("r.urdf"), urdf).unwrap();
+    // A field of waves, of 200 x 200 squares.
+    let side = 200;
+    let mut field = String::new();
+    for at in 0..side * side {
+        let (x, y) = (f64::from(at / side), f64::from(at % side));
+        writeln!(field, "v {x} {y} {:.6}", (x * 0.7).sin() + (y * 0.9).cos()).unwrap();
+    }
+    for at in 1..side * (side - 1) {
+        writeln!(field, "f {at} {} {}", at + side, at + 1).unwrap();
+    }
+    // A polygon that is said as one face again and again: a triangle in four bytes.
+    let corners = "1 2 3 ".repeat(60_000);
+    let fan = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf {corners}\n");
+    for (text, triangles) in [(field, 0), (fan, 180_000)] {
+        fs::write(folder.path().join("m.obj"), &text).unwrap();
+        let limit = OWN + 200 * text.len() + 600 * triangles;
+        for arguments in [
+            ["generate", "-o", "out", "r.urdf"].as_slice(),
+            &["validate", "out"],
+        ] {
+            let output = urdd(limit, arguments, folder.path());
+            assert_eq!(output.status.code(), Some(0), "{arguments:?}: {output:?}");
+        }
+        fs::remove_dir_all(folder.path().join("out")).unwrap();
+    }
+}

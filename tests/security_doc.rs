@@ -1,0 +1,55 @@
+//! The promises of docs/security.md: each names tests, and they exist.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+/// Names of all tests in a folder: functions under `#[test]`, also in macros that make them.
+fn tests_below(folder: &Path, names: &mut BTreeSet<String>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            tests_below(&path, names);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            let text = fs::read_to_string(&path).unwrap();
+            for after in text.split("#[test]").skip(1) {
+                let name = after.split_once("fn ").map(|(_, rest)| rest);
+                let name = name.and_then(|rest| rest.split(['(', '<']).next());
+                names.extend(name.map(|name| name.trim().to_owned()));
+            }
+        }
+    }
+}
+
+/// The cells of a table's row.
+fn cells(line: &str) -> Vec<&str> {
+    line.trim_matches('|').split('|').map(str::trim).collect()
+}
+
+#[test]
+fn every_promise_names_tests_that_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut tests = BTreeSet::new();
+    for folder in ["src", "tests"] {
+        tests_below(&root.join(folder), &mut tests);
+    }
+    let page = fs::read_to_string(root.join("docs/security.md")).unwrap();
+    let is_row = |line: &&str| {
+        line.starts_with('|') && !line.starts_with("|---") && !line.starts_with("| input |")
+    };
+    let rows: Vec<Vec<&str>> = page.lines().filter(is_row).map(cells).collect();
+    assert!(rows.len() > 40, "{} rows", rows.len());
+    for row in rows {
+        assert_eq!(row.len(), 4, "{row:?}");
+        let held_by = row[3];
+        if held_by == "the same" || held_by.starts_with("by construction: ") {
+            continue;
+        }
+        let names: Vec<&str> = held_by.split('`').skip(1).step_by(2).collect();
+        assert!(!names.is_empty(), "no test holds this promise: {row:?}");
+        for name in names {
+            let name = name.rsplit("::").next().unwrap();
+            assert!(tests.contains(name), "there is no test `{name}`: {row:?}");
+        }
+    }
+}
