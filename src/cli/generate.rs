@@ -196,6 +196,11 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
     let failed = if is_batch {
         let mut jobs =
             batch::jobs(&robots).map_err(|error| escape::line(&error.to_string()).into_owned())?;
+        check_used(
+            arguments,
+            &settings,
+            jobs.iter().map(|job| job.source.as_path()),
+        )?;
         if let Some(shard) = arguments.shard {
             jobs = shard.of(jobs);
         }
@@ -211,6 +216,7 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
         }
         let source = robots.into_iter().next();
         let source = source.ok_or("there is no robot; give a URDF or xacro file")?;
+        check_used(arguments, &settings, [source.as_path()])?;
         one(source, &arguments.output, &settings, &pool, &printer)?
     };
     let _ = std::panic::take_hook();
@@ -222,6 +228,23 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
         Some(message) => Err(message),
         None if failed > 0 => Ok(FAILED),
         None => Ok(0),
+    }
+}
+
+/// Refuses arguments for xacro where no file is given to it: they would change nothing.
+fn check_used<'a>(
+    arguments: &GenerateArguments,
+    settings: &Settings,
+    sources: impl IntoIterator<Item = &'a Path>,
+) -> Result<(), String> {
+    let is_expanded =
+        |path: &Path| arguments.xacro || path.extension().is_some_and(|ending| ending == "xacro");
+    match settings.xacro.arguments.first() {
+        Some(unused) if !sources.into_iter().any(is_expanded) => Err(format!(
+            "`{}` is an argument for xacro, and there is no .xacro file; `--xacro` expands macros in .urdf files too",
+            escape::line(unused)
+        )),
+        _ => Ok(()),
     }
 }
 

@@ -251,6 +251,28 @@ fn files_without_end_are_not_read_without_end() {
 }
 
 #[test]
+fn what_stands_in_the_place_of_a_mesh_is_said() {
+    let machine = machine();
+    let meshes = machine.path().join("ws/robot/meshes");
+    let status = std::process::Command::new("mkfifo")
+        .arg(meshes.join("pipe.stl"))
+        .status();
+    assert!(status.unwrap().success());
+    symlink("ring.stl", meshes.join("ring.stl")).unwrap();
+    symlink("gone.stl", meshes.join("link.stl")).unwrap();
+    for (name, words) in [
+        ("pipe.stl", "pipe.stl, which is not a regular file)"),
+        ("ring.stl", "ring.stl, a link that leads nowhere)"),
+        ("link.stl", "link.stl, a link that leads nowhere)"),
+        ("PIPE.stl", "pipe.stl, whose case differs)"),
+    ] {
+        let (_, made) = made(machine.path(), &[&format!("../meshes/{name}")], &[]);
+        let note = made.unwrap().notes[0].to_string();
+        assert!(note.contains(words), "{name}: {note}");
+    }
+}
+
+#[test]
 fn pipes_and_devices_are_no_meshes() {
     let machine = machine();
     let pipe = machine.path().join("ws/robot/meshes/pipe.stl");

@@ -151,3 +151,19 @@ fn it_may_not_take_for_ever_nor_write_without_end() {
     std::thread::sleep(std::time::Duration::from_secs(4));
     assert!(!late.exists(), "what xacro started outlived it");
 }
+
+#[test]
+fn arguments_that_no_file_takes_are_wrong_usage() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("r.urdf"), EXPANDED).unwrap();
+    let (status, said) = run_with(folder.path(), "r.urdf", None, &["prefix:=left_"]);
+    assert_eq!(status, Some(2), "{said}");
+    assert!(
+        said.contains("`prefix:=left_` is an argument for xacro"),
+        "{said}"
+    );
+    assert!(!folder.path().join("out").exists());
+    // Where macros may be in the file, it is as if it had none.
+    let (status, said) = run_with(folder.path(), "r.urdf", None, &["prefix:=left_", "--xacro"]);
+    assert_eq!(status, Some(0), "{said}");
+}

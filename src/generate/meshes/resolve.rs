@@ -220,10 +220,14 @@ impl Search<'_> {
                 }
             }
         }
-        let tried = match path.is_dir() {
-            true => format!("{}, which is a folder", path.display()),
-            false => path.display().to_string(),
-        };
+        let mut tried = path.display().to_string();
+        if path.is_dir() {
+            tried += ", which is a folder";
+        } else if path.exists() && !path.is_file() {
+            tried += ", which is not a regular file";
+        } else if path.is_symlink() && !path.exists() {
+            tried += ", a link that leads nowhere";
+        }
         if !self.not_found.tried.contains(&tried) {
             self.not_found.tried.push(tried);
         }
@@ -243,6 +247,7 @@ fn other_case(path: &Path) -> Option<PathBuf> {
     let mut near: Vec<PathBuf> = fs::read_dir(path.parent()?)
         .ok()?
         .flatten()
+        .filter(|entry| Some(entry.file_name().as_os_str()) != path.file_name())
         .filter(|entry| entry.file_name().to_string_lossy().to_lowercase() == name)
         .map(|entry| entry.path())
         .collect();
