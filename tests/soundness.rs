@@ -120,6 +120,11 @@ fn pointers(examined: &Examined, code: Code) -> Vec<String> {
     pointers
 }
 
+/// The links of which some mesh was not verified.
+fn links_left(examined: &Examined) -> BTreeSet<usize> {
+    examined.links_not_verified().into_keys().collect()
+}
+
 fn left_out(examined: &Examined, code: Code) -> BTreeSet<NotVerified> {
     check(examined, code).not_verified.iter().copied().collect()
 }
@@ -168,7 +173,7 @@ fn the_misplaced_one_of_two_links_that_share_a_file_is_named() {
     };
     assert_eq!(left_out(&examined, MSH018), BTreeSet::from([not_held]));
     assert!(left_out(&examined, SHP017).is_empty());
-    assert_eq!(examined.links_not_verified(), BTreeSet::from([1, 2]));
+    assert_eq!(links_left(&examined), BTreeSet::from([1, 2]));
 }
 
 #[test]
@@ -196,7 +201,7 @@ fn a_folded_piece_leaves_the_other_pieces_judged() {
     assert_eq!(left_out(&examined, MSH022), BTreeSet::from(folded));
     let unsound = BTreeSet::from([left(piece(2, 0), MSH020), left(piece(1, 0), MSH022)]);
     assert_eq!(left_out(&examined, SHP017), unsound);
-    assert_eq!(examined.links_not_verified(), BTreeSet::from([1, 2]));
+    assert_eq!(links_left(&examined), BTreeSet::from([1, 2]));
 }
 
 #[test]
@@ -252,7 +257,7 @@ fn where_no_part_is_sound_the_rule_is_skipped_for_that() {
         check(&examined, MSH018).outcome,
         Outcome::Skipped(SkipReason::Failed(MSH017))
     );
-    assert_eq!(examined.links_not_verified(), BTreeSet::from([0, 1, 2, 3]));
+    assert_eq!(links_left(&examined), BTreeSet::from([0, 1, 2, 3]));
 }
 
 #[test]
@@ -266,5 +271,5 @@ fn a_mesh_that_cannot_be_read_is_not_verified() {
         why: Why::Unreadable,
     };
     assert_eq!(left_out(&examined, MSH015), BTreeSet::from([unread]));
-    assert_eq!(examined.links_not_verified(), BTreeSet::from([2]));
+    assert_eq!(links_left(&examined), BTreeSet::from([2]));
 }

@@ -56,6 +56,8 @@ object! {
         pub findings: Vec<Finding>,
         /// What was not verified, by reason.
         pub not_checked: Vec<NotChecked>,
+        /// Links whose geometry was not verified by every rule, in order of index.
+        pub geometry_not_verified: Vec<LinkNotVerified>,
     }
 }
 
@@ -147,6 +149,18 @@ object! {
     }
 }
 
+object! {
+    /// A link of which some mesh or shape was not verified.
+    pub struct LinkNotVerified {
+        /// Index of the link.
+        pub link: Count,
+        /// Codes of the rules that were to verify it.
+        pub codes: Vec<String>,
+        /// Why they could not.
+        pub reasons: Vec<String>,
+    }
+}
+
 string_enum! {
     /// What became of a rule.
     pub enum Status {
@@ -178,6 +192,8 @@ string_enum! {
     pub enum Consequence {
         /// Nothing is wrong, but it could be tighter, or the robot itself is odd.
         Looseness = "looseness",
+        /// The robot is shown in other colours or textures.
+        Appearance = "appearance",
         /// A reader may refuse it, or read it in another way.
         Format = "format",
         /// Collision checking misses contacts, or sees some that are not there.

@@ -48,7 +48,7 @@ pub(super) fn causes(report: &Report) -> Vec<Cause<'_>> {
     let mut all: BTreeMap<(&str, String), Gathered> = BTreeMap::new();
     for (number, urdd) in report.urdds.iter().enumerate() {
         for finding in &urdd.findings {
-            let key = (finding.code.as_str(), without_particulars(&finding.message));
+            let key = (finding.code.as_str(), meaning(&finding.message));
             let cause = all.entry(key).or_insert_with(|| Gathered {
                 subjects_known: true,
                 ..Gathered::default()
@@ -122,6 +122,32 @@ fn inside(file: &str, roots: &BTreeSet<&str>) -> bool {
     parents.into_iter().any(|folder| roots.contains(folder))
 }
 
+/// What a message means: without names, numbers, pointers and what stands in parentheses, and with
+/// a piece or a hull of a link taken for the link.
+fn meaning(message: &str) -> String {
+    let mut depth = 0_usize;
+    let outside = |c: &char| {
+        match c {
+            '(' => depth += 1,
+            ')' if depth > 0 => {
+                depth -= 1;
+                return false;
+            }
+            _ => {}
+        }
+        depth == 0
+    };
+    let text: String = without_particulars(message)
+        .chars()
+        .filter(outside)
+        .collect();
+    let words = text.split_whitespace();
+    let words: Vec<&str> = words.filter(|word| !word.starts_with('/')).collect();
+    let text = words.join(" ");
+    text.replace("piece # of link", "link")
+        .replace("the hull of link", "link")
+}
+
 /// A message without names (in backticks or quotes) and numbers.
 fn without_particulars(message: &str) -> String {
     let mut out = String::new();
@@ -158,6 +184,22 @@ mod tests {
         assert_ne!(
             same,
             without_particulars("joint `a` is off by 0.25 m, at most 1e-6")
+        );
+    }
+
+    #[test]
+    fn places_do_not_tell_causes_apart() {
+        let same = meaning("shapes 3 (link `a`) and 0 (link `b`): /full_obbs/0/3 is the edit");
+        let other =
+            "shapes 9 (piece 0 of `a`) and 1 (piece 2 of `b`): /decomposition_obbs/1/9 is the edit";
+        assert_eq!(same, meaning(other));
+        assert_eq!(
+            meaning("the sphere about piece 1 of link 1 (`a`) is large"),
+            meaning("the sphere about the hull of link 3 (`b`) is large")
+        );
+        assert_ne!(
+            meaning("the origin (`a`) is lost"),
+            meaning("the axis (`a`) is lost")
         );
     }
 

@@ -12,7 +12,8 @@ use crate::format::escape::line as safe;
 use super::model::{
     CheckStatus, Finding, Kind, Magnitude, Place, Report, Severity, Skipped, Status, Urdd, Verdict,
 };
-use super::summary;
+use super::words::{list, plural};
+use super::{summary, unverified};
 
 /// How the human report looks.
 #[derive(Debug, Clone, Copy)]
@@ -308,6 +309,9 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
         let reason = safe(&open.reason);
         writeln!(out, "  {label} {}: {reason}", list(&open.codes))?;
     }
+    if let Some(text) = unverified::describe(urdd) {
+        writeln!(out, "  {label} {text}")?;
+    }
     let mut by_reason: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     let ignored = |check: &&CheckStatus| check.skipped == Some(Skipped::Ignored);
     for check in urdd.checks.iter().filter(ignored) {
@@ -327,21 +331,6 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
         writeln!(out, "  {label} {rules} about modules that are not here")?;
     }
     Ok(())
-}
-
-/// Codes, or where they are many, how many of which families.
-fn list(codes: &[String]) -> String {
-    const MOST: usize = 8;
-    if codes.len() <= MOST {
-        return codes.join(" ");
-    }
-    let mut families: Vec<&str> = codes
-        .iter()
-        .map(|code| &code[..code.len().min(3)])
-        .collect();
-    families.sort_unstable();
-    families.dedup();
-    format!("{} ({})", plural(codes.len(), "rule"), families.join(", "))
 }
 
 fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
@@ -376,8 +365,4 @@ fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Res
         writeln!(out, "{}", style.paint(DIM, hint))?;
     }
     Ok(())
-}
-
-pub(super) fn plural(count: usize, unit: &str) -> String {
-    format!("{count} {unit}{}", if count == 1 { "" } else { "s" })
 }

@@ -9,6 +9,8 @@ pub mod model;
 pub mod place;
 pub mod sarif;
 mod summary;
+mod unverified;
+mod words;
 
 use crate::format::escape;
 

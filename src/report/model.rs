@@ -1,7 +1,7 @@
 //! Makes the report as data, from which every rendering is made, of what a run found.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::format::index::Count;
 use crate::format::registry::SPEC_VERSION;
@@ -79,6 +79,7 @@ fn urdd(subject: &Subject, fail_on: Severity) -> Urdd {
         checks: Vec::new(),
         findings: Vec::new(),
         not_checked: Vec::new(),
+        geometry_not_verified: Vec::new(),
     };
     let examined = match &subject.result {
         Ok(examined) => examined,
@@ -117,6 +118,7 @@ fn urdd(subject: &Subject, fail_on: Severity) -> Urdd {
         },
         modules: examined.modules.iter().map(module).collect(),
         not_checked: not_checked(&checks),
+        geometry_not_verified: links_not_verified(examined),
         checks,
         findings,
         ..unreadable
@@ -162,6 +164,21 @@ fn not_checked(checks: &[CheckStatus]) -> Vec<NotChecked> {
         reason: reason.to_owned(),
     };
     by_reason.into_iter().map(of_reason).collect()
+}
+
+/// The links of which some mesh or shape was not verified.
+fn links_not_verified(examined: &Examined) -> Vec<LinkNotVerified> {
+    let links = examined.links_not_verified().into_iter();
+    let link = |(link, whys): (usize, BTreeSet<_>)| {
+        let codes: BTreeSet<_> = whys.iter().map(|(code, _)| *code).collect();
+        let reasons: BTreeSet<String> = whys.into_iter().map(|(_, why)| why).collect();
+        LinkNotVerified {
+            link: count(link),
+            codes: codes.iter().map(ToString::to_string).collect(),
+            reasons: reasons.into_iter().collect(),
+        }
+    };
+    links.map(link).collect()
 }
 
 fn findings(examined: &Examined) -> Vec<Finding> {

@@ -12,6 +12,7 @@ use sha2::{Digest, Sha256};
 
 use super::model::{Finding, Place, Report, Severity, Status, Urdd, Verdict};
 use super::place::file_in;
+use super::unverified;
 use crate::format::escape;
 use crate::format::hexadecimal::hexadecimal;
 use crate::format::index::Count;
@@ -65,6 +66,16 @@ pub fn sarif(
             json!({"level": "warning", "message": message(&text)})
         })
         .collect();
+    // What was not verified is no failure of the run.
+    let failed = !notifications.is_empty();
+    let unverified = placed().flat_map(|(urdd, place)| {
+        unverified::describe(urdd).into_iter().map(move |text| {
+            let locations =
+                json!([{"physicalLocation": {"artifactLocation": artifact(place, None)}}]);
+            json!({"level": "note", "message": message(&text), "locations": locations})
+        })
+    });
+    let notifications: Vec<Value> = notifications.into_iter().chain(unverified).collect();
     let mut driver = json!({
         "name": report.tool.name,
         "version": report.tool.version,
@@ -81,7 +92,7 @@ pub fn sarif(
         "runs": [{
             "tool": {"driver": driver},
             "invocations": [{
-                "executionSuccessful": notifications.is_empty(),
+                "executionSuccessful": !failed,
                 "exitCode": exit_code,
                 "toolExecutionNotifications": notifications,
                 "toolConfigurationNotifications": stale,

@@ -6,8 +6,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
 use super::causes::{Cause, causes};
-use super::human::{BOLD, DIM, GREEN, RED, Style, YELLOW, plural, severity};
+use super::human::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::model::{Consequence, Report, Severity, Status, Urdd, Verdict};
+use super::unverified::not_verified;
+use super::words::plural;
 use crate::format::escape::line as safe;
 
 /// Families of rules, as columns: a title, and the families.
@@ -28,7 +30,7 @@ const COLUMNS: &[(&str, &[&str])] = &[
 
 /// Most rows of the table, and most causes of errors and of what is less, unless all are asked for.
 const ROWS: usize = 60;
-const CAUSES: usize = 15;
+const CAUSES: usize = 10;
 const LESSER: usize = 5;
 /// Longest name of a URDD in the table, characters.
 const NAME: usize = 28;
@@ -94,6 +96,7 @@ fn words(consequence: Consequence) -> &'static str {
         Consequence::MissingGeometry => "missing geometry",
         Consequence::Collisions => "collisions missed, or seen where there are none",
         Consequence::Format => "format",
+        Consequence::Appearance => "appearance",
         Consequence::Looseness => "looseness",
     }
 }
@@ -107,7 +110,7 @@ fn write_cause(cause: &Cause<'_>, style: Style, out: &mut impl Write) -> fmt::Re
     };
     let mut text = format!("{times} in {}", plural(cause.urdds.len(), "URDD"));
     if cause.subjects > 1 && cause.subjects < cause.times {
-        text += &format!(", at {}", plural(cause.subjects, kind(cause)));
+        text += &format!(", at {} {}", cause.subjects, kinds(cause));
     }
     if cause.borrowed > 0 {
         let text_of = |count| plural(count, "URDD");
@@ -123,17 +126,17 @@ fn write_cause(cause: &Cause<'_>, style: Style, out: &mut impl Write) -> fmt::Re
     writeln!(out, "{}", style.paint(DIM, shorten(&example, style.width)))
 }
 
-/// What a cause was found at.
-fn kind(cause: &Cause<'_>) -> &'static str {
+/// What a cause was found at, more than one of them.
+fn kinds(cause: &Cause<'_>) -> &'static str {
     let subject = cause.first.subject.as_deref().unwrap_or_default();
-    if subject.contains("`, `") {
-        "pair of links"
+    if subject.contains(", ") {
+        "pairs of links"
     } else if subject.starts_with("joint") {
-        "joint"
+        "joints"
     } else if subject.starts_with("DOF") {
-        "DOF"
+        "DOFs"
     } else {
-        "link"
+        "links"
     }
 }
 
@@ -145,10 +148,21 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
         *urdds += 1;
         codes.extend(open.codes.iter().map(String::as_str));
     }
-    if by_reason.is_empty() {
+    let unverified: Vec<usize> = report
+        .urdds
+        .iter()
+        .map(|urdd| urdd.geometry_not_verified.len())
+        .filter(|links| *links > 0)
+        .collect();
+    if by_reason.is_empty() && unverified.is_empty() {
         return Ok(());
     }
     writeln!(out, "{}", style.paint(BOLD, "Not checked"))?;
+    if !unverified.is_empty() {
+        let urdds = plural(unverified.len(), "URDD");
+        let text = not_verified(unverified.iter().sum());
+        writeln!(out, "    {text}, in {urdds}")?;
+    }
     let mut reasons: Vec<_> = by_reason.into_iter().collect();
     reasons.sort_by_key(|(_, (urdds, _))| Reverse(*urdds));
     let most = if style.full { reasons.len() } else { LESSER };
@@ -250,8 +264,10 @@ fn cell(urdd: &Urdd, families: &[&str]) -> (Cell, String) {
         alike.map(|finding| finding.count.get()).sum()
     };
     let open = || {
-        let codes = urdd.not_checked.iter().flat_map(|open| &open.codes);
-        codes.into_iter().any(|code| of_family(code))
+        let rules = urdd.not_checked.iter().flat_map(|open| &open.codes);
+        let links = urdd.geometry_not_verified.iter();
+        let mut codes = rules.chain(links.flat_map(|link| &link.codes));
+        codes.any(|code| of_family(code))
     };
     let statuses = || {
         let checks = urdd.checks.iter().filter(|check| of_family(&check.code));

@@ -21,18 +21,26 @@ impl Examined {
         parts
     }
 
-    /// The links of which some mesh was not verified, each once: all of them where a rule about
-    /// geometry did not run because of a fault.
-    pub fn links_not_verified(&self) -> BTreeSet<usize> {
-        let mut links: BTreeSet<usize> =
-            self.not_verified().keys().map(|part| part.link()).collect();
-        let skipped = self.checks.iter().any(|check| match &check.outcome {
-            Outcome::Skipped(reason) => check.rule.phase == Phase::Geometry && reason.is_obstacle(),
-            Outcome::Crashed(_) => check.rule.phase == Phase::Geometry,
-            _ => false,
-        });
-        if let (true, Some(all)) = (skipped, self.size.links) {
-            links.extend(0..all);
+    /// The links of which some mesh was not verified: which rules, and why not. All of them where a
+    /// rule about geometry did not run because of a fault.
+    pub fn links_not_verified(&self) -> BTreeMap<usize, BTreeSet<(Code, String)>> {
+        let mut links: BTreeMap<usize, BTreeSet<(Code, String)>> = BTreeMap::new();
+        for (part, whys) in self.not_verified() {
+            let whys = whys.into_iter().map(|(code, why)| (code, why.to_string()));
+            links.entry(part.link()).or_default().extend(whys);
+        }
+        for check in &self.checks {
+            let why = match &check.outcome {
+                Outcome::Skipped(reason) if reason.is_obstacle() => reason.to_string(),
+                Outcome::Crashed(_) => format!("{} crashed", check.rule.code),
+                _ => continue,
+            };
+            if check.rule.phase == Phase::Geometry {
+                for link in 0..self.size.links.unwrap_or_default() {
+                    let whys = links.entry(link).or_default();
+                    whys.insert((check.rule.code, why.clone()));
+                }
+            }
         }
         links
     }

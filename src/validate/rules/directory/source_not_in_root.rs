@@ -3,7 +3,7 @@ use crate::directory::path;
 use crate::format::root_metadata::Source;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::rule::{Need, declare_rule};
+use crate::validate::rule::declare_rule;
 
 declare_rule! {
     /// The source URDF lies in a folder below the root.
@@ -13,7 +13,7 @@ declare_rule! {
     ///
     /// Move it next to `urdd.json`, and change `source` to its new path.
     DIR028 "source-not-in-root", Error, clause "2.12", since "0.2.0",
-    phase Files, needs [Need::RootMetadata],
+    phase Files, needs [Version1, RootMetadata],
     check check,
 }
 
