@@ -7,14 +7,11 @@ use super::{XmlError, text_pos};
 /// Checks that the declaration, where there is one, names a version 1.x, and no other encoding than
 /// UTF-8. (The parser takes any.)
 pub(super) fn check(text: &str) -> Result<(), XmlError> {
-    if let Some(range) = value(text, "version") {
-        let digits = text[range.clone()].strip_prefix("1.");
-        if !digits.is_some_and(|d| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit())) {
-            return Err(XmlError::Version {
-                pos: text_pos(text, range.start),
-                found: text[range].chars().take(20).collect(),
-            });
-        }
+    if let Some(range) = wrong_version(text) {
+        return Err(XmlError::Version {
+            pos: text_pos(text, range.start),
+            found: text[range].chars().take(20).collect(),
+        });
     }
     if let Some(range) = value(text, "encoding") {
         let found = text[range.clone()].to_ascii_lowercase();
@@ -26,6 +23,14 @@ pub(super) fn check(text: &str) -> Result<(), XmlError> {
         }
     }
     Ok(())
+}
+
+/// Where the declaration names a version that is not 1.0, 1.1 and so on.
+pub fn wrong_version(text: &str) -> Option<Range<usize>> {
+    let range = value(text, "version")?;
+    let digits = text[range.clone()].strip_prefix("1.");
+    let is_right = digits.is_some_and(|d| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit()));
+    (!is_right).then_some(range)
 }
 
 /// Where the value of one of the declaration's parts stands.

@@ -8,6 +8,7 @@
 mod count;
 mod declaration;
 
+pub use declaration::wrong_version;
 use roxmltree::{Document, ParsingOptions, TextPos};
 
 /// Most levels of elements inside one another; a URDF has 6, a COLLADA scene some 20, and of a

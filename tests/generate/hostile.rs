@@ -82,6 +82,7 @@ fn cases() -> Vec<(&'static str, Vec<u8>)> {
         ("Latin-1, declared", b"<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<robot name=\"\xe9\"><link name=\"a\"/></robot>".to_vec()),
         ("Latin-1 in a comment, not declared", b"<robot name=\"r\"><!-- \xe9 --><link name=\"a\"/></robot>".to_vec()),
         ("white space before the declaration", text("\n\n<?xml version=\"1.0\"?>\n<robot>\n  <link name=\"a\"/></robot>")),
+        ("a version that is not one of XML", text("<?xml version=\"0.0\" ?>\n<robot name=\"r\"><link name=\"a\"/></robot>")),
         ("a prefix that is not declared", text("<robot name=\"r\">\n  <link name=\"a\"/>\n  <controller:x name=\"c\"><interface:y/></controller:x>\n</robot>")),
         ("a doctype", text("<!DOCTYPE robot>\n<robot name=\"r\"><link name=\"a\"/></robot>")),
         ("a default namespace", text("<robot name=\"r\" xmlns=\"http://example.org\"><link name=\"a\"/></robot>")),

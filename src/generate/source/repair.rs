@@ -26,8 +26,8 @@ pub(crate) fn apply(text: &str, mut edits: Vec<Edit>) -> String {
     edited
 }
 
-/// Makes XML of what nearly is: white space before the declaration, NUL bytes after the end (of a C
-/// string), and prefixes that stand for nothing (in files for old versions of Gazebo). Gives the text, what was done, and how many
+/// Makes XML of what nearly is: white space before the declaration, a version in it that is not one of
+/// XML (Bullet writes `0.0`), NUL bytes after the end (of a C string), and prefixes that stand for nothing (in files for old versions of Gazebo). Gives the text, what was done, and how many
 /// lines were taken off its start.
 pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
     let mut remarks = Vec::new();
@@ -44,6 +44,16 @@ pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
             problem: "there is white space before the declaration `<?xml …?>`".to_owned(),
             assumed: "taken out".to_owned(),
         });
+    }
+    if let Some(range) = xml::wrong_version(&text) {
+        let found: String = text[range.clone()].chars().take(20).collect();
+        remarks.push(Remark {
+            kind: NoteKind::Xml,
+            offset: range.start,
+            problem: format!("the XML declaration names version `{found}`"),
+            assumed: "carried as `1.0`".to_owned(),
+        });
+        text.replace_range(range, "1.0");
     }
     let end = text.trim_end_matches('\0').len();
     if end < text.len() {

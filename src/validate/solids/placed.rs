@@ -45,22 +45,22 @@ pub struct Placed {
 /// Looks at the mesh of every link.
 pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
     let usable = UsableGeometry::new(urdd);
-    let unknown = |mesh: &Derived| -> Option<Why> {
-        if mesh.sound().is_none() {
-            return Some(Why::Unreadable);
-        }
-        let kind = kind_of(urdd, mesh.link)?;
-        let expected = expected::of_link(urdd, solids, &usable, mesh.link, kind);
-        expected.is_none().then_some(Why::SourceMissing)
-    };
-    let judge = |mesh: &Derived| {
-        let found = mesh.sound()?;
-        let kind = kind_of(urdd, mesh.link)?;
-        let expected = expected::of_link(urdd, solids, &usable, mesh.link, kind)?;
+    let look = |mesh: &Derived| -> Look {
+        let Some(found) = mesh.sound() else {
+            return Look::Unknown(Why::Unreadable);
+        };
+        let Some(kind) = kind_of(urdd, mesh.link) else {
+            return Look::Right;
+        };
+        let Some(expected) = expected::of_link(urdd, solids, &usable, mesh.link, kind) else {
+            return Look::Unknown(Why::SourceMissing);
+        };
         // A mesh of nothing is what MSH011 tells.
-        let (what, tolerance) = fault(&expected, found).filter(|_| !expected.is_empty())?;
-        let file = mesh.files.get(mesh.mesh_of)?;
-        Some(Misplaced {
+        let fault = fault(&expected, found).filter(|_| !expected.is_empty());
+        let (Some((what, tolerance)), Some(file)) = (fault, mesh.files.get(mesh.mesh_of)) else {
+            return Look::Right;
+        };
+        Look::Wrong(Misplaced {
             link: mesh.link,
             pointer: mesh.pointer().to_owned(),
             expected: in_words(&expected),
@@ -70,13 +70,26 @@ pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
         })
     };
     let meshes = solids.derived(ModuleKind::PlainMeshes);
-    Placed {
-        wrong: meshes.par_iter().filter_map(judge).collect(),
-        unknown: meshes
-            .par_iter()
-            .filter_map(|mesh| Some((mesh.link, unknown(mesh)?)))
-            .collect(),
+    let looks: Vec<(usize, Look)> = meshes
+        .par_iter()
+        .map(|mesh| (mesh.link, look(mesh)))
+        .collect();
+    let mut placed = Placed::default();
+    for (link, look) in looks {
+        match look {
+            Look::Right => {}
+            Look::Wrong(misplaced) => placed.wrong.push(misplaced),
+            Look::Unknown(why) => placed.unknown.push((link, why)),
+        }
     }
+    placed
+}
+
+/// What came of looking at one mesh.
+enum Look {
+    Right,
+    Wrong(Misplaced),
+    Unknown(Why),
 }
 
 /// Which geometry a link's mesh was made from. Legacy modules used what is visual.
