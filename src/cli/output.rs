@@ -10,7 +10,7 @@ use clap::ValueEnum;
 
 use crate::directory::discover::ROOT_METADATA;
 use crate::format::escape;
-use crate::report::human::STYLES;
+use crate::report::style::STYLES;
 
 /// Exit status: wrong usage, nothing could be examined, or what was found could not be written.
 pub const USAGE: u8 = 2;

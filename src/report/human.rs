@@ -10,61 +10,14 @@ use std::fmt::{self, Write};
 use crate::format::escape::line as safe;
 
 use super::model::{
-    CheckStatus, Finding, Kind, Magnitude, Place, Report, Severity, Skipped, Status, Urdd, Verdict,
+    CheckStatus, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict,
 };
+use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::words::{list, plural};
 use super::{summary, unverified};
 
-/// How the human report looks.
-#[derive(Debug, Clone, Copy)]
-pub struct Style {
-    /// With colours, for a terminal.
-    pub color: bool,
-    /// Only what has findings, and the summary.
-    pub quiet: bool,
-    /// Every URDD in full, however many they are.
-    pub full: bool,
-    /// How many places of a finding are shown.
-    pub max_places: usize,
-    /// How long lines of the summary may be, characters.
-    pub width: usize,
-}
-
-impl Default for Style {
-    fn default() -> Self {
-        Style {
-            color: false,
-            quiet: false,
-            full: false,
-            max_places: 3,
-            width: 100,
-        }
-    }
-}
-
 /// More URDDs than these are summed up, not shown one by one.
 pub const FEW: usize = 3;
-
-pub(super) const BOLD: &str = "\x1b[1m";
-pub(super) const DIM: &str = "\x1b[2m";
-pub(super) const RED: &str = "\x1b[31m";
-pub(super) const GREEN: &str = "\x1b[32m";
-pub(super) const YELLOW: &str = "\x1b[33m";
-pub(super) const BLUE: &str = "\x1b[34m";
-const PLAIN: &str = "\x1b[0m";
-
-/// Every escape sequence that a report may hold.
-pub const STYLES: &[&str] = &[BOLD, DIM, RED, GREEN, YELLOW, BLUE, PLAIN];
-
-impl Style {
-    pub(super) fn paint(self, code: &str, text: impl fmt::Display) -> String {
-        if self.color {
-            format!("{code}{text}{PLAIN}")
-        } else {
-            text.to_string()
-        }
-    }
-}
 
 /// Writes the report.
 ///
@@ -180,16 +133,6 @@ fn describe(urdd: &Urdd) -> String {
         parts.push(format!("{}{family}", plural(urdd.modules.len(), "module")));
     }
     parts.join(", ")
-}
-
-/// The word for a severity, in its colour.
-pub(super) fn severity(severity: Severity, style: Style) -> String {
-    let color = match severity {
-        Severity::Error => RED,
-        Severity::Warning => YELLOW,
-        Severity::Info => BLUE,
-    };
-    style.paint(color, severity.as_str())
 }
 
 /// Writes one finding.

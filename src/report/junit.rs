@@ -10,7 +10,7 @@ use std::io;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 
-use super::human::{self, Style};
+use super::human;
 use super::model::{CheckStatus, Finding, Report, Severity, Status, Urdd};
 use crate::format::escape;
 use crate::validate::rule::Rule;
@@ -177,7 +177,7 @@ fn case(urdd: &Urdd, rule: &Rule, check: &CheckStatus, fail_on: Severity) -> Cas
 fn described(finding: &Finding) -> String {
     let mut text = String::new();
     // Writing to a string does not fail.
-    let _ = human::write_finding(finding, Style::default(), &mut text);
+    let _ = human::write_finding(finding, super::style::Style::default(), &mut text);
     let lines = text.lines();
     let lines = lines.map(|line| line.strip_prefix("    ").unwrap_or(line));
     escape::lines(&(lines.collect::<Vec<_>>().join("\n") + "\n")).into_owned()

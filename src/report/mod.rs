@@ -8,6 +8,7 @@ pub mod junit;
 pub mod model;
 pub mod place;
 pub mod sarif;
+pub mod style;
 mod summary;
 mod unverified;
 mod words;

@@ -6,8 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
 use super::causes::{Cause, causes};
-use super::human::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::model::{Consequence, Report, Severity, Status, Urdd, Verdict};
+use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::unverified::not_verified;
 use super::words::plural;
 use crate::format::escape::line as safe;

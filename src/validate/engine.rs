@@ -13,6 +13,7 @@ use super::part::{NotVerified, Part, Parts};
 use super::rule::{Need, Rule, Severity};
 use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
+use super::worst::worst_first;
 use crate::format::registry::{ModuleKind, Profile};
 
 /// What became of a rule on one URDD.
@@ -180,6 +181,7 @@ pub(super) fn judge_into(context: &Context, rule: &'static Rule, findings: &mut 
     let not_verified = findings.scope().not_verified();
     let (scope, faulted) = (findings.scope().afresh(), findings.faulted().clone());
     let mut found = findings.take();
+    found.iter_mut().for_each(worst_first);
     let outcome = match (found.is_empty(), skipped) {
         (false, _) => Outcome::Failed,
         (true, Some(reason)) => Outcome::Skipped(reason),

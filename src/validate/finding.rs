@@ -5,7 +5,6 @@ use std::collections::{HashMap, HashSet};
 use super::part::{Part, Why};
 use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
-use super::worst::worst_first;
 use crate::directory::position::Position;
 
 pub use super::place::{Magnitude, Occurrence, Place};
@@ -272,9 +271,7 @@ impl Findings {
     pub fn take(&mut self) -> Vec<Finding> {
         self.by_place.clear();
         self.kept = 0;
-        let mut findings = std::mem::take(&mut self.findings);
-        findings.iter_mut().for_each(worst_first);
-        findings
+        std::mem::take(&mut self.findings)
     }
 }
 
@@ -334,25 +331,6 @@ mod tests {
         let more = findings.iter().flat_map(|finding| &finding.more);
         let bytes: usize = more.map(Occurrence::bytes).sum();
         assert!((KEPT_BYTES..KEPT_BYTES + 1000).contains(&bytes), "{bytes}");
-    }
-
-    #[test]
-    fn the_worst_place_comes_first() {
-        let mut findings = Findings::default();
-        for (i, off) in [(0, 0.2), (1, -0.7), (2, 0.1), (3, f64::NAN)] {
-            let finding = Finding::at("a.json", format!("/m/{i}"), format!("{i} is wrong"));
-            findings.report(finding.actual(i).off_by(off, "m"));
-        }
-        let [found] = &findings.take()[..] else {
-            panic!("one finding")
-        };
-        assert_eq!(found.place.pointer.as_deref(), Some("/m/3"));
-        assert_eq!(found.message, "3 is wrong");
-        let others: Vec<_> = found.more.iter().map(|o| o.actual.as_deref()).collect();
-        assert_eq!(others, [Some("1"), Some("0"), Some("2")]);
-        let words: Vec<_> = found.more.iter().map(|o| o.message.as_deref()).collect();
-        let expected = ["1 is wrong", "0 is wrong", "2 is wrong"].map(Some);
-        assert_eq!(words, expected);
     }
 
     #[test]

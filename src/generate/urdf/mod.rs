@@ -73,7 +73,12 @@ impl Default for Reading {
 pub(crate) fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFault>> {
     let document = crate::xml::parse(text, crate::xml::Kind::Robot)
         .map_err(|error| vec![xml::fault(&error, text)])?;
-    let (reading, faults) = reader::read(&document, file_stem);
+    let mut reader = reader::read(&document, file_stem);
+    if reader.faults.is_empty() {
+        tree::check(&mut reader, document.root_element().range().start);
+    }
+    materials::check(&mut reader);
+    let (reading, faults) = reader.finish();
     if faults.is_empty() {
         return Ok(reading);
     }

@@ -8,7 +8,6 @@ use roxmltree::Document;
 use super::numbers::{self, Numbers};
 use super::xml::{self, Element};
 use super::{Edit, Reading};
-use super::{materials, tree};
 use crate::format::urdf as v1;
 use crate::generate::fault::Fault;
 use crate::generate::note::{NoteKind, Remark};
@@ -18,16 +17,10 @@ use crate::generate::pose::{from_xyzw, has_quaternions};
 const MOST: usize = 10_000_000;
 
 /// Reads the robot of a document, and says what makes it none.
-pub(super) fn read(document: &Document<'_>, file_stem: &str) -> (Reading, Vec<(usize, Fault)>) {
+pub(super) fn read(document: &Document<'_>, file_stem: &str) -> Reader {
     let mut reader = Reader::default();
     reader.robot(document.root_element(), file_stem);
-    let Reader {
-        mut reading,
-        faults,
-        ..
-    } = reader;
-    reading.remarks.sort_by_key(|remark| remark.offset);
-    (reading, faults)
+    reader
 }
 
 /// Where the parts of a joint stand.
@@ -259,12 +252,18 @@ impl Reader {
         let robot = &self.reading.robot;
         if robot.links.len() > MOST || robot.joints.len() > MOST {
             self.fault(offset, Fault::TooMany(MOST as u32));
-            return;
         }
-        if self.faults.is_empty() {
-            tree::check(self, offset);
-        }
-        materials::check(self);
+    }
+
+    /// What was read, and what is wrong.
+    pub(super) fn finish(self) -> (Reading, Vec<(usize, Fault)>) {
+        let Reader {
+            mut reading,
+            faults,
+            ..
+        } = self;
+        reading.remarks.sort_by_key(|remark| remark.offset);
+        (reading, faults)
     }
 
     pub(super) fn origin(&mut self, parent: Element<'_>) -> Option<v1::Origin> {

@@ -7,7 +7,7 @@
 //! Inside is what a flood from the grid's border does not reach, so a surface need not be closed,
 //! only tight to within a cell; where it is not, there is no inside and nothing changes.
 
-use super::cut::Bounds;
+use super::grower::Bounds;
 use super::part::Part;
 use super::vector::{norm, sub};
 

@@ -7,7 +7,7 @@
 
 use rayon::prelude::*;
 
-use super::cut::{Bounds, cost};
+use super::grower::{Bounds, cost};
 use super::search::Block;
 
 /// Sample points for overlaps, in words of 64.

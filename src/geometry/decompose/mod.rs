@@ -28,6 +28,7 @@ mod assign;
 mod choose;
 mod clean;
 mod cut;
+mod grower;
 mod growing_hull;
 mod inside;
 mod merge;
@@ -108,7 +109,7 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
     let (mut part, cell) = proxy::proxy(&surface);
     let (inner, reach) = inside::inside(&part);
     part.inner = inner.clone();
-    let places = cut::Places {
+    let places = grower::Places {
         frames: cut::frames(proxy::flat_coordinates(&surface, MOST_FLATS)),
         reach,
         eps: (ON_PLANE_PROXY * cell).max(ON_PLANE),

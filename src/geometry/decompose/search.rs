@@ -2,7 +2,8 @@
 
 use rayon::join;
 
-use super::cut::{Cut, Grower, Places, best_cut, cost};
+use super::cut::{Cut, best_cut};
+use super::grower::{Grower, Places, cost};
 use super::part::{Part, Plane};
 
 /// A tree of cuts. Leaves are numbered in the order in which they stand in `Search::leaves`.

@@ -1,6 +1,6 @@
 //! A part sliced by parallel planes, and hulls that grow slice by slice.
 
-use super::cut::{Bounds, Grower, Places, cost};
+use super::grower::{Bounds, Grower, Places, cost};
 use super::part::Part;
 use super::support::Support;
 use super::vector::{dot, lerp};

@@ -1,0 +1,63 @@
+//! How reports for people look.
+
+use std::fmt;
+
+use super::model::Severity;
+
+/// How the human report looks.
+#[derive(Debug, Clone, Copy)]
+pub struct Style {
+    /// With colours, for a terminal.
+    pub color: bool,
+    /// Only what has findings, and the summary.
+    pub quiet: bool,
+    /// Every URDD in full, however many they are.
+    pub full: bool,
+    /// How many places of a finding are shown.
+    pub max_places: usize,
+    /// How long lines of the summary may be, characters.
+    pub width: usize,
+}
+
+impl Default for Style {
+    fn default() -> Self {
+        Style {
+            color: false,
+            quiet: false,
+            full: false,
+            max_places: 3,
+            width: 100,
+        }
+    }
+}
+
+pub(super) const BOLD: &str = "\x1b[1m";
+pub(super) const DIM: &str = "\x1b[2m";
+pub(super) const RED: &str = "\x1b[31m";
+pub(super) const GREEN: &str = "\x1b[32m";
+pub(super) const YELLOW: &str = "\x1b[33m";
+pub(super) const BLUE: &str = "\x1b[34m";
+const PLAIN: &str = "\x1b[0m";
+
+/// Every escape sequence that a report may hold.
+pub const STYLES: &[&str] = &[BOLD, DIM, RED, GREEN, YELLOW, BLUE, PLAIN];
+
+impl Style {
+    pub(super) fn paint(self, code: &str, text: impl fmt::Display) -> String {
+        if self.color {
+            format!("{code}{text}{PLAIN}")
+        } else {
+            text.to_string()
+        }
+    }
+}
+
+/// The word for a severity, in its colour.
+pub(super) fn severity(severity: Severity, style: Style) -> String {
+    let color = match severity {
+        Severity::Error => RED,
+        Severity::Warning => YELLOW,
+        Severity::Info => BLUE,
+    };
+    style.paint(color, severity.as_str())
+}
