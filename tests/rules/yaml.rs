@@ -116,6 +116,33 @@ pub fn cases() -> Vec<Case> {
             "\"0x1\"",
             "0x1",
         ),
+        written(
+            YML006,
+            "underscore",
+            true,
+            json!("1_000"),
+            "\"1_000\"",
+            "1_000",
+        ),
+        written(YML006, "minutes", true, json!("1:30"), "\"1:30\"", "1:30"),
+        written(YML006, "no-in-capitals", true, json!("NO"), "\"NO\"", "NO"),
+        written(
+            YML007,
+            "infinity-for-a-string",
+            true,
+            json!(".inf"),
+            "\".inf\"",
+            ".inf",
+        ),
+        written(YML007, "tilde-for-a-string", true, json!("~"), "\"~\"", "~"),
+        written(
+            YML007,
+            "tilde-for-null",
+            false,
+            json!(null),
+            "null",
+            "~",
+        ),
         near_miss(YML006, "quoted", |f| {
             f.set(
                 "dof_module",
