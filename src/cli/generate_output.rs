@@ -254,7 +254,7 @@ fn notes_told(notes: &[Note], is_batch: bool) -> Vec<String> {
         if told < notes.len() {
             let more = notes.len() - told;
             lines.push(format!(
-                "note: and {more} more of this kind ({}); --format json tells them all",
+                "note: and {more} more of this kind ({}); --format json lists them all",
                 kind.as_str()
             ));
         }

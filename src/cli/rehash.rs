@@ -92,7 +92,7 @@ fn report_broken(found: &Found) -> bool {
         .collect();
     for fault in &faults {
         output::error(&format!(
-            "{}/{}; mend it, and run `urdd rehash` again",
+            "{}/{}; fix it, and run `urdd rehash` again",
             found.name,
             escape::line(fault)
         ));

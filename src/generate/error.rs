@@ -90,7 +90,7 @@ pub enum GenerateError {
     #[error(transparent)]
     Write(#[from] StagingError),
     /// The robot's geometry is beyond what can be computed.
-    #[error("{file}: {reason}; mend the mesh, or leave out the distances: `--modules geometry`")]
+    #[error("{file}: {reason}; fix the mesh, or leave out the distances: `--modules geometry`")]
     Geometry {
         /// The file, as the user named it.
         file: String,

@@ -39,7 +39,7 @@ pub fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result
         let code = ignore.code.as_deref().unwrap_or("all rules");
         writeln!(
             out,
-            "{} the ignore of {code} at `{}` in the settings matches nothing: take it out, or mend its path",
+            "{} the ignore of {code} at `{}` in the settings matches nothing: remove it, or correct its path",
             style.paint(YELLOW, "note:"),
             safe(&ignore.path)
         )?;

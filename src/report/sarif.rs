@@ -59,7 +59,7 @@ pub fn sarif(
         .iter()
         .map(|ignore| {
             let text = format!(
-                "the ignore of {} at `{}` in the settings matches nothing: take it out, or mend its path",
+                "the ignore of {} at `{}` in the settings matches nothing: remove it, or correct its path",
                 ignore.code.as_deref().unwrap_or("all rules"),
                 ignore.path
             );

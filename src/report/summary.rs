@@ -44,7 +44,7 @@ pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt:
         .partition(|cause| cause.severity == Severity::Error);
     if !errors.is_empty() {
         let title = format!(
-            "What to mend first ({} of errors)",
+            "What to fix first ({} of errors)",
             plural(errors.len(), "cause")
         );
         writeln!(out, "{}", style.paint(BOLD, title))?;
@@ -94,7 +94,7 @@ fn words(consequence: Consequence) -> &'static str {
         Consequence::WrongMotion => "wrong motion",
         Consequence::WrongPlace => "wrong place",
         Consequence::MissingGeometry => "missing geometry",
-        Consequence::Collisions => "collisions missed, or seen where there are none",
+        Consequence::Collisions => "missed or false collisions",
         Consequence::Format => "format",
         Consequence::Appearance => "appearance",
         Consequence::Looseness => "looseness",

@@ -135,14 +135,7 @@ pub fn cases() -> Vec<Case> {
             ".inf",
         ),
         written(YML007, "tilde-for-a-string", true, json!("~"), "\"~\"", "~"),
-        written(
-            YML007,
-            "tilde-for-null",
-            false,
-            json!(null),
-            "null",
-            "~",
-        ),
+        written(YML007, "tilde-for-null", false, json!(null), "null", "~"),
         near_miss(YML006, "quoted", |f| {
             f.set(
                 "dof_module",

@@ -139,7 +139,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             // The merge key has been reported.
             return;
         }
-        let text = "an alias stands for a value written elsewhere: write the value itself";
+        let text = "an alias refers to a value written elsewhere: write the value itself";
         self.report(at, TextFaultKind::YamlAnchorOrAlias, text);
     }
 

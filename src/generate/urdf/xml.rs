@@ -73,7 +73,7 @@ fn words(error: &Error, text: &str, is_after_end: bool) -> String {
             "the file ends before `</robot>`; it seems to be cut off".to_owned()
         }
         Error::UnexpectedCloseTag(expected, found, _) => {
-            format!("`</{found}>` stands where `</{expected}>` should")
+            format!("`</{found}>` is found where `</{expected}>` is expected")
         }
         Error::MalformedEntityReference(_) => {
             "there is a `&` that begins nothing; write `&amp;` for the character".to_owned()

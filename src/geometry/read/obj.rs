@@ -49,7 +49,7 @@ pub(super) fn read(
         }
         .map_err(|failure| failure.at(|| Place::Line(at + 1)))?;
     }
-    let text = "a face was dropped: it names a vertex that is not there, or holds what is no index";
+    let text = "a face was dropped: it names a vertex that is not there, or holds something that is not an index";
     assembly
         .notes
         .add_many(NoteCode::IndexOutOfRange, text, faces.bad);

@@ -177,7 +177,7 @@ fn how_names_differ(wanted: &[String], there: &[String]) -> String {
         let first = wanted.iter().zip(there).find(|(a, b)| a != b);
         words.push(match first {
             Some((wanted, there)) => {
-                format!("the order is another: `{there}` stands where the URDF has `{wanted}`")
+                format!("the order differs: `{there}` is where the URDF has `{wanted}`")
             }
             None => format!("{} there, {} here", wanted.len(), there.len()),
         });

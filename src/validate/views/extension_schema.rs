@@ -71,7 +71,7 @@ pub fn faults(schema: &Value, document: Option<&Value>) -> Vec<SchemaFault> {
     {
         faults.push(SchemaFault {
             pointer: String::new(),
-            message: "checking module.json against this schema takes too much work: its choices multiply; let each be told by one key, or take some out".to_owned(),
+            message: "checking module.json against this schema takes too much work: its choices multiply; let one key decide each choice, or remove some".to_owned(),
         });
     }
     faults

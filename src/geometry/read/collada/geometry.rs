@@ -75,7 +75,7 @@ pub(super) fn read<'a>(
             notes,
         );
         let (mesh, left_out) = picker.pick(vertices, &faces.triangles);
-        let text = "a triangle was dropped: it names a vertex that is not there, or holds what is no index";
+        let text = "a triangle was dropped: it names a vertex that is not there, or holds something that is not an index";
         notes.add_many(NoteCode::IndexOutOfRange, text, left_out + faces.bad);
         primitives.push(Primitive {
             symbol: element.attribute("material"),

@@ -66,7 +66,7 @@ fn decode<'a>(
     if matches!(text, std::borrow::Cow::Owned(_)) {
         assembly.notes.add(
             NoteCode::Assumed,
-            "the text is not UTF-8; characters that are none were replaced",
+            "the text is not UTF-8; invalid bytes were replaced",
         );
     }
     Ok(text)

@@ -65,7 +65,7 @@ fn check(context: &Context, findings: &mut Findings) {
                         joint.name
                     ),
                     false => format!(
-                        "joint {:?} ({kind}) has neither these limits nor are these the bounds of a DOF without limits",
+                        "joint {:?} ({kind}) has no limits in the URDF, and these are not the bounds of a DOF without limits",
                         joint.name
                     ),
                 };

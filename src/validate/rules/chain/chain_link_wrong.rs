@@ -6,8 +6,8 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// `links_in_chain` does not hold the links of `urdf_module`, in their order.
     ///
-    /// Everything in a URDD that is indexed by link counts on this one order. An entry that is missing,
-    /// or stands elsewhere, gives every link after it the neighbours and meshes of another.
+    /// Everything in a URDD that is indexed by link counts on this one order. An entry that is
+    /// missing or out of place gives every link after it the neighbours and meshes of another.
     ///
     /// Write one entry for every link of `urdf_module`, in its order, with its name and its index. If
     /// the robot has changed since, write `chain_module` and what depends on it again.

@@ -11,8 +11,8 @@ declare_rule! {
     /// the links of one level at once. A link on the wrong level is computed from a pose that is not
     /// there yet; one that is missing is never computed.
     ///
-    /// Level d holds the links that d joints separate from the root, ascending (in legacy modules in any
-    /// order); level 0 is the root alone, and every link stands on one level.
+    /// Level d holds the links that d joints separate from the root, ascending (in legacy modules
+    /// in any order); level 0 is the root alone, and every link is on exactly one level.
     CHN005 "hierarchy-wrong", Error, clause "6.3.3", since "0.1.0",
     phase References, needs [Passed(CHN002)],
     check check,

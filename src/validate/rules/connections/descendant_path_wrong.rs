@@ -10,9 +10,9 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// An entry of `link_connection_paths` is not the way down from one link to another.
     ///
-    /// Programs read from this table whether link j is below link i in the tree, and through which links.
-    /// With a path that does not exist, a link seems to move that stands still; with a missing path, the
-    /// reverse.
+    /// Programs read from this table whether link j is below link i in the tree, and through which
+    /// links. With a path that does not exist, a link that does not move seems to move; with a
+    /// missing path, the reverse.
     ///
     /// Element (i, j) is `[i]` where i is j. Where j is below i, it is the links from i (not included) to
     /// j (included). Otherwise it is null.

@@ -15,11 +15,10 @@ use crate::document::{entries, paths};
 declare_rule! {
     /// A file is not the one that `urdd.json` describes: its size or its SHA-256 differs.
     ///
-    /// Somebody changed the file, or `urdd.json` was not written after it; so what else was made from
-    /// it may not fit it any more. Two harmless causes are recognised. Git may have converted line
-    /// endings: the `.gitattributes` beside `urdd.json` should say `* -text`, which keeps it from doing
-    /// so. And with Git LFS a file may still be the pointer that stands for it: `git lfs pull` fetches
-    /// it.
+    /// Somebody changed the file, or `urdd.json` was not written after it; so what else was made
+    /// from it may not fit it any more. Two harmless causes are recognised. Git may have converted
+    /// line endings: the `.gitattributes` beside `urdd.json` should say `* -text`, which keeps it
+    /// from doing so. And with Git LFS a file may still be its pointer: `git lfs pull` fetches it.
     ///
     /// Bring the file back as it was, or write the modules that follow from it, and `urdd.json`, again.
     DIR014 "file-changed", Error, clause "2.7", since "0.1.0",

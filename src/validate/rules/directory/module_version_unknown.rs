@@ -13,8 +13,8 @@ declare_rule! {
     /// A module has a version that does not exist, or one from before the specification in a URDD of
     /// version 1.
     ///
-    /// What a module's fields mean goes by its version. Nobody can read a version that was never
-    /// published, and nothing of such a module can be checked.
+    /// What a module's fields mean goes by its version. No program can read a version that was
+    /// never published, and nothing of such a module can be checked.
     ///
     /// Write the module in a version that the specification lists, or correct `VERSION`. Modules of
     /// your own are extensions (`x_<vendor>_<name>_module`) and have versions of their own.

@@ -7,9 +7,9 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// The URDD has no `urdd.json`.
     ///
-    /// The root metadata says which robot this is, which version of the specification to read it by,
-    /// what it was made from, and what belongs to it. Without it a reader can only guess, and nobody
-    /// can tell whether a file was changed or left out.
+    /// The root metadata says which robot this is, which version of the specification to read it
+    /// by, what it was made from, and what belongs to it. Without it a reader can only guess, and
+    /// cannot tell whether a file was changed or left out.
     ///
     /// Write `urdd.json` into the root folder; `urdd schema show root_metadata@1.0.0` shows its schema. Where
     /// the URDD is from before version 1, none of its modules may be of version 1.

@@ -6,7 +6,7 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 
 declare_rule! {
-    /// The source URDF lies in a folder below the root.
+    /// The source URDF is in a folder below the root.
     ///
     /// It must lie in the root folder itself: there people and programs look for the one URDF that a
     /// URDD was made from, and there no module's folder can claim it.

@@ -5,7 +5,7 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 
 declare_rule! {
-    /// A URDF lies in the root folder, and `source` is null.
+    /// The root folder holds a URDF, and `source` is null.
     ///
     /// The modules are held to the URDF that `source` names. With null there, nothing is held to it:
     /// the robot in the modules may be another one than that of the URDF beside them.

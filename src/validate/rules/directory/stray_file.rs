@@ -9,13 +9,13 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 
 declare_rule! {
-    /// A file lies in a module's folder that neither the module nor `urdd.json` names.
+    /// A module's folder holds a file that neither the module nor `urdd.json` names.
     ///
     /// Most often it is left over from an earlier run (meshes of links that were renamed), or from an
     /// editor. It makes the URDD larger, and people take it for part of the robot.
     ///
-    /// Delete it, or keep it outside the module folders: what lies in the root itself is nobody's
-    /// business. Write a module into a fresh folder, not over an old one.
+    /// Delete it, or keep it outside the module folders: no rule is about files in the root folder
+    /// itself. Write a module into a fresh folder, not over an old one.
     DIR013 "stray-file", Warning, clause "2.7", since "0.1.0",
     phase Files, needs [Version1, RootMetadata],
     check check,

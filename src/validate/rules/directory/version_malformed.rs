@@ -10,8 +10,9 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// A `VERSION` file does not hold a version.
     ///
-    /// It must be three numbers joined by dots and nothing else, but for one line feed at the end:
-    /// programs compare the text with the versions that they know, and neither trim it nor guess.
+    /// It must be three numbers joined by dots and nothing else, apart from one line feed at the
+    /// end: programs compare the text with the versions that they know, and neither trim it nor
+    /// guess.
     ///
     /// Write the version of the module's format, such as `1.0.0`: no `v` before it, no blanks, no
     /// leading zeros, nothing like `-beta` after it.

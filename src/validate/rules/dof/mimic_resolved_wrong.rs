@@ -14,7 +14,8 @@ declare_rule! {
     /// offsets without their factors, and to write an entry for a joint that follows nothing.
     ///
     /// Resolve the mimics of `urdf_module` again. Joints that are fixed or have no mimic get null;
-    /// where a chain of mimics ends in a fixed joint, `dof_idx` is null and the joint stands at `offset`.
+    /// where a chain of mimics ends in a fixed joint, `dof_idx` is null and the joint's position is
+    /// `offset`.
     DOF007 "mimic-resolved-wrong", Error, clause "6.2.6", since "0.1.0",
     phase References, needs [Version1, Passed(URD012), Passed(DOF005)],
     check check,

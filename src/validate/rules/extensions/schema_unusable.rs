@@ -7,11 +7,12 @@ use crate::validate::views::extension_schema::{self, SchemaFile};
 declare_rule! {
     /// An extension has no `schema.json` that can be used.
     ///
-    /// The schema says what the extension's fields are, and its documents are checked by it. It must be a
-    /// JSON Schema (draft 2020-12) that stands for itself: nothing outside of it is opened, so every
-    /// `$ref` begins with `#`, and only the schema itself may have an `$id`. A schema is refused where it
-    /// takes too much work to evaluate, and where a pattern has lookaround (`(?=`, `(?!`, `(?<=`,
-    /// `(?<!`) or refers back to a group (`\1`): such patterns can take time without end.
+    /// The schema says what the extension's fields are, and its documents are checked by it. It
+    /// must be a JSON Schema (draft 2020-12) that is complete by itself: nothing outside of it is
+    /// opened, so every `$ref` begins with `#`, and only the schema itself may have an `$id`. A
+    /// schema is refused where it takes too much work to evaluate, and where a pattern has
+    /// lookaround (`(?=`, `(?!`, `(?<=`, `(?<!`) or refers back to a group (`\1`): such patterns
+    /// can take time without end.
     ///
     /// Put a `schema.json` beside the extension's `module.json`. A schema that allows everything is
     /// `true`.

@@ -47,7 +47,7 @@ fn check(context: &Context, findings: &mut Findings) {
             ),
         };
         if (sample.kind, sample.sample_idx) != (kind, number) {
-            let message = "a sample stands in the wrong place; write Zero, Middle, Lower, Upper, then Sampled with sample_idx 0, 1, 2, …";
+            let message = "a sample is in the wrong place; write Zero, Middle, Lower, Upper, then Sampled with sample_idx 0, 1, 2, …";
             // Whatever follows is displaced too: one mistake, one message.
             return findings.report(
                 Finding::at(file, format!("/samples/{place}"), message)

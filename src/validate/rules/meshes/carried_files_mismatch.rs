@@ -93,7 +93,7 @@ fn paths(original: &OriginalMeshesModule, file: &str, findings: &mut Findings) {
                 Finding::at(
                     file,
                     pointer,
-                    "this is none of `files`: list the file there",
+                    "`files` does not list this file: list it there",
                 )
                 .expected("the path of one of `files`, or null")
                 .actual(format!("`{path}`")),

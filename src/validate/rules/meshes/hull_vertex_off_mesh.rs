@@ -14,11 +14,11 @@ use crate::validate::tolerance::mesh_resolution;
 use crate::validate::views::judged::judged;
 
 declare_rule! {
-    /// A vertex of a convex hull is no vertex of its link's mesh.
+    /// A vertex of a convex hull is not a vertex of its link's mesh.
     ///
-    /// The hull of a mesh has some of the mesh's vertices and no others. Here one stands elsewhere: the
-    /// hull is larger than its link (then programs see collisions that are none), or it was computed from
-    /// another mesh, in other coordinates, or from rounded ones.
+    /// The hull of a mesh has some of the mesh's vertices and no others. Here one is somewhere
+    /// else: the hull is larger than its link (then programs report false collisions), or it was
+    /// computed from another mesh, in other coordinates, or from rounded ones.
     ///
     /// Compute the hull from the vertices of the plain mesh as its files have them.
     MSH019 "hull-vertex-off-mesh", Error, clause "7.9", since "0.1.0",

@@ -15,8 +15,8 @@ declare_rule! {
     /// is relative to the folder *above* the URDD and may lead into a URDD beside it: then that one
     /// must be there too, under its old name.
     ///
-    /// Put the file back, or write the module again. Files that `urdd.json` lists and that are not
-    /// there are told by DIR011 instead.
+    /// Put the file back, or write the module again. DIR011 reports files that `urdd.json` lists
+    /// and that do not exist.
     MSH002 "mesh-file-missing", Error, clause "7.1", since "0.1.0",
     phase References, needs [
         AnyModule(&[
@@ -127,6 +127,6 @@ fn no_sibling(context: &Context, name: &str) -> String {
         String::new()
     };
     format!(
-        "mesh paths lead into a URDD `{name}` in the folder above this one, and there is none: put it there{renamed}"
+        "mesh paths lead into a URDD `{name}` in the folder above this one, which does not exist: put it there{renamed}"
     )
 }

@@ -15,8 +15,8 @@ declare_rule! {
     /// not finite, or an index of a vertex that is not there; or it is of another format than its name
     /// says. Some loaders refuse it, others show a part of it.
     ///
-    /// Write it again: binary STL with as many triangles as its header counts, Wavefront OBJ, binary
-    /// glTF 2.0. (Of a `.glb` that does not even begin as one, MSH010 tells.)
+    /// Write it again: binary STL with as many triangles as its header counts, Wavefront OBJ,
+    /// binary glTF 2.0. (MSH010 reports a `.glb` that does not begin as one.)
     MSH013 "mesh-unsound", Error, clause "7.6", since "0.1.0",
     phase Geometry, needs [
         AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),

@@ -5,12 +5,12 @@ use crate::validate::rule::declare_rule;
 use crate::validate::solids::file::MeshFault;
 
 declare_rule! {
-    /// What is said of a carried mesh is not so.
+    /// `usable` or `side_files` of a carried mesh is wrong.
     ///
-    /// `usable` tells whether the file can be read as a mesh and has a triangle with an area, so that
-    /// one need not try; `side_files` are the files that the mesh names in turn and that are carried with
-    /// it: materials, buffers, textures. Here a file is called usable and is not, or the other way
-    /// round, or the list is not what the mesh names.
+    /// `usable` says whether the file can be read as a mesh and has a triangle with an area, so
+    /// that one need not try; `side_files` are the files that the mesh names in turn and that are
+    /// carried with it: materials, buffers, textures. Here a file is called usable and is not, or
+    /// the other way round, or the list is not what the mesh names.
     ///
     /// Set `usable` by reading the file, and list the carried files that it names, sorted.
     MSH016 "original-misdescribed", Error, clause "7.5", since "0.1.0",

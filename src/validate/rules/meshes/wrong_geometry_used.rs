@@ -6,7 +6,7 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 
 declare_rule! {
-    /// A link's mesh is said to be made from geometry that should not be used for it.
+    /// `geometry` names the wrong source for a link's mesh.
     ///
     /// A mesh is made from the kind of geometry that `preferred_geometry` names, `Visual` or
     /// `Collision`, and from the other kind only where a link has nothing usable of the first. A

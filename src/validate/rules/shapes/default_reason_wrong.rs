@@ -14,10 +14,10 @@ declare_rule! {
     /// A pair of shapes is in contact in the default configuration and its reason is not `Default`, or
     /// the other way round.
     ///
-    /// In the default configuration every DOF is 0, or the bound nearest to 0. Shapes that touch there,
-    /// as those of neighbouring links often do, have the reason `Default`, and are skipped unless a
-    /// person says otherwise. One pair too few is a collision that a robot at rest reports; one too many
-    /// is a collision that nobody sees.
+    /// In the default configuration every DOF is 0, or the bound nearest to 0. Shapes that touch
+    /// there, as those of neighbouring links often do, have the reason `Default`, and are skipped
+    /// unless a person says otherwise. One pair too few is a collision that a robot at rest
+    /// reports; one too many is a collision that no program sees.
     ///
     /// Compute the distances in the default configuration (SPEC 9.4) from the present shapes, and write
     /// the reasons again.

@@ -47,7 +47,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     Finding::at(
                         module.file("module.json"),
                         format!("{}/{i}/{i}", matrix.pointer),
-                        format!("this stands for shape {i} and itself, and is always {expected}"),
+                        format!("this is the element of shape {i} and itself, which is always {expected}"),
                     )
                     .expected(expected)
                     .actual(elements.text(i, i)),

@@ -14,9 +14,9 @@ use crate::validate::views::judged::enclosures;
 declare_rule! {
     /// A box has more than 1.1 times the volume of a smaller one that holds the same hull or piece.
     ///
-    /// Boxes are tested in place of what they hold: each too much of volume is a collision that is none,
-    /// and a path that is not found. For a flat hull or piece areas are compared, as volumes are of boxes
-    /// thickened by a millionth of the reach.
+    /// Boxes are tested in place of what they hold: excess volume causes false collisions, and
+    /// paths that are not found. For a flat hull or piece areas are compared, as volumes are of
+    /// boxes thickened by a millionth of the reach.
     ///
     /// Turn the box: of all orientations one has the least volume. `urdd generate` finds it.
     SHP019 "needlessly-large-box", Warning, clause "8.2", since "0.1.0",

@@ -13,7 +13,7 @@ declare_rule! {
     /// A sphere has more than 1.05 times the radius of a smaller one that holds the same hull or piece.
     ///
     /// Spheres are tested in place of what they hold: where they are larger than they need to be,
-    /// programs see collisions that are none. Most often the centre is the mean of the vertices, or the
+    /// programs report false collisions. Most often the centre is the mean of the vertices, or the
     /// middle of a box.
     ///
     /// Move the centre: there is one smallest sphere. `urdd generate` finds it.

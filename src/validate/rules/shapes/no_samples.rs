@@ -6,8 +6,8 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// The distance statistics are said to be of no samples.
     ///
-    /// `num_samples` is the number of sampled configurations that the distances were taken over; of none
-    /// there is no mean, no smallest and no largest.
+    /// `num_samples` is the number of sampled configurations that the distances were taken over;
+    /// without any there is no mean, smallest or largest distance.
     ///
     /// Write the number of configurations that were sampled, at least 1.
     SHP016 "no-samples", Error, clause "8.5", since "0.1.0",

@@ -20,9 +20,10 @@ use crate::validate::views::tangled::Tangled;
 declare_rule! {
     /// A pair of shapes is skipped, and is in contact in some configurations and apart in others.
     ///
-    /// A skip says that contact of the two means nothing, since they always are in contact. Where they
-    /// come apart and meet again, contact is a collision, and nobody will see it: a robot is driven into
-    /// itself. Most often the module is stale, or was sampled with joints that stood still.
+    /// A skip says that contact of the two means nothing, since they always are in contact. Where
+    /// they come apart and meet again, contact is a collision, and no program will see it: the
+    /// robot is driven into itself. Most often the module is stale, or was sampled with joints that
+    /// stood still.
     ///
     /// The first 96 sampled configurations are looked at, or fewer where that is much work. Sample again,
     /// and write the skips from the statistics. What a person decides is recorded in `edits` of

@@ -4,7 +4,7 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 
 declare_rule! {
-    /// A reason stands twice in `skipped_reasons`, or the reasons are not in order.
+    /// `skipped_reasons` repeats a reason, or the reasons are out of order.
     ///
     /// The order is `SameLink`, `Always`, `Adjacent`, `Default`, `Never`. It changes nothing for who
     /// reads them. With one order, the same choice is the same text, and differences between two URDDs

@@ -10,9 +10,9 @@ use crate::validate::views::shape_pair::Pairs;
 declare_rule! {
     /// A mean distance does not lie between the smallest and the largest.
     ///
-    /// The three are taken over the same sampled configurations, so the mean lies between the other
-    /// two, but for the rounding of a sum. Where it does not, one of them is of other samples, of
-    /// another pair, or in the wrong matrix.
+    /// The three are taken over the same sampled configurations, so the mean is between the other
+    /// two, apart from rounding. Where it is not, one of them is of other samples, of another
+    /// pair, or in the wrong matrix.
     ///
     /// Compute all three again in one run.
     SHP008 "statistics-out-of-order", Error, clause "8.5", since "0.1.0",

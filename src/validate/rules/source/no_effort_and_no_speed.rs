@@ -6,10 +6,10 @@ use crate::validate::rule::declare_rule;
 declare_rule! {
     /// A joint that can move has the limits `effort="0"` and `velocity="0"`.
     ///
-    /// By these numbers the joint can neither push nor move. Exporters write them where nobody gave
-    /// a number. Planners divide by the speed, controllers clip the effort to 0, and the robot stands
-    /// still. A joint that follows another is not meant, nor one whose `lower` equals its `upper`, nor
-    /// one that leaves the numbers out.
+    /// By these numbers the joint can neither push nor move. Exporters write them where no number
+    /// was given. Planners divide by the speed, controllers clip the effort to 0, and the robot
+    /// does not move. A joint that follows another is not meant, nor one whose `lower` equals its
+    /// `upper`, nor one that leaves the numbers out.
     ///
     /// Write the joint's real limits into the URDF, or leave both attributes out. Then write the URDD
     /// again.

@@ -4,11 +4,11 @@ use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 
 declare_rule! {
-    /// An element that URDF has once stands in the carried URDF several times.
+    /// The carried URDF repeats an element that URDF allows once.
     ///
-    /// A URDD takes the first, as most readers do; others take the last, or refuse the file. So
-    /// two programs may see two robots: another axis, another mass. Two shapes in one `<geometry>`
-    /// are one and an other that nobody sees.
+    /// A URDD takes the first, as most readers do; others take the last, or refuse the file. So two
+    /// programs may see two robots: another axis, another mass. Two shapes in one `<geometry>` are
+    /// one shape and another that no program sees.
     ///
     /// Keep one of them in the URDF; write several shapes as several `<visual>` or `<collision>`
     /// elements. Then write the URDD again.

@@ -9,7 +9,7 @@ declare_rule! {
     /// Mimics, joint states, commands and controllers say which joint they mean by its name. With
     /// two of one name the wrong motor may turn. (A joint and a link may share a name.)
     ///
-    /// Give every joint a name of its own in the URDF, and write the URDD again.
+    /// Give every joint a different name in the URDF, and write the URDD again.
     URD003 "duplicate-joint-name", Error, clause "6.1.3", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf)],
     check check,

@@ -10,7 +10,7 @@ declare_rule! {
     /// Joints, skips and most programs say which link they mean by its name. With two of one name
     /// each reader takes the one it finds first, or last.
     ///
-    /// Give every link a name of its own in the URDF, and write the URDD again.
+    /// Give every link a different name in the URDF, and write the URDD again.
     URD002 "duplicate-link-name", Error, clause "6.1.3", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf)],
     check check,

@@ -86,7 +86,7 @@ fn lost(reading: &Reading, source: &str) -> String {
     let geometry = reading.offset(&format!("{element}/geometry"));
     let after = match (geometry, reading.offset(source)) {
         (Some(geometry), Some(offset)) if offset > geometry => {
-            ", as is all that stands after `<geometry>` in its element"
+            ", and so is everything after `<geometry>` in its element"
         }
         _ => "",
     };
