@@ -350,3 +350,35 @@ proptest! {
         check(&Mesh { vertices, triangles }, &Settings { max_pieces: pieces, ..Settings::default() });
     }
 }
+
+/// A box of these half sides, turned about the three axes and moved.
+fn turned_box(half: [f64; 3], rpy: [f64; 3], xyz: [f64; 3]) -> Mesh {
+    let mut m = Mesh::default();
+    push_box(&mut m, half.map(|h| -h), half);
+    let rotation = nalgebra::Rotation3::from_euler_angles(rpy[0], rpy[1], rpy[2]);
+    for v in &mut m.vertices {
+        *v = (rotation * nalgebra::Vector3::from(*v) + nalgebra::Vector3::from(xyz)).into();
+    }
+    m
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    /// Cuts in any direction through bodies with an inside: what is put into a cut stays in the hull.
+    #[test]
+    fn pieces_of_boxes_that_cross_are_in_their_hull(
+        boxes in proptest::collection::vec(
+            ([0.05..1.0, 0.05..1.0, 0.05..1.0], [-3.0..3.0, -1.5..1.5, -3.0..3.0], [-1.0..1.0, -1.0..1.0, -1.0..1.0]),
+            2..5,
+        ),
+    ) {
+        let mut m = Mesh::default();
+        for (half, rpy, xyz) in boxes {
+            let other = turned_box(half, rpy, xyz);
+            let base = m.vertices.len() as u32;
+            m.vertices.extend(other.vertices);
+            m.triangles.extend(other.triangles.iter().map(|t| t.map(|i| i + base)));
+        }
+        check(&m, &Settings::default());
+    }
+}

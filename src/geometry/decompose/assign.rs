@@ -7,7 +7,7 @@
 use super::clean::Surface;
 use super::part::Plane;
 use super::search::Node;
-use super::vector::{dot, lerp};
+use super::vector::{cross, dot, lerp, norm, sub};
 use crate::geometry::hull::ConvexHull;
 
 /// A corner on its way down: its place in unit coordinates, and which vertex or point it is.
@@ -21,10 +21,11 @@ struct Corner {
 
 const NEW: u32 = u32::MAX;
 
-/// The points of each group, in metres: of the surface, and of points inside (in unit coordinates). Points made by a cut are rounded to f32, as meshes are written.
+/// The points of each group, in metres: of the surface, and of points inside. Points made by a cut are rounded to
+/// f32, as meshes are written.
 pub(super) fn assign(
     surface: &Surface,
-    (inner, reach): (&[[f64; 3]], f64),
+    inside: &Inside,
     nodes: &[Node],
     group_of_leaf: &[usize],
     groups: usize,
@@ -48,10 +49,50 @@ pub(super) fn assign(
             dot(surface.normal(t), direction) > 0.0
         });
     }
-    for &p in inner {
-        out.drop_in(0, p, reach, surface);
+    for &p in inside.points {
+        out.drop_in(0, p, inside, surface);
     }
     out.points
+}
+
+/// Points inside the body, in unit coordinates.
+pub(super) struct Inside<'a> {
+    points: &'a [[f64; 3]],
+    /// How near to a cut they are put into it.
+    reach: f64,
+    /// Planes about the body: outward normals of unit length, and their offsets.
+    planes: Vec<([f64; 3], f64)>,
+}
+
+impl<'a> Inside<'a> {
+    /// `body` are points of the surface whose hull is the body's, or within it.
+    pub fn new(points: &'a [[f64; 3]], reach: f64, body: &[[f64; 3]]) -> Inside<'a> {
+        let hull = match points {
+            [] => None,
+            _ => ConvexHull::new(body).ok(),
+        };
+        let planes = hull.map_or(Vec::new(), |hull| {
+            let mesh = hull.into_mesh();
+            let planes = mesh.triangles.iter().map(|t| {
+                let [a, b, c] = t.map(|i| mesh.vertices[i as usize]);
+                let normal = cross(sub(b, a), sub(c, a));
+                let normal = normal.map(|x| x / norm(normal));
+                (normal, dot(normal, a))
+            });
+            planes.collect()
+        });
+        Inside {
+            points,
+            reach,
+            planes,
+        }
+    }
+
+    fn hull_holds(&self, p: [f64; 3]) -> bool {
+        self.planes
+            .iter()
+            .all(|(normal, offset)| dot(*normal, p) <= *offset)
+    }
 }
 
 /// So many points of a group are gathered before they are thinned out.
@@ -98,22 +139,25 @@ impl Hands<'_> {
         }
     }
 
-    /// A point inside, in unit coordinates: near a plane it is put into that too, for both sides.
-    fn drop_in(&mut self, node: usize, p: [f64; 3], reach: f64, surface: &Surface) {
+    /// A point inside, in unit coordinates: near a plane it is put into that too, for both sides. One that left
+    /// the hull of the body on its way is dropped: each move is short, but they add up.
+    fn drop_in(&mut self, node: usize, p: [f64; 3], inside: &Inside, surface: &Surface) {
         match self.nodes[node] {
             Node::Leaf(leaf) => {
-                let at =
-                    [0, 1, 2].map(|a| f64::from((p[a] * surface.scale + surface.centre[a]) as f32));
-                self.points[self.group_of_leaf[leaf]].push(at);
+                if inside.hull_holds(p) {
+                    let at = [0, 1, 2]
+                        .map(|a| f64::from((p[a] * surface.scale + surface.centre[a]) as f32));
+                    self.points[self.group_of_leaf[leaf]].push(at);
+                }
             }
             Node::Cut(plane, sides) => {
                 let height = plane.height(p);
-                if height.abs() <= reach {
+                if height.abs() <= inside.reach {
                     let q = plane.project(p);
-                    self.drop_in(sides[0], q, reach, surface);
-                    self.drop_in(sides[1], q, reach, surface);
+                    self.drop_in(sides[0], q, inside, surface);
+                    self.drop_in(sides[1], q, inside, surface);
                 }
-                self.drop_in(sides[usize::from(height > 0.0)], p, reach, surface);
+                self.drop_in(sides[usize::from(height > 0.0)], p, inside, surface);
             }
         }
     }
@@ -177,4 +221,43 @@ fn clip(polygon: &[Corner], plane: &Plane, eps: f64) -> [Vec<Corner>; 2] {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::decompose::clean::Surface;
+    use crate::geometry::primitives::cuboid;
+
+    #[test]
+    fn a_point_that_two_cuts_move_out_of_the_body_is_dropped() {
+        let surface = Surface::new(&cuboid([2.0, 2.0, 2.0])).expect("a surface");
+        // Two planes through the edge x = y = 1.02, which lies just outside: a point near it goes into both.
+        let plane = |degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            Plane {
+                normal: [sin, -cos, 0.0],
+                offset: 1.02 * (sin - cos),
+            }
+        };
+        let nodes = [
+            Node::Cut(plane(44.0), [1, 2]),
+            Node::Cut(plane(134.0), [3, 4]),
+            Node::Cut(plane(134.0), [5, 6]),
+            Node::Leaf(0),
+            Node::Leaf(1),
+            Node::Leaf(2),
+            Node::Leaf(3),
+        ];
+        let point = [[0.95, 0.95, 0.0]];
+        let given = |reach: f64| {
+            let inside = Inside::new(&point, reach, &surface.unit);
+            let parts = assign(&surface, &inside, &nodes, &[0, 1, 2, 3], 4, 1e-9);
+            parts.into_iter().flatten().collect::<Vec<_>>()
+        };
+        let out = |p: &[f64; 3]| p.iter().any(|x| x.abs() > 1.0 + 1e-6);
+        assert!(!given(0.11).iter().any(out), "{:?}", given(0.11));
+        // The move into the first plane alone stays.
+        assert!(given(0.11).len() > given(0.0).len());
+    }
 }

@@ -108,6 +108,7 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
     let most = settings.max_pieces.max(1);
     let (mut part, cell) = proxy::proxy(&surface);
     let (inner, reach) = inside::inside(&part);
+    let body = part.points.clone();
     part.inner = inner.clone();
     let places = grower::Places {
         frames: cut::frames(proxy::flat_coordinates(&surface, MOST_FLATS)),
@@ -128,7 +129,7 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
         .max(0.0);
     let parts = assign::assign(
         &surface,
-        (&inner, reach),
+        &assign::Inside::new(&inner, reach, &body),
         &found.nodes,
         &groups,
         count,
