@@ -43,7 +43,7 @@ impl OrientedBox {
             let normal = caster.largest_normal();
             caster.smallest_box(&normal).into_iter().collect()
         } else {
-            smallest_boxes(hull)
+            smallest_boxes(hull, f64::INFINITY)
         };
         let least = candidates
             .iter()
@@ -72,6 +72,14 @@ impl OrientedBox {
             return aligned;
         }
         found
+    }
+
+    /// Whether a box that is not larger than `volume`, cubic metres, holds a hull that is not flat.
+    ///
+    /// The search is that of [`Self::around`], but nothing is looked at that promises no such box: much less work
+    /// where `volume` is near the least.
+    pub fn exists_within(hull: &ConvexHull, volume: f64) -> bool {
+        !smallest_boxes(hull, volume).is_empty()
     }
 
     /// The smallest box of this orientation about a hull.

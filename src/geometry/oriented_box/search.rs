@@ -69,13 +69,14 @@ struct Search {
     found: Vec<Candidate>,
 }
 
-/// The boxes within [`TIE`] of the smallest that was found. Empty only for a hull without area.
-pub fn smallest_boxes(hull: &ConvexHull) -> Vec<Candidate> {
+/// The boxes within [`TIE`] of the smallest that was found, of those that are not larger than `volume`, cubic metres.
+/// Where that is infinite, empty only for a hull without area.
+pub fn smallest_boxes(hull: &ConvexHull, volume: f64) -> Vec<Candidate> {
     let mut search = Search {
         fine: Caster::new(hull),
         left: MOST_CAST,
         coarse: coarse(hull),
-        best: f64::INFINITY,
+        best: volume,
         found: Vec::new(),
     };
     for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {

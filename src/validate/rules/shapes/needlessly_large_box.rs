@@ -72,17 +72,26 @@ fn too_large(enclosure: &Enclosure) -> Option<f64> {
         let half = half.map(|h| h + enclosure.tolerance);
         half.iter().product::<f64>()
     };
-    let ratio_to = |points: &[[f64; 3]]| {
-        let hull = ConvexHull::new(points).ok()?;
-        let least = OrientedBox::around(&hull);
-        Some(thick(half_extents) / thick(least.half_extents))
+    // Of what may well be too large: most boxes are not, and that is seen soon.
+    let may_be = |hull: &ConvexHull| {
+        let enough = 8.0 * thick(half_extents) / NEEDLESSLY_LARGE_BOX;
+        hull.is_flat() || OrientedBox::exists_within(hull, enough)
+    };
+    let ratio_to = |hull: &ConvexHull| {
+        let least = OrientedBox::around(hull);
+        thick(half_extents) / thick(least.half_extents)
     };
     let vertices = &enclosure.mesh.vertices;
     // No box about all is smaller than the least one about some, which is found much sooner.
-    if ratio_to(&outermost(vertices)).is_some_and(|ratio| ratio <= NEEDLESSLY_LARGE_BOX) {
+    let some = ConvexHull::new(&outermost(vertices)).ok();
+    if some.is_some_and(|hull| !may_be(&hull)) {
         return None;
     }
-    ratio_to(vertices).filter(|ratio| *ratio > NEEDLESSLY_LARGE_BOX)
+    let hull = ConvexHull::new(vertices).ok()?;
+    if !may_be(&hull) {
+        return None;
+    }
+    Some(ratio_to(&hull)).filter(|ratio| *ratio > NEEDLESSLY_LARGE_BOX)
 }
 
 /// The vertices that are farthest in the directions of a coarse grid.
