@@ -14,6 +14,7 @@ pub mod generate;
 pub mod geometry;
 pub mod kinematics;
 pub mod report;
+pub mod robot;
 pub mod skips;
 pub mod validate;
 pub mod xml;

@@ -52,3 +52,40 @@ fn reads_every_published_module() {
     }
     assert!(files.len() > 60, "only {} documents", files.len());
 }
+
+/// The numbers of a legacy robot are those of a URDD that is made of the same URDF.
+#[test]
+#[ignore = "needs the published URDDs"]
+fn legacy_robots_move_as_their_urdfs_do() {
+    use urdd::robot::{Robot, ShapeKind};
+    for name in ["ur5", "z1", "robotiq_140"] {
+        let folder = corpus().join(name);
+        let legacy = Robot::open(&folder).unwrap();
+        let made = tempfile::tempdir().unwrap();
+        let settings = urdd::generate::Settings {
+            selection: urdd::generate::Selection::parse(["core"]).unwrap(),
+            ..urdd::generate::Settings::default()
+        };
+        let (urdf, target) = (folder.join(format!("{name}.urdf")), made.path().join(name));
+        urdd::generate::generate(&urdf, &target, &settings, &()).unwrap();
+        let now = Robot::open(target).unwrap();
+        let q = now.configurations().unwrap().random(2);
+        assert_eq!(legacy.dofs().unwrap().len(), q.len(), "{name}");
+        let poses = [&legacy, &now].map(|robot| robot.link_poses(&q).unwrap());
+        for (link, pose) in now.links().unwrap().iter().zip(&poses[1]) {
+            let other = &poses[0][legacy.link(link).unwrap()];
+            let apart = (pose.translation.vector - other.translation.vector).norm();
+            assert!(apart < 1e-9, "{name}: {link} is {apart} m off");
+            assert!(
+                pose.rotation.angle_to(&other.rotation) < 1e-7,
+                "{name}: {link}"
+            );
+        }
+        let proximity = legacy.proximity(ShapeKind::Hulls).unwrap();
+        assert!(proximity.num_pairs() > 0, "{name}");
+        assert_eq!(
+            proximity.distances(&q).unwrap().len(),
+            proximity.num_pairs()
+        );
+    }
+}

@@ -1,5 +1,7 @@
 //! The command line: arguments in, text out. Everything else is in the library.
 
+mod check_collisions;
+mod configurations;
 mod conformance;
 mod explain;
 mod foreign;
@@ -40,6 +42,8 @@ enum Command {
     Generate(generate::GenerateArguments),
     /// Check URDDs against the specification.
     Validate(validate::ValidateArguments),
+    /// Ask a robot whether it collides with itself, and which of its parts are nearest.
+    CheckCollisions(check_collisions::CheckCollisionsArguments),
     /// Tell about a rule, or list them all.
     Explain(explain::ExplainArguments),
     /// Tell what a URDD holds, without judging it.
@@ -71,6 +75,7 @@ pub fn run(closed: bool) -> ExitCode {
     match arguments.command {
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments, color),
+        Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Rehash(arguments) => rehash::run(&arguments),

@@ -26,6 +26,9 @@ pub enum NoUrdf {
     /// The root metadata cannot be used, so the source is not known.
     #[error("{ROOT_METADATA} does not fit its schema, so the source is not known")]
     MetadataUnusable,
+    /// Only some modules were read.
+    #[error("the URDF was not read")]
+    NotRead,
     /// The root metadata names no source.
     #[error("the root metadata names no source")]
     NoSource,

@@ -52,23 +52,12 @@ impl Loaded {
             .into_par_iter()
             .map(|(folder, kind)| {
                 let listed = listed.get(folder.as_str()).copied();
-                read_module(&root, &listing, folder, kind, listed)
+                let mut module = read_module(&root, folder, kind, listed);
+                module.mirror = read_mirror(&root, &listing, &module);
+                module
             })
             .collect();
-        let versioned = modules
-            .iter()
-            .filter_map(|module| module.spec)
-            .any(|spec| spec.profile == Profile::V1);
-        let has_metadata = !matches!(metadata.json, JsonFile::Missing);
-        let legacy = modules
-            .iter()
-            .filter_map(|module| module.spec)
-            .any(|spec| spec.profile == Profile::Legacy);
-        let profile = if has_metadata || versioned || !legacy {
-            Profile::V1
-        } else {
-            Profile::Legacy
-        };
+        let profile = profile(&metadata, &modules);
         let urdf = carried_urdf::read(&root, &listing, &metadata);
         Ok(Loaded {
             root,
@@ -78,6 +67,51 @@ impl Loaded {
             urdf,
             profile,
         })
+    }
+
+    /// Reads some modules alone: no mirror, no URDF.
+    ///
+    /// # Errors
+    /// Where the root itself cannot be listed.
+    pub fn read_only(root: Root, kinds: &[ModuleKind]) -> Result<Self, ReadError> {
+        let listing = root.list()?;
+        let metadata = read_metadata(&root);
+        let listed = |kind: ModuleKind| {
+            let entries = metadata.metadata.iter().flat_map(|m| &m.modules);
+            let mut entries = entries.filter(|entry| entry.path == kind.folder());
+            entries.next().map(|entry| &entry.version)
+        };
+        let modules: Vec<Module> = kinds
+            .par_iter()
+            .filter(|kind| listing.has_folder(kind.folder()))
+            .map(|kind| {
+                let folder = kind.folder().to_owned();
+                read_module(&root, folder, Some(*kind), listed(*kind))
+            })
+            .collect();
+        let profile = profile(&metadata, &modules);
+        Ok(Loaded {
+            root,
+            listing,
+            metadata,
+            modules,
+            urdf: Err(NoUrdf::NotRead),
+            profile,
+        })
+    }
+}
+
+/// The family of formats that a URDD follows.
+fn profile(metadata: &MetadataFile, modules: &[Module]) -> Profile {
+    let any = |profile: Profile| {
+        let mut specs = modules.iter().filter_map(|module| module.spec);
+        specs.any(|spec| spec.profile == profile)
+    };
+    let has_metadata = !matches!(metadata.json, JsonFile::Missing);
+    if has_metadata || any(Profile::V1) || !any(Profile::Legacy) {
+        Profile::V1
+    } else {
+        Profile::Legacy
     }
 }
 
@@ -150,9 +184,9 @@ fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
     folders
 }
 
+/// Everything of a module but its mirror.
 fn read_module(
     root: &Root,
-    listing: &Listing,
     folder: String,
     kind: Option<ModuleKind>,
     listed: Option<&Version>,
@@ -176,22 +210,6 @@ fn read_module(
         None => (None, false),
     };
     let json = JsonFile::read(root, &file("module.json"));
-    let mirror =
-        if !listing.has_file(&file("module.yaml")) && listing.get(&file("module.yaml")).is_none() {
-            Mirror::Missing
-        } else {
-            match (
-                root.read(&file("module.yaml"), MAX_DOCUMENT_BYTES),
-                json.document(),
-            ) {
-                (Err(ReadError::Missing), _) => Mirror::Missing,
-                (Err(error), _) => Mirror::Unreadable(error),
-                (Ok(_), None) => Mirror::NotCompared,
-                (Ok(bytes), Some(document)) => {
-                    Mirror::Compared(yaml::check_mirror(&bytes, &document.value))
-                }
-            }
-        };
     let mut module = Module {
         folder,
         kind,
@@ -200,7 +218,7 @@ fn read_module(
         spec,
         newer,
         json,
-        mirror,
+        mirror: Mirror::NotCompared,
         violations: Vec::new(),
         document: None,
         is_draft: false,
@@ -214,6 +232,22 @@ fn read_module(
         }
     }
     module
+}
+
+/// The mirror of a module's document.
+fn read_mirror(root: &Root, listing: &Listing, module: &Module) -> Mirror {
+    let file = module.file("module.yaml");
+    if !listing.has_file(&file) && listing.get(&file).is_none() {
+        return Mirror::Missing;
+    }
+    match (root.read(&file, MAX_DOCUMENT_BYTES), module.json.document()) {
+        (Err(ReadError::Missing), _) => Mirror::Missing,
+        (Err(error), _) => Mirror::Unreadable(error),
+        (Ok(_), None) => Mirror::NotCompared,
+        (Ok(bytes), Some(document)) => {
+            Mirror::Compared(yaml::check_mirror(&bytes, &document.value))
+        }
+    }
 }
 
 /// The version by which a module is read: that of its `VERSION` file, unless only the one in the root

@@ -39,15 +39,23 @@ pub struct ConfigurationSpace {
 }
 
 impl ConfigurationSpace {
-    /// From the three modules. Bounds are taken from `bounds` of `bounds_module`, in whatever order
-    /// the two of a pair are; they must be finite.
+    /// From the three modules.
     pub fn new(
         dof: &DofModule,
         chain: &ChainModule,
         bounds: &BoundsModule,
     ) -> Result<Self, KinematicsError> {
+        Self::within(dof, chain, &bounds.bounds)
+    }
+
+    /// From two modules and `bounds` of `bounds_module`, in whatever order the two of a pair are; they must be finite.
+    pub fn within(
+        dof: &DofModule,
+        chain: &ChainModule,
+        bounds: &[[f64; 2]],
+    ) -> Result<Self, KinematicsError> {
         check_lengths(chain, dof)?;
-        let (expected, found) = (dof.num_dofs.get(), bounds.bounds.len());
+        let (expected, found) = (dof.num_dofs.get(), bounds.len());
         if found != expected {
             let what = "DOF of dof_module";
             let fault = Fault::Length {
@@ -57,7 +65,7 @@ impl ConfigurationSpace {
             };
             return Err(KinematicsError::bounds("/bounds", fault));
         }
-        for (i, pair) in bounds.bounds.iter().enumerate() {
+        for (i, pair) in bounds.iter().enumerate() {
             if let Some(end) = pair.iter().position(|bound| !bound.is_finite()) {
                 let fault = Fault::NotFinite(pair[end]);
                 return Err(KinematicsError::bounds(format!("/bounds/{i}/{end}"), fault));
@@ -71,7 +79,7 @@ impl ConfigurationSpace {
             }
         }
         Ok(Self {
-            bounds: bounds.bounds.clone(),
+            bounds: bounds.to_vec(),
             rotation_vectors,
         })
     }

@@ -57,14 +57,16 @@ pub struct ForwardKinematics {
     root: usize,
     /// One for each joint; a link's own step comes before those of its children.
     steps: Vec<Step>,
+    /// For each link the step that moves it; `None` for the root.
+    step_of: Vec<Option<usize>>,
 }
 
 #[derive(Debug, Clone)]
-struct Step {
-    parent: usize,
-    child: usize,
-    origin: Isometry3<f64>,
-    motion: Motion,
+pub(super) struct Step {
+    pub parent: usize,
+    pub child: usize,
+    pub origin: Isometry3<f64>,
+    pub motion: Motion,
 }
 
 impl ForwardKinematics {
@@ -88,7 +90,12 @@ impl ForwardKinematics {
                 motion: motion(joint, idx, dof)?,
             });
         }
+        let mut step_of = vec![None; chain.links_in_chain.len()];
+        for (number, step) in steps.iter().enumerate() {
+            step_of[step.child] = Some(number);
+        }
         Ok(Self {
+            step_of,
             num_links: chain.links_in_chain.len(),
             num_dofs: dof.num_dofs.get(),
             root: chain.root_idx.get(),
@@ -148,6 +155,18 @@ impl ForwardKinematics {
             poses[step.child] = pose;
         }
         Ok(())
+    }
+
+    /// The joints between a link and the root, from the link on.
+    pub(super) fn path(&self, link: usize) -> impl Iterator<Item = &Step> {
+        let step = |link: usize| {
+            self.step_of
+                .get(link)
+                .copied()
+                .flatten()
+                .map(|k| &self.steps[k])
+        };
+        std::iter::successors(step(link), move |above| step(above.parent))
     }
 
     /// Index of the root link, whose pose is the identity.

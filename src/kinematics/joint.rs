@@ -18,8 +18,8 @@ const MIMICS: &str = "joint_idx_to_mimic_mapping";
 /// A joint's position where it is one number: `multiplier * q[dof] + offset`.
 #[derive(Debug, Clone)]
 pub(super) struct Position {
-    dof: Option<usize>,
-    multiplier: f64,
+    pub dof: Option<usize>,
+    pub multiplier: f64,
     offset: f64,
 }
 

@@ -6,6 +6,7 @@
 mod configurations;
 mod error;
 mod forward;
+mod jacobian;
 mod joint;
 pub mod pose;
 pub mod rotation;

@@ -19,7 +19,7 @@ pub const TOLERANCE: f64 = 1e-9;
 const CONTACT: f64 = 1e-10;
 
 /// Rounds after which a lane is given up; two to five are usual.
-const MAX_ROUNDS: usize = 64;
+pub(crate) const MAX_ROUNDS: usize = 64;
 
 /// The set of all lanes.
 pub(crate) const ALL: u64 = (1 << LANES) - 1;
@@ -149,6 +149,68 @@ fn descend<S: Simd, T: Support>(
         upper: select(contact, zero, squared.sqrt()),
         unsure: unsure | !done,
     }
+}
+
+/// Of the lanes `lanes` those in which `a` and `b` touch or overlap: whose distance is 0 by [`distances`]. It ends as
+/// soon as a plane between the shapes is found.
+#[inline(always)]
+pub(crate) fn touching<S: Simd, T: Support>(
+    simd: S,
+    a: &T,
+    b: &T,
+    pose: &Pose<S>,
+    lanes: u64,
+) -> u64 {
+    let contact2 = splat(simd, CONTACT * CONTACT);
+    let zero = splat(simd, 0.0);
+    let mut v = farthest(simd, a, b, pose, -pose.shift, lanes);
+    let mut s = [v; 3];
+    let mut squared = v.dot(v);
+    let mut contact = squared.simd_le(contact2) & Mask::from_bitmask(simd, lanes);
+    let mut done = contact | Mask::from_bitmask(simd, !lanes & ALL);
+    let mut unsure = Mask::splat(simd, false);
+    for round in 1..=MAX_ROUNDS {
+        if done.all_true() {
+            break;
+        }
+        let w = farthest(simd, a, b, pose, v, !done.to_bitmask() & ALL);
+        let along = v.dot(w);
+        // The distance is at least v . w / |v|.
+        let apart = along.simd_gt(zero) & (along * along).simd_gt(contact2 * squared);
+        done |= apart | (squared - along).simd_le(zero);
+        if done.all_true() {
+            break;
+        }
+        let Nearest {
+            point,
+            vertices,
+            inside,
+        } = match round {
+            1 => segment(simd, w, s[0]),
+            2 => triangle(simd, w, [s[0], s[1]]),
+            _ => tetrahedron(simd, w, s),
+        };
+        let least = point.dot(point);
+        let now = (inside | least.simd_le(contact2)) & !done;
+        contact |= now;
+        done |= now;
+        let stuck = !least.simd_lt(squared) & !done;
+        unsure |= stuck;
+        done |= stuck;
+        v = Vec3::select(done, v, point);
+        squared = select(done, squared, least);
+        s = vertices;
+    }
+    let mut found = contact.to_bitmask() & lanes;
+    let mut unsure = (unsure | !done).to_bitmask() & lanes;
+    while unsure != 0 {
+        let lane = unsure.trailing_zeros() as usize & (LANES - 1);
+        unsure &= unsure - 1;
+        if from_other_sides(simd, a, b, &pose.lane(lane), f64::INFINITY) == 0.0 {
+            found |= 1 << lane;
+        }
+    }
+    found
 }
 
 /// The point of the difference A - B that is farthest against `v`.

@@ -8,6 +8,7 @@
 //! [`TOLERANCE`]; shapes that touch or overlap are at distance 0. Results are the same bits on each
 //! instruction set of an architecture and for each number of threads.
 
+pub mod across;
 mod cells;
 mod gjk;
 mod kernel;
@@ -18,9 +19,12 @@ mod simplex;
 mod statistics;
 mod support;
 mod support_table;
+mod witness;
 
+pub use fearless_simd::Level;
 pub use gjk::TOLERANCE;
 pub use kernel::{Shape, distance};
 pub use motion::{Motion, MotionError};
 pub use shape::{ConvexShape, OrientedBox, ShapeError, Sphere};
 pub use statistics::{PairStatistics, PlacedShape, pair_distances, pair_statistics};
+pub use witness::Witness;

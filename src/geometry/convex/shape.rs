@@ -78,6 +78,11 @@ impl ConvexShape {
         let table = SupportTable::new(&points);
         Ok(Self { centre, table })
     }
+
+    /// Middle of the bounds, in the frame of the body, metres.
+    pub fn centre(&self) -> [f64; 3] {
+        self.centre
+    }
 }
 
 impl OrientedBox {

@@ -56,21 +56,28 @@ impl Support for ConvexShape {
 /// The cell of each lane's direction.
 #[inline(always)]
 fn cells<S: Simd>(simd: S, table: &SupportTable, d: Vec3<S>) -> [usize; LANES] {
+    cells_of(simd, splat(simd, table.side() as f64), d)
+}
+
+/// The cell of each lane's direction in a table of that many cells along one side.
+#[inline(always)]
+pub(crate) fn cells_of<S: Simd>(simd: S, side: Num<S>, d: Vec3<S>) -> [usize; LANES] {
     /// 1.5 * 2^52: adding it rounds to an integer, which is then the lowest bits of the sum.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
-    let half = 0.5 * table.side() as f64;
+    let half = side * splat(simd, 0.5);
     let inverse = one / (d.x.abs() + d.y.abs() + d.z.abs());
     let (u, v) = (d.x * inverse, d.y * inverse);
     let lower = d.z.simd_lt(zero);
     let u2 = select(lower, (one - v.abs()).copysign(u), u);
     let v2 = select(lower, (one - u.abs()).copysign(v), v);
     // Less than the side by so little that no vertex is lost.
-    let (scale, shift) = (splat(simd, half * (1.0 - 1e-12)), splat(simd, half - 0.5));
+    let scale = half * splat(simd, 1.0 - 1e-12);
+    let shift = half - splat(simd, 0.5);
     let round = splat(simd, ROUND);
     let row = (u2 * scale + shift + round) - round;
     let column = (v2 * scale + shift + round) - round;
-    let cell = (row * splat(simd, table.side() as f64) + column + round).to_array();
+    let cell = (row * side + column + round).to_array();
     let mut cells = [0; LANES];
     for lane in 0..LANES {
         cells[lane] = (cell[lane].to_bits() & 0xFFFF_FFFF) as usize;

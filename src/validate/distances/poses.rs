@@ -7,7 +7,6 @@ use rayon::prelude::*;
 
 use crate::document::consumer;
 use crate::document::urdd::Urdd;
-use crate::format::bounds::BoundsModule;
 use crate::format::registry::Profile;
 use crate::format::urdf::JointType;
 use crate::geometry::convex::Motion;
@@ -38,11 +37,7 @@ impl Poses {
         if urdd.profile() == Profile::Legacy && joints.any(|joint| unlike(joint.joint_type)) {
             return Err(SkipReason::LegacyCoordinates);
         }
-        let bounds = match bounds.v1 {
-            Some(module) => module.clone(),
-            None => of_legacy(bounds.bounds),
-        };
-        let space = ConfigurationSpace::new(&modules.dof, &modules.chain, &bounds)
+        let space = ConfigurationSpace::within(&modules.dof, &modules.chain, bounds.bounds)
             .map_err(|error| SkipReason::Kinematics(error.to_string()))?;
         let kinematics = ForwardKinematics::new(&modules.chain, &modules.dof)
             .map_err(|error| SkipReason::Kinematics(error.to_string()))?;
@@ -95,17 +90,5 @@ impl Poses {
             })
             .collect::<Result<_, _>>()?;
         Motion::new(&poses, &self.groups).map_err(|error| SkipReason::Kinematics(error.to_string()))
-    }
-}
-
-/// The bounds alone, which sampling needs.
-fn of_legacy(bounds: &[[f64; 2]]) -> BoundsModule {
-    BoundsModule {
-        bounds: bounds.to_vec(),
-        dof_lower_bounds: Vec::new(),
-        dof_upper_bounds: Vec::new(),
-        dof_limited: Vec::new(),
-        dof_velocity_limits: Vec::new(),
-        dof_effort_limits: Vec::new(),
     }
 }

@@ -1,0 +1,266 @@
+//! `urdd check-collisions`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use serde_json::json;
+
+use super::{configurations, foreign, output};
+use crate::directory::discover::DiscoverError;
+use crate::directory::source::is_archive;
+use crate::format::escape;
+use crate::robot::{PairDistance, Proximity, Robot, RobotError, ShapeKind};
+
+/// Arguments of `urdd check-collisions`.
+///
+/// Exit status: 0 where the robot is free in every configuration, 1 where it collides in one, 2 where nothing could be
+/// asked.
+#[derive(Args)]
+pub struct CheckCollisionsArguments {
+    /// A URDD: a folder or a zip archive.
+    #[arg(value_name = "URDD")]
+    path: PathBuf,
+
+    /// Configurations: a file, or `-` for standard input. On each line a value for each DOF (rad or m), as a JSON list,
+    /// as a JSON object by names of DOFs, or with commas between them. Without, the robot's default configuration.
+    #[arg(long, short, value_name = "FILE", conflicts_with = "random")]
+    configurations: Option<PathBuf>,
+
+    /// So many random configurations within the bounds, the same in each run.
+    #[arg(long, value_name = "N")]
+    random: Option<u64>,
+
+    /// Which shapes stand for the links.
+    #[arg(long, value_enum, default_value_t = Shapes::Pieces)]
+    shapes: Shapes,
+
+    /// How many of the nearest pairs to show for each configuration.
+    #[arg(long, value_name = "K", default_value_t = 3)]
+    nearest: usize,
+
+    /// As text, or as JSON: one object a line for each configuration.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Shapes {
+    /// The convex pieces of links.
+    Pieces,
+    /// The convex hulls of links.
+    Hulls,
+    /// The boxes about hulls.
+    Boxes,
+    /// The spheres about hulls.
+    Spheres,
+    /// The boxes about pieces.
+    PieceBoxes,
+    /// The spheres about pieces.
+    PieceSpheres,
+}
+
+impl Shapes {
+    fn kind(self) -> ShapeKind {
+        match self {
+            Shapes::Pieces => ShapeKind::Pieces,
+            Shapes::Hulls => ShapeKind::Hulls,
+            Shapes::Boxes => ShapeKind::Boxes,
+            Shapes::Spheres => ShapeKind::Spheres,
+            Shapes::PieceBoxes => ShapeKind::PieceBoxes,
+            Shapes::PieceSpheres => ShapeKind::PieceSpheres,
+        }
+    }
+}
+
+/// More random configurations than this are summed up in text.
+const FEW: u64 = 10;
+
+/// Pairs of links shown in a sum.
+const WORST: usize = 10;
+
+/// Runs `urdd check-collisions`.
+pub fn run(arguments: &CheckCollisionsArguments) -> ExitCode {
+    match check(arguments) {
+        Ok((text, collides)) => match output::print(&text) {
+            Ok(()) if collides => ExitCode::from(1),
+            result => super::printed(result),
+        },
+        Err(message) => super::printed(Err(message)),
+    }
+}
+
+fn check(arguments: &CheckCollisionsArguments) -> Result<(String, bool), String> {
+    let path = &arguments.path;
+    if path.is_file() && !is_archive(path) {
+        let path = path.display().to_string();
+        if path.ends_with(".urdf") {
+            let shown = escape::line(&path);
+            return Err(format!(
+                "{shown}: this is a URDF; make a URDD of it first: urdd generate {shown} -o DIR"
+            ));
+        }
+        return Err(foreign::advice(&DiscoverError::NotAFolder { path }));
+    }
+    let robot = Robot::open(path).map_err(|error| escape::line(&error.to_string()).into_owned())?;
+    let in_urdd =
+        |error: RobotError| format!("{}: {error}", escape::line(&path.display().to_string()));
+    let space = robot.configurations().map_err(in_urdd)?;
+    let chosen = match (&arguments.configurations, arguments.random) {
+        (Some(file), _) => configurations::read(&robot, file)?,
+        (None, Some(count)) => (0..count).map(|k| space.random(k)).collect(),
+        (None, None) => vec![space.zero()],
+    };
+    let proximity = robot.proximity(arguments.shapes.kind()).map_err(in_urdd)?;
+    let sum = arguments.random.is_some_and(|count| count > FEW);
+    if arguments.format == Format::Text && sum {
+        return sum_up(&proximity, &chosen).map_err(in_urdd);
+    }
+    let of_pieces = proximity.kind().is_of_pieces();
+    let (mut text, mut any) = (String::new(), false);
+    for (number, configuration) in chosen.iter().enumerate() {
+        let touching = proximity.collisions(configuration).map_err(in_urdd)?;
+        let nearest = proximity
+            .nearest(configuration, arguments.nearest)
+            .map_err(in_urdd)?;
+        any |= !touching.is_empty();
+        match arguments.format {
+            Format::Text => as_text(&mut text, number, &touching, &nearest, of_pieces),
+            Format::Json => as_json(&mut text, number, configuration, &touching, &nearest),
+        }
+    }
+    if arguments.format == Format::Text {
+        text.push_str(&totals(&proximity, chosen.len()));
+    }
+    Ok((text, any))
+}
+
+fn totals(proximity: &Proximity, count: usize) -> String {
+    let configurations = match count {
+        1 => "1 configuration".to_owned(),
+        count => format!("{count} configurations"),
+    };
+    format!(
+        "{configurations}, {} shapes ({}), {} pairs that are not skipped\n",
+        proximity.num_shapes(),
+        proximity.kind(),
+        proximity.num_pairs()
+    )
+}
+
+/// The names of a pair, with the pieces where there are several.
+fn label(pair: &PairDistance, of_pieces: bool) -> String {
+    let [a, b] = [0, 1].map(|i| {
+        let name = escape::line(&pair.links[i]).into_owned();
+        match of_pieces {
+            true => format!("{name}[{}]", pair.pieces[i]),
+            false => name,
+        }
+    });
+    format!("{a} - {b}")
+}
+
+fn as_text(
+    text: &mut String,
+    number: usize,
+    touching: &[PairDistance],
+    nearest: &[PairDistance],
+    of_pieces: bool,
+) {
+    let links = links_of(touching);
+    let verdict = match links.len() {
+        0 => "free".to_owned(),
+        1 => "collides: 1 pair of links".to_owned(),
+        count => format!("collides: {count} pairs of links"),
+    };
+    let _ = writeln!(text, "configuration {number}: {verdict}");
+    for (links, pairs) in &links {
+        let pieces = match pairs {
+            1 => String::new(),
+            pairs => format!(" ({pairs} pairs of shapes)"),
+        };
+        let _ = writeln!(text, "  touching   {links}{pieces}");
+    }
+    for pair in nearest.iter().filter(|pair| pair.distance > 0.0) {
+        let relative = pair.relative.map_or_else(String::new, |relative| {
+            format!(", {:.0} % of its mean", 100.0 * relative)
+        });
+        let label = label(pair, of_pieces);
+        let _ = writeln!(text, "  {:>9.4} m {label}{relative}", pair.distance);
+    }
+}
+
+/// The pairs of links, with the number of pairs of shapes, in order.
+fn links_of(touching: &[PairDistance]) -> Vec<(String, usize)> {
+    let mut links: Vec<(String, usize)> = Vec::new();
+    for pair in touching {
+        let label = label(pair, false);
+        match links.last_mut() {
+            Some((last, count)) if *last == label => *count += 1,
+            _ => links.push((label, 1)),
+        }
+    }
+    links
+}
+
+fn as_json(
+    text: &mut String,
+    number: usize,
+    configuration: &[f64],
+    touching: &[PairDistance],
+    nearest: &[PairDistance],
+) {
+    let pair = |pair: &PairDistance| {
+        json!({
+            "links": pair.links.iter().map(|name| name.to_string()).collect::<Vec<_>>(),
+            "pieces": pair.pieces,
+            "distance": pair.distance,
+            "relative": pair.relative,
+            "points": pair.points,
+        })
+    };
+    let line = json!({
+        "configuration": number,
+        "values": configuration,
+        "in_collision": !touching.is_empty(),
+        "touching": touching.iter().map(pair).collect::<Vec<_>>(),
+        "nearest": nearest.iter().map(pair).collect::<Vec<_>>(),
+    });
+    let _ = writeln!(text, "{}", escape::json(&line.to_string()));
+}
+
+/// How many of many configurations collide, and which links most often.
+fn sum_up(proximity: &Proximity, chosen: &[Vec<f64>]) -> Result<(String, bool), RobotError> {
+    let answers = proximity.in_collision_batch(&chosen.concat())?;
+    let mut colliding = 0;
+    let mut often: BTreeMap<String, usize> = BTreeMap::new();
+    for (configuration, _) in chosen.iter().zip(answers).filter(|(_, collides)| *collides) {
+        colliding += 1;
+        for (links, _) in links_of(&proximity.collisions(configuration)?) {
+            *often.entry(links).or_default() += 1;
+        }
+    }
+    let share = 100.0 * colliding as f64 / chosen.len() as f64;
+    let mut text = format!(
+        "{colliding} of {} configurations collide ({share:.1} %)\n",
+        chosen.len()
+    );
+    let mut often: Vec<(String, usize)> = often.into_iter().collect();
+    often.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    for (links, count) in often.iter().take(WORST) {
+        let _ = writeln!(text, "  {count:>7} {links}");
+    }
+    if often.len() > WORST {
+        let _ = writeln!(text, "  and {} more pairs of links", often.len() - WORST);
+    }
+    text.push_str(&totals(proximity, chosen.len()));
+    Ok((text, colliding > 0))
+}

@@ -1,0 +1,153 @@
+//! Configurations from a file or standard input: JSON lines, or CSV.
+
+use std::io::Read;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::directory::regular;
+use crate::format::escape;
+use crate::robot::Robot;
+
+/// More than this is not read, bytes.
+const MOST: u64 = 1 << 30;
+
+/// Reads configurations. Each line is a JSON list with a value for each DOF, a JSON object of DOF names and values (the
+/// rest is 0, or the bound nearest to it), or values with commas between them; of the latter the first line may be the
+/// names of the DOFs, in any order.
+///
+/// # Errors
+/// A message with the line.
+pub fn read(robot: &Robot, file: &Path) -> Result<Vec<Vec<f64>>, String> {
+    let name = match file.to_str() {
+        Some("-") => "standard input".to_owned(),
+        _ => escape::line(&file.display().to_string()).into_owned(),
+    };
+    let text = text(file).map_err(|error| format!("{name}: {error}"))?;
+    let dofs = robot.dofs().map_err(|error| error.to_string())?;
+    let is_json = text.trim_start().starts_with(['[', '{']);
+    if is_json {
+        let lines = text.lines().enumerate();
+        let lines = lines.filter(|(_, line)| !line.trim().is_empty());
+        lines
+            .map(|(number, line)| {
+                of_json(robot, dofs, line).map_err(|why| format!("{name}:{}: {why}", number + 1))
+            })
+            .collect()
+    } else {
+        of_csv(robot, dofs, &text).map_err(|(line, why)| format!("{name}:{line}: {why}"))
+    }
+}
+
+fn text(file: &Path) -> Result<String, String> {
+    let mut bytes = Vec::new();
+    let read = if file.as_os_str() == "-" {
+        std::io::stdin().lock().take(MOST).read_to_end(&mut bytes)
+    } else {
+        let file = regular::open(file).map_err(|error| error.to_string())?;
+        file.take(MOST).read_to_end(&mut bytes)
+    };
+    read.map_err(|error| error.to_string())?;
+    if bytes.len() as u64 == MOST {
+        return Err(format!(
+            "it has more than {MOST} bytes: give less at a time"
+        ));
+    }
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
+}
+
+fn of_json(robot: &Robot, dofs: &[String], line: &str) -> Result<Vec<f64>, String> {
+    let value: Value = serde_json::from_str(line).map_err(|error| {
+        format!(
+            "not JSON ({error}): give a list of {} values on each line",
+            dofs.len()
+        )
+    })?;
+    let number = |value: &Value| {
+        value
+            .as_f64()
+            .ok_or_else(|| format!("{} is no number", escape::line(&value.to_string())))
+    };
+    match &value {
+        Value::Array(values) => {
+            let values: Result<Vec<f64>, String> = values.iter().map(number).collect();
+            check(dofs, values?)
+        }
+        Value::Object(values) => {
+            let configurations = robot.configurations().map_err(|error| error.to_string())?;
+            let mut configuration = configurations.zero();
+            for (name, value) in values {
+                let dof = robot.dof(name).map_err(|error| error.to_string())?;
+                configuration[dof] = number(value)?;
+            }
+            check(dofs, configuration)
+        }
+        _ => Err("neither a list nor an object".to_owned()),
+    }
+}
+
+fn of_csv(robot: &Robot, dofs: &[String], text: &str) -> Result<Vec<Vec<f64>>, (u64, String)> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let mut columns: Option<Vec<usize>> = None;
+    let mut configurations = Vec::new();
+    for (number, record) in reader.records().enumerate() {
+        let record = record.map_err(|error| {
+            let line = error.position().map_or(0, csv::Position::line);
+            (line, error.to_string())
+        })?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let fail = |why: String| (line, why);
+        if number == 0 && record.iter().all(|field| field.parse::<f64>().is_err()) {
+            let index = |name: &str| robot.dof(name).map_err(|error| fail(error.to_string()));
+            let found: Vec<usize> = record.iter().map(index).collect::<Result<_, _>>()?;
+            if let Some(missing) = (0..dofs.len()).find(|dof| !found.contains(dof)) {
+                let name = escape::line(&dofs[missing]);
+                return Err(fail(format!("there is no column for the DOF `{name}`")));
+            }
+            if found.len() != dofs.len() {
+                return Err(fail("a DOF has two columns".to_owned()));
+            }
+            columns = Some(found);
+            continue;
+        }
+        let parse = |field: &str| {
+            let why = || fail(format!("`{}` is no number", escape::line(field)));
+            field.parse::<f64>().map_err(|_| why())
+        };
+        let values: Vec<f64> = record.iter().map(parse).collect::<Result<_, _>>()?;
+        let mut values = check(dofs, values).map_err(fail)?;
+        if let Some(columns) = &columns {
+            let given = values.clone();
+            columns
+                .iter()
+                .zip(given)
+                .for_each(|(dof, value)| values[*dof] = value);
+        }
+        configurations.push(values);
+    }
+    Ok(configurations)
+}
+
+fn check(dofs: &[String], values: Vec<f64>) -> Result<Vec<f64>, String> {
+    if values.len() != dofs.len() {
+        let (found, expected) = (values.len(), dofs.len());
+        let names: Vec<_> = dofs.iter().map(|name| escape::line(name)).collect();
+        return Err(format!(
+            "{found} values, and the robot has {expected} DOFs: {}",
+            names.join(", ")
+        ));
+    }
+    match values.iter().position(|value| !value.is_finite()) {
+        Some(dof) => Err(format!(
+            "the value of `{}` is {}, not a finite number",
+            escape::line(&dofs[dof]),
+            values[dof]
+        )),
+        None => Ok(values),
+    }
+}

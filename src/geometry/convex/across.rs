@@ -1,0 +1,158 @@
+//! Pairs side by side: one lane is one pair, where [`super::pair_distances`] has one pair in many samples.
+//!
+//! A lane's result does not depend on what is in the other lanes, so that distances are the same bits
+//! whatever pairs are asked for together.
+
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
+use nalgebra::Isometry3;
+
+use super::gjk;
+use super::lanes::{LANES, Num, Pose, Vec3};
+use super::shape::ConvexShape;
+use super::support::{Support, cells_of};
+use super::witness::{self, Witness};
+
+/// Two convex shapes in their places.
+#[derive(Clone, Copy, Debug)]
+pub struct PlacedPair<'a> {
+    /// The first shape.
+    pub a: &'a ConvexShape,
+    /// The second shape.
+    pub b: &'a ConvexShape,
+    /// The pose of the frame of `b` in that of `a`: the columns of the rotation, then the shift, metres.
+    pub b_in_a: [[f64; 3]; 4],
+}
+
+/// Pairs that are worked on at once.
+pub const AT_ONCE: usize = LANES;
+
+impl<'a> PlacedPair<'a> {
+    /// Of a pose with finite numbers.
+    pub fn new(a: &'a ConvexShape, b: &'a ConvexShape, b_in_a: &Isometry3<f64>) -> Self {
+        let rotation = b_in_a.rotation.to_rotation_matrix();
+        let column = |k: usize| rotation.matrix().column(k).into_owned().into();
+        Self {
+            a,
+            b,
+            b_in_a: [
+                column(0),
+                column(1),
+                column(2),
+                b_in_a.translation.vector.into(),
+            ],
+        }
+    }
+}
+
+/// The distance of each pair, metres, 0 for those that touch or overlap. `distances` is as long as `pairs`.
+pub fn distances(level: Level, pairs: &[PlacedPair], distances: &mut [f64]) {
+    for (pairs, out) in pairs.chunks(LANES).zip(distances.chunks_mut(LANES)) {
+        let found = dispatch!(level, simd => eight_distances(simd, pairs));
+        out.copy_from_slice(&found[..out.len()]);
+    }
+}
+
+/// Whether any pair touches or overlaps: one at distance 0 by [`distances`].
+pub fn any_touches(level: Level, pairs: &[PlacedPair]) -> bool {
+    pairs
+        .chunks(LANES)
+        .any(|pairs| dispatch!(level, simd => eight_touch(simd, pairs)) != 0)
+}
+
+/// The distance of each pair with the points at which it is, in the frame of the pair's first shape.
+pub fn witnesses(level: Level, pairs: &[PlacedPair]) -> Vec<Witness> {
+    let mut found = Vec::with_capacity(pairs.len());
+    for pairs in pairs.chunks(LANES) {
+        let eight = dispatch!(level, simd => eight_witnesses(simd, pairs));
+        found.extend_from_slice(&eight[..pairs.len()]);
+    }
+    found
+}
+
+#[inline(always)]
+fn eight_distances<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [f64; LANES] {
+    let (a, b, pose) = eight(simd, pairs);
+    gjk::distances(simd, &a, &b, &pose, lanes(pairs.len()))
+}
+
+#[inline(always)]
+fn eight_touch<S: Simd>(simd: S, pairs: &[PlacedPair]) -> u64 {
+    let (a, b, pose) = eight(simd, pairs);
+    gjk::touching(simd, &a, &b, &pose, lanes(pairs.len()))
+}
+
+#[inline(always)]
+fn eight_witnesses<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [Witness; LANES] {
+    let (a, b, pose) = eight(simd, pairs);
+    let distances = gjk::distances(simd, &a, &b, &pose, lanes(pairs.len()));
+    let mut found = witness::witnesses(simd, &a, &b, &pose, lanes(pairs.len()), distances);
+    for (found, pair) in found.iter_mut().zip(pairs) {
+        found.points = found
+            .points
+            .map(|p| [0, 1, 2].map(|k| p[k] + pair.a.centre[k]));
+    }
+    found
+}
+
+/// The set of the first lanes.
+#[inline(always)]
+fn lanes(count: usize) -> u64 {
+    if count < LANES {
+        (1 << count) - 1
+    } else {
+        gjk::ALL
+    }
+}
+
+/// A shape in each lane.
+struct Eight<'a>([&'a ConvexShape; LANES]);
+
+/// The shapes of up to eight pairs, each about its own centre, and the poses of the second in the frames of the
+/// first; the last pair is in the lanes that are left.
+#[inline(always)]
+fn eight<'a, S: Simd>(simd: S, pairs: &[PlacedPair<'a>]) -> (Eight<'a>, Eight<'a>, Pose<S>) {
+    let pair = |lane: usize| &pairs[lane.min(pairs.len() - 1)];
+    let mut numbers = [[[0.0; LANES]; 3]; 4];
+    let mut centres = [[[0.0; LANES]; 3]; 2];
+    for lane in 0..LANES {
+        let pair = pair(lane);
+        for (to, from) in numbers.iter_mut().zip(&pair.b_in_a) {
+            for k in 0..3 {
+                to[k][lane] = from[k];
+            }
+        }
+        for k in 0..3 {
+            centres[0][k][lane] = pair.a.centre[k];
+            centres[1][k][lane] = pair.b.centre[k];
+        }
+    }
+    let load = |v: &[[f64; LANES]; 3]| Vec3::load(simd, [&v[0], &v[1], &v[2]]);
+    let mut pose = Pose {
+        columns: [load(&numbers[0]), load(&numbers[1]), load(&numbers[2])],
+        shift: load(&numbers[3]),
+    };
+    pose.shift = pose.shift + pose.rotate(load(&centres[1])) - load(&centres[0]);
+    let a = Eight(std::array::from_fn(|lane| pair(lane).a));
+    let b = Eight(std::array::from_fn(|lane| pair(lane).b));
+    (a, b, pose)
+}
+
+impl Support for Eight<'_> {
+    #[inline(always)]
+    fn support<S: Simd>(&self, simd: S, d: Vec3<S>, mut lanes: u64) -> Vec3<S> {
+        let sides = std::array::from_fn(|lane| self.0[lane].table.side() as f64);
+        let cells = cells_of(simd, Num::load_array(simd, sides), d);
+        let (mut x, mut y, mut z) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize & (LANES - 1);
+            lanes &= lanes - 1;
+            let direction = [d.x[lane], d.y[lane], d.z[lane]];
+            [x[lane], y[lane], z[lane]] = self.0[lane].table.farthest(simd, cells[lane], direction);
+        }
+        Vec3 {
+            x: Num::load_array(simd, x),
+            y: Num::load_array(simd, y),
+            z: Num::load_array(simd, z),
+        }
+    }
+}

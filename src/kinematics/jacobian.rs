@@ -1,0 +1,105 @@
+//! Geometric Jacobians: how a point of a link moves as the DOFs do.
+
+use nalgebra::{Isometry3, Matrix3, Matrix6xX, Point3, Vector3};
+
+use super::forward::ForwardKinematics;
+use super::joint::Motion;
+
+impl ForwardKinematics {
+    /// The geometric Jacobian of a point that moves with a link: 6 rows, one column for each DOF.
+    ///
+    /// Times the DOFs' speeds it gives the velocity of the point (rows 0 to 2, m/s), then the angular velocity of the
+    /// link (rows 3 to 5, rad/s), both along the axes of the root link's frame. `poses` are those of
+    /// [`link_poses`](Self::link_poses) at `configuration`, and `point` is in the root link's frame, metres. The
+    /// coordinates of floating and spherical joints are rotation vectors, so that their columns are derivatives by
+    /// the vector's components. Zero for a link that is not there.
+    pub fn jacobian(
+        &self,
+        configuration: &[f64],
+        poses: &[Isometry3<f64>],
+        link: usize,
+        point: &Point3<f64>,
+    ) -> Matrix6xX<f64> {
+        let mut jacobian = Matrix6xX::zeros(self.num_dofs());
+        let mut add = |dof: usize, linear: Vector3<f64>, angular: Vector3<f64>| {
+            let mut column = jacobian.column_mut(dof);
+            for k in 0..3 {
+                column[k] += linear[k];
+                column[k + 3] += angular[k];
+            }
+        };
+        for step in self.path(link) {
+            let joint = poses[step.parent].rotation * step.origin.rotation;
+            let centre = poses[step.child].translation.vector;
+            let arm = point.coords - centre;
+            let mut turn = |dof: usize, angular: Vector3<f64>| {
+                add(dof, angular.cross(&arm), angular);
+            };
+            match &step.motion {
+                Motion::Fixed => {}
+                Motion::Turn { axis, position } => {
+                    if let Some(dof) = position.dof {
+                        turn(dof, joint * axis.into_inner() * position.multiplier);
+                    }
+                }
+                Motion::Slide { axis, position } => {
+                    if let Some(dof) = position.dof {
+                        let along = joint * axis.into_inner() * position.multiplier;
+                        add(dof, along, Vector3::zeros());
+                    }
+                }
+                Motion::Plane {
+                    axis,
+                    basis: [x, y],
+                    dofs: [along_x, along_y, angle],
+                } => {
+                    turn(*angle, joint * axis.into_inner());
+                    add(*along_x, joint * x, Vector3::zeros());
+                    add(*along_y, joint * y, Vector3::zeros());
+                }
+                Motion::Float {
+                    dofs: [x, y, z, a, b, c],
+                } => {
+                    let vector = [*a, *b, *c].map(|dof| configuration[dof]);
+                    let columns = left_jacobian(vector);
+                    for (k, dof) in [*a, *b, *c].into_iter().enumerate() {
+                        turn(dof, joint * columns.column(k));
+                    }
+                    for (axis, dof) in [*x, *y, *z].into_iter().enumerate() {
+                        add(dof, joint * Vector3::ith(axis, 1.0), Vector3::zeros());
+                    }
+                }
+                Motion::Ball { dofs } => {
+                    let columns = left_jacobian(dofs.map(|dof| configuration[dof]));
+                    for (k, dof) in dofs.iter().enumerate() {
+                        turn(*dof, joint * columns.column(k));
+                    }
+                }
+            }
+        }
+        jacobian
+    }
+}
+
+/// The angular velocity for the speed of each component of a rotation vector, as columns.
+///
+/// Source: T. Barfoot, State Estimation for Robotics (2017), 7.1.5: the left Jacobian of SO(3).
+fn left_jacobian(vector: [f64; 3]) -> Matrix3<f64> {
+    let vector = Vector3::from(vector);
+    let angle = vector.norm();
+    let cross = vector.cross_matrix();
+    let square = angle * angle;
+    // The series of both where the differences would lose their digits.
+    let (first, second) = if angle < 1e-2 {
+        (
+            0.5 - square / 24.0 + square * square / 720.0,
+            1.0 / 6.0 - square / 120.0 + square * square / 5040.0,
+        )
+    } else {
+        (
+            (1.0 - angle.cos()) / square,
+            (angle - angle.sin()) / (square * angle),
+        )
+    };
+    Matrix3::identity() + cross * first + cross * cross * second
+}

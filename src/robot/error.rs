@@ -1,0 +1,91 @@
+//! Why a robot cannot be asked something.
+
+use thiserror::Error;
+
+use crate::directory::root::ReadError;
+use crate::format::registry::ModuleKind;
+use crate::kinematics::{ConfigurationError, KinematicsError};
+
+/// Why a robot cannot be asked something.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RobotError {
+    /// The folder or archive cannot be opened.
+    #[error("{path}: {error}")]
+    Open {
+        /// Its path.
+        path: String,
+        /// Why.
+        error: ReadError,
+    },
+    /// The robot's files cannot be listed any more.
+    #[error("the files of the URDD cannot be listed: {0}")]
+    List(ReadError),
+    /// A module that is needed is not there.
+    #[error("{} is missing: make it with `urdd generate ROBOT.urdf -o DIR --modules {}`", .0.name(), short(*.0))]
+    Missing(ModuleKind),
+    /// A module that is needed is of no use.
+    #[error("{}: {reason}: `urdd validate` says more", .module.name())]
+    Unusable {
+        /// Which module.
+        module: ModuleKind,
+        /// The first fault, with its place.
+        reason: String,
+    },
+    /// A legacy URDD leaves open how joints move.
+    #[error("the modules do not say how the joints move: `urdd validate` says more")]
+    MotionOpen,
+    /// Modules that kinematics cannot be computed from.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// A configuration that has no link poses.
+    #[error(transparent)]
+    Configuration(#[from] ConfigurationError),
+    /// A batch of configurations that is not a whole number of them.
+    #[error("{found} values are no whole number of configurations of {dofs} values")]
+    Batch {
+        /// Number of values.
+        found: usize,
+        /// Number of DOFs.
+        dofs: usize,
+    },
+    /// A name that is not there.
+    #[error("there is no {what} `{}`{}", .name.escape_debug(), nearest_text(.nearest.as_deref()))]
+    Unknown {
+        /// What it should be the name of: `link`, `joint` or `DOF`.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The name that is nearest to it.
+        nearest: Option<String>,
+    },
+    /// An index that is not there.
+    #[error("there is no {what} {index}: their number is {count}")]
+    OutOfRange {
+        /// What is indexed.
+        what: &'static str,
+        /// The index.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A mesh file that cannot be used.
+    #[error("{}: {reason}", .path.escape_debug())]
+    Mesh {
+        /// Its path, as the module has it.
+        path: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+}
+
+fn nearest_text(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |name| {
+        format!("; did you mean `{}`?", name.escape_debug())
+    })
+}
+
+/// A module's name as `--modules` takes it.
+fn short(kind: ModuleKind) -> &'static str {
+    kind.name().strip_suffix("_module").unwrap_or(kind.name())
+}

@@ -1,0 +1,103 @@
+//! The files of hulls and pieces.
+
+use std::io::Read;
+
+use rayon::prelude::*;
+
+use super::error::RobotError;
+use super::shapes::{LinkShape, Solid};
+use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::document::mesh_files::{Absence, MeshFiles};
+use crate::document::meshes::{self, Format, MeshPath};
+use crate::document::urdd::Urdd;
+use crate::format::registry::{ModuleKind, Profile};
+use crate::geometry::Mesh;
+use crate::geometry::read::{GltfUp, Options, read_with};
+
+/// The meshes of one module.
+pub(super) struct Meshes<'a> {
+    part: &'a Urdd,
+    meshes: meshes::Meshes<'a>,
+}
+
+impl<'a> Meshes<'a> {
+    pub fn new(part: &'a Urdd, kind: ModuleKind) -> Result<Self, RobotError> {
+        let meshes = part.meshes(kind).ok_or(RobotError::Missing(kind))?;
+        Ok(Self { part, meshes })
+    }
+
+    /// Reads all of them, by link and piece.
+    pub fn all(&self) -> Result<Vec<LinkShape>, RobotError> {
+        let places: Vec<(usize, usize)> = (0..self.meshes.num_links())
+            .flat_map(|link| (0..self.meshes.count(link)).map(move |piece| (link, piece)))
+            .collect();
+        let read = |(link, piece): (usize, usize)| {
+            Ok(LinkShape {
+                link,
+                piece,
+                solid: Solid::Mesh(self.read(link, piece)?),
+            })
+        };
+        places.into_par_iter().map(read).collect()
+    }
+
+    /// Reads one, from the format that holds its vertices most briefly.
+    fn read(&self, link: usize, piece: usize) -> Result<Mesh, RobotError> {
+        let lists = self.meshes.lists.iter();
+        let meshes = lists.filter_map(|list| list.links.get(link)?.get(piece));
+        let paths: Vec<&MeshPath> = meshes.flat_map(|mesh| &mesh.paths).collect();
+        let preferred = [Format::Stl, Format::Obj, Format::Glb];
+        let of = |format| paths.iter().find(|path| path.format == Some(format));
+        let path = preferred.into_iter().find_map(of).or(paths.first());
+        match path {
+            Some(path) => read(self.part, self.meshes.profile, path.path),
+            None => Err(RobotError::Missing(self.meshes.kind)),
+        }
+    }
+}
+
+fn read(part: &Urdd, profile: Profile, path: &str) -> Result<Mesh, RobotError> {
+    let fail = |reason: String| RobotError::Mesh {
+        path: path.to_owned(),
+        reason,
+    };
+    let (file, size) = MeshFiles::new(part)
+        .open(profile, path)
+        .map_err(|absence| fail(why_absent(absence)))?;
+    if size > MAX_DOCUMENT_BYTES {
+        let limit = MAX_DOCUMENT_BYTES;
+        return Err(fail(format!("it has {size} bytes, more than {limit}")));
+    }
+    let mut bytes = Vec::new();
+    file.take(MAX_DOCUMENT_BYTES)
+        .read_to_end(&mut bytes)
+        .map_err(|error| fail(format!("it cannot be read: {error}")))?;
+    let options = Options {
+        gltf_up: GltfUp::Keep,
+        ..Options::default()
+    };
+    let scene = read_with(&bytes, path, &mut |_| None, &options).map_err(|error| {
+        fail(match &error.place {
+            Some(place) => format!("{place}: {}", error.fault),
+            None => error.fault.to_string(),
+        })
+    })?;
+    let mesh = scene.merged();
+    match mesh.vertices.is_empty() {
+        true => Err(fail("it has no vertex".to_owned())),
+        false => Ok(mesh),
+    }
+}
+
+fn why_absent(absence: Absence) -> String {
+    match absence {
+        Absence::Missing => "there is no such file".to_owned(),
+        Absence::NoSibling(name) => {
+            format!(
+                "it lies in the URDD `{}`, which is not beside this one",
+                name.escape_debug()
+            )
+        }
+        Absence::Other(error) => error.to_string(),
+    }
+}

@@ -1,0 +1,157 @@
+//! Which pairs of shapes need no look, and why.
+
+use super::Robot;
+use super::error::RobotError;
+use super::parts::usable;
+use super::shapes::ShapeKind;
+use crate::document::shape_matrices::{at, reasons, shape_lists, skips};
+use crate::document::shapes::Shapes;
+use crate::document::urdd::Urdd;
+use crate::format::link_shapes_simple_skips::SkipReason;
+use crate::format::registry::ModuleKind;
+
+const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
+const SIMPLE: ModuleKind = ModuleKind::LinkShapesSimpleSkips;
+
+/// The skips between the shapes of one kind.
+#[derive(Debug, Clone)]
+pub struct Skips {
+    /// Of each shape its link and its piece.
+    places: Vec<(usize, usize)>,
+    skipped: Matrix<bool>,
+    reasons: Option<Matrix<SkipReason>>,
+}
+
+/// Rows over the shapes themselves, or over hulls where those of pieces are left out (SPEC 8.4).
+#[derive(Debug, Clone)]
+struct Matrix<T> {
+    rows: Vec<Vec<T>>,
+    /// For each shape its row.
+    row_of: Vec<Option<usize>>,
+}
+
+impl<T: Copy> Matrix<T> {
+    fn at(&self, i: usize, j: usize) -> Option<T> {
+        at(
+            &self.rows,
+            self.row_of.get(i).copied()??,
+            self.row_of.get(j).copied()??,
+        )
+    }
+}
+
+impl Robot {
+    /// The skips between the shapes of a kind: those of `link_shapes_skips_module`, or of
+    /// `link_shapes_simple_skips_module` where the former is not there.
+    ///
+    /// # Errors
+    /// Where both are missing or one is of no use, or a module of meshes is.
+    pub fn skips(&self, kind: ShapeKind) -> Result<Skips, RobotError> {
+        let meshes = [
+            ModuleKind::ConvexHullMeshes,
+            ModuleKind::ConvexDecompositionMeshes,
+        ];
+        let part = self.part_as_it_is(&[SKIPS, SIMPLE, meshes[0], meshes[1]])?;
+        let from = match part.module(SKIPS) {
+            None if part.module(SIMPLE).is_some() => SIMPLE,
+            _ => SKIPS,
+        };
+        usable(&part, from)?;
+        if from != SIMPLE && part.module(SIMPLE).is_some() {
+            usable(&part, SIMPLE)?;
+        }
+        let shapes = shapes(&part, from, &meshes)?;
+        let own = kind.of_document();
+        let hulls = ShapeKind::Hulls.of_document();
+        let places: Vec<(usize, usize)> = (0..shapes.count(own))
+            .filter_map(|shape| shapes.place(own, shape))
+            .collect();
+        let rows_of_hulls = || -> Vec<Option<usize>> {
+            let row = |link: usize| shapes.full.iter().position(|full| *full == link);
+            places.iter().map(|(link, _)| row(*link)).collect()
+        };
+        let own_rows = || (0..places.len()).map(Some).collect();
+        let document = part.document(from).ok_or(RobotError::Missing(from))?;
+        let six = skips(document).ok_or(RobotError::Missing(from))?;
+        let index = |kind| {
+            crate::document::shapes::KINDS
+                .iter()
+                .position(|k| *k == kind)
+        };
+        let rows = |kind| six[index(kind).unwrap_or(0)];
+        let skipped = match rows(own) {
+            Some(rows) => Matrix {
+                rows: rows.to_vec(),
+                row_of: own_rows(),
+            },
+            None => Matrix {
+                rows: rows(hulls).unwrap_or_default().to_vec(),
+                row_of: rows_of_hulls(),
+            },
+        };
+        let reasons = part.document(SIMPLE).and_then(reasons).map(|six| {
+            let rows = |kind| six[index(kind).unwrap_or(0)];
+            match rows(own) {
+                Some(rows) => Matrix {
+                    rows: rows.to_vec(),
+                    row_of: own_rows(),
+                },
+                None => Matrix {
+                    rows: rows(hulls).unwrap_or_default().to_vec(),
+                    row_of: rows_of_hulls(),
+                },
+            }
+        });
+        Ok(Skips {
+            places,
+            skipped,
+            reasons,
+        })
+    }
+}
+
+/// What the rows stand for: as the module lists it, or, for a legacy module, as the meshes have it.
+fn shapes(part: &Urdd, from: ModuleKind, meshes: &[ModuleKind]) -> Result<Shapes, RobotError> {
+    let document = part.document(from).ok_or(RobotError::Missing(from))?;
+    if let Some((full, pieces)) = shape_lists(document) {
+        return Ok(Shapes {
+            full: full.iter().map(|link| link.get()).collect(),
+            pieces: pieces
+                .iter()
+                .map(|shape| (shape.link_idx.get(), shape.piece_idx.get()))
+                .collect(),
+        });
+    }
+    for kind in meshes {
+        usable(part, *kind)?;
+    }
+    Shapes::new(part).ok_or(RobotError::Missing(meshes[0]))
+}
+
+impl Skips {
+    /// Number of shapes.
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Whether there are no shapes.
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+
+    /// The link and the piece of each shape.
+    pub fn places(&self) -> &[(usize, usize)] {
+        &self.places
+    }
+
+    /// Whether a pair of shapes is skipped. One is not that the module says nothing of.
+    pub fn is_skipped(&self, i: usize, j: usize) -> bool {
+        self.skipped.at(i, j).unwrap_or(i == j)
+    }
+
+    /// Why a pair is what it is, by `link_shapes_simple_skips_module`: of two shapes on one link, of two that always or
+    /// never touch, and so on. Edits may decide otherwise. `None` for legacy URDDs, or without that module.
+    pub fn reason(&self, i: usize, j: usize) -> Option<SkipReason> {
+        self.reasons.as_ref()?.at(i, j)
+    }
+}
