@@ -16,5 +16,6 @@ mod mesh_read_stl;
 mod mesh_write;
 mod often;
 mod oriented_box;
+mod parry;
 mod solids;
 mod statistics;
