@@ -1,5 +1,28 @@
-//! The Universal Robot Description Directory (URDD): its format, its published schemas, and the
-//! validator that checks a URDD from any producer. `SPEC.md` is the normative text.
+//! The Universal Robot Description Directory (URDD): a robot to ask about itself ([`robot`]), the format and its
+//! published schemas ([`mod@format`]), the validator that checks a URDD from any producer ([`validate`]), and the reference
+//! generator (`generate`). `SPEC.md` is the normative text.
+//!
+//! ```
+//! # #[cfg(feature = "generate")] {
+//! use urdd::robot::{Robot, ShapeKind};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance/robots/welding_arm.urdf");
+//! # let path = folder.path().join("welding_arm");
+//! # urdd::generate::generate(urdf.as_ref(), &path, &Default::default(), &())?;
+//! let robot = Robot::open(path)?;
+//! let q = robot.configurations()?.random(7);
+//! let poses = robot.link_poses(&q)?;
+//! println!("the torch is at {}", poses[robot.link("torch")?].translation);
+//!
+//! let proximity = robot.proximity(ShapeKind::Pieces)?;
+//! for pair in proximity.nearest(&q, 1)? {
+//!     println!("{} and {} are {:.3} m apart", pair.links[0], pair.links[1], pair.distance);
+//! }
+//! println!("in collision: {}", proximity.in_collision(&q)?);
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #[cfg(feature = "cli")]
 #[doc(hidden)]

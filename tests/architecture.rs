@@ -39,6 +39,10 @@ const ROOMS: &[(&str, &[&str])] = &[
             "xml",
         ],
     ),
+    (
+        "robot",
+        &["format", "directory", "document", "geometry", "kinematics"],
+    ),
     ("report", &["format", "directory", "document", "validate"]),
     (
         "conformance",
@@ -66,6 +70,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "generate",
             "validate",
             "report",
+            "robot",
             "conformance",
         ],
     ),

@@ -1,7 +1,7 @@
 //! A robot to ask about itself: what a URDD holds, with names, units and nothing derived.
 //!
 //! [`Robot::open`] takes a folder or a zip archive, of version 1 or legacy; [`Robot::of`] any
-//! [`Source`](crate::directory::source::Source), as one in memory. Each module is read when it is first asked for: a
+//! [`Source`], as one in memory. Each module is read when it is first asked for: a
 //! robot that is only moved reads `chain_module`, `dof_module` and `bounds_module`, and no mesh. A URDD that fails
 //! validation is a robot too, as far as the modules asked for can be read; what cannot be read is an error that names
 //! the module and says how to make it.

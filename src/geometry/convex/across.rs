@@ -117,14 +117,10 @@ fn eight<'a, S: Simd>(simd: S, pairs: &[PlacedPair<'a>]) -> (Eight<'a>, Eight<'a
     for lane in 0..LANES {
         let pair = pair(lane);
         for (to, from) in numbers.iter_mut().zip(&pair.b_in_a) {
-            for k in 0..3 {
-                to[k][lane] = from[k];
-            }
+            put(to, lane, *from);
         }
-        for k in 0..3 {
-            centres[0][k][lane] = pair.a.centre[k];
-            centres[1][k][lane] = pair.b.centre[k];
-        }
+        put(&mut centres[0], lane, pair.a.centre);
+        put(&mut centres[1], lane, pair.b.centre);
     }
     let load = |v: &[[f64; LANES]; 3]| Vec3::load(simd, [&v[0], &v[1], &v[2]]);
     let mut pose = Pose {
@@ -135,6 +131,13 @@ fn eight<'a, S: Simd>(simd: S, pairs: &[PlacedPair<'a>]) -> (Eight<'a>, Eight<'a
     let a = Eight(std::array::from_fn(|lane| pair(lane).a));
     let b = Eight(std::array::from_fn(|lane| pair(lane).b));
     (a, b, pose)
+}
+
+#[inline(always)]
+fn put(lists: &mut [[f64; LANES]; 3], lane: usize, vector: [f64; 3]) {
+    for (list, x) in lists.iter_mut().zip(vector) {
+        list[lane] = x;
+    }
 }
 
 impl Support for Eight<'_> {
