@@ -76,6 +76,29 @@ fn findings(output: &Output) -> Value {
 
 /// The report on a URDD with faults, in a folder and packed in two ways.
 #[test]
+fn a_urdd_in_memory_has_the_report_of_its_folder() {
+    use urdd::format::report::Severity;
+    use urdd::report::{self, model::Report};
+    use urdd::validate::settings::Settings;
+    use urdd::validate::{validate, validate_source};
+    for (name, errors) in [("arm", 0), ("stale_gripper", 1)] {
+        let folder = examples().join(name);
+        let shared = files(&folder)
+            .into_iter()
+            .map(|(path, bytes)| (path, Arc::from(bytes)))
+            .collect();
+        let memory = Memory::new(name, shared).expect("sound paths");
+        let settings = Settings::default();
+        let from_memory = validate_source(memory, name, &settings);
+        let from_folder = validate(&[folder], &settings).expect("a run");
+        let text = |run| report::json(&Report::new(run, Severity::Error)).expect("a report");
+        assert_eq!(text(&from_memory), text(&from_folder));
+        let value: Value = serde_json::from_str(&text(&from_memory)).expect("JSON");
+        assert!(value["totals"]["error"].as_u64() >= Some(errors), "{name}");
+    }
+}
+
+#[test]
 fn an_archive_has_the_findings_of_its_folder() {
     let mut urdd_files = arm();
     let bounds = urdd_files.get_mut("bounds_module/module.json").expect("it");

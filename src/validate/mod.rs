@@ -32,7 +32,7 @@ pub mod views;
 mod worst;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
@@ -41,7 +41,8 @@ use self::engine::{Check, Outcome};
 use self::rule::Rule;
 use self::settings::{Settings, StaleIgnore};
 use crate::directory::discover::{DiscoverError, Found, discover};
-use crate::directory::root::ReadError;
+use crate::directory::root::{ReadError, Root};
+use crate::directory::source::Source;
 use crate::document::urdd::Urdd;
 use crate::format::registry::Profile;
 
@@ -182,6 +183,34 @@ pub fn validate_with<P: AsRef<Path>>(
     })
 }
 
+/// Examines the URDD whose files a source holds, with every rule. `name` is what it is called in the report. Excludes do
+/// not count.
+pub fn validate_source(source: impl Source + 'static, name: &str, settings: &Settings) -> Run {
+    let found = Found {
+        path: PathBuf::from(name),
+        name: name.to_owned(),
+        closed: None,
+    };
+    let root = Root::of(source);
+    let examine = || examine_urdd(Urdd::of(root)?, &found, settings, &rules::all());
+    let mut result = caught(&found, examine);
+    let mut stale_ignores = Vec::new();
+    if let Ok(examined) = &mut result {
+        bound::trim(examined, bound::of_each(1));
+        stale_ignores = settings.apply(std::iter::once(&mut *examined));
+        settings.selection.apply(&mut examined.checks);
+    }
+    Run {
+        subjects: vec![Subject {
+            kind: Kind::Urdd,
+            found,
+            result,
+        }],
+        excluded: 0,
+        stale_ignores,
+    }
+}
+
 /// Examines, and where that crashes outside of any rule says so of this URDD: the others have their
 /// reports all the same.
 fn caught(
@@ -208,7 +237,15 @@ fn examine(
     if let Some(error) = &found.closed {
         return Err(error.clone());
     }
-    let urdd = Urdd::read(&found.path)?;
+    examine_urdd(Urdd::read(&found.path)?, found, settings, rules)
+}
+
+fn examine_urdd(
+    urdd: Urdd,
+    found: &Found,
+    settings: &Settings,
+    rules: &[&'static Rule],
+) -> Result<Examined, ReadError> {
     let context = Context::new(urdd, settings.class).deep(settings.deep);
     let checks = two_robots::run(&context, rules);
     let modules = context

@@ -21,6 +21,7 @@ const PATTERN_BYTES: usize = 1 << 18;
 const WORK_FOR_ALL_VIOLATIONS: u64 = 100_000;
 
 /// Compiling and evaluating follow references by recursion.
+#[cfg(not(target_family = "wasm"))]
 const STACK_BYTES: usize = 256 << 20;
 
 /// A `schema.json`, as far as it can be used.
@@ -130,6 +131,13 @@ fn compile(schema: &Value) -> Result<jsonschema::Validator, SchemaFault> {
         })
 }
 
+/// A browser has no thread to spare, and a stack that is chosen when the module is linked (`.cargo/config.toml`).
+#[cfg(target_family = "wasm")]
+fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    work()
+}
+
+#[cfg(not(target_family = "wasm"))]
 fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     std::thread::scope(|scope| {
         let spawned = std::thread::Builder::new()
