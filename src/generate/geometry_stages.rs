@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::distinct::for_each_content;
 use super::edits::Edits;
 use super::error::GenerateError;
 use super::made::{Made, MadeFile, document};
@@ -24,6 +25,7 @@ use crate::format::link_shapes_skips::SkippedReason;
 use crate::format::meshes::{GeometryKind, MeshFiles};
 use crate::format::plain_meshes::{PlainMesh, PlainMeshesModule};
 use crate::format::registry::ModuleKind;
+use crate::geometry::Mesh;
 use crate::geometry::decompose;
 use crate::geometry::hull::ConvexHull;
 use crate::geometry::read::Part;
@@ -93,20 +95,30 @@ pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
     )
 }
 
+/// The meshes that are there, in order.
+fn meshes_of(plain: &[Option<WrittenMesh>]) -> Vec<&Mesh> {
+    plain.iter().flatten().map(|plain| &plain.mesh).collect()
+}
+
 pub(super) fn hulls_settings(work: &Work) -> String {
     formats_settings(work).to_owned()
 }
 
 pub(super) fn hulls(work: &mut Work) -> Result<Made, GenerateError> {
     let plain = work.artifacts.plain()?;
+    // A plain mesh has a triangle with an area, and so a hull.
+    let hull = |mesh: &Mesh| {
+        ConvexHull::new(&mesh.vertices)
+            .ok()
+            .map(ConvexHull::into_mesh)
+    };
+    let mut made_of = for_each_content(&meshes_of(&plain), hull).into_iter();
     let hulls: Vec<Option<WrittenMesh>> = plain
-        .par_iter()
+        .iter()
         .map(|plain| {
             let plain = plain.as_ref()?;
-            // A plain mesh has a triangle with an area, and so a hull.
-            let hull = ConvexHull::new(&plain.mesh.vertices).ok()?;
             Some(WrittenMesh {
-                mesh: hull.into_mesh(),
+                mesh: made_of.next()??,
                 color: plain.color,
             })
         })
@@ -137,13 +149,15 @@ pub(super) fn decomposition_settings(work: &Work) -> String {
 pub(super) fn pieces(work: &mut Work) -> Result<Made, GenerateError> {
     let plain = work.artifacts.plain()?;
     let settings = decompose::Settings::default();
+    let decompose = |mesh: &Mesh| decompose::decompose(mesh, &settings);
+    let mut made_of = for_each_content(&meshes_of(&plain), decompose).into_iter();
     let decomposed: Vec<(Vec<WrittenMesh>, f64)> = plain
-        .par_iter()
+        .iter()
         .map(|plain| {
             let Some(plain) = plain else {
                 return (Vec::new(), 0.0);
             };
-            let made = decompose::decompose(&plain.mesh, &settings);
+            let made = made_of.next().unwrap_or_default();
             let piece = |mesh| WrittenMesh {
                 mesh,
                 color: plain.color,

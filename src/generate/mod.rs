@@ -10,6 +10,7 @@ mod bounds;
 mod carry_over;
 mod chain;
 mod connections;
+mod distinct;
 mod dof;
 mod edits;
 mod error;

@@ -1,12 +1,11 @@
 //! `link_shapes_approximations_module`: SPEC 8.2.
 
-use rayon::prelude::*;
-
 use super::ConvexMeshes;
 use crate::format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,
 };
-use crate::generate::meshes::written::WrittenMesh;
+use crate::generate::distinct::for_each_content;
+use crate::geometry::Mesh;
 use crate::geometry::bounding_sphere::BoundingSphere as Ball;
 use crate::geometry::hull::{ConvexHull, HullError};
 use crate::geometry::oriented_box::OrientedBox;
@@ -18,16 +17,26 @@ use crate::geometry::oriented_box::OrientedBox;
 pub(crate) fn approximations(
     solids: &ConvexMeshes,
 ) -> Result<LinkShapesApproximationsModule, HullError> {
-    let full: Vec<Option<(Obb, BoundingSphere)>> = solids
+    let all = solids
         .hulls
-        .par_iter()
-        .map(|hull| hull.as_ref().map(of_mesh).transpose())
+        .iter()
+        .flatten()
+        .chain(solids.pieces.iter().flatten());
+    let meshes: Vec<&Mesh> = all.map(|written| &written.mesh).collect();
+    let found: Vec<(Obb, BoundingSphere)> = for_each_content(&meshes, of_mesh)
+        .into_iter()
         .collect::<Result<_, _>>()?;
-    let pieces: Vec<Vec<(Obb, BoundingSphere)>> = solids
+    let (of_hulls, of_pieces) = found.split_at(solids.hulls.iter().flatten().count());
+    let (mut of_hulls, mut of_pieces) = (of_hulls.iter().cloned(), of_pieces.iter().cloned());
+    let hulls = solids.hulls.iter();
+    let full: Vec<_> = hulls
+        .map(|hull| hull.as_ref().and_then(|_| of_hulls.next()))
+        .collect();
+    let pieces: Vec<Vec<_>> = solids
         .pieces
-        .par_iter()
-        .map(|pieces| pieces.par_iter().map(of_mesh).collect())
-        .collect::<Result<_, _>>()?;
+        .iter()
+        .map(|pieces| of_pieces.by_ref().take(pieces.len()).collect())
+        .collect();
     let (full_obbs, full_bounding_spheres) = full.into_iter().map(Option::unzip).unzip();
     let (decomposition_obbs, decomposition_bounding_spheres) = pieces
         .into_iter()
@@ -41,8 +50,8 @@ pub(crate) fn approximations(
     })
 }
 
-fn of_mesh(mesh: &WrittenMesh) -> Result<(Obb, BoundingSphere), HullError> {
-    let hull = ConvexHull::new(&mesh.mesh.vertices)?;
+fn of_mesh(mesh: &Mesh) -> Result<(Obb, BoundingSphere), HullError> {
+    let hull = ConvexHull::new(&mesh.vertices)?;
     let found = (OrientedBox::around(&hull), Ball::around(&hull));
     Ok((of_box(&found.0), of_ball(&found.1)))
 }
