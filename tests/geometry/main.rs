@@ -1,6 +1,7 @@
 //! Geometry, held to closed forms, to brute force and to properties. Figures by peers on real meshes
 //! are made by the scripts in `tests/figures/geometry`.
 
+mod across;
 mod bounding_sphere;
 mod brute_force;
 mod decompose;

@@ -141,6 +141,13 @@ fn put(lists: &mut [[f64; LANES]; 3], lane: usize, vector: [f64; 3]) {
 }
 
 impl Support for Eight<'_> {
+    type Single = ConvexShape;
+
+    #[inline(always)]
+    fn single(&self, lane: usize) -> &ConvexShape {
+        self.0[lane]
+    }
+
     #[inline(always)]
     fn support<S: Simd>(&self, simd: S, d: Vec3<S>, mut lanes: u64) -> Vec3<S> {
         let sides = std::array::from_fn(|lane| self.0[lane].table.side() as f64);

@@ -47,13 +47,13 @@ pub(crate) fn distances<S: Simd, T: Support>(
     while unsure != 0 {
         let lane = unsure.trailing_zeros() as usize & (LANES - 1);
         unsure &= unsure - 1;
-        let again = from_other_sides(simd, a, b, &pose.lane(lane), distances[lane]);
-        distances[lane] = again;
+        let (a, b) = (a.single(lane), b.single(lane));
+        distances[lane] = from_other_sides(simd, a, b, &pose.lane(lane), distances[lane]);
     }
     distances
 }
 
-/// The distance in one pose, descending from the eight octants: the first sure result, or else the least
+/// The distance of two shapes in one pose, descending from the eight octants: the first sure result, or else the least
 /// upper bound, of which `upper` is one.
 #[inline(never)]
 fn from_other_sides<S: Simd, T: Support>(
@@ -66,22 +66,8 @@ fn from_other_sides<S: Simd, T: Support>(
     simd.vectorize(
         #[inline(always)]
         || {
-            let pose = Pose {
-                columns: [
-                    Vec3::splat(simd, pose[0]),
-                    Vec3::splat(simd, pose[1]),
-                    Vec3::splat(simd, pose[2]),
-                ],
-                shift: Vec3::splat(simd, pose[3]),
-            };
-            let mut octants = [[0.0; LANES]; 3];
-            for lane in 0..LANES {
-                for (axis, octant) in octants.iter_mut().enumerate() {
-                    octant[lane] = if lane >> axis & 1 == 0 { 1.0 } else { -1.0 };
-                }
-            }
-            let octants = Vec3::load(simd, [&octants[0], &octants[1], &octants[2]]);
-            let bounds = descend(simd, a, b, &pose, octants, ALL);
+            let pose = Pose::same(simd, pose);
+            let bounds = descend(simd, a, b, &pose, octants(simd), ALL);
             let unsure = bounds.unsure.to_bitmask() & ALL;
             if unsure != ALL {
                 return bounds.upper[(!unsure).trailing_zeros() as usize & (LANES - 1)];
@@ -93,6 +79,18 @@ fn from_other_sides<S: Simd, T: Support>(
             least
         },
     )
+}
+
+/// A direction into each octant.
+#[inline(always)]
+pub(crate) fn octants<S: Simd>(simd: S) -> Vec3<S> {
+    let mut octants = [[0.0; LANES]; 3];
+    for lane in 0..LANES {
+        for (axis, octant) in octants.iter_mut().enumerate() {
+            octant[lane] = if lane >> axis & 1 == 0 { 1.0 } else { -1.0 };
+        }
+    }
+    Vec3::load(simd, [&octants[0], &octants[1], &octants[2]])
 }
 
 /// The descent, from the point of the difference A - B that is farthest against `start`.
@@ -206,6 +204,7 @@ pub(crate) fn touching<S: Simd, T: Support>(
     while unsure != 0 {
         let lane = unsure.trailing_zeros() as usize & (LANES - 1);
         unsure &= unsure - 1;
+        let (a, b) = (a.single(lane), b.single(lane));
         if from_other_sides(simd, a, b, &pose.lane(lane), f64::INFINITY) == 0.0 {
             found |= 1 << lane;
         }

@@ -149,6 +149,19 @@ impl<S: Simd> Pose<S> {
         }
     }
 
+    /// The columns and the shift of one lane, in each lane.
+    #[inline(always)]
+    pub fn same(simd: S, pose: &[[f64; 3]; 4]) -> Self {
+        Self {
+            columns: [
+                Vec3::splat(simd, pose[0]),
+                Vec3::splat(simd, pose[1]),
+                Vec3::splat(simd, pose[2]),
+            ],
+            shift: Vec3::splat(simd, pose[3]),
+        }
+    }
+
     /// The columns and the shift of one lane.
     #[inline(always)]
     pub fn lane(&self, lane: usize) -> [[f64; 3]; 4] {

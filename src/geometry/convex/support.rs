@@ -8,12 +8,25 @@ use super::{ConvexShape, OrientedBox};
 
 /// A shape about its centre, of which the farthest point in a direction is known.
 pub(crate) trait Support: Sync {
+    /// What is in one lane.
+    type Single: Support;
+
+    /// The shape of one lane, for all lanes.
+    fn single(&self, lane: usize) -> &Self::Single;
+
     /// The farthest point in each lane's direction. Any point of the shape for a direction that is zero,
     /// and in the lanes that are not in the bit set `lanes`.
     fn support<S: Simd>(&self, simd: S, direction: Vec3<S>, lanes: u64) -> Vec3<S>;
 }
 
 impl Support for OrientedBox {
+    type Single = Self;
+
+    #[inline(always)]
+    fn single(&self, _lane: usize) -> &Self {
+        self
+    }
+
     #[inline(always)]
     fn support<S: Simd>(&self, simd: S, direction: Vec3<S>, _lanes: u64) -> Vec3<S> {
         let h = Vec3::splat(simd, self.half_extents);
@@ -26,6 +39,13 @@ impl Support for OrientedBox {
 }
 
 impl Support for ConvexShape {
+    type Single = Self;
+
+    #[inline(always)]
+    fn single(&self, _lane: usize) -> &Self {
+        self
+    }
+
     #[inline(always)]
     fn support<S: Simd>(&self, simd: S, d: Vec3<S>, mut lanes: u64) -> Vec3<S> {
         let cells = cells(simd, &self.table, d);

@@ -5,7 +5,7 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::gjk::{ALL, MAX_ROUNDS, TOLERANCE};
+use super::gjk::{ALL, MAX_ROUNDS, TOLERANCE, octants};
 use super::lanes::{LANES, Mask, Pose, Vec3, select, splat};
 use super::simplex::{Nearest, segment, tetrahedron, triangle};
 use super::support::Support;
@@ -37,22 +37,58 @@ pub(crate) fn witnesses<S: Simd, T: Support>(
     lanes: u64,
     distances: [f64; LANES],
 ) -> [Witness; LANES] {
-    let simplices = descend(simd, a, b, pose, lanes);
-    std::array::from_fn(|lane| witness(&simplices[lane], distances[lane]))
+    let simplices = descend(simd, a, b, pose, -pose.shift, lanes);
+    std::array::from_fn(|lane| {
+        let (found, off) = witness(&simplices[lane], distances[lane]);
+        if off <= TOLERANCE || lanes >> lane & 1 == 0 {
+            return found;
+        }
+        let (a, b) = (a.single(lane), b.single(lane));
+        let again = from_other_sides(simd, a, b, &pose.lane(lane), distances[lane]);
+        if again.1 < off { again.0 } else { found }
+    })
 }
 
-/// The last simplex of each lane.
+/// The witness of two shapes in one pose, descending from the eight octants, and by how much it is off: the best of
+/// the eight. The first descent was stopped by rounding.
+#[inline(never)]
+fn from_other_sides<S: Simd, T: Support>(
+    simd: S,
+    a: &T,
+    b: &T,
+    pose: &[[f64; 3]; 4],
+    distance: f64,
+) -> (Witness, f64) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let pose = Pose::same(simd, pose);
+            let simplices = descend(simd, a, b, &pose, octants(simd), ALL);
+            let mut best = witness(&simplices[0], distance);
+            for simplex in &simplices[1..] {
+                let other = witness(simplex, distance);
+                if other.1 < best.1 {
+                    best = other;
+                }
+            }
+            best
+        },
+    )
+}
+
+/// The last simplex of each lane, from the point of the difference that is farthest against `start`.
 #[inline(always)]
 fn descend<S: Simd, T: Support>(
     simd: S,
     a: &T,
     b: &T,
     pose: &Pose<S>,
+    start: Vec3<S>,
     lanes: u64,
 ) -> [Simplex; LANES] {
     let tolerance2 = splat(simd, TOLERANCE * TOLERANCE);
     let zero = splat(simd, 0.0);
-    let (mut v, first) = farthest(simd, a, b, pose, -pose.shift, lanes);
+    let (mut v, first) = farthest(simd, a, b, pose, start, lanes);
     let mut s = [v; 3];
     let mut on_a = [first; 3];
     // The fourth vertex, where the origin is inside.
@@ -127,8 +163,8 @@ fn farthest<S: Simd, T: Support>(
     (on_a - pose.rotate(on_b) - pose.shift, on_a)
 }
 
-/// The points at which the simplex is nearest to the origin.
-fn witness(simplex: &Simplex, distance: f64) -> Witness {
+/// The points at which the simplex is nearest to the origin, and by how much they are not `distance` apart.
+fn witness(simplex: &Simplex, distance: f64) -> (Witness, f64) {
     let weights = weights(&simplex.vertices);
     let mean = |points: &[[f64; 3]; 4]| {
         [0, 1, 2].map(|k| (0..4).map(|i| weights[i] * points[i][k]).sum::<f64>())
@@ -139,10 +175,12 @@ fn witness(simplex: &Simplex, distance: f64) -> Witness {
         true => [0, 1, 2].map(|k| on_a[k] - apart[k]),
         false => on_a,
     };
-    Witness {
+    let found = Witness {
         distance,
         points: [on_a, on_b],
-    }
+    };
+    let length = apart.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (found, (length - distance).abs())
 }
 
 /// The weights of the four vertices whose mean is the point of their hull that is nearest to the origin.

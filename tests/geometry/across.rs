@@ -1,0 +1,169 @@
+//! Pairs asked together, each against its closed form: faces that are parallel and apart, where the descent is
+//! stopped by rounding most often.
+
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use parry3d_f64::math::{Pose, Vector};
+use parry3d_f64::query;
+use parry3d_f64::shape::ConvexPolyhedron;
+use urdd::geometry::convex::across::{PlacedPair, any_touches, distances, witnesses};
+use urdd::geometry::convex::{ConvexShape, Level, TOLERANCE, distance};
+
+/// Numbers in [0, 1), the same in each run.
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.roll()
+    }
+
+    fn turn(&mut self) -> UnitQuaternion<f64> {
+        let [r, p, y] = [3.1, 1.5, 3.1].map(|most| self.within(-most, most));
+        UnitQuaternion::from_euler_angles(r, p, y)
+    }
+}
+
+/// A prism of `sides` corners on a circle, from z = -half to half. It holds the circle of `inner`.
+struct Prism {
+    corners: Vec<[f64; 3]>,
+    half: f64,
+    inner: f64,
+}
+
+impl Prism {
+    fn new(dice: &mut Dice) -> Self {
+        let sides = 3 + (dice.roll() * 30.0) as usize;
+        let (radius, half) = (dice.within(0.02, 0.3), dice.within(0.01, 0.3));
+        let start = dice.within(0.0, 3.0);
+        let corner = |k: usize| {
+            let angle = start + std::f64::consts::TAU * (k % sides) as f64 / sides as f64;
+            let z = if k < sides { -half } else { half };
+            [radius * angle.cos(), radius * angle.sin(), z]
+        };
+        Self {
+            corners: (0..2 * sides).map(corner).collect(),
+            half,
+            inner: radius * (std::f64::consts::PI / sides as f64).cos(),
+        }
+    }
+
+    /// The corners, moved.
+    fn moved(&self, by: &Isometry3<f64>) -> Vec<[f64; 3]> {
+        let corner = |p: &[f64; 3]| (by * Point3::from(*p)).coords.into();
+        self.corners.iter().map(corner).collect()
+    }
+}
+
+/// Two prisms with parallel faces a gap apart, of which they overlap a part.
+struct Case {
+    points: [Vec<[f64; 3]>; 2],
+    b_in_a: Isometry3<f64>,
+    gap: f64,
+}
+
+fn cases(count: usize) -> Vec<Case> {
+    let mut dice = Dice(5);
+    let mut cases = Vec::new();
+    for k in 0..count {
+        let (a, b) = (Prism::new(&mut dice), Prism::new(&mut dice));
+        let gap = [0.0, 1e-6, 1e-3, 0.05, 0.7][k % 5] * dice.within(0.5, 1.0);
+        // The middle of b's face is over a's.
+        let away = 0.9 * a.inner * dice.roll();
+        let shift = Vector3::new(away, 0.0, a.half + b.half + gap);
+        let above = Isometry3::from_parts(
+            Translation3::from(shift),
+            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), dice.within(-3.0, 3.0)),
+        );
+        // A quarter of them along the axes of their frames, the others turned.
+        let turn = |dice: &mut Dice| match k % 4 {
+            0 => Isometry3::identity(),
+            _ => {
+                let shift = [0, 1, 2].map(|_| dice.within(-0.3, 0.3));
+                Isometry3::from_parts(Translation3::from(shift), dice.turn())
+            }
+        };
+        let (of_a, of_b) = (turn(&mut dice), turn(&mut dice));
+        cases.push(Case {
+            points: [a.moved(&of_a), b.moved(&of_b)],
+            b_in_a: of_a * above * of_b.inverse(),
+            gap,
+        });
+    }
+    cases
+}
+
+#[test]
+fn parallel_faces_apart() {
+    let cases = cases(1600);
+    let shape = |points: &Vec<[f64; 3]>| ConvexShape::of_points(points).expect("a shape");
+    let shapes: Vec<[ConvexShape; 2]> = cases
+        .iter()
+        .map(|case| case.points.each_ref().map(shape))
+        .collect();
+    let pairs: Vec<PlacedPair> = shapes
+        .iter()
+        .zip(&cases)
+        .map(|([a, b], case)| PlacedPair::new(a, b, &case.b_in_a))
+        .collect();
+    let mut found = vec![f64::NAN; pairs.len()];
+    distances(Level::new(), &pairs, &mut found);
+    let seen = witnesses(Level::new(), &pairs);
+    for (k, case) in cases.iter().enumerate() {
+        let gap = case.gap;
+        // The corners are rounded, to 1e-16 m.
+        assert!(
+            (found[k] - gap).abs() <= TOLERANCE + 1e-14,
+            "{k}: {} of {gap}",
+            found[k]
+        );
+        let [a, b] = &shapes[k];
+        let alone = distance(a, b, &case.b_in_a);
+        assert!(
+            (found[k] - alone).abs() <= 2e-9,
+            "{k}: {} and {alone}",
+            found[k]
+        );
+        assert_eq!(seen[k].distance.to_bits(), found[k].to_bits());
+        let [p, q] = seen[k].points.map(Point3::from);
+        assert!(
+            ((q - p).norm() - gap).abs() <= 2e-9,
+            "{k}: {:?}, {gap}",
+            seen[k]
+        );
+        // Eight at a time, as they are in the lanes.
+        if k % 8 == 0 {
+            let eight = k..(k + 8).min(pairs.len());
+            let touching = found[eight.clone()].contains(&0.0);
+            assert_eq!(any_touches(Level::new(), &pairs[eight]), touching, "{k}");
+        }
+    }
+}
+
+#[test]
+fn parallel_faces_apart_as_parry_has_them() {
+    let vector = |[x, y, z]: [f64; 3]| Vector::new(x, y, z);
+    for (k, case) in cases(400).iter().enumerate() {
+        let theirs = case.points.each_ref().map(|points| {
+            let points: Vec<Vector> = points.iter().copied().map(vector).collect();
+            ConvexPolyhedron::from_convex_hull(&points).expect("a hull")
+        });
+        let pose = Pose::new(
+            vector(case.b_in_a.translation.vector.into()),
+            vector(case.b_in_a.rotation.scaled_axis().into()),
+        );
+        let found = query::distance(&Pose::identity(), &theirs[0], &pose, &theirs[1]);
+        let found = found.expect("a distance").distance;
+        assert!(
+            (found - case.gap).abs() < 1e-6,
+            "{k}: parry {found}, {}",
+            case.gap
+        );
+    }
+}
