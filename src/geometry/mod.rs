@@ -13,6 +13,8 @@ pub mod convex;
 pub mod decompose;
 pub mod farthest;
 pub mod hull;
+#[cfg(test)]
+mod levels;
 pub mod mesh;
 pub mod oriented_box;
 mod polygon;

@@ -136,19 +136,7 @@ mod tests {
 
     use super::sealed::Distances;
     use super::*;
-
-    /// Every level that this machine has.
-    fn levels() -> Vec<Level> {
-        let best = Level::new();
-        let mut levels = vec![best];
-        #[cfg(target_arch = "x86_64")]
-        {
-            levels.extend(best.as_sse2().map(Level::Sse2));
-            levels.extend(best.as_sse4_2().map(Level::Sse4_2));
-            levels.extend(best.as_avx2().map(Level::Avx2));
-        }
-        levels
-    }
+    use crate::geometry::levels::levels;
 
     #[test]
     fn the_same_bits_on_each_instruction_set() {

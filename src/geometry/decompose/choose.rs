@@ -7,7 +7,7 @@
 //! promise does not rest on the growing hull being free of rounding.
 
 use super::growing_hull::GrowingHull;
-use super::support::Support;
+use super::support::{Candidate, support};
 use super::vector::{cross, distance_to_triangle, dot, norm, sub};
 
 /// So often a point may be held against a face. Links need some tens of millions; where the tolerance asks for
@@ -36,7 +36,7 @@ pub(super) fn choose(points: &[[f64; 3]], tolerance: f64) -> Vec<[f64; 3]> {
         }
         taken.push(p);
         let mut gone = vec![false; hull.slots()];
-        hull.removed.iter().for_each(|&f| gone[f as usize] = true);
+        hull.removed().iter().for_each(|&f| gone[f as usize] = true);
         looks = looks.saturating_add(outside.len());
         outside.retain_mut(|o| {
             if !gone[o.face as usize] {
@@ -104,12 +104,9 @@ fn start(points: &[[f64; 3]]) -> Option<(GrowingHull, Vec<[f64; 3]>, f64)> {
         .iter()
         .map(|p| norm(sub(*p, origin)))
         .fold(0.0, f64::max);
-    let mut table = Support::new();
-    for (i, &p) in points.iter().enumerate() {
-        table.add(sub(p, origin).map(|x| x / size), i as u32);
-    }
-    let support: Vec<[f64; 3]> = table
-        .points()
+    let scaled = points.iter().map(|&p| sub(p, origin).map(|x| x / size));
+    let candidates: Vec<Candidate> = scaled.zip(0..).map(|(p, i)| Candidate::new(p, i)).collect();
+    let support: Vec<[f64; 3]> = support(&candidates)
         .iter()
         .filter_map(|&i| points.get(i as usize).copied())
         .collect();

@@ -132,8 +132,8 @@ fn best_across(
     }
     let planes = offsets(low, high, flats, eps);
     let slices = Slices::new(part, turned, frame, &planes, places);
-    let (below, whole) = slices.sweep(turned, true, bounds.extent());
-    let (above, _) = slices.sweep(turned, false, bounds.extent());
+    let (below, whole) = slices.sweep(true, bounds.extent());
+    let (above, _) = slices.sweep(false, bounds.extent());
     let all = cost(&whole.hull);
     let mut best: Option<Cut> = None;
     for (k, &offset) in planes.iter().enumerate() {

@@ -7,10 +7,8 @@
 //! faces, and those break a plain incremental hull. So it serves the search and the choice of vertices;
 //! what is handed out is made by [`crate::geometry::hull`].
 
+use super::planes::{Above, Planes};
 use super::vector::{cross, dot, sub};
-
-/// A face slot that holds nothing has this offset: no point sees it.
-const EMPTY: f64 = f64::INFINITY;
 
 #[derive(Clone, Default)]
 pub(super) struct GrowingHull {
@@ -18,16 +16,13 @@ pub(super) struct GrowingHull {
     pub points: Vec<[f64; 3]>,
     jitter: f64,
     corners: Vec<[u16; 3]>,
-    nx: Vec<f64>,
-    ny: Vec<f64>,
-    nz: Vec<f64>,
-    offset: Vec<f64>,
+    planes: Planes,
     area: Vec<f64>,
     free: Vec<u32>,
-    /// Slots whose faces went with the last insertion.
-    pub removed: Vec<u32>,
-    edges: Vec<[u16; 2]>,
-    distance: Vec<f64>,
+    /// What the point that comes next sees.
+    seen: Above,
+    /// The edges around that: the first corner in the upper half.
+    edges: Vec<u32>,
     volume6: f64,
     area_sum: f64,
 }
@@ -95,15 +90,11 @@ impl GrowingHull {
         if let Some(slot) = self.free.pop() {
             let i = slot as usize;
             self.corners[i] = f;
-            (self.nx[i], self.ny[i], self.nz[i]) = (n[0], n[1], n[2]);
-            self.offset[i] = offset;
+            self.planes.set(i, n, offset);
             self.area[i] = length;
         } else {
             self.corners.push(f);
-            self.nx.push(n[0]);
-            self.ny.push(n[1]);
-            self.nz.push(n[2]);
-            self.offset.push(offset);
+            self.planes.push(n, offset);
             self.area.push(length);
         }
     }
@@ -115,7 +106,7 @@ impl GrowingHull {
 
     /// Slots for faces, empty ones too.
     pub fn slots(&self) -> usize {
-        self.offset.len()
+        self.planes.slots()
     }
 
     /// Surface area.
@@ -126,7 +117,7 @@ impl GrowingHull {
     /// Whether the hull may take no more points: corners are 16-bit, and more faces than Euler's
     /// formula allows mean that rounding has broken it.
     fn is_full(&self) -> bool {
-        self.points.len() >= usize::from(u16::MAX) || self.offset.len() > 2 * self.points.len()
+        self.points.len() >= usize::from(u16::MAX) || self.slots() > 2 * self.points.len()
     }
 
     /// The point moved by up to `jitter` along each axis; the same for the same place in the order.
@@ -142,23 +133,13 @@ impl GrowingHull {
     }
 
     /// The face slot whose plane the point is farthest above, and how far; below all: negative.
-    #[inline]
     pub fn farthest_face(&self, p: [f64; 3]) -> (u32, f64) {
-        let n = self.offset.len();
-        let (nx, ny, nz, offset) = (
-            &self.nx[..n],
-            &self.ny[..n],
-            &self.nz[..n],
-            &self.offset[..n],
-        );
-        let mut best = (0, f64::NEG_INFINITY);
-        for i in 0..n {
-            let d = nx[i] * p[0] + ny[i] * p[1] + nz[i] * p[2] - offset[i];
-            if d > best.1 {
-                best = (i as u32, d);
-            }
-        }
-        best
+        self.planes.highest(p)
+    }
+
+    /// Slots whose faces went with the last insertion.
+    pub fn removed(&self) -> &[u32] {
+        &self.seen.slots
     }
 
     /// The corners of a face slot: places in the order of insertion.
@@ -169,8 +150,8 @@ impl GrowingHull {
     /// The places of points that are corners of a face, ascending.
     pub fn used(&self) -> Vec<usize> {
         let mut used = vec![false; self.points.len()];
-        for (f, offset) in self.corners.iter().zip(&self.offset) {
-            if *offset != EMPTY {
+        for (slot, f) in self.corners.iter().enumerate() {
+            if !self.planes.is_empty(slot) {
                 f.iter().for_each(|&i| used[i as usize] = true);
             }
         }
@@ -181,59 +162,34 @@ impl GrowingHull {
     /// more than the jitter).
     pub fn insert(&mut self, p: [f64; 3], eps: f64) -> bool {
         let p = self.moved(p);
-        let n = self.offset.len();
-        self.distance.clear();
-        self.distance.resize(n, 0.0);
-        {
-            let (nx, ny, nz, offset) = (
-                &self.nx[..n],
-                &self.ny[..n],
-                &self.nz[..n],
-                &self.offset[..n],
-            );
-            let out = &mut self.distance[..n];
-            for i in 0..n {
-                out[i] = nx[i] * p[0] + ny[i] * p[1] + nz[i] * p[2] - offset[i];
-            }
-        }
-        // In lanes, so that the compiler can use vectors.
-        let mut most = [f64::NEG_INFINITY; 8];
-        for chunk in self.distance.chunks(8) {
-            for (m, &d) in most.iter_mut().zip(chunk) {
-                *m = if d > *m { d } else { *m };
-            }
-        }
-        if most.iter().all(|&d| d <= eps) || self.is_full() {
+        if self.is_full() || !self.planes.above(p, eps, &mut self.seen) {
             return false;
         }
-        self.removed.clear();
         self.edges.clear();
-        for i in 0..n {
-            if self.distance[i] > 0.0 {
-                self.volume6 += self.distance[i] * self.area[i];
-                self.area_sum -= self.area[i];
-                let [a, b, c] = self.corners[i];
-                for e in [[a, b], [b, c], [c, a]] {
-                    // An edge seen from both sides is not on the horizon.
-                    match self.edges.iter().position(|&[u, v]| u == e[1] && v == e[0]) {
-                        Some(k) => {
-                            self.edges.swap_remove(k);
-                        }
-                        None => self.edges.push(e),
+        for &slot in &self.seen.slots {
+            let i = slot as usize;
+            self.volume6 += self.seen.heights[i] * self.area[i];
+            self.area_sum -= self.area[i];
+            let [a, b, c] = self.corners[i].map(u32::from);
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                // An edge seen from both sides is not on the horizon.
+                let opposite = to << 16 | from;
+                match self.edges.iter().position(|&e| e == opposite) {
+                    Some(k) => {
+                        self.edges.swap_remove(k);
                     }
+                    None => self.edges.push(from << 16 | to),
                 }
-                self.removed.push(i as u32);
-                self.offset[i] = EMPTY;
-                (self.nx[i], self.ny[i], self.nz[i]) = (0.0, 0.0, 0.0);
-                self.area[i] = 0.0;
-                self.free.push(i as u32);
             }
+            self.planes.clear(i);
+            self.area[i] = 0.0;
+            self.free.push(slot);
         }
         let apex = self.points.len() as u16;
         self.points.push(p);
         let edges = std::mem::take(&mut self.edges);
         for e in &edges {
-            self.add_face([e[0], e[1], apex]);
+            self.add_face([(e >> 16) as u16, *e as u16, apex]);
         }
         self.edges = edges;
         true

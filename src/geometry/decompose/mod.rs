@@ -33,6 +33,7 @@ mod growing_hull;
 mod inside;
 mod merge;
 mod part;
+mod planes;
 mod proxy;
 mod search;
 mod slices;

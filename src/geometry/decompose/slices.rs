@@ -2,15 +2,13 @@
 
 use super::grower::{Bounds, Grower, Places, cost};
 use super::part::Part;
-use super::support::Support;
+use super::support::{Candidate, support};
 use super::vector::{dot, lerp};
 
-/// A part cut into slices by parallel planes: support tables of the slices and of the sections between.
+/// A part cut into slices by parallel planes: support points of the slices and of the sections between.
 pub(super) struct Slices {
-    slices: Vec<Support>,
-    sections: Vec<Support>,
-    /// Points of the sections; indices go on after those of the part.
-    cut_points: Vec<[f64; 3]>,
+    slices: Vec<Vec<[f64; 3]>>,
+    sections: Vec<Vec<[f64; 3]>>,
 }
 
 impl Slices {
@@ -34,11 +32,8 @@ impl Slices {
                 (2 * k + 1 + usize::from(on)) as u8
             })
             .collect();
-        let mut out = Slices {
-            slices: vec![Support::new(); planes.len() + 1],
-            sections: vec![Support::new(); planes.len()],
-            cut_points: Vec::new(),
-        };
+        let mut sections = vec![Vec::new(); planes.len()];
+        let mut cut_points: Vec<[f64; 3]> = Vec::new();
         let flat = Scaling::new(&bounds, 0.0, f64::INFINITY);
         let edge = |k: usize| planes.get(k).copied().unwrap_or(bounds.high[2]);
         let cubes: Vec<Scaling> = (0..=planes.len())
@@ -76,9 +71,9 @@ impl Slices {
                 for b in from / 2..(to - 1) / 2 {
                     let (p, q) = (turned[i], turned[j]);
                     let p = lerp(p, q, (planes[b as usize] - p[2]) / (q[2] - p[2]));
-                    let index = (part.points.len() + out.cut_points.len()) as u32;
-                    out.sections[b as usize].add(flat.apply(p), index);
-                    out.cut_points.push(p);
+                    let index = cut_points.len() as u32;
+                    sections[b as usize].push(Candidate::new(flat.apply(p), index));
+                    cut_points.push(p);
                 }
             }
         }
@@ -94,32 +89,32 @@ impl Slices {
                     break;
                 }
                 let p = [p[0], p[1], offset];
-                out.sections[b].add(flat.apply(p), (turned.len() + out.cut_points.len()) as u32);
-                out.cut_points.push(p);
+                sections[b].push(Candidate::new(flat.apply(p), cut_points.len() as u32));
+                cut_points.push(p);
             }
         }
+        let mut slices = vec![Vec::new(); planes.len() + 1];
         for (i, &m) in mask.iter().enumerate() {
             let mut m = m;
             while m != 0 {
                 let k = m.trailing_zeros() as usize;
-                out.slices[k].add(cubes[k].apply(turned[i]), i as u32);
+                slices[k].push(Candidate::new(cubes[k].apply(turned[i]), i as u32));
                 m &= m - 1;
             }
         }
-        out
+        Slices {
+            slices: slices.iter().map(|c| farthest(c, turned)).collect(),
+            sections: sections.iter().map(|c| farthest(c, &cut_points)).collect(),
+        }
     }
 
     /// Grows a hull over the slices, upwards or downwards: the cost at each plane in that order (zero
     /// where there is nothing yet), and the whole hull.
-    pub fn sweep(&self, turned: &[[f64; 3]], upwards: bool, extent: f64) -> (Vec<f64>, Grower) {
+    pub fn sweep(&self, upwards: bool, extent: f64) -> (Vec<f64>, Grower) {
         let planes = self.sections.len();
         let mut hull = Grower::new(extent);
-        let take = |table: &Support, hull: &mut Grower| {
-            for index in table.points() {
-                let i = index as usize;
-                let p = turned.get(i).copied();
-                hull.add(p.unwrap_or_else(|| self.cut_points[i - turned.len()]));
-            }
+        let take = |points: &[[f64; 3]], hull: &mut Grower| {
+            points.iter().for_each(|&p| hull.add(p));
         };
         let mut costs = Vec::with_capacity(planes);
         for n in 0..planes {
@@ -138,6 +133,12 @@ impl Slices {
         take(&self.slices[if upwards { planes } else { 0 }], &mut hull);
         (costs, hull)
     }
+}
+
+/// The support points of candidates, which are indices of these points.
+fn farthest(candidates: &[Candidate], points: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let found = support(candidates).into_iter();
+    found.map(|i| points[i as usize]).collect()
 }
 
 /// Scaling that makes a slice a cube.
