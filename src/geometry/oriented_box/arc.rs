@@ -42,6 +42,11 @@ pub struct Stretch {
 }
 
 impl Stretch {
+    pub fn middle(&self) -> f64 {
+        let [low, high] = self.parts;
+        0.5 * (low + high)
+    }
+
     /// The order of the queue: least promise first, then by place.
     fn key(&self) -> (f64, usize, f64) {
         (self.promise, self.arc, self.parts[0])

@@ -5,6 +5,8 @@
 //! 1975); all edges are tried in one turn (G. Toussaint, Solving Geometric Problems with the
 //! Rotating Calipers, MELECON 1983).
 
+use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
+
 type Point2 = [f64; 2];
 
 /// A rectangle.
@@ -39,8 +41,62 @@ pub fn smallest_rectangle(polygon: &mut Vec<Point2>) -> Option<Rectangle> {
     }
     // Edges and corners alike, one round and the first again.
     polygon.push(polygon[0]);
+    let Best {
+        area,
+        half_perimeter,
+        along,
+    } = if n <= MOST_AT_ONCE {
+        at_once(Level::new(), polygon)
+    } else {
+        one_by_one(polygon)
+    };
+    let length = dot(along, along).sqrt();
+    (length > 0.0).then(|| Rectangle {
+        area,
+        half_perimeter: half_perimeter / length,
+        side: along.map(|x| x / length),
+    })
+}
+
+/// The best rectangle so far. Its half perimeter still holds the length of `along` as a factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Best {
+    area: f64,
+    half_perimeter: f64,
+    along: Point2,
+}
+
+impl Best {
+    const NOTHING: Self = Self {
+        area: f64::INFINITY,
+        half_perimeter: 0.0,
+        along: [0.0; 2],
+    };
+
+    /// Takes the rectangle along an edge, with the corners farthest ahead, across and behind.
+    #[inline(always)]
+    fn take(&mut self, polygon: &[Point2], i: usize, [ahead, across, behind]: [usize; 3]) {
+        let along = minus(polygon[i + 1], polygon[i]);
+        let normal = [-along[1], along[0]];
+        let length = dot(minus(polygon[ahead], polygon[behind]), along);
+        let height = dot(minus(polygon[across], polygon[i]), normal);
+        // Both hold the length of the edge as a factor.
+        let area = length * height / dot(along, along);
+        if area < self.area {
+            *self = Self {
+                area,
+                half_perimeter: length + height,
+                along,
+            };
+        }
+    }
+}
+
+/// Tries each edge of a polygon whose first corner stands at its end again. The corner farthest in a direction is
+/// found by walking on from where the last edge had it.
+fn one_by_one(polygon: &[Point2]) -> Best {
+    let n = polygon.len() - 1;
     let edge = |i: usize| minus(polygon[i + 1], polygon[i]);
-    // The corner farthest in a direction, found by walking on from where the last edge had it.
     let walk = |from: &mut usize, towards: Point2| {
         for _ in 0..n {
             if dot(edge(*from), towards) <= 0.0 {
@@ -50,34 +106,85 @@ pub fn smallest_rectangle(polygon: &mut Vec<Point2>) -> Option<Rectangle> {
         }
     };
     let (mut ahead, mut across, mut behind) = (0, 0, 0);
-    let mut best = (f64::INFINITY, 0.0, [0.0; 2]);
+    let mut best = Best::NOTHING;
     for i in 0..n {
         let along = edge(i);
-        let normal = [-along[1], along[0]];
         walk(&mut ahead, along);
         if i == 0 {
             across = ahead;
         }
-        walk(&mut across, normal);
+        walk(&mut across, [-along[1], along[0]]);
         if i == 0 {
             behind = across;
         }
         walk(&mut behind, [-along[0], -along[1]]);
-        let length = dot(minus(polygon[ahead], polygon[behind]), along);
-        let height = dot(minus(polygon[across], polygon[i]), normal);
-        // Both hold the length of the edge as a factor.
-        let area = length * height / dot(along, along);
-        if area < best.0 {
-            best = (area, length + height, along);
-        }
+        best.take(polygon, i, [ahead, across, behind]);
     }
-    let (area, half_perimeter, along) = best;
-    let length = dot(along, along).sqrt();
-    (length > 0.0).then(|| Rectangle {
-        area,
-        half_perimeter: half_perimeter / length,
-        side: along.map(|x| x / length),
-    })
+    best
+}
+
+/// Most edges of which a set is one word.
+const MOST_AT_ONCE: usize = 64;
+
+/// Edges of a block.
+const WIDTH: usize = 8;
+
+/// The same as [`one_by_one`], bit for bit, for [`MOST_AT_ONCE`] edges or less: where walks end is asked of all edges
+/// at once, so that there are no branches that nobody can foresee.
+fn at_once(level: Level, polygon: &[Point2]) -> Best {
+    dispatch!(level, simd => at_once_in(simd, polygon))
+}
+
+#[inline(always)]
+fn at_once_in<S: Simd>(simd: S, polygon: &[Point2]) -> Best {
+    let n = polygon.len() - 1;
+    let blocks = n.div_ceil(WIDTH);
+    let (mut x, mut y) = ([[0.0; WIDTH]; WIDTH], [[0.0; WIDTH]; WIDTH]);
+    for (i, (from, to)) in polygon.iter().zip(&polygon[1..]).enumerate() {
+        let [along_x, along_y] = minus(*to, *from);
+        x[i / WIDTH][i % WIDTH] = along_x;
+        y[i / WIDTH][i % WIDTH] = along_y;
+    }
+    let zero = f64x8::splat(simd, 0.0);
+    let all = u64::MAX >> (MOST_AT_ONCE - n);
+    let (mut ahead, mut across, mut behind) = (0, 0, 0);
+    let mut best = Best::NOTHING;
+    for i in 0..n {
+        let along_x = f64x8::splat(simd, x[i / WIDTH][i % WIDTH]);
+        let along_y = f64x8::splat(simd, y[i / WIDTH][i % WIDTH]);
+        // Edges at which the walks ahead, across and behind end.
+        let mut ends = [0, 0, 0];
+        for b in (0..blocks).rev() {
+            let edge_x = f64x8::load_array_ref(simd, &x[b]);
+            let edge_y = f64x8::load_array_ref(simd, &y[b]);
+            let along = edge_x * along_x + edge_y * along_y;
+            let across = edge_x * -along_y + edge_y * along_x;
+            ends[0] = ends[0] << WIDTH | along.simd_le(zero).to_bitmask();
+            ends[1] = ends[1] << WIDTH | across.simd_le(zero).to_bitmask();
+            ends[2] = ends[2] << WIDTH | along.simd_ge(zero).to_bitmask();
+        }
+        ahead = next_of(ends[0] & all, ahead);
+        if i == 0 {
+            across = ahead;
+        }
+        across = next_of(ends[1] & all, across);
+        if i == 0 {
+            behind = across;
+        }
+        behind = next_of(ends[2] & all, behind);
+        best.take(polygon, i, [ahead, across, behind]);
+    }
+    best
+}
+
+/// The first of a set from `from` on, or else the first of all, or else `from`.
+#[inline(always)]
+fn next_of(set: u64, from: usize) -> usize {
+    let later = set >> from << from;
+    match if later == 0 { set } else { later } {
+        0 => from,
+        set => set.trailing_zeros() as usize,
+    }
 }
 
 /// Removes what turns right or not at all from a closed line that is nearly a convex polygon.
@@ -132,4 +239,37 @@ pub fn outline(points: &mut Vec<Point2>) {
         polygon.pop();
     }
     *points = polygon;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::levels::levels;
+
+    #[test]
+    fn each_instruction_set_finds_what_walking_finds() {
+        for n in [3, 4, 6, 7, 8, 9, 12, 31, 40, 63, 64] {
+            for turn in 0..20 {
+                // On an ellipse, so that opposite edges of even polygons are parallel but for rounding, and unturned
+                // rectangles and hexagons have edges at right angles; each fourth with a corner that turns right.
+                let turned = 0.3 * f64::from(turn / 2);
+                let mut polygon: Vec<Point2> = (0..n)
+                    .map(|k| (2.0 * f64::from(k) + 1.0) * std::f64::consts::PI / f64::from(n))
+                    .map(|angle| [2.0 * (angle + turned).cos(), (angle + turned).sin()])
+                    .collect();
+                if turn % 4 == 3 {
+                    polygon[1] = polygon[1].map(|x| 0.2 * x);
+                }
+                if turn % 2 == 1 {
+                    let on_grid = |x: f64| (16.0 * x).round() / 16.0;
+                    polygon = polygon.iter().map(|p| p.map(on_grid)).collect();
+                }
+                polygon.push(polygon[0]);
+                let plain = one_by_one(&polygon);
+                for level in levels() {
+                    assert_eq!(at_once(level, &polygon), plain, "{level:?} {n} {turn}");
+                }
+            }
+        }
+    }
 }

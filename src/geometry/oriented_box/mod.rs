@@ -2,8 +2,10 @@
 
 mod arc;
 mod calipers;
+mod queue;
 mod search;
 mod shadow;
+mod vectors;
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 

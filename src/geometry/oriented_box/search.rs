@@ -10,13 +10,13 @@
 //! by branch and bound. Of large hulls a small one made from some of the corners is tried first: its
 //! boxes are never larger, so what is too large there needs no second look.
 
-use std::collections::BinaryHeap;
-
 use nalgebra::Vector3;
 
 use super::super::hull::ConvexHull;
 use super::arc::{Arc, Known, Stretch};
+use super::queue::{Looked, Queue};
 use super::shadow::{Candidate, Caster, Edge};
+use super::vectors::AXES;
 
 /// A pass over the arcs.
 struct Pass {
@@ -58,6 +58,9 @@ const COARSE_DIRECTIONS: usize = 64;
 /// Triangles that shadows of the hull itself may be cast of, in all. Hulls of links need some tens of millions. On a
 /// round hull of many thousand triangles each promises as much as the next, and all would be tried.
 const MOST_CAST: usize = 500_000_000;
+
+/// Of how many times [`AXES`] stretches the coarse hull's boxes are worked out at once.
+const AHEAD: usize = 4;
 
 struct Search {
     fine: Caster,
@@ -120,8 +123,14 @@ fn spread(count: usize) -> impl Iterator<Item = Vector3<f64>> {
 impl Search {
     /// The smallest box with this axis, which counts if it is among the best.
     fn try_axis(&mut self, axis: &Vector3<f64>) -> Known {
+        let candidate = self.fine.smallest_box(axis);
+        self.take(candidate)
+    }
+
+    /// A box about the hull, which counts if it is among the best.
+    fn take(&mut self, candidate: Option<Candidate>) -> Known {
         self.left = self.left.saturating_sub(self.fine.triangles());
-        let Some(candidate) = self.fine.smallest_box(axis) else {
+        let Some(candidate) = candidate else {
             return Known::NOTHING;
         };
         if candidate.volume <= self.best * (1.0 + TIE) {
@@ -131,18 +140,42 @@ impl Search {
         Known::of(&candidate)
     }
 
-    /// The same, but only if the coarse hull's box with this axis is not larger than the best.
-    fn glance(&mut self, axis: &Vector3<f64>) -> Known {
-        let coarse = self
-            .coarse
-            .as_mut()
-            .and_then(|coarse| coarse.smallest_box(axis));
-        match coarse {
-            Some(candidate) if candidate.volume > self.best || self.left == 0 => {
-                Known::of(&candidate)
-            }
-            _ => self.try_axis(axis),
+    /// The boxes with these axes about the coarse hull or, where there is none, about the hull.
+    fn sketches(&mut self, axes: &[Vector3<f64>]) -> Vec<Option<Candidate>> {
+        let caster = self.coarse.as_mut().unwrap_or(&mut self.fine);
+        let mut sketches = Vec::with_capacity(axes.len());
+        for axes in axes.chunks(AXES) {
+            sketches.extend(&caster.smallest_boxes(axes)[..axes.len()]);
         }
+        sketches
+    }
+
+    /// Whether a box about the coarse hull leaves open whether that about the hull is among the best.
+    fn is_open(&self, coarse: Option<&Candidate>) -> bool {
+        self.left > 0 && coarse.is_none_or(|c| c.volume <= self.best)
+    }
+
+    /// What is known of the middle of a stretch.
+    fn judge(&mut self, mut looked: Looked, queue: &mut Queue) -> Known {
+        if self.coarse.is_none() {
+            return self.take(looked.sketch);
+        }
+        match (looked.sketch, looked.fine) {
+            (Some(coarse), _) if !self.is_open(Some(&coarse)) => return Known::of(&coarse),
+            (_, None) => {
+                // Others will be asked for soon; together they take less work.
+                let open = |l: &&mut Looked| l.fine.is_none() && self.is_open(l.sketch.as_ref());
+                let soon = queue.sketched().filter(open).take(AXES - 1);
+                let mut open: Vec<&mut Looked> = std::iter::once(&mut looked).chain(soon).collect();
+                let axes: Vec<Vector3<f64>> = open.iter().map(|l| l.axis).collect();
+                let found = self.fine.smallest_boxes(&axes);
+                for (looked, found) in open.iter_mut().zip(found) {
+                    looked.fine = Some(found);
+                }
+            }
+            _ => {}
+        }
+        self.take(looked.fine.flatten())
     }
 
     /// Tries each triangle's normal.
@@ -150,22 +183,29 @@ impl Search {
         let normals: Vec<_> = (0..self.fine.triangles())
             .map(|t| self.fine.normal(t))
             .collect();
-        let Some(coarse) = self.coarse.as_mut() else {
-            return normals.iter().map(|normal| self.try_axis(normal)).collect();
-        };
-        let glance = |normal| {
-            coarse
-                .smallest_box(normal)
-                .map_or(Known::NOTHING, |c| Known::of(&c))
-        };
-        let mut known: Vec<Known> = normals.iter().map(glance).collect();
+        let sketches = self.sketches(&normals);
+        if self.coarse.is_none() {
+            return sketches.into_iter().map(|s| self.take(s)).collect();
+        }
+        let known = sketches
+            .iter()
+            .map(|s| s.as_ref().map_or(Known::NOTHING, Known::of));
+        let mut known: Vec<Known> = known.collect();
         let mut order: Vec<usize> = (0..normals.len()).collect();
         order.sort_by(|s, t| known[*s].volume.total_cmp(&known[*t].volume));
-        for t in order {
-            if known[t].volume > self.best || self.left == 0 {
+        'all: for several in order.chunks(AXES) {
+            let open = several.iter().filter(|t| known[**t].volume <= self.best);
+            let axes: Vec<Vector3<f64>> = open.map(|t| normals[*t]).collect();
+            if axes.is_empty() {
                 break;
             }
-            known[t] = self.try_axis(&normals[t]);
+            let found = self.fine.smallest_boxes(&axes);
+            for (&t, found) in several.iter().zip(found) {
+                if known[t].volume > self.best || self.left == 0 {
+                    break 'all;
+                }
+                known[t] = self.take(found);
+            }
         }
         known
     }
@@ -194,6 +234,8 @@ impl Search {
             .unwrap_or(&self.fine)
             .triangles()
             .max(1);
+        // Sketches of the coarse hull cost little beside what is then asked of the hull.
+        let ahead = AXES * if self.coarse.is_some() { AHEAD } else { 1 };
         for pass in PASSES {
             let judged = |mut stretch: Stretch| {
                 let [low, high] = stretch.parts;
@@ -204,21 +246,22 @@ impl Search {
                 stretch.promise = 0.5 * (from.volume + to.volume - fall);
                 stretch
             };
-            let mut queue: BinaryHeap<Stretch> = stretches.drain(..).map(judged).collect();
+            let mut queue = Queue::new(stretches.drain(..).map(judged));
             for _ in 0..pass.shadows.max(pass.triangles / triangles) {
                 let limit = self.best * (1.0 - GAIN);
-                if queue.peek().is_none_or(|stretch| stretch.promise >= limit) {
+                let axis = |stretch: &Stretch| arcs[stretch.arc].at(stretch.middle());
+                let sketches = |axes: &[Vector3<f64>]| self.sketches(axes);
+                let Some(looked) = queue.pop(limit, ahead, axis, sketches) else {
                     break;
-                }
-                let Some(stretch) = queue.pop() else { break };
+                };
                 let Stretch {
                     arc,
                     parts: [low, high],
                     ends: [from, to],
                     ..
-                } = stretch;
-                let middle = 0.5 * (low + high);
-                let there = self.glance(&arcs[arc].at(middle));
+                } = looked.stretch;
+                let middle = looked.stretch.middle();
+                let there = self.judge(looked, &mut queue);
                 let halves = [
                     ([low, middle], [from, there]),
                     ([middle, high], [there, to]),
@@ -232,7 +275,7 @@ impl Search {
                     })
                 }));
             }
-            stretches = queue.into_vec();
+            stretches = queue.into_rest();
         }
     }
 }

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use super::super::hull::ConvexHull;
 use super::calipers::{Rectangle, outline, smallest_rectangle};
+use super::vectors::{AXES, Axes, beyond, reach};
 
 /// An edge of the hull between two triangles whose planes differ.
 #[derive(Clone, Copy, Debug)]
@@ -19,16 +20,19 @@ pub struct Edge {
 
 /// A hull, made ready for many shadows.
 pub struct Caster {
-    /// x, y and z of the vertices, from the first vertex on.
-    coordinates: [Vec<f64>; 3],
-    /// x, y and z of the triangles' unit normals; zero where a triangle has none.
-    normals: [Vec<f64>; 3],
+    /// The vertices, from the first vertex on.
+    vertices: Vec<Vector3<f64>>,
+    /// The triangles' unit normals; zero where a triangle has none.
+    normals: Vec<Vector3<f64>>,
     /// Edges whose triangles' normals differ.
     pub edges: Vec<Edge>,
     largest: Vector3<f64>,
     /// No two vertices are farther apart.
     diameter: f64,
-    lit: Vec<bool>,
+    /// For each triangle the set of axes that it faces along.
+    lit: Vec<u8>,
+    /// For each edge the set of axes for which one of its triangles does and the other does not, eight edges a word.
+    border: Vec<u64>,
     /// The outline's vertex after this one, where it is on the outline.
     next: Vec<u32>,
     polygon: Vec<[f64; 2]>,
@@ -64,7 +68,7 @@ impl Caster {
             }
         }
         halves.sort_unstable();
-        let edges = halves
+        let edges: Vec<Edge> = halves
             .chunks_exact(2)
             .map(|pair| Edge {
                 vertices: [pair[0].0, pair[0].1],
@@ -73,7 +77,6 @@ impl Caster {
             })
             .filter(|edge| normals[edge.left as usize] != normals[edge.right as usize])
             .collect();
-        let split = |v: &[Vector3<f64>]| [0, 1, 2].map(|k| v.iter().map(|p| p[k]).collect());
         // From a vertex on, to keep the digits of what is small and far away.
         let vertices: Vec<Vector3<f64>> = (0..mesh.vertices.len() as u32)
             .map(|i| vertex(i) - vertex(0))
@@ -85,22 +88,22 @@ impl Caster {
         Self {
             largest: largest.map(unit).unwrap_or_default(),
             diameter: Vector3::from(sides).norm(),
-            coordinates: split(&vertices),
-            lit: vec![false; normals.len()],
-            normals: split(&normals),
+            lit: Vec::new(),
+            border: Vec::new(),
+            normals,
             edges,
             next: vec![0; vertices.len()],
+            vertices,
             polygon: Vec::new(),
         }
     }
 
     pub fn triangles(&self) -> usize {
-        self.lit.len()
+        self.normals.len()
     }
 
     pub fn normal(&self, triangle: usize) -> Vector3<f64> {
-        let [x, y, z] = &self.normals;
-        Vector3::new(x[triangle], y[triangle], z[triangle])
+        self.normals[triangle]
     }
 
     /// The unit normal of the largest triangle.
@@ -110,91 +113,99 @@ impl Caster {
 
     /// The unit vector along an edge.
     pub fn along(&self, edge: &Edge) -> Vector3<f64> {
-        let [x, y, z] = &self.coordinates;
-        let [from, to] = edge.vertices.map(|i| i as usize);
-        Vector3::new(x[to] - x[from], y[to] - y[from], z[to] - z[from]).normalize()
-    }
-
-    /// The least and the greatest coordinate along a direction.
-    pub fn reach(&self, axis: &Vector3<f64>) -> [f64; 2] {
-        let [x, y, z] = &self.coordinates;
-        let mut low = [f64::INFINITY; 4];
-        let mut high = [f64::NEG_INFINITY; 4];
-        for (i, ((x, y), z)) in x.iter().zip(y).zip(z).enumerate() {
-            let along = axis.x * x + axis.y * y + axis.z * z;
-            low[i % 4] = if along < low[i % 4] {
-                along
-            } else {
-                low[i % 4]
-            };
-            high[i % 4] = if along > high[i % 4] {
-                along
-            } else {
-                high[i % 4]
-            };
-        }
-        let fold = |v: [f64; 4], f: fn(f64, f64) -> f64| f(f(v[0], v[1]), f(v[2], v[3]));
-        [fold(low, f64::min), fold(high, f64::max)]
+        let [from, to] = edge.vertices.map(|i| self.vertices[i as usize]);
+        (to - from).normalize()
     }
 
     /// The smallest box with this unit vector as an axis; `None` where the shadow is a point.
     pub fn smallest_box(&mut self, axis: &Vector3<f64>) -> Option<Candidate> {
-        let [low, high] = self.reach(axis);
-        let (u, v) = across(axis);
-        let Rectangle {
-            area,
-            half_perimeter,
-            side,
-        } = self.shadow([axis, &u, &v])?;
-        let second = u * side[0] + v * side[1];
-        let axes = [*axis, second, axis.cross(&second)];
-        let steepness = self.diameter * (area + (high - low) * half_perimeter);
-        Some(Candidate {
-            volume: (high - low) * area,
-            steepness,
-            axes,
+        self.smallest_boxes(&[*axis])[0]
+    }
+
+    /// The same for several axes at once, one or more and [`AXES`] at most: less work for each. What stands after
+    /// the last axis means nothing.
+    pub fn smallest_boxes(&mut self, axes: &[Vector3<f64>]) -> [Option<Candidate>; AXES] {
+        let lanes = Axes::new(axes);
+        let [low, high] = reach(&self.vertices, &lanes);
+        self.light(&lanes);
+        std::array::from_fn(|a| {
+            let axis = axes.get(a)?;
+            let (u, v) = across(axis);
+            let Rectangle {
+                area,
+                half_perimeter,
+                side,
+            } = self.shadow(a, [&u, &v])?;
+            let (length, second) = (high[a] - low[a], u * side[0] + v * side[1]);
+            Some(Candidate {
+                volume: length * area,
+                steepness: self.diameter * (area + length * half_perimeter),
+                axes: [*axis, second, axis.cross(&second)],
+            })
         })
     }
 
-    /// The smallest rectangle about the shadow along `axis`, in the coordinates `u` and `v`.
+    /// Finds which triangles face along the axes, and the edges between those that do and those that do not.
+    fn light(&mut self, axes: &Axes) {
+        beyond(&self.normals, axes, GRAZING, &mut self.lit);
+        let border = self.edges.chunks(8).map(|edges| {
+            let mut word = [0; 8];
+            for (byte, edge) in word.iter_mut().zip(edges) {
+                *byte = self.lit[edge.left as usize] ^ self.lit[edge.right as usize];
+            }
+            u64::from_le_bytes(word)
+        });
+        self.border.clear();
+        self.border.extend(border);
+    }
+
+    /// The smallest rectangle about the shadow along an axis, in the coordinates `u` and `v`.
     ///
     /// The shadow's outline is the border of the triangles that face along the axis.
-    fn shadow(&mut self, [axis, u, v]: [&Vector3<f64>; 3]) -> Option<Rectangle> {
-        let [x, y, z] = &self.normals;
-        for (lit, ((x, y), z)) in self.lit.iter_mut().zip(x.iter().zip(y).zip(z)) {
-            *lit = axis.x * x + axis.y * y + axis.z * z > GRAZING;
-        }
-        let mut border = 0;
-        let mut vertex = 0;
-        for edge in &self.edges {
-            let left = self.lit[edge.left as usize];
-            if left != self.lit[edge.right as usize] {
+    fn shadow(&mut self, axis: usize, [u, v]: [&Vector3<f64>; 2]) -> Option<Rectangle> {
+        let (mut count, mut vertex) = (0, 0);
+        for (words, edges) in self.border.chunks(8).zip(self.edges.chunks(64)) {
+            let mut set = one_axis(words, axis);
+            while set != 0 {
+                let edge = &edges[set.trailing_zeros() as usize];
+                set &= set - 1;
                 let [from, to] = edge.vertices;
+                let left = self.lit[edge.left as usize] >> axis & 1 == 1;
                 let (from, to) = if left { (from, to) } else { (to, from) };
                 self.next[from as usize] = to;
                 vertex = from;
-                border += 1;
+                count += 1;
             }
         }
-        let [x, y, z] = &self.coordinates;
-        let project = |i: usize| {
-            let p = Vector3::new(x[i], y[i], z[i]);
-            [u.dot(&p), v.dot(&p)]
-        };
+        let vertices = &self.vertices;
+        let project = |p: &Vector3<f64>| [u.dot(p), v.dot(p)];
         self.polygon.clear();
         let start = vertex;
-        for _ in 0..border {
-            self.polygon.push(project(vertex as usize));
+        for _ in 0..count {
+            self.polygon.push(project(&vertices[vertex as usize]));
             vertex = self.next[vertex as usize];
         }
-        if border < 3 || vertex != start {
+        if count < 3 || vertex != start {
             // Rounding has torn the border, or nothing is lit: the hull is flat and seen edge on.
             self.polygon.clear();
-            self.polygon.extend((0..x.len()).map(project));
+            self.polygon.extend(vertices.iter().map(project));
             outline(&mut self.polygon);
         }
         smallest_rectangle(&mut self.polygon)
     }
+}
+
+/// Of up to eight words of eight edges each, the set of edges whose bit `axis` is set.
+fn one_axis(words: &[u64], axis: usize) -> u64 {
+    /// The lowest bit of each byte.
+    const LOWEST: u64 = 0x0101_0101_0101_0101;
+    /// Times a word of lowest bits, it gathers them in the highest byte, the first byte's at the bottom.
+    const GATHER: u64 = 0x0102_0408_1020_4080;
+    let mut set = 0;
+    for (k, word) in words.iter().enumerate() {
+        set |= ((word >> axis & LOWEST).wrapping_mul(GATHER) >> 56) << (8 * k);
+    }
+    set
 }
 
 /// A triangle is taken to lie along the axis, not to face it, if the cosine between its normal and
