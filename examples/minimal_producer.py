@@ -16,6 +16,7 @@ from xml.parsers import expat
 
 NUM_SAMPLED = 16  # sampled configurations in kinematics_samples_module: any number will do [9.2]
 MAX_EXPLICIT_LINKS = 300  # up to here connections_module spells out every path [6.4.6]
+MAX_LINKS_IN_PATHS = 2_000_000  # unless the paths hold more links than this
 MODULES = {  # each module, with the modules that it is derived from, in the order of the table [12.1]
     "urdf_module": [],
     "dof_module": ["urdf_module"],
@@ -300,7 +301,9 @@ def connections_module(chain):
     def matrix(element):
         return [[element(i, j) for j in range(len(roots))] for i in range(len(roots))]
 
-    explicit = len(roots) <= MAX_EXPLICIT_LINKS
+    # The path from i to j: what the two root paths have below the last link that they share, and that link.
+    explicit = len(roots) <= MAX_EXPLICIT_LINKS and MAX_LINKS_IN_PATHS >= sum(
+        len(a["links"]) + len(b["links"]) - 2 * shared(i, j) + 1 for i, a in enumerate(roots) for j, b in enumerate(roots))
     return {"root_paths": roots,
             "lowest_common_ancestors": matrix(lambda i, j: roots[i]["links"][shared(i, j) - 1]),
             "link_to_link_paths": matrix(path) if explicit else None,

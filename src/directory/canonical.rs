@@ -198,17 +198,27 @@ fn yaml_members(
         if index > 0 || !begun {
             spaces(indent, out)?;
         }
-        // Only a key of this many bytes can have a written form of that many characters: an
-        // escape makes six of one.
-        if key.len() > LONGEST_SIMPLE_KEY / 6 {
-            write_long_key(key, indent, out)?;
-        } else {
-            write_string(key, Language::Yaml, out)?;
-        }
-        out.write_char(':')?;
+        written_key(key, indent, out)?;
         yaml_rest(member, indent + 2, out)?;
     }
     Ok(())
+}
+
+/// The key of a member, in a line of its own, up to its colon.
+pub(super) fn yaml_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result {
+    spaces(indent, out)?;
+    written_key(key, indent, out)
+}
+
+fn written_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result {
+    // Only a key of this many bytes can have a written form of that many characters: an
+    // escape makes six of one.
+    if key.len() > LONGEST_SIMPLE_KEY / 6 {
+        write_long_key(key, indent, out)?;
+    } else {
+        write_string(key, Language::Yaml, out)?;
+    }
+    out.write_char(':')
 }
 
 fn write_long_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result {
@@ -224,7 +234,7 @@ fn write_long_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result
 }
 
 /// What follows the colon of a member or the dash of an element.
-fn yaml_rest(value: &Value, indent: usize, out: &mut impl Write) -> fmt::Result {
+pub(super) fn yaml_rest(value: &Value, indent: usize, out: &mut impl Write) -> fmt::Result {
     if is_inline(value) {
         out.write_char(' ')?;
         inline(value, Language::Yaml, out)?;

@@ -1,6 +1,7 @@
 //! A document on its way to disk: whole, or row by row where the whole would be much memory.
 
 use std::fmt::{self, Write};
+use std::sync::Arc;
 
 use serde::Serialize;
 use serde_json::Value;
@@ -11,8 +12,18 @@ use super::canonical;
 pub enum Document {
     /// Any.
     Whole(Value),
-    /// An object whose members are long lists, or null. Their names need no quotes in YAML.
-    Lists(Vec<(&'static str, Option<Rows>)>),
+    /// An object with long lists in it. Names of members need no quotes in YAML.
+    Object(Vec<(&'static str, Member)>),
+}
+
+/// A member of such an object.
+pub enum Member {
+    /// Any value.
+    Value(Value),
+    /// A long list.
+    Rows(Rows),
+    /// An object with long lists in it: at least one member.
+    Object(Vec<(&'static str, Member)>),
 }
 
 /// A list of lists and objects, each made when it is written.
@@ -30,8 +41,27 @@ impl Rows {
         }
     }
 
+    /// Of things that are written as lists or objects, and are part of something that others use too.
+    pub fn of<M: Send + Sync + 'static, T: Serialize>(
+        whole: &Arc<M>,
+        rows: impl Fn(&M) -> &[T] + Send + 'static,
+    ) -> Self {
+        let whole = Arc::clone(whole);
+        Rows {
+            length: rows(&whole).len(),
+            row: Box::new(move |idx| serde_json::to_value(&rows(&whole)[idx])),
+        }
+    }
+
     fn row(&self, idx: usize) -> Result<Value, fmt::Error> {
         (self.row)(idx).map_err(|_| fmt::Error)
+    }
+}
+
+impl Member {
+    /// A long list, or null.
+    pub fn rows_or_null(rows: Option<Rows>) -> Self {
+        rows.map_or(Member::Value(Value::Null), Member::Rows)
     }
 }
 
@@ -41,29 +71,11 @@ impl Document {
     /// # Errors
     /// Those of `out`, and where a row cannot be made a value.
     pub fn json(&self, out: &mut impl Write) -> fmt::Result {
-        let lists = match self {
+        match self {
             Document::Whole(value) => return canonical::json(value, out),
-            Document::Lists(lists) => lists,
-        };
-        let mut before = "{\n";
-        for (name, rows) in lists {
-            write!(out, "{before}  \"{name}\": ")?;
-            before = ",\n";
-            match rows {
-                None => out.write_str("null")?,
-                Some(rows) if rows.length == 0 => out.write_str("[]")?,
-                Some(rows) => {
-                    let mut before = "[\n    ";
-                    for idx in 0..rows.length {
-                        out.write_str(before)?;
-                        before = ",\n    ";
-                        canonical::json_node(&rows.row(idx)?, 4, out)?;
-                    }
-                    out.write_str("\n  ]")?;
-                }
-            }
+            Document::Object(members) => json_object(members, 0, out)?,
         }
-        out.write_str("\n}\n")
+        out.write_char('\n')
     }
 
     /// Writes its canonical YAML.
@@ -71,24 +83,56 @@ impl Document {
     /// # Errors
     /// Those of `out`, and where a row cannot be made a value.
     pub fn yaml(&self, out: &mut impl Write) -> fmt::Result {
-        let lists = match self {
-            Document::Whole(value) => return canonical::yaml(value, out),
-            Document::Lists(lists) => lists,
-        };
-        for (name, rows) in lists {
-            match rows {
-                None => writeln!(out, "{name}: null")?,
-                Some(rows) if rows.length == 0 => writeln!(out, "{name}: []")?,
-                Some(rows) => {
-                    writeln!(out, "{name}:")?;
-                    for idx in 0..rows.length {
-                        canonical::yaml_element(&rows.row(idx)?, 2, out)?;
-                    }
+        match self {
+            Document::Whole(value) => canonical::yaml(value, out),
+            Document::Object(members) => yaml_members(members, 0, out),
+        }
+    }
+}
+
+fn json_object(members: &[(&str, Member)], indent: usize, out: &mut impl Write) -> fmt::Result {
+    let inner = indent + 2;
+    let mut before = "{\n";
+    for (name, member) in members {
+        write!(out, "{before}{:inner$}\"{name}\": ", "")?;
+        before = ",\n";
+        match member {
+            Member::Value(value) => canonical::json_node(value, inner, out)?,
+            Member::Object(members) => json_object(members, inner, out)?,
+            Member::Rows(rows) if rows.length == 0 => out.write_str("[]")?,
+            Member::Rows(rows) => {
+                let mut before = "[\n";
+                for idx in 0..rows.length {
+                    write!(out, "{before}{:inner$}  ", "")?;
+                    before = ",\n";
+                    canonical::json_node(&rows.row(idx)?, inner + 2, out)?;
+                }
+                write!(out, "\n{:inner$}]", "")?;
+            }
+        }
+    }
+    write!(out, "\n{:indent$}}}", "")
+}
+
+fn yaml_members(members: &[(&str, Member)], indent: usize, out: &mut impl Write) -> fmt::Result {
+    for (name, member) in members {
+        write!(out, "{:indent$}{name}:", "")?;
+        match member {
+            Member::Value(value) => canonical::yaml_rest(value, indent + 2, out)?,
+            Member::Object(members) => {
+                out.write_char('\n')?;
+                yaml_members(members, indent + 2, out)?;
+            }
+            Member::Rows(rows) if rows.length == 0 => out.write_str(" []\n")?,
+            Member::Rows(rows) => {
+                out.write_char('\n')?;
+                for idx in 0..rows.length {
+                    canonical::yaml_element(&rows.row(idx)?, indent + 2, out)?;
                 }
             }
         }
-        Ok(())
     }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -101,16 +145,29 @@ mod tests {
     fn row_by_row_is_as_the_whole() {
         let rows = json!([[1, 2], [[], [1.5]], {"a": {"b": [[]]}, "c": "no"}, {}, [], [null]]);
         let list = rows.as_array().unwrap().clone();
-        let whole = json!({"first": rows, "none": null, "empty": [], "last": [[0]]});
-        let lists = Document::Lists(vec![
-            ("first", Some(Rows::new(list))),
-            ("none", None),
-            ("empty", Some(Rows::new(Vec::<Value>::new()))),
-            ("last", Some(Rows::new(vec![[0]]))),
+        let whole = json!({
+            "first": rows, "none": null, "empty": [], "last": [[0]],
+            "inner": {"number": 1, "shared": rows, "deeper": {"values": {"a": [{"b": []}]}}},
+        });
+        let shared = Arc::new((7, list.clone()));
+        let deeper = Member::Value(json!({"a": [{"b": []}]}));
+        let object = Document::Object(vec![
+            ("first", Member::Rows(Rows::new(list))),
+            ("none", Member::rows_or_null(None)),
+            ("empty", Member::Rows(Rows::new(Vec::<Value>::new()))),
+            ("last", Member::rows_or_null(Some(Rows::new(vec![[0]])))),
+            (
+                "inner",
+                Member::Object(vec![
+                    ("number", Member::Value(json!(1))),
+                    ("shared", Member::Rows(Rows::of(&shared, |(_, list)| list))),
+                    ("deeper", Member::Object(vec![("values", deeper)])),
+                ]),
+            ),
         ]);
         let (mut json, mut yaml) = (String::new(), String::new());
-        lists.json(&mut json).unwrap();
-        lists.yaml(&mut yaml).unwrap();
+        object.json(&mut json).unwrap();
+        object.yaml(&mut yaml).unwrap();
         assert_eq!(json, canonical::json_string(&whole));
         assert_eq!(yaml, canonical::yaml_string(&whole));
     }

@@ -34,12 +34,9 @@ pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
     };
     let state = State::default();
     let mut deserializer = serde_json::Deserializer::from_str(&text);
-    let parsed = Seed {
-        state: &state,
-        depth: 0,
-    }
-    .deserialize(&mut deserializer)
-    .and_then(|value| deserializer.end().map(|()| value));
+    let parsed = Seed::new(&state)
+        .deserialize(&mut deserializer)
+        .and_then(|value| deserializer.end().map(|()| value));
     let value = match parsed {
         Ok(value) => value,
         Err(error) => {
@@ -49,7 +46,7 @@ pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
             ));
         }
     };
-    if state.repeated_key.get() {
+    if state.has_repeated_key() {
         report_repeated_keys(&text, &mut faults);
     }
     Ok(JsonDocument {
@@ -71,20 +68,33 @@ fn unreadable(mut faults: TextFaults, fault: TextFault) -> UnreadableText {
 
 /// What the reader notes on its way. Places are found by a second walk, when there is a need.
 #[derive(Default)]
-struct State {
+pub(super) struct State {
     repeated_key: Cell<bool>,
     too_deep: Cell<bool>,
 }
 
+impl State {
+    /// Whether a member was named twice.
+    pub fn has_repeated_key(&self) -> bool {
+        self.repeated_key.get()
+    }
+}
+
 /// Builds a [`Value`] as serde_json does, and notes what serde_json lets pass.
 #[derive(Clone, Copy)]
-struct Seed<'s> {
+pub(super) struct Seed<'s> {
     state: &'s State,
     depth: usize,
 }
 
-impl Seed<'_> {
-    fn inner<E: serde::de::Error>(self) -> Result<Self, E> {
+impl<'s> Seed<'s> {
+    /// For the document.
+    pub fn new(state: &'s State) -> Self {
+        Seed { state, depth: 0 }
+    }
+
+    /// For what is in this value, a list or an object.
+    pub fn inner<E: serde::de::Error>(self) -> Result<Self, E> {
         if self.depth >= DEPTH_LIMIT {
             self.state.too_deep.set(true);
             return Err(E::custom("too deep"));

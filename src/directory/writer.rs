@@ -1,7 +1,7 @@
 //! Writing files, with what `urdd.json` says of them.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, Read, Write};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
@@ -106,17 +106,18 @@ impl Writer {
         emit: fn(&Document, &mut Sink) -> std::fmt::Result,
     ) -> Result<FileEntry, StagingError> {
         let mut sink = Sink {
-            file: BufWriter::with_capacity(1 << 16, self.create(path)?),
+            file: self.create(path)?,
+            waiting: String::with_capacity(2 * WRITTEN_AT_ONCE),
             hasher: Sha256::new(),
             size: 0,
             error: None,
         };
-        let emitted = emit(document, &mut sink);
+        let emitted = emit(document, &mut sink).and_then(|()| sink.flush());
         let result = match (sink.error.take(), emitted) {
             // The sink remembers why it failed.
             (Some(error), _) => Err(error),
             (None, Err(error)) => Err(std::io::Error::other(error)),
-            (None, Ok(())) => sink.file.flush(),
+            (None, Ok(())) => Ok(()),
         };
         self.check(path, result)?;
         Ok(entry(path, sink.size, sink.hasher.finalize().as_slice()))
@@ -147,22 +148,39 @@ impl Writer {
     }
 }
 
+/// So many bytes are hashed and written at once.
+const WRITTEN_AT_ONCE: usize = 1 << 16;
+
 /// Text on its way into a file.
 pub struct Sink {
-    file: BufWriter<File>,
+    file: File,
+    waiting: String,
     hasher: Sha256,
     size: u64,
     error: Option<std::io::Error>,
 }
 
-impl std::fmt::Write for Sink {
-    fn write_str(&mut self, text: &str) -> std::fmt::Result {
-        self.hasher.update(text.as_bytes());
-        self.size += text.len() as u64;
-        self.file.write_all(text.as_bytes()).map_err(|error| {
+impl Sink {
+    fn flush(&mut self) -> std::fmt::Result {
+        let bytes = self.waiting.as_bytes();
+        self.hasher.update(bytes);
+        self.size += bytes.len() as u64;
+        let written = self.file.write_all(bytes);
+        self.waiting.clear();
+        written.map_err(|error| {
             self.error = Some(error);
             std::fmt::Error
         })
+    }
+}
+
+impl std::fmt::Write for Sink {
+    fn write_str(&mut self, text: &str) -> std::fmt::Result {
+        self.waiting.push_str(text);
+        match self.waiting.len() < WRITTEN_AT_ONCE {
+            true => Ok(()),
+            false => self.flush(),
+        }
     }
 }
 

@@ -12,8 +12,9 @@ use super::schema_check;
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
 use crate::directory::root::{EntryKind, Listing, ReadError, Root};
+use crate::directory::text_fault::TextFaults;
 use crate::directory::yaml;
-use crate::format::registry::{self, ModuleKind, ModuleSpec, Profile};
+use crate::format::registry::{self, ModuleDocument, ModuleKind, ModuleSpec, Profile};
 use crate::format::root_metadata::{RootMetadata, Version};
 
 /// Longest `VERSION` file that is read, bytes.
@@ -52,9 +53,7 @@ impl Loaded {
             .into_par_iter()
             .map(|(folder, kind)| {
                 let listed = listed.get(folder.as_str()).copied();
-                let mut module = read_module(&root, folder, kind, listed);
-                module.mirror = read_mirror(&root, &listing, &module);
-                module
+                read_module(&root, folder, kind, listed, Want::Mirror(&listing))
             })
             .collect();
         let profile = profile(&metadata, &modules);
@@ -86,7 +85,7 @@ impl Loaded {
             .filter(|kind| listing.has_folder(kind.folder()))
             .map(|kind| {
                 let folder = kind.folder().to_owned();
-                read_module(&root, folder, Some(*kind), listed(*kind))
+                read_module(&root, folder, Some(*kind), listed(*kind), Want::Document)
             })
             .collect();
         let profile = profile(&metadata, &modules);
@@ -184,12 +183,22 @@ fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
     folders
 }
 
-/// Everything of a module but its mirror.
+/// What is wanted of a module.
+#[derive(Clone, Copy)]
+enum Want<'a> {
+    /// What its document says.
+    Document,
+    /// Its text and its mirror, too.
+    Mirror(&'a Listing),
+}
+
+/// Reads a module.
 fn read_module(
     root: &Root,
     folder: String,
     kind: Option<ModuleKind>,
     listed: Option<&Version>,
+    want: Want,
 ) -> Module {
     let file = |name: &str| format!("{folder}/{name}");
     let version_file = match root.read(&file("VERSION"), MAX_VERSION_BYTES) {
@@ -209,7 +218,19 @@ fn read_module(
         Some(kind) => find_spec(kind, version.as_deref()),
         None => (None, false),
     };
-    let json = JsonFile::read(root, &file("module.json"));
+    let yaml = match want {
+        Want::Document => None,
+        Want::Mirror(listing) => Some(read_yaml(root, listing, &file("module.yaml"))),
+    };
+    let mut bytes = root.read(&file("module.json"), MAX_DOCUMENT_BYTES);
+    let taken = match (spec, &mut bytes) {
+        (Some(spec), Ok(bytes)) => take(spec, bytes, yaml.as_ref()),
+        _ => None,
+    };
+    let (document, json) = match taken {
+        Some((document, text)) => (Some(document), JsonFile::Taken(text)),
+        None => (None, JsonFile::of(bytes)),
+    };
     let mut module = Module {
         folder,
         kind,
@@ -220,9 +241,16 @@ fn read_module(
         json,
         mirror: Mirror::NotCompared,
         violations: Vec::new(),
-        document: None,
+        document,
         is_draft: false,
     };
+    if module.document.is_some() {
+        module.mirror = match yaml {
+            Some(_) => Mirror::Compared(TextFaults::default()),
+            None => Mirror::NotCompared,
+        };
+        return module;
+    }
     if let (Some(spec), Some(document)) = (module.spec, module.json.document()) {
         let (read, violations) = schema_check::read(spec, &document.value, newer);
         module.document = read;
@@ -231,16 +259,41 @@ fn read_module(
             module.violations = violations;
         }
     }
+    if let Some(yaml) = yaml {
+        module.mirror = mirror(yaml, &module);
+    }
     module
 }
 
-/// The mirror of a module's document.
-fn read_mirror(root: &Root, listing: &Listing, module: &Module) -> Mirror {
-    let file = module.file("module.yaml");
-    if !listing.has_file(&file) && listing.get(&file).is_none() {
-        return Mirror::Missing;
+/// Takes the text of a large document, and what it says, without ever holding it as a value: where it has no fault, and
+/// the mirror, where that is wanted, is the canonical one.
+fn take(
+    spec: &ModuleSpec,
+    json: &mut Vec<u8>,
+    yaml: Option<&Result<Vec<u8>, ReadError>>,
+) -> Option<(ModuleDocument, String)> {
+    let text = std::str::from_utf8(json).ok()?;
+    let document = spec.read_text(text)?;
+    match yaml {
+        None => Some((document, String::new())),
+        Some(Ok(yaml)) if yaml::is_mirrored(text, yaml) => {
+            let text = String::from_utf8(std::mem::take(json)).ok()?;
+            Some((document, text))
+        }
+        Some(_) => None,
     }
-    match (root.read(&file, MAX_DOCUMENT_BYTES), module.json.document()) {
+}
+
+fn read_yaml(root: &Root, listing: &Listing, file: &str) -> Result<Vec<u8>, ReadError> {
+    if !listing.has_file(file) && listing.get(file).is_none() {
+        return Err(ReadError::Missing);
+    }
+    root.read(file, MAX_DOCUMENT_BYTES)
+}
+
+/// The mirror of a module's document.
+fn mirror(yaml: Result<Vec<u8>, ReadError>, module: &Module) -> Mirror {
+    match (yaml, module.json.document()) {
         (Err(ReadError::Missing), _) => Mirror::Missing,
         (Err(error), _) => Mirror::Unreadable(error),
         (Ok(_), None) => Mirror::NotCompared,

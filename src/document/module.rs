@@ -21,11 +21,18 @@ pub enum JsonFile {
     Broken(TextFaults),
     /// It is JSON.
     Read(Box<JsonDocument>),
+    /// It is JSON without faults, read into the module's own types, and its value was not kept. The text is empty where
+    /// nobody asks for places in it.
+    Taken(String),
 }
 
 impl JsonFile {
     pub(super) fn read(root: &Root, path: &str) -> Self {
-        match root.read(path, MAX_DOCUMENT_BYTES) {
+        Self::of(root.read(path, MAX_DOCUMENT_BYTES))
+    }
+
+    pub(super) fn of(bytes: Result<Vec<u8>, ReadError>) -> Self {
+        match bytes {
             Err(ReadError::Missing) => JsonFile::Missing,
             Err(error) => JsonFile::Unreadable(error),
             Ok(bytes) => match json::read(&bytes) {
@@ -35,10 +42,19 @@ impl JsonFile {
         }
     }
 
-    /// The document, where it could be read.
+    /// The document as JSON, where it could be read and was kept.
     pub fn document(&self) -> Option<&JsonDocument> {
         match self {
             JsonFile::Read(document) => Some(document),
+            _ => None,
+        }
+    }
+
+    /// Its text, where it is JSON.
+    pub fn text(&self) -> Option<&str> {
+        match self {
+            JsonFile::Read(document) => Some(&document.text),
+            JsonFile::Taken(text) => Some(text),
             _ => None,
         }
     }
@@ -129,11 +145,11 @@ impl Module {
             (JsonFile::Missing, _) => DocumentFault::Missing,
             (JsonFile::Unreadable(_), _) => DocumentFault::Unreadable,
             (JsonFile::Broken(_), _) => DocumentFault::NotJson,
-            (JsonFile::Read(_), None) if self.spec.is_none() => {
-                DocumentFault::UnknownVersion(self.version.clone())
-            }
-            (JsonFile::Read(_), None) if self.is_draft => DocumentFault::IsDraft,
-            (JsonFile::Read(_), None) => DocumentFault::BreaksSchema,
+            (JsonFile::Read(_) | JsonFile::Taken(_), None) => match self.spec {
+                None => DocumentFault::UnknownVersion(self.version.clone()),
+                Some(_) if self.is_draft => DocumentFault::IsDraft,
+                Some(_) => DocumentFault::BreaksSchema,
+            },
         };
         Some(Unusable {
             folder: self.folder.clone(),
@@ -158,7 +174,7 @@ impl Module {
                 (position, message)
             }
             JsonFile::Unreadable(error) => (None, error.to_string()),
-            JsonFile::Missing => return None,
+            JsonFile::Missing | JsonFile::Taken(_) => return None,
         };
         Some(match position {
             Some(position) => format!("{file}:{position}: {message}"),

@@ -11,10 +11,11 @@ module! {
         pub root_paths: Vec<LinkPath>,
         /// Element (i, j) is the lowest link that lies above (or is) both i and j.
         pub lowest_common_ancestors: Vec<Vec<LinkIdx>>,
-        /// Element (i, j) is the path from link i to link j. Null above 300 links, unless asked for.
+        /// Element (i, j) is the path from link i to link j. May be null above 300 links, and where
+        /// the paths hold more than 2,000,000 links together.
         pub link_to_link_paths: Option<Vec<Vec<LinkPath>>>,
         /// Element (i, j), where j is a descendant of i: the links from i (left out) to j (included);
-        /// where i is j: `[i]`; else null. The whole is null above 300 links, unless asked for.
+        /// where i is j: `[i]`; else null. The whole may be null where `link_to_link_paths` may.
         pub link_connection_paths: Option<Vec<Vec<Option<Vec<LinkIdx>>>>>,
     }
 }

@@ -202,6 +202,29 @@ impl ModuleSpec {
     pub fn read(&self, document: &Value) -> Result<ModuleDocument, serde_json::Error> {
         (self.read)(document)
     }
+
+    /// Reads the text of a document of this module without a [`Value`] of the whole, where it is one of the modules that
+    /// grow with the square of the links, and fits the schema. Faults of the text alone, such as members of others named
+    /// twice, are passed over.
+    pub fn read_text(&self, text: &str) -> Option<ModuleDocument> {
+        fn read<T: serde::de::DeserializeOwned>(text: &str) -> Option<Box<T>> {
+            serde_json::from_str(text).ok().map(Box::new)
+        }
+        if self.profile != Profile::V1 {
+            return None;
+        }
+        match self.kind {
+            ModuleKind::Connections => read(text).map(ModuleDocument::Connections),
+            ModuleKind::LinkShapesDistanceStatistics => {
+                read(text).map(ModuleDocument::LinkShapesDistanceStatistics)
+            }
+            ModuleKind::LinkShapesSimpleSkips => {
+                read(text).map(ModuleDocument::LinkShapesSimpleSkips)
+            }
+            ModuleKind::LinkShapesSkips => read(text).map(ModuleDocument::LinkShapesSkips),
+            _ => None,
+        }
+    }
 }
 
 /// The entry of a (module, version), by the module and the text of its version; the empty text

@@ -144,11 +144,9 @@ impl Artifacts {
     }
 
     fn document<T: DeserializeOwned>(&self, kind: ModuleKind) -> Result<T, GenerateError> {
-        let internal = |reason: String| GenerateError::Internal {
+        old::document(&self.root()?, kind).map_err(|reason| GenerateError::Internal {
             file: kind.folder().to_owned(),
             reason,
-        };
-        let value = old::document(&self.root()?, kind).map_err(internal)?;
-        serde_json::from_value(value).map_err(|error| internal(error.to_string()))
+        })
     }
 }

@@ -7,12 +7,15 @@ use crate::format::index::{JointIdx, LinkIdx};
 /// Up to this many links, the path of every pair is written out (SPEC 6.4.6).
 pub const MOST_LINKS_WITH_PAIRS: usize = 300;
 
-/// Makes the module. Its size grows with links times depth and links squared; with the paths of
-/// pairs, with links squared times depth.
+/// And up to this many links in all of these paths together.
+pub const MOST_LINKS_IN_PAIRS: usize = 2_000_000;
+
+/// Makes the module. Its size grows with links times depth and links squared.
 pub(super) fn connections_module(chain: &ChainModule) -> ConnectionsModule {
     let root_paths = root_paths(chain);
     let ancestors = lowest_common_ancestors(chain, &root_paths);
-    let with_pairs = chain.links_in_chain.len() <= MOST_LINKS_WITH_PAIRS;
+    let with_pairs = chain.links_in_chain.len() <= MOST_LINKS_WITH_PAIRS
+        && links_in_pairs(chain) <= MOST_LINKS_IN_PAIRS;
     let pairs = with_pairs.then(|| {
         let paths = root_paths.iter().zip(&ancestors);
         paths
@@ -53,6 +56,22 @@ fn root_paths(chain: &ChainModule) -> Vec<LinkPath> {
         paths[idx.get()] = path;
     }
     paths
+}
+
+/// The number of links in the paths of all pairs: each path has its first link, and one more for each
+/// joint on it. A joint with s links below it is on the paths between these and the others.
+fn links_in_pairs(chain: &ChainModule) -> usize {
+    let all = chain.links_in_chain.len();
+    let mut below = vec![1; all];
+    let mut links = all * all;
+    for idx in chain.kinematic_hierarchy.iter().flatten().rev() {
+        if let Some(parent) = chain.links_in_chain[idx.get()].parent_link_idx {
+            let own = below[idx.get()];
+            below[parent.get()] += own;
+            links += 2 * own * (all - own);
+        }
+    }
+    links
 }
 
 /// Row i, from the root downwards: of a link on the path to i itself; of another, that of its
@@ -116,6 +135,10 @@ mod tests {
 
     /// Links in a line, which stand in the file from the far end to the root.
     fn line(links: usize) -> ConnectionsModule {
+        connections_module(&line_chain(links))
+    }
+
+    fn line_chain(links: usize) -> ChainModule {
         let mut xml = "<robot name=\"line\">".to_owned();
         for i in 0..links {
             xml += &format!("<link name=\"l{i}\"/>");
@@ -127,7 +150,7 @@ mod tests {
             );
         }
         let reading = urdf::read(&(xml + "</robot>"), "line").unwrap();
-        connections_module(&chain_module(&reading.robot, &reading.tree))
+        chain_module(&reading.robot, &reading.tree)
     }
 
     #[test]
@@ -171,11 +194,48 @@ mod tests {
         }
     }
 
+    /// Links that hang on the first one.
+    fn star(links: usize) -> ChainModule {
+        let link = |i: usize| format!("<link name=\"l{i}\"/>");
+        let joint = |i: usize| {
+            format!(
+                "<joint name=\"j{i}\" type=\"fixed\"><parent link=\"l0\"/><child link=\"l{i}\"/></joint>"
+            )
+        };
+        let links_in_file: String = (0..links).map(link).collect();
+        let joints: String = (1..links).map(joint).collect();
+        let xml = format!("<robot name=\"star\">{links_in_file}{joints}</robot>");
+        let reading = urdf::read(&xml, "star").unwrap();
+        chain_module(&reading.robot, &reading.tree)
+    }
+
     #[test]
     fn above_300_links_the_paths_of_pairs_are_left_out() {
-        assert!(line(300).link_to_link_paths.is_some());
-        let long = line(301);
+        assert!(connections_module(&star(300)).link_to_link_paths.is_some());
+        let large = connections_module(&star(301));
+        assert!(large.link_to_link_paths.is_none() && large.link_connection_paths.is_none());
+        assert_eq!(large.root_paths[300].links.len(), 2);
+    }
+
+    #[test]
+    fn above_2_million_links_in_them_the_paths_of_pairs_are_left_out() {
+        assert!(line(180).link_to_link_paths.is_some());
+        let long = line(181);
         assert!(long.link_to_link_paths.is_none() && long.link_connection_paths.is_none());
-        assert_eq!(long.root_paths[0].links.len(), 301);
+        assert_eq!(long.root_paths[0].links.len(), 181);
+    }
+
+    #[test]
+    fn the_links_in_paths_are_counted_without_the_paths() {
+        // A line of n links: 1 + |i - j| each.
+        for n in [1_usize, 2, 9] {
+            let module = line(n);
+            let pairs = module.link_to_link_paths.unwrap();
+            let written: usize = pairs.iter().flatten().map(|path| path.links.len()).sum();
+            assert_eq!(written, n * n + (n * n * n - n) / 3);
+            assert_eq!(links_in_pairs(&line_chain(n)), written);
+        }
+        // A star: 1 to itself, 2 from the middle and to it, else 3.
+        assert_eq!(links_in_pairs(&star(10)), 10 + 2 * 9 * 2 + 9 * 8 * 3);
     }
 }

@@ -7,10 +7,11 @@ use rayon::prelude::*;
 use super::distinct::for_each_content;
 use super::edits::Edits;
 use super::error::GenerateError;
-use super::made::{Made, MadeFile, document};
+use super::made::{Made, MadeFile, document, streamed};
 use super::meshes::names::mesh_files;
 use super::meshes::plain::link_geometries;
 use super::meshes::written::{Shading, WrittenMesh, files_of};
+use super::shape_documents;
 use super::shapes::MOST_PIECES_WITH_MATRICES;
 use super::shapes::approximations::approximations;
 use super::shapes::max_distances::max_distances;
@@ -204,7 +205,7 @@ pub(super) fn distances_from_origin(work: &mut Work) -> Result<Made, GenerateErr
 }
 
 pub(super) fn statistics_settings(work: &Work) -> String {
-    format!("{} samples", work.settings.num_samples)
+    format!("{} samples, 7 digits", work.settings.num_samples)
 }
 
 pub(super) fn distance_statistics(work: &mut Work) -> Result<Made, GenerateError> {
@@ -213,19 +214,19 @@ pub(super) fn distance_statistics(work: &mut Work) -> Result<Made, GenerateError
     let num_samples = work.settings.num_samples;
     let (dof, chain, bounds) = (&work.dof, &work.chain, &work.bounds);
     let module = statistics(&solids, &approximations, (dof, chain, bounds), num_samples);
-    let module = module.map_err(|reason| unmeasurable(work, reason))?;
-    let document = document(&module)?;
+    let module = Arc::new(module.map_err(|reason| unmeasurable(work, reason))?);
     if module.decomposition_convex_hulls.is_none() {
         let pieces = module.decomposition_shapes.len();
-        work.leave_out(
+        work.too_large(
             format!(
                 "the robot has {pieces} convex pieces, and matrices over more than {MOST_PIECES_WITH_MATRICES} grow too large"
             ),
             "distances and skips between pieces are left out; those between links are there",
         );
     }
-    work.artifacts.statistics = Some(Arc::new(module));
-    Ok(document)
+    let document = shape_documents::statistics(&module);
+    work.artifacts.statistics = Some(module);
+    streamed(document)
 }
 
 fn unmeasurable(work: &Work, reason: String) -> GenerateError {
@@ -242,10 +243,10 @@ pub(super) fn skips_by_distance(work: &mut Work) -> Result<Made, GenerateError> 
     let kinematics = (&work.dof, &work.chain, &work.bounds);
     let default = at_default_configuration(&solids, &approximations, kinematics)
         .map_err(|reason| unmeasurable(work, reason))?;
-    let module = simple_skips(&statistics, &default, &work.chain);
-    let document = document(&module)?;
-    work.artifacts.simple_skips = Some(Arc::new(module));
-    Ok(document)
+    let module = Arc::new(simple_skips(&statistics, &default, &work.chain));
+    let document = shape_documents::simple_skips(&module);
+    work.artifacts.simple_skips = Some(module);
+    streamed(document)
 }
 
 pub(super) fn skips_settings(work: &Work) -> String {
@@ -267,7 +268,8 @@ pub(super) fn edited_skips(work: &mut Work) -> Result<Made, GenerateError> {
     }
     let links = work.chain.links_in_chain.iter();
     let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
-    document(&skips_module(&simple, skipped_reasons, kept, &names))
+    let module = skips_module(&simple, skipped_reasons, kept, &names);
+    streamed(shape_documents::skips(&Arc::new(module)))
 }
 
 /// The reasons for which pairs are skipped: as asked for, or else as before; each once, in order.

@@ -30,13 +30,17 @@ pub(super) enum Content {
 
 /// A module without files of its own.
 pub(super) fn document(module: &impl Serialize) -> Result<Made, GenerateError> {
-    let document = serde_json::to_value(module).map_err(|error| GenerateError::Internal {
+    streamed(serde_json::to_value(module).map(Document::Whole))
+}
+
+/// A module without files of its own, as its document.
+pub(super) fn streamed(
+    document: Result<Document, serde_json::Error>,
+) -> Result<Made, GenerateError> {
+    let document = document.map_err(|error| GenerateError::Internal {
         file: String::new(),
         reason: error.to_string(),
     })?;
     let files = Vec::new();
-    Ok(Made {
-        document: Document::Whole(document),
-        files,
-    })
+    Ok(Made { document, files })
 }

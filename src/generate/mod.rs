@@ -26,6 +26,7 @@ mod pose;
 mod robot;
 mod selection;
 mod settings;
+mod shape_documents;
 mod shapes;
 mod size;
 mod source;
@@ -34,7 +35,7 @@ mod urdf;
 mod work;
 
 pub use bounded::MAX_SOURCE_BYTES;
-pub use connections::MOST_LINKS_WITH_PAIRS;
+pub use connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS};
 pub use error::{EditsFault, GenerateError, OutsideMesh};
 pub use kinematics_samples::NUM_SAMPLED;
 pub use meshes::{MeshCount, PackagePathError, Packages};

@@ -43,6 +43,8 @@ pub enum NoteKind {
     Outside,
     /// A part of a module that is not made of this robot.
     LeftOut,
+    /// A table that is left out, as the specification allows for a robot of this size.
+    TooLarge,
 }
 
 impl NoteKind {
@@ -66,11 +68,13 @@ impl NoteKind {
         NoteKind::Mesh,
         NoteKind::Outside,
         NoteKind::LeftOut,
+        NoteKind::TooLarge,
     ];
 
     /// Whether what was assumed may make another robot of it than the author meant.
     pub fn changes_robot(self) -> bool {
-        !matches!(self, NoteKind::Encoding | NoteKind::Xml | NoteKind::Outside)
+        use NoteKind::{Encoding, Outside, TooLarge, Xml};
+        !matches!(self, Encoding | Xml | Outside | TooLarge)
     }
 
     /// Its word, for programs.
@@ -94,6 +98,7 @@ impl NoteKind {
             NoteKind::Mesh => "mesh",
             NoteKind::Outside => "outside",
             NoteKind::LeftOut => "left-out",
+            NoteKind::TooLarge => "too-large",
         }
     }
 }

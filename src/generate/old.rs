@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::metadata::{GENERATOR, INPUTS_KEY};
@@ -67,11 +68,10 @@ impl Old {
     }
 }
 
-/// The document of a module of a URDD, or in words why there is none.
-pub(super) fn document(root: &Root, kind: ModuleKind) -> Result<Value, String> {
+/// The document of a module of a URDD that is ours and intact, or in words why there is none.
+pub(super) fn document<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Result<T, String> {
     let path = format!("{}/module.json", kind.folder());
     let bytes = root.read(&path, MAX_DOCUMENT_BYTES);
     let bytes = bytes.map_err(|error| error.to_string())?;
-    let read = json::read(&bytes).map_err(|error| error.to_string())?;
-    Ok(read.value)
+    serde_json::from_slice(&bytes).map_err(|error| error.to_string())
 }

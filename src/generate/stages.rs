@@ -4,13 +4,13 @@
 //! that, and the files of those modules, are as they were. What it made is then taken up from the
 //! files, by whoever needs it.
 
-use super::connections;
+use super::connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS, connections_module};
 use super::error::GenerateError;
 use super::geometry_stages as geometry;
 use super::made::{Content, Made, MadeFile, document};
 use super::meshes::original::original_meshes;
 use super::work::Work;
-use crate::directory::document::{Document, Rows};
+use crate::directory::document::{Document, Member, Rows};
 use crate::format::registry::ModuleKind;
 
 /// When a module that was made before is kept, rather than made again.
@@ -64,7 +64,7 @@ const STAGES: &[Stage] = &[
     Stage {
         kind: ModuleKind::Connections,
         // With hundreds of links it is megabytes of text.
-        reuse: Reuse::SameInputs("1"),
+        reuse: Reuse::SameInputs("2"),
         make: connections,
     },
     Stage {
@@ -129,23 +129,28 @@ pub(super) fn of(kind: ModuleKind) -> Option<&'static Stage> {
     STAGES.iter().find(|stage| stage.kind == kind)
 }
 
-/// With 300 links in a line these are 8 million numbers.
+/// With 180 links in a line these are 5 million numbers.
 fn connections(work: &mut Work) -> Result<Made, GenerateError> {
-    let module = connections::connections_module(&work.chain);
-    let document = Document::Lists(vec![
-        ("root_paths", Some(Rows::new(module.root_paths))),
+    let module = connections_module(&work.chain);
+    if module.link_to_link_paths.is_none() {
+        let links = work.chain.links_in_chain.len();
+        work.too_large(
+            format!(
+                "the robot has {links} links, and the paths of all pairs grow too large above {MOST_LINKS_WITH_PAIRS} links, or {MOST_LINKS_IN_PAIRS} links in the paths"
+            ),
+            "connections_module leaves them out; they follow from its root paths and lowest common ancestors",
+        );
+    }
+    let pairs = module.link_to_link_paths.map(Rows::new);
+    let descents = module.link_connection_paths.map(Rows::new);
+    let document = Document::Object(vec![
+        ("root_paths", Member::Rows(Rows::new(module.root_paths))),
         (
             "lowest_common_ancestors",
-            Some(Rows::new(module.lowest_common_ancestors)),
+            Member::Rows(Rows::new(module.lowest_common_ancestors)),
         ),
-        (
-            "link_to_link_paths",
-            module.link_to_link_paths.map(Rows::new),
-        ),
-        (
-            "link_connection_paths",
-            module.link_connection_paths.map(Rows::new),
-        ),
+        ("link_to_link_paths", Member::rows_or_null(pairs)),
+        ("link_connection_paths", Member::rows_or_null(descents)),
     ]);
     let files = Vec::new();
     Ok(Made { document, files })

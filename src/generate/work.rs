@@ -66,8 +66,17 @@ impl<'a> Work<'a> {
 
     /// Notes that something is not made of this robot.
     pub fn leave_out(&mut self, problem: String, assumed: &str) {
+        self.note(NoteKind::LeftOut, problem, assumed);
+    }
+
+    /// Notes that a table is left out because it would grow too large, as the specification allows.
+    pub fn too_large(&mut self, problem: String, assumed: &str) {
+        self.note(NoteKind::TooLarge, problem, assumed);
+    }
+
+    fn note(&mut self, kind: NoteKind, problem: String, assumed: &str) {
         self.notes.push(Note {
-            kind: NoteKind::LeftOut,
+            kind,
             file: self.source.shown.clone(),
             line: 0,
             column: 0,

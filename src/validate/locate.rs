@@ -54,11 +54,10 @@ fn pointer(place: &Place) -> String {
 /// The text of a document, and the module that it is of.
 fn json_text<'a>(context: &'a Context, file: &str) -> Option<(&'a str, Option<ModuleKind>)> {
     if file == ROOT_METADATA {
-        let document = context.metadata_file().json.document()?;
-        return Some((&document.text, None));
+        return Some((context.metadata_file().json.text()?, None));
     }
     let folder = file.strip_suffix("/module.json")?;
     let mut modules = context.modules().iter();
     let module = modules.find(|module| module.folder == folder)?;
-    Some((&module.json.document()?.text, module.kind))
+    Some((module.json.text()?, module.kind))
 }

@@ -283,7 +283,13 @@ fn statistics_of_two_cubes_on_a_rail() {
         ("decomposition_bounding_spheres", 0.1 * f64::sqrt(3.0)),
     ] {
         let distances: Vec<f64> = centres.clone().map(|x| (x - less).max(0.0)).collect();
-        let at = |list: &str| found[shapes][list][0][1].as_f64().expect("a number");
+        let at = |list: &str| {
+            let distance = found[shapes][list][0][1].as_f64().expect("a number");
+            // Seven significant digits.
+            let rounded = format!("{distance:.6e}").parse();
+            assert_eq!(rounded, Ok(distance), "{shapes} {list}");
+            distance
+        };
         let mean = distances.iter().sum::<f64>() / f64::from(samples);
         assert_near(at("mean_distances"), mean, 1e-7);
         let least = distances.iter().copied().fold(f64::INFINITY, f64::min);

@@ -285,3 +285,35 @@ fn shapes_that_files_do_not_tell_from_points_or_lines_are_refused() {
         }
     }
 }
+
+#[test]
+fn paths_that_are_left_out_are_said_and_strict_allows_it() {
+    let line = |links: usize| {
+        let names = (0..links).map(|i| format!("<link name=\"l{i}\"/>"));
+        let joints = (1..links).map(|i| {
+            let above = i - 1;
+            format!(
+                "<joint name=\"j{i}\" type=\"fixed\"><parent link=\"l{above}\"/><child link=\"l{i}\"/></joint>"
+            )
+        });
+        let all: String = names.chain(joints).collect();
+        format!("<robot name=\"r\">{all}</robot>")
+    };
+    for (links, kinds) in [(180, vec![]), (181, vec!["too-large"])] {
+        let folder = workshop(&line(links));
+        let more = ["--modules", "core", "--strict", "--format", "json"];
+        let output = generate(folder.path(), &[&more[..], &["r.urdf"]].concat());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let said: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let notes = said["notes"].as_array().unwrap();
+        let found: Vec<&str> = notes.iter().filter_map(|n| n["kind"].as_str()).collect();
+        assert_eq!(found, kinds, "{said}");
+        let made = read_json(&folder.path().join("out/connections_module/module.json"));
+        assert_eq!(made["link_to_link_paths"].is_null(), links == 181);
+        let validated = urdd(&["validate", "out"])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert_eq!(validated.status.code(), Some(0), "{validated:?}");
+    }
+}

@@ -7,7 +7,7 @@ use urdd::validate::code::Code::*;
 
 use super::dof::star;
 use crate::support::fixture::Fixture;
-use crate::support::robot::Robot;
+use crate::support::robot::{Robot, joint, link, solid_box};
 use crate::{Case, changed, invalid};
 
 const CONNECTIONS: &str = "connections_module";
@@ -20,6 +20,22 @@ fn large() -> Fixture {
         .map(|name| (name.as_str(), JointType::Fixed))
         .collect();
     Fixture::core(&star(&joints))
+}
+
+/// Links in a line, each on the one before.
+fn line(links: usize) -> Robot {
+    let mut robot = Robot::new("line");
+    for i in 0..links {
+        let mut one = link(&format!("l{i}"));
+        one.inertial = Some(solid_box(1.0, [0.1; 3]));
+        robot.urdf.links.push(one);
+        if let Some(above) = i.checked_sub(1) {
+            let (above, below) = (format!("l{above}"), format!("l{i}"));
+            let fixed = joint(&format!("j{i}"), JointType::Fixed, &above, &below);
+            robot.urdf.joints.push(fixed);
+        }
+    }
+    robot
 }
 
 fn leave_out(fixture: &mut Fixture) {
@@ -104,5 +120,13 @@ pub fn cases() -> Vec<Case> {
             f.set(CONNECTIONS, "/link_connection_paths", Value::Null);
         }),
         changed(CON006, "301-links", false, large, leave_out),
+        // Of a line of 180 links, the paths hold less than 2,000,000 links.
+        changed(
+            CON006,
+            "a-line-of-181-links",
+            false,
+            || Fixture::core(&line(181)),
+            leave_out,
+        ),
     ]
 }

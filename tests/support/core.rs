@@ -242,10 +242,23 @@ pub fn connections_module(chain: &ChainModule) -> ConnectionsModule {
         () if ancestor(i, j) == i => Some(path(i, j).links[1..].to_vec()),
         () => None,
     };
-    let explicit = every.len() <= 300;
+    let root_paths: Vec<LinkPath> = every.iter().map(|i| path(chain.root_idx, *i)).collect();
+    // The depth of a link: the joints above it.
+    let depth = |link: LinkIdx| root_paths[link.get()].joints.len();
+    let lowest_common_ancestors = table(&every, ancestor);
+    let of_pair = |i: usize, j: usize| {
+        let top = lowest_common_ancestors[i][j];
+        depth(every[i]) + depth(every[j]) - 2 * depth(top) + 1
+    };
+    let all = 0..every.len();
+    let in_paths: usize = all
+        .clone()
+        .map(|i| all.clone().map(|j| of_pair(i, j)).sum::<usize>())
+        .sum();
+    let explicit = every.len() <= 300 && in_paths <= 2_000_000;
     ConnectionsModule {
-        root_paths: every.iter().map(|i| path(chain.root_idx, *i)).collect(),
-        lowest_common_ancestors: table(&every, ancestor),
+        root_paths,
+        lowest_common_ancestors,
         link_to_link_paths: explicit.then(|| table(&every, path)),
         link_connection_paths: explicit.then(|| table(&every, descent)),
     }

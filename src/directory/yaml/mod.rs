@@ -8,6 +8,7 @@ mod open;
 pub mod scalar;
 mod tabs;
 mod tag;
+mod transcript;
 
 use std::fmt;
 
@@ -18,6 +19,8 @@ use super::json_fault::{EncodingKinds, decode};
 use super::position::LineIndex;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults};
 use message::excerpt;
+
+pub use transcript::is_mirrored;
 
 const YAML_KINDS: EncodingKinds = EncodingKinds {
     not_utf8: TextFaultKind::YamlNotUtf8,

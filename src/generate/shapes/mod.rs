@@ -2,6 +2,7 @@
 
 pub(crate) mod approximations;
 pub(crate) mod max_distances;
+mod rounding;
 pub(crate) mod simple_skips;
 pub(crate) mod statistics;
 

@@ -3,6 +3,7 @@
 
 use std::collections::HashSet;
 
+use super::statistics::Kinds;
 use crate::format::chain::ChainModule;
 use crate::format::link_shapes_distance_statistics::{
     DistanceStatistics, LinkShapesDistanceStatisticsModule,
@@ -17,10 +18,10 @@ const CONTACT: f64 = 0.001;
 type Skips = Vec<Vec<bool>>;
 type Reasons = Vec<Vec<SkipReason>>;
 
-/// Makes the module. `default` has as its smallest distances those in the default configuration.
+/// Makes the module. `default` are the distances in the default configuration.
 pub(crate) fn simple_skips(
     statistics: &LinkShapesDistanceStatisticsModule,
-    default: &LinkShapesDistanceStatisticsModule,
+    default: &Kinds<Vec<Vec<f64>>>,
     chain: &ChainModule,
 ) -> LinkShapesSimpleSkipsModule {
     let joined: HashSet<[usize; 2]> = chain
@@ -31,25 +32,20 @@ pub(crate) fn simple_skips(
     let full: Vec<usize> = statistics.full_shapes.iter().map(|l| l.get()).collect();
     let pieces = statistics.decomposition_shapes.iter();
     let pieces: Vec<usize> = pieces.map(|piece| piece.link_idx.get()).collect();
-    let of_full = |of: &DistanceStatistics, default: &DistanceStatistics| {
-        classed(&full, of, &default.min_distances, &joined)
-    };
-    let of_pieces = |of: &Option<DistanceStatistics>, default: &Option<DistanceStatistics>| {
-        let both = of.as_ref().zip(default.as_ref());
-        both.map(|(of, default)| classed(&pieces, of, &default.min_distances, &joined))
+    let of_full =
+        |kind: usize, of: &DistanceStatistics| classed(&full, of, &default.full[kind], &joined);
+    let of_pieces = |kind: usize, of: &Option<DistanceStatistics>| {
+        let both = of.as_ref().zip(default.pieces.as_ref());
+        both.map(|(of, default)| classed(&pieces, of, &default[kind], &joined))
             .unzip()
     };
-    let (s, d) = (statistics, default);
-    let (hulls, hull_reasons) = of_full(&s.full_convex_hulls, &d.full_convex_hulls);
-    let (obbs, obb_reasons) = of_full(&s.full_obbs, &d.full_obbs);
-    let (spheres, sphere_reasons) = of_full(&s.full_bounding_spheres, &d.full_bounding_spheres);
-    let (piece_hulls, piece_hull_reasons) =
-        of_pieces(&s.decomposition_convex_hulls, &d.decomposition_convex_hulls);
-    let (piece_obbs, piece_obb_reasons) = of_pieces(&s.decomposition_obbs, &d.decomposition_obbs);
-    let (piece_spheres, piece_sphere_reasons) = of_pieces(
-        &s.decomposition_bounding_spheres,
-        &d.decomposition_bounding_spheres,
-    );
+    let s = statistics;
+    let (hulls, hull_reasons) = of_full(0, &s.full_convex_hulls);
+    let (obbs, obb_reasons) = of_full(1, &s.full_obbs);
+    let (spheres, sphere_reasons) = of_full(2, &s.full_bounding_spheres);
+    let (piece_hulls, piece_hull_reasons) = of_pieces(0, &s.decomposition_convex_hulls);
+    let (piece_obbs, piece_obb_reasons) = of_pieces(1, &s.decomposition_obbs);
+    let (piece_spheres, piece_sphere_reasons) = of_pieces(2, &s.decomposition_bounding_spheres);
     LinkShapesSimpleSkipsModule {
         full_shapes: statistics.full_shapes.clone(),
         decomposition_shapes: statistics.decomposition_shapes.clone(),

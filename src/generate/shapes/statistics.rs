@@ -3,6 +3,7 @@
 use nalgebra::{Isometry3, Translation3, Vector3};
 use rayon::prelude::*;
 
+use super::rounding::seven_digits;
 use super::{ConvexMeshes, MOST_PIECES_WITH_MATRICES};
 use crate::format::bounds::BoundsModule;
 use crate::format::chain::ChainModule;
@@ -17,10 +18,18 @@ use crate::format::link_shapes_distance_statistics::{
 use crate::format::urdf::JointType;
 use crate::generate::meshes::written::WrittenMesh;
 use crate::geometry::convex::{
-    ConvexShape, Motion, OrientedBox, PlacedShape, Shape, ShapeError, Sphere, pair_statistics,
+    ConvexShape, Motion, OrientedBox, PairStatistics, PlacedShape, ShapeError, ShapeList, Sphere,
+    statistics_of_kinds,
 };
 use crate::kinematics::rotation::from_rpy;
 use crate::kinematics::{ConfigurationSpace, ForwardKinematics};
+
+/// Something of each kind of shapes, in the order of the documents: hulls, boxes and spheres of links, then, of a
+/// robot with matrices over pieces, those of pieces.
+pub(crate) struct Kinds<T> {
+    pub full: [T; 3],
+    pub pieces: Option<[T; 3]>,
+}
 
 /// Makes the module, or says in words why there is none.
 pub(crate) fn statistics(
@@ -36,20 +45,51 @@ pub(crate) fn statistics(
     };
     let configurations = (0..num_samples).into_par_iter().map(configuration);
     let motion = motion(dof, chain, configurations)?;
-    over(&motion, solids, approximations, chain, num_samples)
+    let found = over(&motion, solids, approximations, chain)?;
+    let matrices = |pairs: PairStatistics| DistanceStatistics {
+        mean_distances: to_seven_digits(pairs.mean),
+        min_distances: to_seven_digits(pairs.min),
+        max_distances: to_seven_digits(pairs.max),
+    };
+    let [full_convex_hulls, full_obbs, full_bounding_spheres] = found.full.map(matrices);
+    let pieces = found
+        .pieces
+        .map(|pieces| pieces.map(|one| Some(matrices(one))));
+    let [
+        decomposition_convex_hulls,
+        decomposition_obbs,
+        decomposition_bounding_spheres,
+    ] = pieces.unwrap_or_default();
+    Ok(LinkShapesDistanceStatisticsModule {
+        num_samples: Count(num_samples),
+        full_shapes: solids.full_shapes(),
+        decomposition_shapes: solids.decomposition_shapes(),
+        full_convex_hulls,
+        full_obbs,
+        full_bounding_spheres,
+        decomposition_convex_hulls,
+        decomposition_obbs,
+        decomposition_bounding_spheres,
+    })
 }
 
-/// The same over the default configuration alone (SPEC 9.4): each smallest distance is the distance.
+/// The distances in the default configuration (SPEC 9.4), metres.
 pub(crate) fn at_default_configuration(
     solids: &ConvexMeshes,
     approximations: &LinkShapesApproximationsModule,
     (dof, chain, bounds): Kinematics,
-) -> Result<LinkShapesDistanceStatisticsModule, String> {
+) -> Result<Kinds<Vec<Vec<f64>>>, String> {
     let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
     let name = "the default configuration".to_owned();
     let configuration = [(name, space.default_configuration())];
     let motion = motion(dof, chain, configuration.into_par_iter())?;
-    over(&motion, solids, approximations, chain, 1)
+    let found = over(&motion, solids, approximations, chain)?;
+    // Of one configuration, all three are the distance.
+    let distances = |pairs: PairStatistics| pairs.min;
+    Ok(Kinds {
+        full: found.full.map(distances),
+        pieces: found.pieces.map(|pieces| pieces.map(distances)),
+    })
 }
 
 /// What sampled configurations and their poses follow from.
@@ -59,35 +99,35 @@ pub(crate) type Kinematics<'a> = (&'a DofModule, &'a ChainModule, &'a BoundsModu
 fn over(
     motion: &Motion,
     solids: &ConvexMeshes,
-    approximations: &LinkShapesApproximationsModule,
+    of: &LinkShapesApproximationsModule,
     chain: &ChainModule,
-    num_samples: u32,
-) -> Result<LinkShapesDistanceStatisticsModule, String> {
-    let full = |(link, error): (usize, ShapeError)| {
-        let name = &chain.links_in_chain[link].name;
-        format!("the mesh of link `{name}` is not one that distances can be taken of: {error}")
-    };
-    let of = approximations;
-    let pieces = solids.decomposition_shapes();
-    let with_pieces = pieces.len() <= MOST_PIECES_WITH_MATRICES;
-    let over = |wanted: bool,
-                make: &dyn Fn() -> Result<DistanceStatistics, (usize, ShapeError)>| {
-        wanted.then(make).transpose().map_err(full)
-    };
-    Ok(LinkShapesDistanceStatisticsModule {
-        num_samples: Count(num_samples),
-        full_shapes: solids.full_shapes(),
-        decomposition_shapes: pieces,
-        full_convex_hulls: pairs(&solids.hulls, motion, of_mesh).map_err(full)?,
-        full_obbs: pairs(&of.full_obbs, motion, of_box).map_err(full)?,
-        full_bounding_spheres: pairs(&of.full_bounding_spheres, motion, of_sphere).map_err(full)?,
-        decomposition_convex_hulls: over(with_pieces, &|| pairs(&solids.pieces, motion, of_mesh))?,
-        decomposition_obbs: over(with_pieces, &|| {
-            pairs(&of.decomposition_obbs, motion, of_box)
-        })?,
-        decomposition_bounding_spheres: over(with_pieces, &|| {
-            pairs(&of.decomposition_bounding_spheres, motion, of_sphere)
-        })?,
+) -> Result<Kinds<PairStatistics>, String> {
+    let hulls = placed(&solids.hulls, chain, of_mesh)?;
+    let boxes = placed(&of.full_obbs, chain, of_box)?;
+    let spheres = placed(&of.full_bounding_spheres, chain, of_sphere)?;
+    let with_pieces = solids.decomposition_shapes().len() <= MOST_PIECES_WITH_MATRICES;
+    let pieces = with_pieces.then(|| {
+        let pieces = placed(&solids.pieces, chain, of_mesh)?;
+        let boxes = placed(&of.decomposition_obbs, chain, of_box)?;
+        let spheres = placed(&of.decomposition_bounding_spheres, chain, of_sphere)?;
+        Ok::<_, String>((pieces, boxes, spheres))
+    });
+    let pieces = pieces.transpose()?;
+
+    let (hulls, boxes, spheres) = (&hulls[..], &boxes[..], &spheres[..]);
+    let mut kinds: Vec<&dyn ShapeList> = vec![&hulls, &boxes, &spheres];
+    let of_pieces = pieces.as_ref().map(|(a, b, c)| (&a[..], &b[..], &c[..]));
+    if let Some((pieces, boxes, spheres)) = &of_pieces {
+        kinds.extend::<[&dyn ShapeList; 3]>([pieces, boxes, spheres]);
+    }
+    // Every body is one of the chain's links, which the motion is of.
+    let mut found = statistics_of_kinds(&kinds, motion)
+        .unwrap_or_default()
+        .into_iter();
+    let mut three = || [(); 3].map(|()| found.next().unwrap_or_default());
+    Ok(Kinds {
+        full: three(),
+        pieces: of_pieces.map(|_| three()),
     })
 }
 
@@ -122,30 +162,34 @@ fn rigid_groups(chain: &ChainModule) -> Vec<usize> {
     groups
 }
 
-/// The statistics of all pairs of the links' shapes; or which link has none that can be used.
-fn pairs<L, T, S>(
+/// The shapes of each link, on it; or why one cannot be used, in words.
+fn placed<L, T, S>(
     links: &[L],
-    motion: &Motion,
+    chain: &ChainModule,
     shape: fn(&T) -> Result<S, ShapeError>,
-) -> Result<DistanceStatistics, (usize, ShapeError)>
+) -> Result<Vec<PlacedShape<S>>, String>
 where
     for<'a> &'a L: IntoIterator<Item = &'a T>,
-    S: Shape,
 {
     let mut shapes = Vec::new();
     for (body, of_link) in links.iter().enumerate() {
         for of in of_link {
-            let shape = shape(of).map_err(|error| (body, error))?;
+            let shape = shape(of).map_err(|error| {
+                let name = &chain.links_in_chain[body].name;
+                format!(
+                    "the mesh of link `{name}` is not one that distances can be taken of: {error}"
+                )
+            })?;
             shapes.push(PlacedShape { body, shape });
         }
     }
-    // Every body is one of the chain's links, which the motion is of.
-    let pairs = pair_statistics(&shapes, motion).unwrap_or_default();
-    Ok(DistanceStatistics {
-        mean_distances: pairs.mean,
-        min_distances: pairs.min,
-        max_distances: pairs.max,
-    })
+    Ok(shapes)
+}
+
+fn to_seven_digits(mut matrix: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let elements = matrix.iter_mut().flatten();
+    elements.for_each(|element| *element = seven_digits(*element));
+    matrix
 }
 
 fn of_mesh(mesh: &WrittenMesh) -> Result<ConvexShape, ShapeError> {

@@ -26,5 +26,7 @@ pub use gjk::TOLERANCE;
 pub use kernel::{Shape, distance};
 pub use motion::{Motion, MotionError};
 pub use shape::{ConvexShape, OrientedBox, ShapeError, Sphere};
-pub use statistics::{PairStatistics, PlacedShape, pair_distances, pair_statistics};
+pub use statistics::{
+    PairStatistics, PlacedShape, ShapeList, pair_distances, pair_statistics, statistics_of_kinds,
+};
 pub use witness::Witness;

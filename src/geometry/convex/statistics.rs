@@ -32,6 +32,48 @@ struct Summary {
     max: f64,
 }
 
+/// The pairs of a shape of a kind with others.
+struct Row {
+    kind: usize,
+    i: usize,
+    pairs: Vec<(usize, Summary)>,
+}
+
+/// Shapes of one kind, whichever: a list of [`PlacedShape`].
+pub trait ShapeList: Sync {
+    /// Number of shapes.
+    fn count(&self) -> usize;
+
+    /// The body of a shape.
+    fn body(&self, shape: usize) -> usize;
+
+    /// The distance of two shapes in each sample, in order. `distances` has room for whole lanes.
+    fn distances(&self, level: Level, pair: [usize; 2], poses: &PoseLanes, distances: &mut [f64]);
+}
+
+impl<T: Shape> ShapeList for &[PlacedShape<T>] {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn body(&self, shape: usize) -> usize {
+        self[shape].body
+    }
+
+    fn distances(
+        &self,
+        level: Level,
+        [i, j]: [usize; 2],
+        poses: &PoseLanes,
+        distances: &mut [f64],
+    ) {
+        T::distances(level, &self[i].shape, &self[j].shape, poses, distances);
+    }
+}
+
+/// Pairs of bodies of which the results are held until they are put into matrices.
+const PAIRS_AT_ONCE: usize = 1 << 13;
+
 /// The statistics of every pair of shapes. `None` if a shape is on a body that the motion does not have.
 ///
 /// Pairs that do not move with respect to each other are worked out once. The result has the same bits
@@ -41,44 +83,77 @@ pub fn pair_statistics<T: Shape>(
     shapes: &[PlacedShape<T>],
     motion: &Motion,
 ) -> Option<PairStatistics> {
-    let mut on_body = vec![Vec::new(); motion.num_bodies()];
-    for (i, shape) in shapes.iter().enumerate() {
-        on_body.get_mut(shape.body)?.push(i);
+    statistics_of_kinds(&[&shapes], motion)?.pop()
+}
+
+/// The statistics of several kinds of shapes, each as [`pair_statistics`] gives it. Where two bodies are
+/// with respect to each other is worked out once for all kinds.
+pub fn statistics_of_kinds(
+    kinds: &[&dyn ShapeList],
+    motion: &Motion,
+) -> Option<Vec<PairStatistics>> {
+    // For each body its shapes: the kind, and the number in it.
+    let mut on_body: Vec<Vec<(usize, usize)>> = vec![Vec::new(); motion.num_bodies()];
+    for (kind, shapes) in kinds.iter().enumerate() {
+        for shape in 0..shapes.count() {
+            on_body.get_mut(shapes.body(shape))?.push((kind, shape));
+        }
     }
     let bodies: Vec<usize> = (0..on_body.len())
         .filter(|&b| !on_body[b].is_empty())
         .collect();
-    let pairs: Vec<[usize; 2]> = bodies
+    let mut pairs = bodies
         .iter()
         .enumerate()
-        .flat_map(|(i, &a)| bodies[i..].iter().map(move |&b| [a, b]))
-        .collect();
+        .flat_map(|(i, &a)| bodies[i..].iter().map(move |&b| [a, b]));
 
     let level = Level::new();
-    let rows = pairs.into_par_iter().flat_map(|[a, b]| {
-        let poses = motion.relative(a, b);
-        let of_b = &on_body[b];
-        on_body[a].par_iter().map(move |&i| {
-            let others = of_b.iter().copied().filter(|&j| a != b || j > i);
-            row(level, shapes, i, others, &poses)
-        })
-    });
-    let rows: Vec<Vec<(usize, usize, Summary)>> = rows.collect();
-
-    let zeros = vec![vec![0.0; shapes.len()]; shapes.len()];
-    let mut statistics = PairStatistics {
-        mean: zeros.clone(),
-        min: zeros.clone(),
-        max: zeros,
-    };
-    for (i, j, summary) in rows.into_iter().flatten() {
-        for (i, j) in [(i, j), (j, i)] {
-            statistics.mean[i][j] = summary.mean;
-            statistics.min[i][j] = summary.min;
-            statistics.max[i][j] = summary.max;
+    let mut statistics: Vec<PairStatistics> = kinds
+        .iter()
+        .map(|shapes| PairStatistics::zeros(shapes.count()))
+        .collect();
+    loop {
+        let some: Vec<[usize; 2]> = pairs.by_ref().take(PAIRS_AT_ONCE).collect();
+        if some.is_empty() {
+            return Some(statistics);
+        }
+        let rows = some.into_par_iter().flat_map(|[a, b]| {
+            let poses = motion.relative(a, b);
+            let of_b = &on_body[b];
+            on_body[a].par_iter().map(move |&(kind, i)| {
+                let others = of_b.iter().copied();
+                let others = others.filter(|&(of, j)| of == kind && (a != b || j > i));
+                let others = others.map(|(_, j)| j);
+                let pairs = row(level, kinds[kind], i, others, &poses);
+                Row { kind, i, pairs }
+            })
+        });
+        let rows: Vec<Row> = rows.collect();
+        for Row { kind, i, pairs } in rows {
+            for (j, summary) in pairs {
+                statistics[kind].put(i, j, summary);
+            }
         }
     }
-    Some(statistics)
+}
+
+impl PairStatistics {
+    fn zeros(shapes: usize) -> Self {
+        let zeros = || vec![vec![0.0; shapes]; shapes];
+        PairStatistics {
+            mean: zeros(),
+            min: zeros(),
+            max: zeros(),
+        }
+    }
+
+    fn put(&mut self, i: usize, j: usize, summary: Summary) {
+        for (i, j) in [(i, j), (j, i)] {
+            self.mean[i][j] = summary.mean;
+            self.min[i][j] = summary.min;
+            self.max[i][j] = summary.max;
+        }
+    }
 }
 
 /// The distance of two shapes in each sample, metres; 0 in contact. `None` if a shape is on a body that the
@@ -102,25 +177,19 @@ pub fn pair_distances<T: Shape>(
 }
 
 /// The pairs of shape `i` with others, all on one body.
-fn row<T: Shape>(
+fn row(
     level: Level,
-    shapes: &[PlacedShape<T>],
+    shapes: &dyn ShapeList,
     i: usize,
     others: impl Iterator<Item = usize>,
     poses: &PoseLanes,
-) -> Vec<(usize, usize, Summary)> {
+) -> Vec<(usize, Summary)> {
     let num_samples = poses.num_samples();
     let mut distances = vec![0.0; num_samples.next_multiple_of(LANES)];
     others
         .map(|j| {
-            T::distances(
-                level,
-                &shapes[i].shape,
-                &shapes[j].shape,
-                poses,
-                &mut distances,
-            );
-            (i, j, summary(&distances[..num_samples]))
+            shapes.distances(level, [i, j], poses, &mut distances);
+            (j, summary(&distances[..num_samples]))
         })
         .collect()
 }

@@ -27,6 +27,28 @@ fn of_a_billion(f: &mut Fixture) {
     f.set(STATISTICS, "/num_samples", json!(1_000_000_000));
 }
 
+/// Rounds all distances as a producer may.
+fn to_seven_digits(f: &mut Fixture) {
+    let mut changed = 0;
+    for kind in ["full", "decomposition"] {
+        for shapes in ["convex_hulls", "obbs", "bounding_spheres"] {
+            for key in ["mean", "min", "max"] {
+                let matrix = format!("/{kind}_{shapes}/{key}_distances");
+                let rows: Vec<Vec<f64>> =
+                    serde_json::from_value(f.get(STATISTICS, &matrix).clone()).expect("a matrix");
+                let rounded = |x: &f64| format!("{x:.6e}").parse::<f64>().expect("a number");
+                let rounded = rows
+                    .iter()
+                    .map(|row| row.iter().map(rounded).collect::<Vec<f64>>());
+                let rounded: Vec<Vec<f64>> = rounded.collect();
+                changed += usize::from(rounded != rows);
+                f.set(STATISTICS, &matrix, json!(rounded));
+            }
+        }
+    }
+    assert!(changed > 6, "{changed} matrices have more digits");
+}
+
 /// SHP022 to SHP025.
 pub fn cases() -> Vec<Case> {
     let scale_pair = |f: &mut Fixture, matrix: &str, pair: (usize, usize), factor: f64| {
@@ -102,6 +124,13 @@ pub fn cases() -> Vec<Case> {
             let pair = pair_that_is(f, "Never");
             scale_pair(f, "/full_obbs/max_distances", pair, 1.0 + 1e-7);
         }),
+        changed(
+            SHP024,
+            "seven-digits",
+            false,
+            turning_boxes,
+            to_seven_digits,
+        ),
         legacy(SHP025, "legacy-stale", true, sliding(-1.0, 1.0)),
         legacy(
             SHP025,
