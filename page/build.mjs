@@ -54,14 +54,26 @@ writeFileSync(join(dist, "stamp"), `${stamp()}\n`);
 /** SHA-256 of all that the bundle is made from: tests/page_bundle.rs computes it too. */
 export function stamp() {
   const roots = ["page/src", "wasm/src", "src"];
-  const single = ["Cargo.lock", "page/index.html", "page/build.mjs", "page/package-lock.json", "page/tsconfig.json", "wasm/Cargo.toml"];
-  const paths = [...roots.flatMap((root) => walk(join(repository, root))), ...single.map((path) => join(repository, path))];
+  const single = [
+    "Cargo.lock",
+    "page/index.html",
+    "page/build.mjs",
+    "page/package-lock.json",
+    "page/tsconfig.json",
+    "wasm/Cargo.toml",
+  ];
+  const paths = [
+    ...roots.flatMap((root) => walk(join(repository, root))),
+    ...single.map((path) => join(repository, path)),
+  ];
   const names = paths.map((path) => relative(repository, path).replaceAll("\\", "/"));
   // What the module is not made of.
   const without = ["src/cli/", "src/conformance/", "src/generate/", "src/view/", "src/main.rs"];
   const hash = createHash("sha256");
   for (const name of names.filter((name) => !without.some((start) => name.startsWith(start))).sort(byBytes)) {
-    const content = createHash("sha256").update(readFileSync(join(repository, name))).digest("hex");
+    const content = createHash("sha256")
+      .update(readFileSync(join(repository, name)))
+      .digest("hex");
     hash.update(`${content}  ${name}\n`);
   }
   return hash.digest("hex");

@@ -59,6 +59,17 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "view",
+        &[
+            "format",
+            "directory",
+            "document",
+            "skips",
+            "validate",
+            "report",
+        ],
+    ),
+    (
         "cli",
         &[
             "format",
@@ -71,6 +82,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validate",
             "report",
             "robot",
+            "view",
             "conformance",
         ],
     ),

@@ -16,6 +16,8 @@ export class App {
   readonly store = new StateStore();
   private readonly poses: Latest<number[]>;
   private readonly proximity: Latest<{ q: number[]; shapes: ShapeKind }>;
+  /** What the files of a robot were when they were last looked at. */
+  revision: { id: string; revision: string } | null = null;
   private opening = 0;
   private noting: ReturnType<typeof setTimeout> | undefined;
 
@@ -121,7 +123,8 @@ export class App {
   showOnly(kind: LayerKind): void {
     const { layers } = this.store.now;
     const next = { ...layers };
-    for (const layer of LAYERS) next[layer] = { on: layer === kind, opacity: layer === kind ? 1 : layers[layer].opacity };
+    for (const layer of LAYERS)
+      next[layer] = { on: layer === kind, opacity: layer === kind ? 1 : layers[layer].opacity };
     this.store.set({ layers: next });
   }
 

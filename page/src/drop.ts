@@ -60,11 +60,14 @@ async function walk(root: FileSystemEntry): Promise<Dropped[]> {
 
 function check(found: Dropped[]): void {
   const size = found.reduce((sum, { file }) => sum + file.size, 0);
-  if (found.length > MOST_FILES) throw new Error(`This folder has more than ${MOST_FILES.toLocaleString("en")} files. Drop the folder of one URDD.`);
-  if (size > MOST_BYTES) throw new Error("This folder has more than 1.5 GB. A browser cannot hold that; use `urdd view` on this machine.");
+  if (found.length > MOST_FILES)
+    throw new Error(`This folder has more than ${MOST_FILES.toLocaleString("en")} files. Drop the folder of one URDD.`);
+  if (size > MOST_BYTES)
+    throw new Error("This folder has more than 1.5 GB. A browser cannot hold that; use `urdd view` on this machine.");
 }
 
-const IS_URDD = /^(?:urdd\.json|(?:mesh_modules\/|link_shapes_modules\/|bevy_modules\/)?[a-z0-9_]+_module\/module\.json)$/;
+const IS_URDD =
+  /^(?:urdd\.json|(?:mesh_modules\/|link_shapes_modules\/|bevy_modules\/)?[a-z0-9_]+_module\/module\.json)$/;
 
 function ofFolder(all: Dropped[]): RobotSource {
   check(all);

@@ -6,12 +6,16 @@ import type { RobotModel } from "./model";
 const RANK: Record<Severity | "unverified", number> = { unverified: 0, info: 1, warning: 2, error: 3 };
 export type Worst = Severity | "unverified";
 
-const LINK = /^\/(?:links|links_in_chain|link_meshes|link_hulls|link_pieces|(?:full|decomposition)_(?:obbs|bounding_spheres))\/(\d+)/;
+const LINK =
+  /^\/(?:links|links_in_chain|link_meshes|link_hulls|link_pieces|(?:full|decomposition)_(?:obbs|bounding_spheres))\/(\d+)/;
 const JOINT = /^\/(?:joints|joints_in_chain|joint_idx_to_[a-z_]+)\/(\d+)/;
 const MESH = /\/meshes\/(?:stl|obj|glb)\/(\d+)_/;
 
 /** The link that a place is about; null where it is about none, or that cannot be told. */
-export function linkOf(robot: RobotModel, place: { file?: unknown; pointer?: unknown; subject?: unknown }): number | null {
+export function linkOf(
+  robot: RobotModel,
+  place: { file?: unknown; pointer?: unknown; subject?: unknown },
+): number | null {
   const file = typeof place.file === "string" ? place.file : "";
   const pointer = typeof place.pointer === "string" ? place.pointer : "";
   const mesh = MESH.exec(file);

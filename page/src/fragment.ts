@@ -46,7 +46,8 @@ export function read(fragment: string): Shared {
 export function write(shared: Shared): string {
   const words: string[] = [];
   const add = (key: string, value: string | null): void => {
-    if (value !== null && value !== "") words.push(`${key}=${encodeURIComponent(value).replaceAll("%2C", ",").replaceAll("%3A", ":")}`);
+    if (value !== null && value !== "")
+      words.push(`${key}=${encodeURIComponent(value).replaceAll("%2C", ",").replaceAll("%3A", ":")}`);
   };
   const short = (value: number): string => String(Number(value.toFixed(5)));
   add("r", shared.robot);

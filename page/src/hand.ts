@@ -28,19 +28,39 @@ export class Hand {
     });
     this.under = new Latest(({ x, y }) => {
       this.hover(x, y);
-      return new Promise((resolve) => requestAnimationFrame(() => { resolve(); }));
+      return new Promise((resolve) =>
+        requestAnimationFrame(() => {
+          resolve();
+        }),
+      );
     });
-    canvas.addEventListener("pointerdown", (event) => { this.press(event); }, { capture: true });
-    canvas.addEventListener("pointermove", (event) => { this.move(event); });
-    canvas.addEventListener("pointerup", (event) => { this.release(event); });
-    canvas.addEventListener("pointercancel", (event) => { this.release(event); });
-    canvas.addEventListener("pointerleave", () => { if (!this.down) app.hover(null); });
-    canvas.addEventListener("dblclick", () => { stage.look("fit"); });
+    canvas.addEventListener(
+      "pointerdown",
+      (event) => {
+        this.press(event);
+      },
+      { capture: true },
+    );
+    canvas.addEventListener("pointermove", (event) => {
+      this.move(event);
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      this.release(event);
+    });
+    canvas.addEventListener("pointercancel", (event) => {
+      this.release(event);
+    });
+    canvas.addEventListener("pointerleave", () => {
+      if (!this.down) app.hover(null);
+    });
+    canvas.addEventListener("dblclick", () => {
+      stage.look("fit");
+    });
   }
 
   private press(event: PointerEvent): void {
     if (event.button !== 0) return;
-    const { robot, poses, q } = this.app.store.now;
+    const { robot, poses } = this.app.store.now;
     const { scene, view } = this.stage;
     if (!robot || !scene) return;
     const picked = pick(view, scene, event.clientX, event.clientY);
@@ -64,7 +84,6 @@ export class Hand {
       view.controls.enabled = false;
       view.canvas.setPointerCapture(event.pointerId);
     }
-    void q;
   }
 
   private move(event: PointerEvent): void {
@@ -93,7 +112,9 @@ export class Hand {
     const picked = scene && robot ? pick(view, scene, x, y) : null;
     const link = picked?.of.link ?? null;
     const joint = link !== null && robot ? robot.moving(link) : null;
-    this.app.hover(link === null ? null : joint === null ? { kind: "link", index: link } : { kind: "joint", index: joint });
+    this.app.hover(
+      link === null ? null : joint === null ? { kind: "link", index: link } : { kind: "joint", index: joint },
+    );
     view.canvas.style.cursor = joint === null ? "" : "grab";
     view.canvas.title = link === null || !robot ? "" : name(robot.links[link]?.name ?? "");
   }

@@ -1,33 +1,41 @@
-/** Follows the files on disk: asks each second whether they changed, and opens the robot again. */
+/** Follows the files on disk: asks each second whether those of the open robot changed, and reads it again. */
 
 import type { App } from "./app";
 
 const PERIOD = 1000;
+const GONE = "gone";
 
 export function follow(app: App): void {
-  let known: Record<string, string> = {};
+  let known: { id: string; revision: string } | null = null;
   let lost = false;
   const look = async (): Promise<void> => {
-    try {
-      const revisions = await app.site.revisions();
-      const { robot } = app.store.now;
-      const id = robot?.source.kind === "url" ? robot.entry.id : null;
-      if (id !== null && robot && known[id] !== undefined && known[id] !== revisions[id]) {
-        if (revisions[id] === "gone") app.note("The files of this robot are gone. What is shown is what was there.");
-        else {
-          app.note("The files changed: the robot is read again.");
-          const fresh = (await app.site.robots()).find((entry) => entry.id === id) ?? robot.entry;
-          await app.open(fresh, await app.site.source(fresh), true);
-        }
-      }
-      known = revisions;
-      if (lost) app.note("The server is back.");
-      lost = false;
-    } catch {
-      if (!lost) app.note("`urdd view` does not answer: what changes on disk is not seen.");
-      lost = true;
+    const { robot } = app.store.now;
+    if (robot?.source.kind !== "url") return;
+    const { entry } = robot;
+    const revision = await app.site.revision(entry);
+    const before = known;
+    known = { id: entry.id, revision };
+    app.revision = known;
+    if (lost) app.note("The server is back.");
+    lost = false;
+    if (before?.id !== entry.id || before.revision === revision || app.store.now.robot !== robot) return;
+    if (revision === GONE) {
+      app.note("The files of this robot are gone. What is shown is what was there.");
+      return;
     }
-    setTimeout(() => void look(), PERIOD);
+    app.note("The files changed: the robot is read again.");
+    await app.open(entry, await app.site.source(entry), true);
+    if (app.store.now.tab === "Findings") void app.loadReport();
   };
-  void look();
+  const again = (): void => {
+    look()
+      .catch(() => {
+        if (!lost) app.note("`urdd view` does not answer: changes on disk are not seen.");
+        lost = true;
+      })
+      .finally(() => {
+        setTimeout(again, PERIOD);
+      });
+  };
+  again();
 }

@@ -66,7 +66,17 @@ function start(): void {
     app.store.set({ loading: { what: "files", done: 0, of: 0 } });
     try {
       const source = await files();
-      const entry: Entry = { id: source.name, name: source.name, writable: false, links: null, dofs: null, verdict: null, findings: null, notes: [], picture: null };
+      const entry: Entry = {
+        id: source.name,
+        name: source.name,
+        writable: false,
+        links: null,
+        dofs: null,
+        verdict: null,
+        findings: null,
+        notes: [],
+        picture: null,
+      };
       await opened(app, stage, entry, source, null);
     } catch (error) {
       app.store.set({ loading: null, failure: message(error) });
@@ -76,28 +86,76 @@ function start(): void {
   const failure = h("div", { class: "failure", role: "alert" });
   app.store.on(["failure"], ({ failure: text }) => {
     failure.hidden = text === null;
-    fill(failure, h("p", {}, text), h("button", { type: "button", click: () => { app.close(); } }, "Back"));
+    fill(
+      failure,
+      h("p", {}, text),
+      h(
+        "button",
+        {
+          type: "button",
+          click: () => {
+            app.close();
+          },
+        },
+        "Back",
+      ),
+    );
   });
   const middle = h(
     "main",
     {},
-    stage?.element ?? h("div", { class: "stage empty-stage" }, h("p", { role: "alert" }, `There is no picture: this browser gives no WebGL (${noPicture ?? ""}). The panels work all the same.`)),
-    gallery(app, (entry) => void openEntry(entry), (files, folder) => {
-      if (files && files.length > 0) {
-        const list = [...files];
-        void openFiles(() => chosen(list, folder));
-      }
-    }),
+    stage?.element ??
+      h(
+        "div",
+        { class: "stage empty-stage" },
+        h(
+          "p",
+          { role: "alert" },
+          `There is no picture: this browser gives no WebGL (${noPicture ?? ""}). The panels work all the same.`,
+        ),
+      ),
+    gallery(
+      app,
+      (entry) => void openEntry(entry),
+      (files, folder) => {
+        if (files && files.length > 0) {
+          const list = [...files];
+          void openFiles(() => chosen(list, folder));
+        }
+      },
+    ),
     failure,
   );
-  const panels = { Joints: joints(app), Shapes: shapes(app), Proximity: proximity(app), Skips: skips(app), Findings: findings(app), Info: info(app) };
-  const actions = { share: () => void share(app), picture: () => void save(app, stage), gallery: () => { app.close(); } };
-  fill(byId("page"), header(app, actions), h("div", { class: "columns" }, tree(app), middle, tabs(app, panels)), status(app));
+  const panels = {
+    Joints: joints(app),
+    Shapes: shapes(app),
+    Proximity: proximity(app),
+    Skips: skips(app),
+    Findings: findings(app),
+    Info: info(app),
+  };
+  const actions = {
+    share: () => void share(app),
+    picture: () => void save(app, stage),
+    gallery: () => {
+      app.close();
+    },
+  };
+  fill(
+    byId("page"),
+    header(app, actions),
+    h("div", { class: "columns" }, tree(app), middle, tabs(app, panels)),
+    status(app),
+  );
   keys(app, stage);
-  app.store.on(["robot"], ({ robot }) => { document.title = robot ? `${robot.name} · urdd` : "urdd"; });
+  app.store.on(["robot"], ({ robot }) => {
+    document.title = robot ? `${robot.name} · urdd` : "urdd";
+  });
   remember(app, stage);
 
-  addEventListener("dragover", (event) => { event.preventDefault(); });
+  addEventListener("dragover", (event) => {
+    event.preventDefault();
+  });
   addEventListener("drop", (event) => {
     event.preventDefault();
     if (event.dataTransfer) void openFiles(dropped(event.dataTransfer));
@@ -107,7 +165,12 @@ function start(): void {
   void begin(app, site, shared, openEntry);
 }
 
-async function begin(app: App, site: Site, shared: fragment.Shared, open: (entry: Entry, from: fragment.Shared) => Promise<void>): Promise<void> {
+async function begin(
+  app: App,
+  site: Site,
+  shared: fragment.Shared,
+  open: (entry: Entry, from: fragment.Shared) => Promise<void>,
+): Promise<void> {
   try {
     const entries = await site.robots();
     app.store.set({ entries });
@@ -122,7 +185,13 @@ async function begin(app: App, site: Site, shared: fragment.Shared, open: (entry
 }
 
 /** Opens a robot, and shows of it what a link asks for. */
-async function opened(app: App, stage: Stage | null, entry: Entry, source: RobotSource, from: fragment.Shared | null): Promise<void> {
+async function opened(
+  app: App,
+  stage: Stage | null,
+  entry: Entry,
+  source: RobotSource,
+  from: fragment.Shared | null,
+): Promise<void> {
   if (from?.layers) {
     const layers = { ...app.store.now.layers };
     for (const layer of LAYERS) layers[layer] = from.layers[layer] ?? { ...layers[layer], on: false };
@@ -136,12 +205,16 @@ async function opened(app: App, stage: Stage | null, entry: Entry, source: Robot
   if (from?.tab) app.store.set({ tab: from.tab });
   if (from?.camera?.length === 6) {
     const camera = from.camera;
-    addEventListener("urdd-settled", () => {
-      stage?.view.camera.position.fromArray(camera, 0);
-      stage?.view.controls.target.fromArray(camera, 3);
-      stage?.view.controls.update();
-      stage?.view.invalidate();
-    }, { once: true });
+    addEventListener(
+      "urdd-settled",
+      () => {
+        stage?.view.camera.position.fromArray(camera, 0);
+        stage?.view.controls.target.fromArray(camera, 3);
+        stage?.view.controls.update();
+        stage?.view.invalidate();
+      },
+      { once: true },
+    );
   }
   const robot = await app.open(entry, source);
   if (!robot) return;
@@ -189,7 +262,11 @@ function remember(app: App, stage: Stage | null): void {
 async function share(app: App): Promise<void> {
   try {
     await navigator.clipboard.writeText(location.href);
-    app.note(app.site.mode === "live" ? "The link is copied. It works on this machine, while `urdd view` runs." : "The link is copied.");
+    app.note(
+      app.site.mode === "live"
+        ? "The link is copied. It works on this machine, while `urdd view` runs."
+        : "The link is copied.",
+    );
   } catch {
     app.note("The link cannot be copied: take it from the address bar.");
   }
@@ -203,7 +280,9 @@ async function save(app: App, stage: Stage | null): Promise<void> {
   }
   const url = URL.createObjectURL(picture);
   h("a", { href: url, download: `${app.store.now.robot?.entry.name ?? "urdd"}.png` }).click();
-  setTimeout(() => { URL.revokeObjectURL(url); }, 1000);
+  setTimeout(() => {
+    URL.revokeObjectURL(url);
+  }, 1000);
 }
 
 start();

@@ -26,9 +26,10 @@ export class Site {
     return (await this.json(`robots/${encodeURIComponent(entry.id)}/report.json`)) as Report;
   }
 
-  /** A word for each robot that changes when its files do. */
-  async revisions(): Promise<Record<string, string>> {
-    return (await this.json("revisions.json")) as Record<string, string>;
+  /** A word that changes when the robot's files do; `gone` where there are none any more. */
+  async revision(entry: Entry): Promise<string> {
+    const answer = (await this.json(`robots/${encodeURIComponent(entry.id)}/revision.json`)) as { revision: string };
+    return answer.revision;
   }
 
   async post(path: string, body: unknown): Promise<unknown> {

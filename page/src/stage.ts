@@ -50,7 +50,19 @@ export class Stage {
     const views = h("div", { class: "views" });
     for (const key of ["fit", "front", "side", "top"] as const) {
       const text = key.charAt(0).toUpperCase() + key.slice(1);
-      views.append(h("button", { type: "button", class: "quiet", click: () => { this.look(key); } }, text));
+      views.append(
+        h(
+          "button",
+          {
+            type: "button",
+            class: "quiet",
+            click: () => {
+              this.look(key);
+            },
+          },
+          text,
+        ),
+      );
     }
     this.element = h("div", { class: "stage" }, canvas, this.label, views, this.progress);
     this.view = new View(canvas);
@@ -76,18 +88,27 @@ export class Stage {
     };
     addEventListener("urdd-theme", theme);
     theme();
-    store.on(["robot"], ({ robot }) => { this.take(robot); });
+    store.on(["robot"], ({ robot }) => {
+      this.take(robot);
+    });
     store.on(["poses"], ({ poses, robot }) => {
       if (!poses || !robot) return;
       this.scene?.pose(poses);
-      this.overlays.pose(robot, poses);
+      this.overlays.pose(poses);
       this.view.invalidate();
     });
-    store.on(["layers"], () => { void this.fill(); });
-    store.on(["layers", "hidden", "overlays", "selected", "hovered", "pair", "report", "painted", "faults", "proximity"], (state) => {
-      this.dress(state);
+    store.on(["layers"], () => {
+      void this.fill();
     });
-    store.on(["overlays", "selected", "robot"], (state) => { this.over(state); });
+    store.on(
+      ["layers", "hidden", "overlays", "selected", "hovered", "pair", "report", "painted", "faults", "proximity"],
+      (state) => {
+        this.dress(state);
+      },
+    );
+    store.on(["overlays", "selected", "robot"], (state) => {
+      this.over(state);
+    });
     store.on(["proximity", "pair"], ({ proximity: { answer }, pair }) => {
       const found = answer?.nearest.find((at) => samePair(pair, pairOf(at))) ?? null;
       this.witness.show(found, this.size);
@@ -169,7 +190,7 @@ export class Stage {
     this.ground.group.visible = overlays.grid;
     if (robot && this.scene) {
       this.overlays.make(robot, overlays, this.size, selected?.kind === "link" ? selected.index : null);
-      if (poses) this.overlays.pose(robot, poses);
+      if (poses) this.overlays.pose(poses);
     }
     this.view.invalidate();
   }
@@ -182,7 +203,10 @@ export class Stage {
     const tint = (link: number | null | undefined, name: string): void => {
       if (link !== null && link !== undefined) tints.set(link, new Color(color(name)));
     };
-    for (const [part, own, parent] of [[hovered, "--hover", "--parent"], [selected, "--accent", "--parent"]] as const) {
+    for (const [part, own, parent] of [
+      [hovered, "--hover", "--parent"],
+      [selected, "--accent", "--parent"],
+    ] as const) {
       if (part?.kind === "link") tint(part.index, own);
       else if (part) {
         tint(robot.joints[part.index]?.parent, parent);
@@ -192,10 +216,13 @@ export class Stage {
     const worst = painted ? worstOfLinks(robot, report.report) : null;
     const paint = (link: number): Color | null => {
       if (!worst) return null;
-      const name = { error: "--error", warning: "--warning", info: "--info", unverified: "--open" }[worst.get(link) ?? "info"];
+      const name = { error: "--error", warning: "--warning", info: "--info", unverified: "--open" }[
+        worst.get(link) ?? "info"
+      ];
       return new Color(color(worst.has(link) ? name : report.report ? "--good" : "--open"));
     };
-    const touching = state.proximity.answer?.nearest.some((at) => at.distance <= 0 && samePair(pair, pairOf(at))) ?? false;
+    const touching =
+      state.proximity.answer?.nearest.some((at) => at.distance <= 0 && samePair(pair, pairOf(at))) ?? false;
     this.scene.show(layers, hidden, overlays.wireframe, (link, piece, layer): Look => {
       let fade = 1;
       let own = tints.get(link) ?? null;

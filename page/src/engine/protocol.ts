@@ -171,8 +171,8 @@ export type Severity = "error" | "warning" | "info";
 
 export interface Finding {
   code: string;
+  name: string;
   severity: Severity;
-  rule: string;
   message: string;
   count: number;
   [key: string]: unknown;

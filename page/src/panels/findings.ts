@@ -18,7 +18,11 @@ export function findings(app: App): HTMLElement {
   const off = new Set<Severity>();
   let grouping: Grouping = "severity";
   const search = h("input", { type: "search", placeholder: "Filter", "aria-label": "Filter findings" });
-  const by = h("select", { "aria-label": "Group findings by" }, ...GROUPS.map((group) => h("option", { value: group }, `by ${group}`)));
+  const by = h(
+    "select",
+    { "aria-label": "Group findings by" },
+    ...GROUPS.map((group) => h("option", { value: group }, `by ${group}`)),
+  );
   const painted = h("input", { type: "checkbox", id: "painted" });
   const toggles = SEVERITIES.map((severity) => {
     const button = h("button", { type: "button", class: `chip ${severity}`, "aria-pressed": "true" }, severity);
@@ -36,10 +40,24 @@ export function findings(app: App): HTMLElement {
     { class: "panel" },
     verdict,
     h("div", { class: "actions" }, ...toggles.map(([, button]) => button), by),
-    h("div", { class: "actions" }, search, h("span", { class: "check" }, painted, h("label", { for: "painted" }, "Paint links"))),
+    h(
+      "div",
+      { class: "actions" },
+      search,
+      h("span", { class: "check" }, painted, h("label", { for: "painted" }, "Paint links")),
+    ),
     list,
   );
-  const validate = h("button", { type: "button", click: () => { void app.loadReport(); } }, "Validate");
+  const validate = h(
+    "button",
+    {
+      type: "button",
+      click: () => {
+        void app.loadReport();
+      },
+    },
+    "Validate",
+  );
 
   const render = (): void => {
     const { report: state, robot } = app.store.now;
@@ -52,13 +70,20 @@ export function findings(app: App): HTMLElement {
     }
     verdict.className = `verdict ${urdd?.verdict ?? ""}`;
     if (!urdd) {
-      fill(verdict, state.error ? `The robot cannot be validated: ${state.error} ` : (state.busy ?? ""), robot && !state.busy && validate);
+      fill(
+        verdict,
+        state.error ? `The robot cannot be validated: ${state.error} ` : (state.busy ?? ""),
+        robot && !state.busy && validate,
+      );
       fill(list);
       return;
     }
     fill(verdict, words(urdd));
     const wanted = search.value.trim().toLowerCase();
-    const shown = urdd.findings.filter((finding) => !off.has(finding.severity) && (wanted === "" || JSON.stringify(finding).toLowerCase().includes(wanted)));
+    const shown = urdd.findings.filter(
+      (finding) =>
+        !off.has(finding.severity) && (wanted === "" || JSON.stringify(finding).toLowerCase().includes(wanted)),
+    );
     const groups = new Map<string, Finding[]>();
     for (const finding of shown) {
       const key = groupOf(app, finding, grouping);
@@ -66,7 +91,10 @@ export function findings(app: App): HTMLElement {
     }
     fill(
       list,
-      ...[...groups].flatMap(([key, found]) => [h("h2", {}, `${key} (${found.length})`), ...found.map((finding) => card(app, finding))]),
+      ...[...groups].flatMap(([key, found]) => [
+        h("h2", {}, `${key} (${found.length})`),
+        ...found.map((finding) => card(app, finding)),
+      ]),
       shown.length === 0 && urdd.findings.length > 0 && h("p", { class: "empty" }, "No finding passes the filter."),
       ...notVerified(urdd),
     );
@@ -76,8 +104,12 @@ export function findings(app: App): HTMLElement {
     grouping = by.value as Grouping;
     render();
   });
-  painted.addEventListener("change", () => { app.store.set({ painted: painted.checked }); });
-  app.store.on(["painted"], ({ painted: on }) => { painted.checked = on; });
+  painted.addEventListener("change", () => {
+    app.store.set({ painted: painted.checked });
+  });
+  app.store.on(["painted"], ({ painted: on }) => {
+    painted.checked = on;
+  });
   app.store.on(["report", "robot"], render);
   app.store.on(["tab", "robot"], ({ tab, robot }) => {
     if (tab === "Findings" && robot) void app.loadReport();
@@ -111,17 +143,30 @@ function card(app: App, finding: Finding): HTMLElement {
   const all = places(finding);
   const more = h("div", { class: "explanation" });
   const button = h("button", { type: "button", class: "tiny" }, "Explain");
-  button.addEventListener("click", () => { void explain(app, finding.code, more); });
+  button.addEventListener("click", () => {
+    void explain(app, finding.code, more);
+  });
   const list = h("ul", { class: "places" }, ...all.slice(0, SHOWN).map((place) => placeRow(app, place)));
   if (all.length > SHOWN) {
     const rest = h("button", { type: "button", class: "tiny" }, `${all.length - SHOWN} more`);
-    rest.addEventListener("click", () => { fill(list, ...all.map((place) => placeRow(app, place))); });
+    rest.addEventListener("click", () => {
+      fill(list, ...all.map((place) => placeRow(app, place)));
+    });
     list.append(h("li", {}, rest));
   }
   return h(
     "article",
     { class: `finding ${finding.severity}` },
-    h("div", { class: "heading" }, h("span", { class: `dot ${finding.severity}` }), h("strong", {}, finding.code), h("span", { class: "name" }, String(finding["name"] ?? "")), finding.count > 1 && h("span", { class: "kind" }, `× ${finding.count}`), h("span", { class: "spring" }), button),
+    h(
+      "div",
+      { class: "heading" },
+      h("span", { class: `dot ${finding.severity}` }),
+      h("strong", {}, finding.code),
+      h("span", { class: "name" }, finding.name),
+      finding.count > 1 && h("span", { class: "kind" }, `× ${finding.count}`),
+      h("span", { class: "spring" }),
+      button,
+    ),
     h("p", {}, name(finding.message)),
     list,
     more,
@@ -131,10 +176,16 @@ function card(app: App, finding: Finding): HTMLElement {
 function placeRow(app: App, place: Place): HTMLElement {
   const { robot } = app.store.now;
   const link = robot ? linkOf(robot, place) : null;
-  const where = [place.subject, place.file ? `${place.file}${place.line ? `:${place.line}` : ""}` : null, place.pointer].filter((text): text is string => Boolean(text));
+  const where = [
+    place.subject,
+    place.file ? `${place.file}${place.line ? `:${place.line}` : ""}` : null,
+    place.pointer,
+  ].filter((text): text is string => Boolean(text));
   const text = name(where[0] ?? "here");
   const go = h("button", { type: "button", class: "place", title: where.map(name).join("\n") }, text);
-  go.addEventListener("click", () => { if (link !== null) app.select({ kind: "link", index: link }); });
+  go.addEventListener("click", () => {
+    if (link !== null) app.select({ kind: "link", index: link });
+  });
   if (link === null) go.disabled = true;
   return h(
     "li",
@@ -142,7 +193,14 @@ function placeRow(app: App, place: Place): HTMLElement {
     go,
     place.message && h("span", { class: "what" }, name(place.message)),
     (place.expected ?? place.actual) !== null &&
-      h("dl", {}, place.expected !== null && h("dt", {}, "expected"), place.expected !== null && h("dd", {}, name(place.expected)), place.actual !== null && h("dt", {}, "found"), place.actual !== null && h("dd", {}, name(place.actual))),
+      h(
+        "dl",
+        {},
+        place.expected !== null && h("dt", {}, "expected"),
+        place.expected !== null && h("dd", {}, name(place.expected)),
+        place.actual !== null && h("dt", {}, "found"),
+        place.actual !== null && h("dd", {}, name(place.actual)),
+      ),
   );
 }
 
@@ -153,7 +211,11 @@ async function explain(app: App, code: string, into: HTMLElement): Promise<void>
   }
   try {
     const rule = await app.engine.ask("explain", { code });
-    fill(into, h("p", { class: "hint" }, `SPEC ${rule.clause}`), ...rule.explanation.split("\n\n").map((text) => h("p", {}, text)));
+    fill(
+      into,
+      h("p", { class: "hint" }, `SPEC ${rule.clause}`),
+      ...rule.explanation.split("\n\n").map((text) => h("p", {}, text)),
+    );
   } catch (error) {
     fill(into, h("p", { class: "hint" }, message(error)));
   }
@@ -165,7 +227,17 @@ function notVerified(urdd: UrddReport): Node[] {
   return [
     h("h2", {}, "Not verified"),
     ...urdd.not_checked.map(({ codes, reason }) =>
-      h("article", { class: "finding unverified" }, h("div", { class: "heading" }, h("span", { class: "dot unverified" }), h("strong", {}, codes.slice(0, 6).join(", ") + (codes.length > 6 ? ` and ${codes.length - 6} more` : ""))), h("p", {}, name(reason))),
+      h(
+        "article",
+        { class: "finding unverified" },
+        h(
+          "div",
+          { class: "heading" },
+          h("span", { class: "dot unverified" }),
+          h("strong", {}, codes.slice(0, 6).join(", ") + (codes.length > 6 ? ` and ${codes.length - 6} more` : "")),
+        ),
+        h("p", {}, name(reason)),
+      ),
     ),
   ];
 }

@@ -8,7 +8,10 @@ import { toggleTheme } from "../ui/theme";
 
 const SHORT = LAYERS.slice(0, 6);
 
-export function header(app: App, actions: { share: () => void; picture: () => void; gallery: () => void }): HTMLElement {
+export function header(
+  app: App,
+  actions: { share: () => void; picture: () => void; gallery: () => void },
+): HTMLElement {
   const title = h("div", { class: "title" });
   const chips = h("div", { class: "chips" });
   const buttons = SHORT.map((layer) => {
@@ -39,14 +42,29 @@ export function header(app: App, actions: { share: () => void; picture: () => vo
     layers,
     frames,
     h("button", { type: "button", class: "quiet", click: actions.share, title: "Copy a link to this view" }, "Share"),
-    h("button", { type: "button", class: "quiet", click: actions.picture, title: "Save the picture as PNG" }, "Picture"),
-    h("button", { type: "button", class: "quiet icon", click: toggleTheme, "aria-label": "Dark or light", title: "Dark or light" }, "◐"),
+    h(
+      "button",
+      { type: "button", class: "quiet", click: actions.picture, title: "Save the picture as PNG" },
+      "Picture",
+    ),
+    h(
+      "button",
+      {
+        type: "button",
+        class: "quiet icon",
+        click: toggleTheme,
+        "aria-label": "Dark or light",
+        title: "Dark or light",
+      },
+      "◐",
+    ),
   );
   app.store.on(["robot", "entries", "report"], ({ robot, entries, report }) => {
     const several = entries.length > 1;
     fill(
       title,
-      several && h("button", { type: "button", class: "quiet back", click: actions.gallery, "aria-label": "All robots" }, "☰"),
+      several &&
+        h("button", { type: "button", class: "quiet back", click: actions.gallery, "aria-label": "All robots" }, "☰"),
       h("h1", { title: robot ? name(robot.name) : "" }, robot ? name(robot.name) : "urdd"),
     );
     const found = report.report?.urdds[0]?.findings;
@@ -56,11 +74,32 @@ export function header(app: App, actions: { share: () => void; picture: () => vo
     const chip = (severity: "error" | "warning"): Node | null => {
       const n = total(severity);
       if (!n) return null;
-      return h("button", { type: "button", class: `chip ${severity}`, click: () => { app.store.set({ tab: "Findings" }); } }, count(n, severity));
+      return h(
+        "button",
+        {
+          type: "button",
+          class: `chip ${severity}`,
+          click: () => {
+            app.store.set({ tab: "Findings" });
+          },
+        },
+        count(n, severity),
+      );
     };
     fill(
       chips,
-      robot && h("span", { class: "chip" }, [count(robot.links.length, "link"), robot.about.dofs ? count(robot.dofs.length, "DOF") : null, version(robot.about.metadata, robot.about.profile)].filter(Boolean).join(" · ")),
+      robot &&
+        h(
+          "span",
+          { class: "chip" },
+          [
+            count(robot.links.length, "link"),
+            robot.about.dofs ? count(robot.dofs.length, "DOF") : null,
+            version(robot.about.metadata, robot.about.profile),
+          ]
+            .filter(Boolean)
+            .join(" · "),
+        ),
       chip("error"),
       chip("warning"),
     );

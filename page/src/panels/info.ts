@@ -35,12 +35,32 @@ export function info(app: App): HTMLElement {
 
 function linkButton(app: App, robot: RobotModel, link: number | null): Node {
   if (link === null) return h("span", {}, "none");
-  return h("button", { type: "button", class: "place", click: () => { app.select({ kind: "link", index: link }); } }, name(robot.links[link]?.name ?? ""));
+  return h(
+    "button",
+    {
+      type: "button",
+      class: "place",
+      click: () => {
+        app.select({ kind: "link", index: link });
+      },
+    },
+    name(robot.links[link]?.name ?? ""),
+  );
 }
 
 function jointButton(app: App, robot: RobotModel, joint: number | null): Node {
   if (joint === null) return h("span", {}, "none, it is the root");
-  return h("button", { type: "button", class: "place", click: () => { app.select({ kind: "joint", index: joint }); } }, name(robot.joints[joint]?.name ?? ""));
+  return h(
+    "button",
+    {
+      type: "button",
+      class: "place",
+      click: () => {
+        app.select({ kind: "joint", index: joint });
+      },
+    },
+    name(robot.joints[joint]?.name ?? ""),
+  );
 }
 
 function ofLink(app: App, robot: RobotModel, index: number, poses: Float64Array | null): Node[] {
@@ -66,8 +86,16 @@ function mass(inertial: Inertial | null): (Node[] | null)[] {
   return [
     line("Mass", inertial.mass === null ? "not given" : `${number(inertial.mass, 4)} kg`),
     line("Centre of mass", vector(inertial.position, "m")),
-    inertial.inertia && line("Inertia", `xx ${number(inertial.inertia[0])}, yy ${number(inertial.inertia[3])}, zz ${number(inertial.inertia[5])} kg m²`),
-    inertial.inertia && line("Products", `xy ${number(inertial.inertia[1])}, xz ${number(inertial.inertia[2])}, yz ${number(inertial.inertia[4])} kg m²`),
+    inertial.inertia &&
+      line(
+        "Inertia",
+        `xx ${number(inertial.inertia[0])}, yy ${number(inertial.inertia[3])}, zz ${number(inertial.inertia[5])} kg m²`,
+      ),
+    inertial.inertia &&
+      line(
+        "Products",
+        `xy ${number(inertial.inertia[1])}, xz ${number(inertial.inertia[2])}, yz ${number(inertial.inertia[4])} kg m²`,
+      ),
   ];
 }
 
@@ -90,7 +118,11 @@ function ofJoint(app: App, robot: RobotModel, index: number, q: readonly number[
       limit && line("Limits", `${either(limit.lower)} to ${either(limit.upper)}`),
       limit?.velocity != null && line("Speed limit", `${number(limit.velocity)} ${unit}/s`),
       limit?.effort != null && line("Effort limit", `${number(limit.effort)} ${unit === "rad" ? "N m" : "N"}`),
-      joint.mimic && line("Follows", `${number(joint.mimic.multiplier)} × ${name(robot.dofs[joint.mimic.dof ?? -1]?.name ?? "nothing")} + ${number(joint.mimic.offset)}`),
+      joint.mimic &&
+        line(
+          "Follows",
+          `${number(joint.mimic.multiplier)} × ${name(robot.dofs[joint.mimic.dof ?? -1]?.name ?? "nothing")} + ${number(joint.mimic.offset)}`,
+        ),
     ),
   ];
 }
@@ -119,10 +151,23 @@ function ofRobot(robot: RobotModel): Node[] {
       pieces > 0 && line("Convex pieces", String(pieces)),
       line("Files", `${count(robot.files.length, "file")}, ${bytes(size)}`),
     ),
-    ...(robot.entry.notes.length > 0 ? [h("h2", {}, "Assumed when it was generated"), h("ul", { class: "notes" }, ...robot.entry.notes.map((note) => h("li", {}, name(note))))] : []),
-    ...(about.faults.length > 0 ? [h("h2", {}, "Cannot be read"), h("ul", { class: "notes bad" }, ...about.faults.map((fault) => h("li", {}, name(fault.reason))))] : []),
+    ...(robot.entry.notes.length > 0
+      ? [
+          h("h2", {}, "Assumed when it was generated"),
+          h("ul", { class: "notes" }, ...robot.entry.notes.map((note) => h("li", {}, name(note)))),
+        ]
+      : []),
+    ...(about.faults.length > 0
+      ? [
+          h("h2", {}, "Cannot be read"),
+          h("ul", { class: "notes bad" }, ...about.faults.map((fault) => h("li", {}, name(fault.reason)))),
+        ]
+      : []),
     h("h2", {}, "Modules"),
-    table(...[...modules].map(([folder, { size, files }]) => line(folder.split("/").pop() ?? folder, `${bytes(size)}, ${count(files, "file")}`))),
+    table(
+      ...[...modules].map(([folder, { size, files }]) =>
+        line(folder.split("/").pop() ?? folder, `${bytes(size)}, ${count(files, "file")}`),
+      ),
+    ),
   ];
 }
-

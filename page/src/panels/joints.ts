@@ -30,15 +30,23 @@ export function joints(app: App): HTMLElement {
     const q = app.store.now.robot?.about[key];
     if (q) app.move(q);
   };
-  const play = button("Play samples", "Show the stored samples one after another (space)", () => { void player.toggle(); });
+  const play = button("Play samples", "Show the stored samples one after another (space)", () => {
+    void player.toggle();
+  });
   const actions = h(
     "div",
     { class: "actions" },
     button("Zero", "Every DOF 0, or its nearest bound", at("zero")),
     button("Middle", "Every DOF half-way between its bounds", at("middle")),
-    button("Random", "A random configuration within the bounds (R)", () => { void random(app, drawn++); }),
-    button("Copy", "Copy the configuration as a list of numbers, rad and m", () => { void copy(app); }),
-    button("Paste", "Paste a list of numbers, rad and m", () => { void paste(app); }),
+    button("Random", "A random configuration within the bounds (R)", () => {
+      void random(app, drawn++);
+    }),
+    button("Copy", "Copy the configuration as a list of numbers, rad and m", () => {
+      void copy(app);
+    }),
+    button("Paste", "Paste a list of numbers, rad and m", () => {
+      void paste(app);
+    }),
     play,
   );
   const empty = h("p", { class: "empty" });
@@ -47,10 +55,26 @@ export function joints(app: App): HTMLElement {
   const group = (robot: RobotModel, joint: number): HTMLElement => {
     const found = robot.joints[joint];
     const dofs = found?.dofs ?? [];
-    const followers = robot.joints.flatMap((other) => (other.mimic && dofs.includes(other.mimic.dof ?? -1) ? [other] : []));
-    const sweep = dofs.length === 1 ? h("button", { type: "button", class: "tiny", title: "Sweep this joint through its limits", "aria-label": `Sweep ${name(found?.name ?? "")}` }, "↔") : null;
+    const followers = robot.joints.flatMap((other) =>
+      other.mimic && dofs.includes(other.mimic.dof ?? -1) ? [other] : [],
+    );
+    const sweep =
+      dofs.length === 1
+        ? h(
+            "button",
+            {
+              type: "button",
+              class: "tiny",
+              title: "Sweep this joint through its limits",
+              "aria-label": `Sweep ${name(found?.name ?? "")}`,
+            },
+            "↔",
+          )
+        : null;
     const [first] = dofs;
-    sweep?.addEventListener("click", () => { if (first !== undefined) player.sweep(first); });
+    sweep?.addEventListener("click", () => {
+      if (first !== undefined) player.sweep(first);
+    });
     const heading = h(
       "div",
       { class: "heading" },
@@ -58,13 +82,30 @@ export function joints(app: App): HTMLElement {
       h("span", { class: "kind" }, (found?.type ?? "").toLowerCase()),
       sweep,
     );
-    heading.addEventListener("click", () => { app.select({ kind: "joint", index: joint }); });
-    const block = h("div", { class: "joint", id: `joint-${joint}` }, heading, ...dofs.map((dof) => control(robot, dof, dofs.length > 1)));
+    heading.addEventListener("click", () => {
+      app.select({ kind: "joint", index: joint });
+    });
+    const block = h(
+      "div",
+      { class: "joint", id: `joint-${joint}` },
+      heading,
+      ...dofs.map((dof) => control(robot, dof, dofs.length > 1)),
+    );
     for (const other of followers) {
-      block.append(h("div", { class: "mimic" }, `⇄ ${name(other.name)} = ${number(other.mimic?.multiplier ?? 1)} × this${other.mimic?.offset ? ` + ${number(other.mimic.offset)}` : ""}`));
+      block.append(
+        h(
+          "div",
+          { class: "mimic" },
+          `⇄ ${name(other.name)} = ${number(other.mimic?.multiplier ?? 1)} × this${other.mimic?.offset ? ` + ${number(other.mimic.offset)}` : ""}`,
+        ),
+      );
     }
-    block.addEventListener("pointerenter", () => { app.hover({ kind: "joint", index: joint }); });
-    block.addEventListener("pointerleave", () => { app.hover(null); });
+    block.addEventListener("pointerenter", () => {
+      app.hover({ kind: "joint", index: joint });
+    });
+    block.addEventListener("pointerleave", () => {
+      app.hover(null);
+    });
     return block;
   };
 
@@ -74,8 +115,19 @@ export function joints(app: App): HTMLElement {
     const [lower, upper] = found?.bounds ?? [-OPEN[unit], OPEN[unit]];
     const shown = (value: number): number => round(toShown(value, unit), unit === "rad" ? 2 : 3);
     const label = name(found?.name ?? "");
-    const slider = h("input", { type: "range", min: lower, max: upper, step: (upper - lower) / 2000 || 1e-6, "aria-label": label, value: 0 });
-    const entry = h("input", { type: "number", step: unit === "rad" ? 1 : 1, "aria-label": `${label}, ${unit === "rad" ? "degrees" : "millimetres"}` });
+    const slider = h("input", {
+      type: "range",
+      min: lower,
+      max: upper,
+      step: (upper - lower) / 2000 || 1e-6,
+      "aria-label": label,
+      value: 0,
+    });
+    const entry = h("input", {
+      type: "number",
+      step: unit === "rad" ? 1 : 1,
+      "aria-label": `${label}, ${unit === "rad" ? "degrees" : "millimetres"}`,
+    });
     const row = h(
       "div",
       { class: "dof" },
@@ -85,8 +137,13 @@ export function joints(app: App): HTMLElement {
       h("span", { class: "limit low" }, `${number(shown(lower), 4)}${shownUnit(unit)}`),
       h("span", { class: "limit high" }, `${number(shown(upper), 4)}${shownUnit(unit)}`),
     );
-    slider.addEventListener("input", () => { player.stop(); app.setDof(dof, Number(slider.value)); });
-    slider.addEventListener("dblclick", () => { app.setDof(dof, robot.about.zero?.[dof] ?? 0); });
+    slider.addEventListener("input", () => {
+      player.stop();
+      app.setDof(dof, Number(slider.value));
+    });
+    slider.addEventListener("dblclick", () => {
+      app.setDof(dof, robot.about.zero?.[dof] ?? 0);
+    });
     entry.addEventListener("change", () => {
       player.stop();
       const value = fromShown(Number(entry.value), unit);
@@ -103,7 +160,11 @@ export function joints(app: App): HTMLElement {
     fill(list, ...(robot ? moving.map((joint) => group(robot, joint)) : []));
     actions.hidden = !robot?.moves;
     empty.hidden = moving.length > 0;
-    empty.textContent = !robot ? "" : robot.moves ? "This robot has no joint that moves." : `The joints cannot be moved: ${robot.about.faults[0]?.reason ?? "chain_module or dof_module is missing"}.`;
+    empty.textContent = !robot
+      ? ""
+      : robot.moves
+        ? "This robot has no joint that moves."
+        : `The joints cannot be moved: ${robot.about.faults[0]?.reason ?? "chain_module or dof_module is missing"}.`;
   });
   app.store.on(["robot", "q"], ({ robot, q }) => {
     for (const { dof, slider, entry, row } of controls) {
@@ -127,15 +188,24 @@ export function joints(app: App): HTMLElement {
   app.store.on(["sample"], ({ sample: shown }) => {
     sample.hidden = !shown;
     if (shown) {
-      const error = (value: number, unit: string): string => `${value === 0 ? "0" : value.toExponential(1).replace("-", "−")} ${unit}`;
+      const error = (value: number, unit: string): string =>
+        `${value === 0 ? "0" : value.toExponential(1).replace("-", "−")} ${unit}`;
       sample.textContent = `Sample ${shown.at + 1} of ${shown.of}: poses differ by ${error(shown.position, "m")} and ${error(shown.angle, "rad")} at most`;
       sample.classList.toggle("bad", shown.position > 1e-6 || shown.angle > 1e-6);
     }
   });
-  app.store.on(["robot"], () => { play.textContent = "Play samples"; });
-  player.changed = (playing) => { play.textContent = playing ? "Stop" : "Play samples"; };
-  addEventListener("urdd-play", () => { void player.toggle(); });
-  addEventListener("urdd-random", () => { void random(app, drawn++); });
+  app.store.on(["robot"], () => {
+    play.textContent = "Play samples";
+  });
+  player.changed = (playing) => {
+    play.textContent = playing ? "Stop" : "Play samples";
+  };
+  addEventListener("urdd-play", () => {
+    void player.toggle();
+  });
+  addEventListener("urdd-random", () => {
+    void random(app, drawn++);
+  });
   return panel;
 }
 
@@ -160,7 +230,11 @@ async function copy(app: App): Promise<void> {
 async function paste(app: App): Promise<void> {
   try {
     const text = await navigator.clipboard.readText();
-    const values = text.replace(/[[\]]/g, " ").split(/[\s,;]+/).filter(Boolean).map(Number);
+    const values = text
+      .replace(/[[\]]/g, " ")
+      .split(/[\s,;]+/)
+      .filter(Boolean)
+      .map(Number);
     const wanted = app.store.now.robot?.dofs.length ?? 0;
     if (values.length !== wanted || !values.every(Number.isFinite)) {
       throw new Error(`the clipboard does not hold ${count(wanted, "number")}`);
@@ -170,4 +244,3 @@ async function paste(app: App): Promise<void> {
     app.note(`Nothing was pasted: ${message(error)}`);
   }
 }
-

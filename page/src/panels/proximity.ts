@@ -22,10 +22,23 @@ interface Row {
 }
 
 export function proximity(app: App): HTMLElement {
-  const kind = h("select", { "aria-label": "Shapes that distances are between" }, ...SHAPE_KINDS.map((shapes) => h("option", { value: shapes }, SHAPE_NAMES[shapes])));
-  kind.addEventListener("change", () => { app.useShapes(kind.value as ShapeKind); });
-  const order = h("select", { "aria-label": "Order" }, h("option", { value: "distance" }, "by distance"), h("option", { value: "relative" }, "by share of mean"));
-  order.addEventListener("change", () => { render(); });
+  const kind = h(
+    "select",
+    { "aria-label": "Shapes that distances are between" },
+    ...SHAPE_KINDS.map((shapes) => h("option", { value: shapes }, SHAPE_NAMES[shapes])),
+  );
+  kind.addEventListener("change", () => {
+    app.useShapes(kind.value as ShapeKind);
+  });
+  const order = h(
+    "select",
+    { "aria-label": "Order" },
+    h("option", { value: "distance" }, "by distance"),
+    h("option", { value: "relative" }, "by share of mean"),
+  );
+  order.addEventListener("change", () => {
+    render();
+  });
   const state = h("p", { class: "collision", "aria-live": "polite" });
   const list = h("div", { class: "pairs" });
   const detail = h("div", { class: "detail" });
@@ -33,7 +46,15 @@ export function proximity(app: App): HTMLElement {
   const panel = h(
     "div",
     { class: "panel" },
-    h("div", { class: "headline" }, h("h2", {}, "Nearest pairs"), kind, order, h("span", { class: "spring" }), h("span", { class: "columns" }, "distance · of mean")),
+    h(
+      "div",
+      { class: "headline" },
+      h("h2", {}, "Nearest pairs"),
+      kind,
+      order,
+      h("span", { class: "spring" }),
+      h("span", { class: "columns" }, "distance · of mean"),
+    ),
     state,
     empty,
     list,
@@ -115,7 +136,12 @@ function row(app: App): Row {
       distance.textContent = pair.distance <= 0 ? "0 mm" : length(pair.distance);
       relative.textContent = pair.relative === null ? "–" : percent(pair.relative);
       const ofPieces = app.store.now.shapes.startsWith("piece");
-      pieces.textContent = [ofPieces ? `piece ${pair.pieces[0]} · piece ${pair.pieces[1]}` : "", pair.distance <= 0 ? "contact" : ""].filter(Boolean).join(" · ");
+      pieces.textContent = [
+        ofPieces ? `piece ${pair.pieces[0]} · piece ${pair.pieces[1]}` : "",
+        pair.distance <= 0 ? "contact" : "",
+      ]
+        .filter(Boolean)
+        .join(" · ");
       element.classList.toggle("contact", pair.distance <= 0);
       element.setAttribute("aria-pressed", String(chosen));
       gauge(bar, range, mark, pair.distance, pair.statistics, widest);
@@ -123,7 +149,14 @@ function row(app: App): Row {
   };
 }
 
-function gauge(bar: HTMLElement, range: HTMLElement, mark: HTMLElement, now: number, statistics: Statistics | null, widest: number): void {
+function gauge(
+  bar: HTMLElement,
+  range: HTMLElement,
+  mark: HTMLElement,
+  now: number,
+  statistics: Statistics | null,
+  widest: number,
+): void {
   bar.hidden = !statistics;
   if (!statistics) return;
   const share = (value: number): number => Math.max(0, Math.min(100, (100 * value) / widest));
@@ -151,18 +184,49 @@ function selected(app: App, detail: HTMLElement, pair: PairDistance | null, answ
     detail,
     h("h2", {}, `${pair.links.map(name).join(" · ")}${samples ? `, ${samples.toLocaleString("en")} samples` : ""}`),
     statistics
-      ? h("dl", {}, h("dt", {}, "min · mean · max"), h("dd", {}, [statistics.min, statistics.mean, statistics.max].map((x) => length(x)).join(" · ")))
+      ? h(
+          "dl",
+          {},
+          h("dt", {}, "min · mean · max"),
+          h("dd", {}, [statistics.min, statistics.mean, statistics.max].map((x) => length(x)).join(" · ")),
+        )
       : h("p", { class: "hint" }, "The URDD records no statistics of this pair."),
     h(
       "div",
       { class: "actions" },
-      h("button", { type: "button", click: () => { app.store.set({ tab: "Skips" }); } }, "See its skip"),
-      h("button", { type: "button", click: () => {
-        const keep = new Set(pair.link_idxs);
-        app.hide(app.store.now.robot?.links.keys() ?? [], true);
-        app.hide(keep, false);
-      } }, "Show only these"),
-      h("button", { type: "button", click: () => { choose(app, null); app.hide(app.store.now.robot?.links.keys() ?? [], false); } }, "Show all"),
+      h(
+        "button",
+        {
+          type: "button",
+          click: () => {
+            app.store.set({ tab: "Skips" });
+          },
+        },
+        "See its skip",
+      ),
+      h(
+        "button",
+        {
+          type: "button",
+          click: () => {
+            const keep = new Set(pair.link_idxs);
+            app.hide(app.store.now.robot?.links.keys() ?? [], true);
+            app.hide(keep, false);
+          },
+        },
+        "Show only these",
+      ),
+      h(
+        "button",
+        {
+          type: "button",
+          click: () => {
+            choose(app, null);
+            app.hide(app.store.now.robot?.links.keys() ?? [], false);
+          },
+        },
+        "Show all",
+      ),
     ),
   );
 }

@@ -22,31 +22,67 @@ export const REASONS = new Map([
 const SIDE = 340;
 
 export function skips(app: App): HTMLElement {
-  const kind = h("select", { "aria-label": "Shapes" }, ...SHAPE_KINDS.map((shapes) => h("option", { value: shapes }, SHAPE_NAMES[shapes])));
+  const kind = h(
+    "select",
+    { "aria-label": "Shapes" },
+    ...SHAPE_KINDS.map((shapes) => h("option", { value: shapes }, SHAPE_NAMES[shapes])),
+  );
   kind.value = "hulls";
   const canvas = h("canvas", { class: "matrix", tabindex: "0", role: "img", "aria-label": "Skips of pairs of links" });
   const legend = h("div", { class: "legend" });
   const said = h("p", { class: "hint", "aria-live": "polite" });
   const edits = h("div", {});
   const empty = h("p", { class: "empty" });
-  const panel = h("div", { class: "panel" }, h("div", { class: "headline" }, h("h2", {}, "Skipped pairs"), kind), canvas, said, legend, edits, empty);
-  kind.addEventListener("change", () => { void app.loadSkips(kind.value as ShapeKind); });
+  const panel = h(
+    "div",
+    { class: "panel" },
+    h("div", { class: "headline" }, h("h2", {}, "Skipped pairs"), kind),
+    canvas,
+    said,
+    legend,
+    edits,
+    empty,
+  );
+  kind.addEventListener("change", () => {
+    void app.loadSkips(kind.value as ShapeKind);
+  });
   const render = (): void => {
-    const { skips: { answer, error }, robot, pair } = app.store.now;
+    const {
+      skips: { answer, error },
+      robot,
+      pair,
+    } = app.store.now;
     const has = robot !== null && answer !== null && answer.places.length > 0;
     canvas.hidden = !has;
     legend.hidden = !has;
     empty.hidden = has;
-    empty.textContent = error ? `There are no skips to show: ${error}` : has ? "" : answer ? "This robot has no shapes, and so no pairs." : "";
+    empty.textContent = error
+      ? `There are no skips to show: ${error}`
+      : has
+        ? ""
+        : answer
+          ? "This robot has no shapes, and so no pairs."
+          : "";
     if (!has) {
       fill(edits);
       return;
     }
-    draw(canvas, robot, answer, pair);
-    fill(legend, ...[...REASONS].flatMap(([letter, text]) => {
-      const n = tally(answer, letter);
-      return n > 0 ? [h("span", { class: `key reason-${letter === "-" ? "none" : letter === "?" ? "open" : letter}` }, `${text} (${n.toLocaleString("en")})`)] : [];
-    }));
+    draw(canvas, answer, pair);
+    fill(
+      legend,
+      ...[...REASONS].flatMap(([letter, text]) => {
+        const n = tally(answer, letter);
+        return n > 0
+          ? [
+              h(
+                "span",
+                { class: `key reason-${letter === "-" ? "none" : letter === "?" ? "open" : letter}` },
+                `${text} (${n.toLocaleString("en")})`,
+              ),
+            ]
+          : [];
+      }),
+    );
     said.textContent = summary(answer);
     fill(edits, ...listed(answer));
   };
@@ -55,12 +91,18 @@ export function skips(app: App): HTMLElement {
     if (!answer) return null;
     const box = canvas.getBoundingClientRect();
     const n = answer.places.length;
-    const [i, j] = [Math.floor(((event.clientY - box.top) / box.height) * n), Math.floor(((event.clientX - box.left) / box.width) * n)];
+    const [i, j] = [
+      Math.floor(((event.clientY - box.top) / box.height) * n),
+      Math.floor(((event.clientX - box.left) / box.width) * n),
+    ];
     return i >= 0 && j >= 0 && i < n && j < n ? [i, j] : null;
   };
   canvas.addEventListener("pointermove", (event) => {
     const at = under(event);
-    const { robot, skips: { answer } } = app.store.now;
+    const {
+      robot,
+      skips: { answer },
+    } = app.store.now;
     if (at && robot && answer) said.textContent = words(robot, answer, at);
   });
   canvas.addEventListener("pointerleave", () => {
@@ -119,11 +161,21 @@ function listed(answer: SkipsAnswer): Node[] {
   if (!answer.edits || answer.edits.length === 0) return [];
   return [
     h("h2", {}, "Edits"),
-    h("ul", { class: "notes" }, ...answer.edits.map((edit) => h("li", {}, `${name(edit.link_a)} · ${name(edit.link_b)}: ${edit.skip ? "skip" : "check"}${edit.reason ? `, ${name(edit.reason)}` : ""}`))),
+    h(
+      "ul",
+      { class: "notes" },
+      ...answer.edits.map((edit) =>
+        h(
+          "li",
+          {},
+          `${name(edit.link_a)} · ${name(edit.link_b)}: ${edit.skip ? "skip" : "check"}${edit.reason ? `, ${name(edit.reason)}` : ""}`,
+        ),
+      ),
+    ),
   ];
 }
 
-function draw(canvas: HTMLCanvasElement, robot: RobotModel, answer: SkipsAnswer, pair: [[number, number], [number, number]] | null): void {
+function draw(canvas: HTMLCanvasElement, answer: SkipsAnswer, pair: [[number, number], [number, number]] | null): void {
   const n = answer.places.length;
   const ratio = Math.min(window.devicePixelRatio, 2);
   const side = Math.round(SIDE * ratio);
@@ -133,7 +185,9 @@ function draw(canvas: HTMLCanvasElement, robot: RobotModel, answer: SkipsAnswer,
   if (!context) return;
   const style = getComputedStyle(canvas);
   const color = (key: string): string => style.getPropertyValue(`--reason-${key}`);
-  const colors = new Map([...REASONS.keys()].map((letter) => [letter, color(letter === "-" ? "none" : letter === "?" ? "open" : letter)]));
+  const colors = new Map(
+    [...REASONS.keys()].map((letter) => [letter, color(letter === "-" ? "none" : letter === "?" ? "open" : letter)]),
+  );
   const cell = side / n;
   const gap = cell > 6 ? 1 : 0;
   for (let i = 0; i < n; i++) {
@@ -145,13 +199,17 @@ function draw(canvas: HTMLCanvasElement, robot: RobotModel, answer: SkipsAnswer,
   }
   context.globalAlpha = 1;
   if (pair) {
-    const index = ([link, piece]: [number, number]): number => answer.places.findIndex(([l, p]) => l === link && (p === piece || !answer.shapes.startsWith("piece")));
+    const index = ([link, piece]: [number, number]): number =>
+      answer.places.findIndex(([l, p]) => l === link && (p === piece || !answer.shapes.startsWith("piece")));
     const [i, j] = [index(pair[0]), index(pair[1])];
     if (i >= 0 && j >= 0) {
       context.strokeStyle = style.getPropertyValue("--text");
       context.lineWidth = Math.max(2, ratio * 1.5);
-      for (const [a, b] of [[i, j], [j, i]] as const) context.strokeRect(b * cell, a * cell, cell, cell);
+      for (const [a, b] of [
+        [i, j],
+        [j, i],
+      ] as const)
+        context.strokeRect(b * cell, a * cell, cell, cell);
     }
   }
-  void robot;
 }

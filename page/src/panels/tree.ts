@@ -18,22 +18,36 @@ interface Row {
 const TURNS = new Set(["Revolute", "Continuous"]);
 
 export function tree(app: App): HTMLElement {
-  const search = h("input", { type: "search", placeholder: "Find a link or joint  /", "aria-label": "Find a link or joint", id: "find" });
+  const search = h("input", {
+    type: "search",
+    placeholder: "Find a link or joint  /",
+    "aria-label": "Find a link or joint",
+    id: "find",
+  });
   const list = h("div", { class: "rows", role: "tree", "aria-label": "Links", tabindex: "0" });
   const empty = h("p", { class: "empty" });
-  const panel = h("nav", { class: "tree", "aria-label": "Links and joints" }, h("div", { class: "search" }, search), list, empty);
+  const panel = h(
+    "nav",
+    { class: "tree", "aria-label": "Links and joints" },
+    h("div", { class: "search" }, search),
+    list,
+    empty,
+  );
   let rows: Row[] = [];
 
   const make = (robot: RobotModel, link: number, depth: number): Row => {
     const value = h("span", { class: "value" });
     const dot = h("span", { class: "dot" });
+    const indent = h("span", { class: "indent" });
+    indent.style.width = `${Math.min(depth, 12) * 14}px`;
     const label = name(robot.links[link]?.name ?? "");
     const joint = robot.links[link]?.parent_joint ?? null;
-    const title = joint === null ? label : `${label}\n${name(robot.joints[joint]?.name ?? "")}: ${robot.joints[joint]?.type ?? ""}`;
+    const title =
+      joint === null ? label : `${label}\n${name(robot.joints[joint]?.name ?? "")}: ${robot.joints[joint]?.type ?? ""}`;
     const element = h(
       "div",
       { class: "row", role: "treeitem", "aria-level": depth + 1, "aria-selected": "false", title, id: `row-${link}` },
-      h("span", { class: "indent", style: `width:${Math.min(depth, 12) * 14}px` }),
+      indent,
       dot,
       h("span", { class: "name" }, label),
       value,
@@ -42,17 +56,40 @@ export function tree(app: App): HTMLElement {
       if (event.altKey) app.hide([link], !app.store.now.hidden.has(link));
       else app.select({ kind: "link", index: link });
     });
-    element.addEventListener("dblclick", () => { app.store.set({ tab: "Joints" }); });
-    element.addEventListener("pointerenter", () => { app.hover({ kind: "link", index: link }); });
-    element.addEventListener("pointerleave", () => { app.hover(null); });
+    element.addEventListener("dblclick", () => {
+      app.store.set({ tab: "Joints" });
+    });
+    element.addEventListener("pointerenter", () => {
+      app.hover({ kind: "link", index: link });
+    });
+    element.addEventListener("pointerleave", () => {
+      app.hover(null);
+    });
     return { link, depth, element, value, dot };
   };
 
+  const filter = (): void => {
+    const words = search.value.trim().toLowerCase();
+    const robot = app.store.now.robot;
+    let shown = 0;
+    for (const row of rows) {
+      const link = robot?.links[row.link];
+      const joint = link?.parent_joint === null || link === undefined ? undefined : robot?.joints[link.parent_joint];
+      const found = words === "" || [link?.name, joint?.name].some((text) => text?.toLowerCase().includes(words));
+      row.element.hidden = !found;
+      if (found) shown++;
+    }
+    empty.hidden = shown > 0 || !robot;
+    empty.textContent = robot ? "No link or joint of this name." : "";
+  };
   app.store.on(["robot"], ({ robot }) => {
     rows = [];
     if (robot) {
       const seen = new Set<number>();
-      const waiting = robot.roots.slice().reverse().map((link) => ({ link, depth: 0 }));
+      const waiting = robot.roots
+        .slice()
+        .reverse()
+        .map((link) => ({ link, depth: 0 }));
       for (let next = waiting.pop(); next; next = waiting.pop()) {
         if (seen.has(next.link)) continue;
         seen.add(next.link);
@@ -72,20 +109,6 @@ export function tree(app: App): HTMLElement {
     filter();
   });
 
-  const filter = (): void => {
-    const words = search.value.trim().toLowerCase();
-    const robot = app.store.now.robot;
-    let shown = 0;
-    for (const row of rows) {
-      const link = robot?.links[row.link];
-      const joint = link?.parent_joint === null || link === undefined ? undefined : robot?.joints[link.parent_joint];
-      const found = words === "" || [link?.name, joint?.name].some((text) => text?.toLowerCase().includes(words));
-      row.element.hidden = !found;
-      if (found) shown++;
-    }
-    empty.hidden = shown > 0 || !robot;
-    empty.textContent = robot ? "No link or joint of this name." : "";
-  };
   search.addEventListener("input", filter);
   search.addEventListener("keydown", (event) => {
     if (event.key === "Enter") {
@@ -130,8 +153,10 @@ export function tree(app: App): HTMLElement {
   });
   let last: number | null = null;
   app.store.on(["selected"], ({ selected, robot }) => {
-    const link = selected?.kind === "joint" ? (robot?.joints[selected.index]?.child ?? null) : (selected?.index ?? null);
-    if (link !== null && link !== last) rows.find((row) => row.link === link)?.element.scrollIntoView({ block: "nearest" });
+    const link =
+      selected?.kind === "joint" ? (robot?.joints[selected.index]?.child ?? null) : (selected?.index ?? null);
+    if (link !== null && link !== last)
+      rows.find((row) => row.link === link)?.element.scrollIntoView({ block: "nearest" });
     last = link;
   });
   app.store.on(["robot", "report"], ({ robot, report }) => {

@@ -42,7 +42,13 @@ function within(model: RobotModel, dof: number, value: number): number {
 }
 
 /** A joint of one DOF, or one that follows another: exactly under the pointer. */
-export function dragJoint(model: RobotModel, poses: Float64Array, joint: number, at: Vector3, eye: Vector3): Drag | null {
+export function dragJoint(
+  model: RobotModel,
+  poses: Float64Array,
+  joint: number,
+  at: Vector3,
+  eye: Vector3,
+): Drag | null {
   const found = model.joints[joint];
   const [dof, ...more] = model.dofsOf(joint);
   if (!found || dof === undefined || more.length > 0) return null;
@@ -118,7 +124,11 @@ export function pull(
         const here = point(found, 0);
         const error = target.clone().sub(here);
         if (error.length() < 1e-5 * size) break;
-        const columns = dofs.map((_, k) => point(found, k + 1).sub(here).divideScalar(DIFFERENCE));
+        const columns = dofs.map((_, k) =>
+          point(found, k + 1)
+            .sub(here)
+            .divideScalar(DIFFERENCE),
+        );
         const change = damped(columns, error, size);
         const before = now;
         now = now.slice();

@@ -126,7 +126,9 @@ async function pictures(
         dress(picture, layer, link, piece);
         scene.add(layer, link, picture);
       } catch (error) {
-        faults.push(`${path ?? model.links[link]?.name ?? ""}: ${error instanceof Error ? error.message : String(error)}`);
+        faults.push(
+          `${path ?? model.links[link]?.name ?? ""}: ${error instanceof Error ? error.message : String(error)}`,
+        );
       }
       tell({ done: ++done, of: jobs.length, what: "meshes" });
     }

@@ -34,7 +34,7 @@ export class Overlays {
   make(model: RobotModel, on: Record<OverlayKind, boolean>, size: number, selected: number | null): void {
     this.clear();
     this.frames.length = 0;
-    model.links.forEach((link, index) => {
+    for (const link of model.links) {
       const group = new Group();
       group.matrixAutoUpdate = false;
       this.group.add(group);
@@ -49,13 +49,12 @@ export class Overlays {
           if (box) group.add(box);
         }
       }
-      void index;
-    });
+    }
     if (on.path && selected !== null) this.group.add(path(model, selected));
   }
 
   /** Puts them where the links are. */
-  pose(model: RobotModel, poses: Float64Array): void {
+  pose(poses: Float64Array): void {
     const [place, turn, one] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
     this.frames.forEach((group, link) => {
       const get = (k: number): number => poses[7 * link + k] ?? 0;
@@ -70,9 +69,8 @@ export class Overlays {
       const points = links.map(
         (link) => new Vector3(poses[7 * link] ?? 0, poses[7 * link + 1] ?? 0, poses[7 * link + 2] ?? 0),
       );
-      (child as Line).geometry.setFromPoints(points);
+      if (child instanceof Line) (child.geometry as BufferGeometry).setFromPoints(points);
     }
-    void model;
   }
 
   clear(): void {

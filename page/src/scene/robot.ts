@@ -105,7 +105,7 @@ export class RobotScene {
       for (const group of groups) {
         if (!group.visible) continue;
         group.traverse((object) => {
-          if (object instanceof Mesh) found.push(object);
+          if (object instanceof Mesh) found.push(object as Mesh);
         });
       }
     }

@@ -1,6 +1,16 @@
 /** The points at which two shapes are nearest, the line between them, and the distance beside it. */
 
-import { BufferGeometry, Color, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, SphereGeometry, Vector3 } from "three";
+import {
+  BufferGeometry,
+  Color,
+  Group,
+  Line,
+  LineBasicMaterial,
+  Mesh,
+  MeshBasicMaterial,
+  SphereGeometry,
+  Vector3,
+} from "three";
 import type { PairDistance } from "../engine/protocol";
 import { length } from "../ui/format";
 import type { View } from "./view";
@@ -10,7 +20,10 @@ const TOUCHING = new Color("#ff5d5d");
 
 export class Witness {
   readonly group = new Group();
-  private readonly line = new Line(new BufferGeometry(), new LineBasicMaterial({ depthTest: false, transparent: true }));
+  private readonly line = new Line(
+    new BufferGeometry(),
+    new LineBasicMaterial({ depthTest: false, transparent: true }),
+  );
   private readonly balls = [0, 1].map(
     () => new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ depthTest: false, transparent: true })),
   );
@@ -45,7 +58,10 @@ export class Witness {
         ball.position.copy(points[k] ?? new Vector3());
         ball.scale.setScalar(size * 0.006);
       });
-      this.middle = new Vector3().add(points[0] ?? new Vector3()).add(points[1] ?? new Vector3()).divideScalar(2);
+      this.middle = new Vector3()
+        .add(points[0] ?? new Vector3())
+        .add(points[1] ?? new Vector3())
+        .divideScalar(2);
       this.label.textContent = touching ? "contact" : length(pair.distance);
       this.label.classList.toggle("touching", touching);
     }
@@ -55,6 +71,7 @@ export class Witness {
   private follow(): void {
     const at = this.middle ? this.view.place(this.middle) : null;
     this.label.hidden = at === null;
-    if (at) this.label.style.transform = `translate(${Math.round(at.x)}px, ${Math.round(at.y)}px) translate(-50%, -180%)`;
+    if (at)
+      this.label.style.transform = `translate(${Math.round(at.x)}px, ${Math.round(at.y)}px) translate(-50%, -180%)`;
   }
 }

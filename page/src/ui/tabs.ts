@@ -8,7 +8,9 @@ import { fill, h } from "./dom";
 export function tabs(app: App, panels: Record<Tab, HTMLElement>): HTMLElement {
   const buttons = TABS.map((tab) => {
     const button = h("button", { type: "button", role: "tab", id: `tab-${tab}`, "aria-controls": `panel-${tab}` }, tab);
-    button.addEventListener("click", () => { app.store.set({ tab }); });
+    button.addEventListener("click", () => {
+      app.store.set({ tab });
+    });
     return button;
   });
   const list = h("div", { class: "tablist", role: "tablist", "aria-label": "Panels" }, ...buttons);
@@ -23,7 +25,13 @@ export function tabs(app: App, panels: Record<Tab, HTMLElement>): HTMLElement {
     buttons[next]?.focus();
   });
   const bodies = TABS.map((tab) => {
-    const body = h("div", { role: "tabpanel", id: `panel-${tab}`, "aria-labelledby": `tab-${tab}`, class: "body", tabindex: "0" });
+    const body = h("div", {
+      role: "tabpanel",
+      id: `panel-${tab}`,
+      "aria-labelledby": `tab-${tab}`,
+      class: "body",
+      tabindex: "0",
+    });
     fill(body, panels[tab]);
     return body;
   });
