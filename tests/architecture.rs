@@ -41,7 +41,14 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     (
         "robot",
-        &["format", "directory", "document", "geometry", "kinematics"],
+        &[
+            "format",
+            "directory",
+            "document",
+            "geometry",
+            "kinematics",
+            "skips",
+        ],
     ),
     ("report", &["format", "directory", "document", "validate"]),
     (
@@ -60,14 +67,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     (
         "view",
-        &[
-            "format",
-            "directory",
-            "document",
-            "skips",
-            "validate",
-            "report",
-        ],
+        &["format", "directory", "robot", "validate", "report"],
     ),
     (
         "cli",

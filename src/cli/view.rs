@@ -81,7 +81,13 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     for path in &arguments.paths {
         match urdf_at(path)? {
             Some(urdf) => {
-                made(&urdf, arguments, &signals, temporary.path(), &mut collection)?;
+                made(
+                    &urdf,
+                    arguments,
+                    &signals,
+                    temporary.path(),
+                    &mut collection,
+                )?;
             }
             None => collection.add(path).map_err(usage)?,
         }
@@ -117,7 +123,10 @@ fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
         extension.eq_ignore_ascii_case("urdf") || extension.eq_ignore_ascii_case("xacro")
     };
     if path.is_file() && is_urdf(path) {
-        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xacro")) {
+        if path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("xacro"))
+        {
             return Err(usage(format!(
                 "{}: macros are not run to show a robot; `urdd generate` expands them",
                 path.display()
@@ -137,13 +146,19 @@ fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
         .map(|entry| entry.path())
         .filter(|path| path.is_file() && is_urdf(path))
         .collect();
-    found.retain(|path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("urdf")));
+    found.retain(|path| {
+        path.extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("urdf"))
+    });
     found.sort();
     match found.as_slice() {
         [] => Ok(None),
         [one] => Ok(Some(one.clone())),
         several => {
-            let names: Vec<String> = several.iter().map(|path| path.display().to_string()).collect();
+            let names: Vec<String> = several
+                .iter()
+                .map(|path| path.display().to_string())
+                .collect();
             Err(usage(format!(
                 "{}: there are several URDFs; give one of them: {}",
                 path.display(),

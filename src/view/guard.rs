@@ -120,12 +120,22 @@ mod tests {
 
     #[test]
     fn nobody_else_may() {
-        let hosts = [None, Some("evil.example"), Some("127.0.0.1"), Some("127.0.0.1:80")];
+        let hosts = [
+            None,
+            Some("evil.example"),
+            Some("127.0.0.1"),
+            Some("127.0.0.1:80"),
+        ];
         for host in hosts {
             let caller = Caller { host, ..own() };
             assert_eq!(guard().robots(&caller), Err(Refusal::Host), "{host:?}");
         }
-        let origins = ["null", "http://evil.example", "https://127.0.0.1:8642", "http://127.0.0.1:1"];
+        let origins = [
+            "null",
+            "http://evil.example",
+            "https://127.0.0.1:8642",
+            "http://127.0.0.1:1",
+        ];
         for origin in origins {
             let origin = Some(origin);
             let caller = Caller { origin, ..own() };
@@ -136,7 +146,13 @@ mod tests {
             let caller = Caller { site, ..own() };
             assert_eq!(guard().page(&caller), Err(Refusal::Origin), "{site:?}");
         }
-        for token in [None, Some(""), Some("abcde"), Some("abcdeF"), Some("abcdefg")] {
+        for token in [
+            None,
+            Some(""),
+            Some("abcde"),
+            Some("abcdeF"),
+            Some("abcdefg"),
+        ] {
             let caller = Caller { token, ..own() };
             assert_eq!(guard().robots(&caller), Err(Refusal::Token), "{token:?}");
         }

@@ -156,7 +156,8 @@ pub fn files(robot: &Shown) -> Result<Value, ReadError> {
         .entries
         .iter()
         .filter(|entry| entry.kind == EntryKind::File && entry.utf8);
-    let file = |entry: &crate::directory::root::Entry| json!({ "path": entry.path, "size": entry.size });
+    let file =
+        |entry: &crate::directory::root::Entry| json!({ "path": entry.path, "size": entry.size });
     Ok(json!({
         "name": root.folder_name(),
         "files": regular.map(file).collect::<Vec<_>>(),
@@ -200,7 +201,10 @@ mod tests {
         assert_eq!(Route::of("/app.js?1#2"), Route::Asset("app.js".to_owned()));
         assert_eq!(Route::of("/robots.json"), Route::Robots);
         assert_eq!(Route::of("/robots/a/files/b/c%20d"), file("b/c d"));
-        assert_eq!(Route::of("/robots/a/files.json"), Route::Files("a".to_owned()));
+        assert_eq!(
+            Route::of("/robots/a/files.json"),
+            Route::Files("a".to_owned())
+        );
     }
 
     #[test]

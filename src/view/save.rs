@@ -7,27 +7,18 @@ use std::path::Path;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
 
 use super::collection::Shown;
 use super::reply::Reply;
 use super::revision;
 use crate::directory::cancellation::Cancellation;
-use crate::directory::canonical;
-use crate::directory::discover::ROOT_METADATA;
-use crate::directory::json;
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
 use crate::directory::root::Root;
 use crate::directory::staging::Staging;
 use crate::directory::writer::Writer;
-use crate::document::load::Loaded;
-use crate::document::urdd::Urdd;
-use crate::format::hexadecimal::hexadecimal;
 use crate::format::link_shapes_skips::{SkipEdit, SkippedReason};
-use crate::format::registry::{ModuleDocument, ModuleKind};
-use crate::skips::skips_module;
+use crate::robot::Robot;
 
-const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
 /// Most edits, and most characters of a reason.
 const MAX_EDITS: usize = 1_000_000;
 const MAX_REASON: usize = 10_000;
@@ -152,7 +143,10 @@ fn take_over(
         }
         let Some(name) = path.to_str() else {
             let shown = path.display();
-            return Err((500, format!("{shown}: a name that is not UTF-8 cannot be kept")));
+            return Err((
+                500,
+                format!("{shown}: a name that is not UTF-8 cannot be kept"),
+            ));
         };
         let name = name.replace('\\', "/");
         if instead.contains_key(&name) {
@@ -179,77 +173,22 @@ fn link(_: &Path, _: &Path) -> std::io::Result<()> {
     Err(std::io::Error::other("symbolic links cannot be kept here"))
 }
 
-/// The module's two files, and `urdd.json` with their sizes and hashes.
+/// The files that change.
 fn made(
     robot: &Shown,
     edits: Vec<SkipEdit>,
     reasons: Option<Vec<SkippedReason>>,
 ) -> Result<Files, Failure> {
-    let refused = |message: &str| (400, message.to_owned());
-    let root = robot.open().map_err(|error| (500, error.to_string()))?;
-    let kinds = [ModuleKind::Urdf, ModuleKind::LinkShapesSimpleSkips, SKIPS];
-    let loaded = Loaded::read_only(root.clone(), &kinds);
-    let part = Urdd::new(loaded.map_err(|error| (500, error.to_string()))?.into());
-    let (simple, now) = match (part.document(kinds[1]), part.document(SKIPS)) {
-        (
-            Some(ModuleDocument::LinkShapesSimpleSkips(simple)),
-            Some(ModuleDocument::LinkShapesSkips(now)),
-        ) => (simple, now),
-        _ => {
-            let why = "link_shapes_simple_skips_module or link_shapes_skips_module of version 1 is missing or cannot be read: \
-                `urdd generate` makes them";
-            return Err(refused(why));
-        }
-    };
-    let described = part.robot().ok_or_else(|| refused("urdf_module cannot be read"))?;
-    let names: Vec<&str> = described.links.iter().map(|link| link.name.as_str()).collect();
     if edits.len() > MAX_EDITS {
-        return Err(refused("these are too many edits"));
+        return Err((400, "these are too many edits".to_owned()));
     }
-    for edit in &edits {
-        for link in [&edit.link_a, &edit.link_b] {
-            if described.link(link).is_none() {
-                let link = link.escape_debug();
-                return Err((400, format!("there is no link `{link}`")));
-            }
-        }
-        if edit.reason.chars().count() > MAX_REASON {
-            return Err(refused("a reason is too long"));
-        }
+    if edits
+        .iter()
+        .any(|edit| edit.reason.chars().count() > MAX_REASON)
+    {
+        return Err((400, "a reason is too long".to_owned()));
     }
-    let reasons = reasons.unwrap_or_else(|| now.skipped_reasons.clone());
-    let module = skips_module(simple, reasons, edits, &names);
-    let document = serde_json::to_value(&module).map_err(|error| (500, error.to_string()))?;
-    let folder = SKIPS.folder();
-    let mut files = Files::from([
-        (
-            format!("{folder}/module.json"),
-            canonical::json_string(&document).into_bytes(),
-        ),
-        (
-            format!("{folder}/module.yaml"),
-            canonical::yaml_string(&document).into_bytes(),
-        ),
-    ]);
-    let metadata = root
-        .read(ROOT_METADATA, MAX_DOCUMENT_BYTES)
-        .map_err(|error| (500, format!("{ROOT_METADATA}: {error}")))?;
-    let mut metadata = json::read(&metadata)
-        .map_err(|error| (500, format!("{ROOT_METADATA}: {error}")))?
-        .value;
-    let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
-    for module in modules.into_iter().flatten() {
-        let listed = module.get_mut("files").and_then(Value::as_array_mut);
-        for entry in listed.into_iter().flatten() {
-            let bytes = entry["path"].as_str().and_then(|path| files.get(path));
-            if let Some(bytes) = bytes {
-                let (size, hash) = (bytes.len(), hexadecimal(&Sha256::digest(bytes)));
-                entry["size"] = json!(size);
-                entry["sha256"] = json!(hash);
-            }
-        }
-    }
-    let text = canonical::json_string(&metadata).into_bytes();
-    files.insert(ROOT_METADATA.to_owned(), text);
-    Ok(files)
+    let opened = Robot::open(&robot.path).map_err(|error| (500, error.to_string()))?;
+    let edited = opened.with_skip_edits(edits, reasons);
+    Ok(edited.map_err(|error| (400, error.to_string()))?.files)
 }

@@ -65,7 +65,10 @@ impl Server {
             Some(port) => at(port)?,
             None => at(USUAL_PORT).or_else(|_| at(0))?,
         };
-        let port = http.server_addr().to_ip().map_or(0, |address| address.port());
+        let port = http
+            .server_addr()
+            .to_ip()
+            .map_or(0, |address| address.port());
         let mut random = [0; 24];
         getrandom::fill(&mut random).map_err(|error| ServerError::Random(error.to_string()))?;
         let token = hexadecimal(&random);

@@ -5,11 +5,11 @@ use std::collections::HashMap;
 use serde_json::{Value, json};
 use urdd::directory::root::Root;
 use urdd::document::load::Loaded;
-use urdd::document::shape_matrices::{Statistics, at, shape_lists, statistics};
+use urdd::document::shape_matrices::{Statistics, at, shape_lists, skips as matrices, statistics};
 use urdd::document::urdd::Urdd;
 use urdd::format::link_shapes_simple_skips::SkipReason;
 use urdd::format::registry::{ModuleDocument, ModuleKind};
-use urdd::robot::{ShapeKind, Skips};
+use urdd::robot::{EditedSkips, ShapeKind, Skips};
 
 use crate::files::Files;
 
@@ -111,6 +111,47 @@ impl Pairs {
             "edits": module.map(|module| &module.edits),
             "skipped_reasons": module.map(|module| &module.skipped_reasons),
         })
+    }
+}
+
+impl Pairs {
+    /// As [`Pairs::skips`], with other edits; and the `files` that change.
+    pub fn edited(&self, kind: ShapeKind, skips: &Skips, edited: EditedSkips) -> Value {
+        let mut answer = self.skips(kind, skips);
+        let files = edited
+            .files
+            .iter()
+            .map(|(path, bytes)| json!({ "path": path, "text": String::from_utf8_lossy(bytes) }));
+        answer["files"] = files.collect();
+        answer["edits"] = json!(edited.module.edits);
+        answer["skipped_reasons"] = json!(edited.module.skipped_reasons);
+        let links = edited.module.full_shapes.clone();
+        let document = ModuleDocument::LinkShapesSkips(edited.module);
+        let Some(six) = matrices(&document) else {
+            return answer;
+        };
+        let place = ShapeKind::ALL.iter().position(|other| *other == kind);
+        let own = place.and_then(|place| six[place]);
+        let hulls = six[0].unwrap_or_default();
+        // Where the matrices of pieces are left out, those of hulls count (SPEC 8.4).
+        let row_of = |shape: usize| match own {
+            Some(_) => Some(shape),
+            None => {
+                let (link, _) = skips.places().get(shape)?;
+                links.iter().position(|other| other.get() == *link)
+            }
+        };
+        let rows = own.unwrap_or(hulls);
+        let is_skipped = |i: usize, j: usize| at(rows, row_of(i)?, row_of(j)?);
+        let row = |i: usize| -> String {
+            let letter = |j: usize| match is_skipped(i, j).unwrap_or(i == j) {
+                true => '1',
+                false => '0',
+            };
+            (0..skips.len()).map(letter).collect()
+        };
+        answer["skipped"] = (0..skips.len()).map(row).collect();
+        answer
     }
 }
 

@@ -81,6 +81,9 @@ pub unsafe extern "C" fn urdd_robot_poses(
 /// - `{"ask": "proximity", "q": [...], "shapes": "pieces", "k": 3}`: `nearest`, each with its statistics;
 ///   `in_collision`, `pairs` (how many are looked at) and `of` (how many there are).
 /// - `{"ask": "skips", "shapes": "pieces"}`: the matrices of skips and reasons, and the edits.
+/// - `{"ask": "edit_skips", "shapes": "pieces", "edits": [...], "skipped_reasons": null}`: the matrices as they are with
+///   these edits, and `files`: the text of each file of the URDD that changes.
+/// - `{"ask": "prepare", "shapes": "pieces"}`: reads the shapes, so that what is asked next is answered at once.
 /// - `{"ask": "samples"}`: the document of `kinematics_samples_module`.
 ///
 /// # Safety
@@ -175,6 +178,17 @@ fn ask(handle: &mut Handle, question: &[u8]) -> Result<Value, String> {
             let skips = handle.robot.skips(kind).map_err(said)?;
             Ok(pairs(handle)?.skips(kind, &skips))
         }
+        "edit_skips" => {
+            let kind = kind(&question)?;
+            let list = |key: &str| question[key].clone();
+            let edits = serde_json::from_value(list("edits")).map_err(|error| error.to_string())?;
+            let reasons = serde_json::from_value(list("skipped_reasons"));
+            let reasons = reasons.map_err(|error| error.to_string())?;
+            let edited = handle.robot.with_skip_edits(edits, reasons).map_err(said)?;
+            let skips = handle.robot.skips(kind).map_err(said)?;
+            Ok(pairs(handle)?.edited(kind, &skips, edited))
+        }
+        "prepare" => Ok(json!(proximity(handle, &question)?.num_pairs())),
         "samples" => {
             let bytes = handle.files.read(
                 "kinematics_samples_module/module.json",

@@ -46,15 +46,8 @@ export function proximity(app: App): HTMLElement {
   const panel = h(
     "div",
     { class: "panel" },
-    h(
-      "div",
-      { class: "headline" },
-      h("h2", {}, "Nearest pairs"),
-      kind,
-      order,
-      h("span", { class: "spring" }),
-      h("span", { class: "columns" }, "distance · of mean"),
-    ),
+    h("div", { class: "headline" }, h("h2", {}, "Nearest pairs"), h("span", { class: "spring" }), kind, order),
+    h("div", { class: "headline" }, state, h("span", { class: "spring" }), h("span", { class: "hint" }, "distance · of mean")),
     state,
     empty,
     list,
