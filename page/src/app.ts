@@ -6,7 +6,7 @@ import { Latest } from "./latest";
 import { RobotModel } from "./model";
 import type { Entry, Part } from "./model";
 import type { Site } from "./site";
-import { LAYERS, StateStore } from "./state";
+import { LAYERS, NO_SKIPS, StateStore } from "./state";
 import type { Layer, LayerKind } from "./state";
 
 /** Nearest pairs that are shown. */
@@ -16,8 +16,8 @@ export class App {
   readonly store = new StateStore();
   private readonly poses: Latest<number[]>;
   private readonly proximity: Latest<{ q: number[]; shapes: ShapeKind }>;
-  /** What the files of a robot were when they were last looked at. */
-  revision: { id: string; revision: string } | null = null;
+  /** A word for the files of the robot as they were read; null where nobody says. */
+  revision: string | null = null;
   private opening = 0;
   private noting: ReturnType<typeof setTimeout> | undefined;
 
@@ -52,7 +52,7 @@ export class App {
       loading: { what: "modules", done: 0, of: 0 },
       ...(keep ? {} : { selected: null, hovered: null, hidden: new Set<number>(), pair: null }),
       proximity: { answer: null, error: null },
-      skips: { answer: null, error: null },
+      skips: NO_SKIPS,
       report: { report: null, error: null, busy: null },
       sample: null,
     });
@@ -61,6 +61,7 @@ export class App {
         if (turn === this.opening) this.store.set({ loading: { what, done, of } });
       });
       if (turn !== this.opening) return null;
+      this.revision = source.kind === "url" ? source.revision : null;
       const robot = new RobotModel(entry, source, about, files);
       if (robot.links.length === 0) throw new Error(why(robot));
       const q = keep && before.q.length === robot.dofs.length ? before.q : (about.zero ?? robot.dofs.map(() => 0));
@@ -72,6 +73,17 @@ export class App {
       if (turn === this.opening) this.store.set({ loading: null, failure: message(error) });
       return null;
     }
+  }
+
+  /** Reads the robot again: its files changed. */
+  async reopen(): Promise<void> {
+    const { robot, skips } = this.store.now;
+    if (robot?.source.kind !== "url") return;
+    await this.open(robot.entry, await this.site.source(robot.entry), true);
+    this.store.set({ skips: { ...this.store.now.skips, saved: skips.saved } });
+    const { tab } = this.store.now;
+    if (tab === "Proximity") this.measure(true);
+    if (tab === "Findings") void this.loadReport();
   }
 
   close(): void {
@@ -135,15 +147,6 @@ export class App {
       else hidden.delete(link);
     }
     this.store.set({ hidden });
-  }
-
-  async loadSkips(shapes: ShapeKind): Promise<void> {
-    try {
-      const answer = await this.engine.ask("skips", { shapes });
-      this.store.set({ skips: { answer, error: null } });
-    } catch (error) {
-      this.store.set({ skips: { answer: null, error: message(error) } });
-    }
   }
 
   /** The report: the site has it, or it is made here. */

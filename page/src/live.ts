@@ -6,26 +6,26 @@ const PERIOD = 1000;
 const GONE = "gone";
 
 export function follow(app: App): void {
-  let known: { id: string; revision: string } | null = null;
+  /** The change that the person was told of. */
+  let told: string | null = null;
   let lost = false;
   const look = async (): Promise<void> => {
     const { robot } = app.store.now;
     if (robot?.source.kind !== "url") return;
-    const { entry } = robot;
-    const revision = await app.site.revision(entry);
-    const before = known;
-    known = { id: entry.id, revision };
-    app.revision = known;
+    const revision = await app.site.revision(robot.entry);
     if (lost) app.note("The server is back.");
     lost = false;
-    if (before?.id !== entry.id || before.revision === revision || app.store.now.robot !== robot) return;
+    if (app.store.now.robot !== robot || app.revision === null || revision === app.revision) return;
+    if (revision === told) return;
+    told = revision;
     if (revision === GONE) {
       app.note("The files of this robot are gone. What is shown is what was there.");
-      return;
+    } else if (app.store.now.skips.dirty) {
+      app.note("The files changed on disk. Your decisions on skips stay here; saving them will be refused.");
+    } else {
+      await app.reopen();
+      app.note("The files changed: the robot was read again.");
     }
-    app.note("The files changed: the robot is read again.");
-    await app.open(entry, await app.site.source(entry), true);
-    if (app.store.now.tab === "Findings") void app.loadReport();
   };
   const again = (): void => {
     look()

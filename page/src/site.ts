@@ -17,9 +17,16 @@ export class Site {
 
   async source(entry: Entry): Promise<RobotSource> {
     const base = `robots/${encodeURIComponent(entry.id)}/`;
-    const listed = (await this.json(`${base}files.json`)) as { name: string; files: FileEntry[] };
+    const listed = (await this.json(`${base}files.json`)) as { name: string; files: FileEntry[]; revision?: string };
     const here = new URL(`${base}files/`, document.baseURI).href;
-    return { kind: "url", name: listed.name, base: here, token: this.token, files: listed.files };
+    return {
+      kind: "url",
+      name: listed.name,
+      base: here,
+      token: this.token,
+      files: listed.files,
+      revision: listed.revision ?? null,
+    };
   }
 
   async report(entry: Entry): Promise<Report> {

@@ -1,6 +1,6 @@
 /** The state of the page, and who wants to hear of its changes. */
 
-import type { ProximityAnswer, Report, ShapeKind, SkipsAnswer } from "./engine/protocol";
+import type { ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
 import type { Entry, Part, RobotModel } from "./model";
 
 export const LAYERS = [
@@ -71,7 +71,16 @@ export interface State {
   shapes: ShapeKind;
   proximity: { answer: ProximityAnswer | null; error: string | null };
   pair: Pair | null;
-  skips: { answer: SkipsAnswer | null; error: string | null };
+  skips: {
+    answer: SkipsAnswer | null;
+    error: string | null;
+    /** Edits as they were before, the last last. */
+    before: SkipEdit[][];
+    /** Whether there are edits that are not saved. */
+    dirty: boolean;
+    /** How many saves can be undone. */
+    saved: number;
+  };
   report: { report: Report | null; error: string | null; busy: string | null };
   /** Colours of links by their worst finding. */
   painted: boolean;
@@ -80,6 +89,8 @@ export interface State {
   /** A line for the status bar, for a moment. */
   note: string | null;
 }
+
+export const NO_SKIPS: State["skips"] = { answer: null, error: null, before: [], dirty: false, saved: 0 };
 
 export function initial(): State {
   const layer = (on: boolean): Layer => ({ on, opacity: 1 });
@@ -109,7 +120,7 @@ export function initial(): State {
     shapes: "pieces",
     proximity: { answer: null, error: null },
     pair: null,
-    skips: { answer: null, error: null },
+    skips: NO_SKIPS,
     report: { report: null, error: null, busy: null },
     painted: false,
     sample: null,

@@ -93,7 +93,13 @@ pub fn answer(collection: &Collection, route: &Route) -> Reply {
             let revision = revision::of(&robot.path);
             Ok(Reply::json(&json!({ "revision": revision })))
         }),
-        Route::Files(id) => with(id, &|robot| Ok(Reply::json(&files(robot)?))),
+        Route::Files(id) => with(id, &|robot| {
+            // Before the files are listed: what changes afterwards is noticed.
+            let revision = revision::of(&robot.path);
+            let mut files = files(robot)?;
+            files["revision"] = json!(revision);
+            Ok(Reply::json(&files))
+        }),
         Route::Report(id) => with(id, &|robot| Ok(Reply::json_text(report_of(robot)))),
         Route::File(id, path) => with(id, &|robot| {
             Ok(Reply::file(robot.open()?.read(path, MAX_FILE_BYTES)?))

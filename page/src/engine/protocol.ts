@@ -143,6 +143,8 @@ export interface SkipsAnswer {
   reasons: string[] | null;
   edits: SkipEdit[] | null;
   skipped_reasons: string[] | null;
+  /** The files that change, where edits were made. */
+  files?: { path: string; text: string }[];
 }
 
 export interface Sample {
@@ -212,7 +214,7 @@ export interface FileEntry {
 
 /** Where a robot's files lie. */
 export type RobotSource =
-  | { kind: "url"; name: string; base: string; token: string | null; files: FileEntry[] }
+  | { kind: "url"; name: string; base: string; token: string | null; files: FileEntry[]; revision: string | null }
   | { kind: "local"; name: string; files: { path: string; file: File }[] }
   | { kind: "zip"; name: string; bytes: ArrayBuffer };
 
@@ -227,6 +229,7 @@ export interface Calls {
   volumes: [{ shapes: ShapeKind }, Volume[]];
   proximity: [{ q: number[]; shapes: ShapeKind; k: number }, ProximityAnswer];
   skips: [{ shapes: ShapeKind }, SkipsAnswer];
+  editSkips: [{ shapes: ShapeKind; edits: SkipEdit[]; skipped_reasons: string[] | null }, SkipsAnswer];
   samples: [Record<string, never>, { samples: Sample[] }];
   explain: [{ code: string }, Explanation];
   validate: [{ name: string }, Report];

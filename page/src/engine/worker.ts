@@ -77,6 +77,7 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
 
   async proximity({ q, shapes, k }, tell) {
     await ensureShapes(shapes, tell);
+    engine().ask(robot, { ask: "prepare", shapes });
     const begin = performance.now();
     const answer = engine().ask(robot, { ask: "proximity", q, shapes, k }) as Calls["proximity"][1];
     return { ...answer, ms: performance.now() - begin };
@@ -85,6 +86,12 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
   async skips({ shapes }) {
     await opened().store.ensure(opened().store.needed("pairs"));
     return engine().ask(robot, { ask: "skips", shapes }) as Calls["skips"][1];
+  },
+
+  async editSkips({ shapes, edits, skipped_reasons }) {
+    const { store } = opened();
+    await store.ensure([...store.needed("pairs"), ...store.needed("about")]);
+    return engine().ask(robot, { ask: "edit_skips", shapes, edits, skipped_reasons }) as Calls["editSkips"][1];
   },
 
   async samples() {

@@ -1,151 +1,166 @@
-/** Links by links: which pairs collision checks skip, and why. */
+/** Links by links: which pairs collision checks skip, and why; and a person's decisions on them. */
 
 import type { App } from "../app";
 import { SHAPE_KINDS } from "../engine/protocol";
-import type { ShapeKind, SkipsAnswer } from "../engine/protocol";
+import type { ShapeKind, SkipEdit, SkipsAnswer } from "../engine/protocol";
 import type { RobotModel } from "../model";
+import { decide, download, isSkipped, letterAt, load, nearer, save, undo } from "../skips";
+import type { Pair } from "../state";
 import { fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { SHAPE_NAMES } from "./proximity";
-
-/** Letters of `wasm/src/pairs.rs`, in the order of the specification. */
-export const REASONS = new Map([
-  ["s", "same link"],
-  ["a", "always in contact"],
-  ["j", "adjacent"],
-  ["d", "in contact at rest"],
-  ["n", "never in contact"],
-  ["-", "sometimes in contact"],
-  ["?", "no reason given"],
-]);
-
-const SIDE = 340;
+import { at, draw, REASONS, reasonClass, region } from "./skip_matrix";
 
 export function skips(app: App): HTMLElement {
+  /** The two links whose pieces are shown, one level down. */
+  let down: [number, number] | null = null;
   const kind = h(
     "select",
     { "aria-label": "Shapes" },
     ...SHAPE_KINDS.map((shapes) => h("option", { value: shapes }, SHAPE_NAMES[shapes])),
   );
   kind.value = "hulls";
-  const canvas = h("canvas", { class: "matrix", tabindex: "0", role: "img", "aria-label": "Skips of pairs of links" });
+  const canvas = h("canvas", {
+    class: "matrix",
+    tabindex: "0",
+    role: "application",
+    "aria-label": "Skips of pairs of shapes; arrows move",
+  });
+  const up = h("button", { type: "button", class: "tiny" }, "All links");
   const legend = h("div", { class: "legend" });
-  const said = h("p", { class: "hint", "aria-live": "polite" });
+  const said = h("p", { class: "hint said", "aria-live": "polite" });
+  const chosen = h("div", {});
   const edits = h("div", {});
   const empty = h("p", { class: "empty" });
-  const panel = h(
+  const headline = h(
     "div",
-    { class: "panel" },
-    h("div", { class: "headline" }, h("h2", {}, "Skipped pairs"), kind),
-    canvas,
-    said,
-    legend,
-    edits,
-    empty,
+    { class: "headline" },
+    h("h2", {}, "Skipped pairs"),
+    h("span", { class: "spring" }),
+    up,
+    kind,
   );
+  const panel = h("div", { class: "panel" }, headline, canvas, said, legend, chosen, edits, empty);
+  const reload = (shapes: ShapeKind): void => {
+    kind.value = shapes;
+    void load(app, shapes);
+  };
   kind.addEventListener("change", () => {
-    void app.loadSkips(kind.value as ShapeKind);
+    down = null;
+    reload(kind.value as ShapeKind);
+  });
+  up.addEventListener("click", () => {
+    down = null;
+    reload("hulls");
   });
   const render = (): void => {
-    const {
-      skips: { answer, error },
-      robot,
-      pair,
-    } = app.store.now;
+    const { skips: state, robot, pair } = app.store.now;
+    const { answer, error } = state;
     const has = robot !== null && answer !== null && answer.places.length > 0;
-    canvas.hidden = !has;
-    legend.hidden = !has;
+    for (const element of [canvas, legend, said]) element.hidden = !has;
+    up.hidden = down === null;
     empty.hidden = has;
     empty.textContent = error
       ? `There are no skips to show: ${error}`
-      : has
-        ? ""
-        : answer
-          ? "This robot has no shapes, and so no pairs."
-          : "";
-    if (!has) {
-      fill(edits);
-      return;
-    }
-    draw(canvas, answer, pair);
+      : answer && !has
+        ? "This robot has no shapes, and so no pairs."
+        : "";
+    fill(chosen);
+    fill(edits);
+    if (!has) return;
+    draw(canvas, answer, region(answer, down), pair);
     fill(
       legend,
       ...[...REASONS].flatMap(([letter, text]) => {
-        const n = tally(answer, letter);
+        const n = tally(answer, (i, j) => letterAt(answer, i, j) === letter);
         return n > 0
-          ? [
-              h(
-                "span",
-                { class: `key reason-${letter === "-" ? "none" : letter === "?" ? "open" : letter}` },
-                `${text} (${n.toLocaleString("en")})`,
-              ),
-            ]
+          ? [h("span", { class: `key reason-${reasonClass(letter)}` }, `${text} (${n.toLocaleString("en")})`)]
           : [];
       }),
     );
     said.textContent = summary(answer);
-    fill(edits, ...listed(answer));
+    if (pair)
+      fill(
+        chosen,
+        ...decision(app, robot, answer, pair, (links) => {
+          down = links;
+          reload("pieces");
+        }),
+      );
+    fill(edits, ...listed(app, answer));
   };
   const under = (event: PointerEvent): [number, number] | null => {
     const { answer } = app.store.now.skips;
-    if (!answer) return null;
     const box = canvas.getBoundingClientRect();
-    const n = answer.places.length;
-    const [i, j] = [
-      Math.floor(((event.clientY - box.top) / box.height) * n),
-      Math.floor(((event.clientX - box.left) / box.width) * n),
-    ];
-    return i >= 0 && j >= 0 && i < n && j < n ? [i, j] : null;
+    return (
+      answer && at(region(answer, down), (event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height)
+    );
+  };
+  const choose = (answer: SkipsAnswer, i: number, j: number): void => {
+    const [a, b] = [answer.places[i], answer.places[j]];
+    if (a && b) app.store.set({ pair: [a, b] });
   };
   canvas.addEventListener("pointermove", (event) => {
-    const at = under(event);
+    const place = under(event);
     const {
       robot,
       skips: { answer },
     } = app.store.now;
-    if (at && robot && answer) said.textContent = words(robot, answer, at);
+    if (place && robot && answer) said.textContent = words(robot, answer, place);
   });
   canvas.addEventListener("pointerleave", () => {
     const { answer } = app.store.now.skips;
     if (answer) said.textContent = summary(answer);
   });
   canvas.addEventListener("pointerdown", (event) => {
-    const at = under(event);
+    const place = under(event);
     const { answer } = app.store.now.skips;
-    const [a, b] = [answer?.places[at?.[0] ?? -1], answer?.places[at?.[1] ?? -1]];
-    if (a && b) app.store.set({ pair: [a, b] });
+    if (place && answer) choose(answer, ...place);
+  });
+  canvas.addEventListener("keydown", (event) => {
+    const step = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] }[event.key];
+    const {
+      skips: { answer },
+      pair,
+      robot,
+    } = app.store.now;
+    if (!step || !answer || !robot) return;
+    event.preventDefault();
+    const { rows, columns } = region(answer, down);
+    const index = (list: number[], shape: [number, number] | undefined): number =>
+      Math.max(
+        0,
+        list.findIndex((k) => answer.places[k]?.[0] === shape?.[0] && answer.places[k]?.[1] === shape?.[1]),
+      );
+    const i = rows[index(rows, pair?.[0]) + (step[0] ?? 0)];
+    const j = columns[index(columns, pair?.[1]) + (step[1] ?? 0)];
+    if (i === undefined || j === undefined) return;
+    choose(answer, i, j);
+    said.textContent = words(robot, answer, [i, j]);
   });
   app.store.on(["skips", "robot", "pair"], render);
   addEventListener("urdd-theme", render);
+  app.store.on(["robot"], () => {
+    down = null;
+  });
   app.store.on(["tab", "robot"], ({ tab, robot, skips: { answer, error } }) => {
-    if (tab === "Skips" && robot && !answer && !error) void app.loadSkips(kind.value as ShapeKind);
+    if (tab === "Skips" && robot && !answer && !error) void load(app, kind.value as ShapeKind);
   });
   return panel;
 }
 
-function letterAt(answer: SkipsAnswer, i: number, j: number): string {
-  return answer.reasons?.[i]?.[j] ?? (i === j ? "s" : "?");
-}
-
-function isSkipped(answer: SkipsAnswer, i: number, j: number): boolean {
-  return answer.skipped[i]?.[j] === "1";
-}
-
-function tally(answer: SkipsAnswer, letter: string): number {
+function tally(answer: SkipsAnswer, counts: (i: number, j: number) => boolean): number {
   let n = 0;
   for (let i = 0; i < answer.places.length; i++) {
-    for (let j = i + 1; j < answer.places.length; j++) if (letterAt(answer, i, j) === letter) n++;
+    for (let j = i + 1; j < answer.places.length; j++) if (counts(i, j)) n++;
   }
   return n;
 }
 
 function summary(answer: SkipsAnswer): string {
-  let n = 0;
+  const skipped = tally(answer, (i, j) => isSkipped(answer, i, j));
   const all = (answer.places.length * (answer.places.length - 1)) / 2;
-  for (let i = 0; i < answer.places.length; i++) {
-    for (let j = i + 1; j < answer.places.length; j++) if (isSkipped(answer, i, j)) n++;
-  }
-  return `${n.toLocaleString("en")} of ${count(all, "pair")} are skipped.`;
+  return `${skipped.toLocaleString("en")} of ${count(all, "pair")} are skipped.`;
 }
 
 function words(robot: RobotModel, answer: SkipsAnswer, [i, j]: [number, number]): string {
@@ -157,10 +172,126 @@ function words(robot: RobotModel, answer: SkipsAnswer, [i, j]: [number, number])
   return `${of(i)} · ${of(j)}: ${reason}, ${isSkipped(answer, i, j) ? "skipped" : "checked"}`;
 }
 
-function listed(answer: SkipsAnswer): Node[] {
-  if (!answer.edits || answer.edits.length === 0) return [];
+/** What can be decided of the chosen pair of links. */
+function decision(
+  app: App,
+  robot: RobotModel,
+  answer: SkipsAnswer,
+  pair: Pair,
+  enter: (links: [number, number]) => void,
+): Node[] {
+  const links: [number, number] = [pair[0][0], pair[1][0]];
+  const [a, b] = links.map((link) => robot.links[link]?.name ?? "") as [string, string];
+  const pairs = answer.places.flatMap(([first], i) =>
+    answer.places.flatMap(([second], j): [number, number][] =>
+      first === links[0] && second === links[1] && i !== j ? [[i, j]] : [],
+    ),
+  );
+  const skipped = pairs.filter(([i, j]) => isSkipped(answer, i, j)).length;
+  const state =
+    pairs.length === 0
+      ? "no pair"
+      : skipped === pairs.length
+        ? "skipped"
+        : skipped === 0
+          ? "checked"
+          : `${skipped} of ${pairs.length} skipped`;
+  const title = [h("h2", {}, `${name(a)} · ${name(b)}: ${state}`)];
+  const into = h(
+    "button",
+    {
+      type: "button",
+      class: "tiny",
+      click: () => {
+        enter(links);
+      },
+    },
+    "Its pieces",
+  );
+  if (answer.edits === null)
+    return [
+      ...title,
+      into,
+      h("p", { class: "hint" }, "A legacy URDD has no edits: generate a new one to decide on skips."),
+    ];
+  if (links[0] === links[1])
+    return [...title, h("p", { class: "hint" }, "Shapes of one link are never checked against each other.")];
+  const reason = h("input", {
+    type: "text",
+    placeholder: "Why? (kept with the decision)",
+    "aria-label": "Reason",
+    maxlength: 10000,
+  });
+  const say = (skip: boolean): SkipEdit => ({ link_a: a, link_b: b, skip, reason: reason.value.trim() });
+  const button = (text: string, title: string, act: () => void): Node =>
+    h("button", { type: "button", title, click: act }, text);
   return [
-    h("h2", {}, "Edits"),
+    ...title,
+    reason,
+    h(
+      "div",
+      { class: "actions" },
+      button("Skip", "All pairs of shapes of these two links", () => {
+        void decide(app, [say(true)]);
+      }),
+      button("Check", "All pairs of shapes of these two links", () => {
+        void decide(app, [say(false)]);
+      }),
+      button("Skip all nearer", "Every pair of links that is nearer than this one in the present configuration", () => {
+        void nearer(app, links, "distance", reason.value.trim());
+      }),
+      button("Skip all relatively nearer", "Every pair of links whose distance is a smaller share of its mean", () => {
+        void nearer(app, links, "relative", reason.value.trim());
+      }),
+      into,
+    ),
+  ];
+}
+
+function listed(app: App, answer: SkipsAnswer): Node[] {
+  const { skips: state, robot } = app.store.now;
+  if (!answer.edits || !robot) return [];
+  const canUndo = state.before.length > 0 || state.saved > 0;
+  const back = h(
+    "button",
+    {
+      type: "button",
+      click: () => {
+        void undo(app);
+      },
+    },
+    state.before.length > 0 || state.saved === 0 ? "Undo" : "Undo the save",
+  );
+  back.disabled = !canUndo;
+  const writable = robot.entry.writable && app.site.mode === "live";
+  const keep = writable
+    ? h(
+        "button",
+        {
+          type: "button",
+          class: "main",
+          click: () => {
+            void save(app);
+          },
+        },
+        "Save",
+      )
+    : h(
+        "button",
+        {
+          type: "button",
+          class: "main",
+          click: () => {
+            download(app);
+          },
+        },
+        "Download the files",
+      );
+  keep.disabled = !state.dirty;
+  return [
+    h("h2", {}, state.dirty ? "Decisions, not saved yet" : "Decisions"),
+    answer.edits.length === 0 &&
+      h("p", { class: "hint" }, "None: skips follow from reasons alone. Click a pair to decide."),
     h(
       "ul",
       { class: "notes" },
@@ -172,44 +303,13 @@ function listed(answer: SkipsAnswer): Node[] {
         ),
       ),
     ),
-  ];
-}
-
-function draw(canvas: HTMLCanvasElement, answer: SkipsAnswer, pair: [[number, number], [number, number]] | null): void {
-  const n = answer.places.length;
-  const ratio = Math.min(window.devicePixelRatio, 2);
-  const side = Math.round(SIDE * ratio);
-  canvas.width = side;
-  canvas.height = side;
-  const context = canvas.getContext("2d");
-  if (!context) return;
-  const style = getComputedStyle(canvas);
-  const color = (key: string): string => style.getPropertyValue(`--reason-${key}`);
-  const colors = new Map(
-    [...REASONS.keys()].map((letter) => [letter, color(letter === "-" ? "none" : letter === "?" ? "open" : letter)]),
-  );
-  const cell = side / n;
-  const gap = cell > 6 ? 1 : 0;
-  for (let i = 0; i < n; i++) {
-    for (let j = 0; j < n; j++) {
-      context.globalAlpha = isSkipped(answer, i, j) ? 1 : 0.3;
-      context.fillStyle = colors.get(letterAt(answer, i, j)) ?? "#888";
-      context.fillRect(j * cell, i * cell, Math.max(cell - gap, 0.5), Math.max(cell - gap, 0.5));
-    }
-  }
-  context.globalAlpha = 1;
-  if (pair) {
-    const index = ([link, piece]: [number, number]): number =>
-      answer.places.findIndex(([l, p]) => l === link && (p === piece || !answer.shapes.startsWith("piece")));
-    const [i, j] = [index(pair[0]), index(pair[1])];
-    if (i >= 0 && j >= 0) {
-      context.strokeStyle = style.getPropertyValue("--text");
-      context.lineWidth = Math.max(2, ratio * 1.5);
-      for (const [a, b] of [
-        [i, j],
-        [j, i],
-      ] as const)
-        context.strokeRect(b * cell, a * cell, cell, cell);
-    }
-  }
+    h("div", { class: "actions" }, back, keep),
+    !writable &&
+      state.dirty &&
+      h(
+        "p",
+        { class: "hint" },
+        "This page cannot write the URDD: it is shown from a site, an archive, or was made for this view.",
+      ),
+  ].filter((node) => node !== false);
 }

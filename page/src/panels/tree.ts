@@ -15,6 +15,9 @@ interface Row {
   dot: HTMLElement;
 }
 
+/** Room for indents, pixels. */
+const WIDEST = 100;
+
 const TURNS = new Set(["Revolute", "Continuous"]);
 
 export function tree(app: App): HTMLElement {
@@ -35,11 +38,11 @@ export function tree(app: App): HTMLElement {
   );
   let rows: Row[] = [];
 
-  const make = (robot: RobotModel, link: number, depth: number): Row => {
+  const make = (robot: RobotModel, link: number, depth: number, step: number): Row => {
     const value = h("span", { class: "value" });
     const dot = h("span", { class: "dot" });
     const indent = h("span", { class: "indent" });
-    indent.style.width = `${Math.min(depth, 12) * 14}px`;
+    indent.style.width = `${Math.round(depth * step)}px`;
     const label = name(robot.links[link]?.name ?? "");
     const joint = robot.links[link]?.parent_joint ?? null;
     const title =
@@ -83,28 +86,11 @@ export function tree(app: App): HTMLElement {
     empty.textContent = robot ? "No link or joint of this name." : "";
   };
   app.store.on(["robot"], ({ robot }) => {
-    rows = [];
-    if (robot) {
-      const seen = new Set<number>();
-      const waiting = robot.roots
-        .slice()
-        .reverse()
-        .map((link) => ({ link, depth: 0 }));
-      for (let next = waiting.pop(); next; next = waiting.pop()) {
-        if (seen.has(next.link)) continue;
-        seen.add(next.link);
-        rows.push(make(robot, next.link, next.depth));
-        const depth = next.depth + 1;
-        for (const joint of (robot.below[next.link] ?? []).slice().reverse()) {
-          const child = robot.joints[joint]?.child ?? null;
-          if (child !== null) waiting.push({ link: child, depth });
-        }
-      }
-      // What the tree does not reach is shown all the same.
-      robot.links.forEach((_, link) => {
-        if (!seen.has(link)) rows.push(make(robot, link, 0));
-      });
-    }
+    const found = robot ? order(robot) : [];
+    const deepest = Math.max(1, ...found.map(({ depth }) => depth));
+    // Deep trees are drawn closer, so that names have room.
+    const step = Math.min(14, WIDEST / deepest);
+    rows = robot ? found.map(({ link, depth }) => make(robot, link, depth, step)) : [];
     fill(list, ...rows.map((row) => row.element));
     filter();
   });
@@ -164,6 +150,28 @@ export function tree(app: App): HTMLElement {
     for (const row of rows) row.dot.className = `dot ${worst?.get(row.link) ?? (report.report ? "good" : "open")}`;
   });
   return panel;
+}
+
+/** Links below the link that carries them. */
+function order(robot: RobotModel): { link: number; depth: number }[] {
+  const found: { link: number; depth: number }[] = [];
+  const seen = new Set<number>();
+  const waiting = robot.roots.map((link) => ({ link, depth: 0 })).reverse();
+  for (let next = waiting.pop(); next; next = waiting.pop()) {
+    if (seen.has(next.link)) continue;
+    seen.add(next.link);
+    found.push(next);
+    const depth = next.depth + 1;
+    for (const joint of (robot.below[next.link] ?? []).slice().reverse()) {
+      const child = robot.joints[joint]?.child ?? null;
+      if (child !== null) waiting.push({ link: child, depth });
+    }
+  }
+  // What the tree does not reach is shown all the same.
+  robot.links.forEach((_, link) => {
+    if (!seen.has(link)) found.push({ link, depth: 0 });
+  });
+  return found;
 }
 
 function standing(robot: RobotModel, joint: number, q: readonly number[]): string {
