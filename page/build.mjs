@@ -1,4 +1,4 @@
-// Bundles the page into dist/, each file as it is and compressed by gzip, with a stamp of what it was made from.
+// Bundles the page into dist/, each file compressed by brotli, with a stamp of what it was made from.
 //
 //     node build.mjs [URDD_WASM]
 //
@@ -42,11 +42,10 @@ rmSync(dist, { recursive: true, force: true });
 mkdirSync(dist, { recursive: true });
 let page = 0;
 for (const [name, bytes] of Object.entries(files)) {
-  const gzip = gzipSync(bytes, { level: 9 });
-  writeFileSync(join(dist, `${name}.gz`), gzip);
-  if (name !== "urdd.wasm") page += gzip.length;
-  const brotli = brotliCompressSync(bytes).length;
-  console.log(`${name.padEnd(12)} ${bytes.length} bytes, gzip ${gzip.length}, brotli ${brotli}`);
+  const brotli = brotliCompressSync(bytes);
+  writeFileSync(join(dist, `${name}.br`), brotli);
+  if (name !== "urdd.wasm") page += brotli.length;
+  console.log(`${name.padEnd(12)} ${bytes.length} bytes, gzip ${gzipSync(bytes).length}, brotli ${brotli.length}`);
 }
 console.log(`the page without robots and wasm: ${page} bytes compressed`);
 writeFileSync(join(dist, "stamp"), `${stamp()}\n`);

@@ -2,7 +2,7 @@
 
 use std::io::{self, Read};
 
-use flate2::read::GzDecoder;
+use brotli_decompressor::Decompressor;
 
 /// A file of the page.
 #[derive(Debug, Clone, Copy)]
@@ -11,8 +11,8 @@ pub struct Asset {
     pub name: &'static str,
     /// Its type, as servers say it.
     pub media_type: &'static str,
-    /// Its content, compressed by gzip.
-    pub gzip: &'static [u8],
+    /// Its content, compressed by brotli.
+    pub brotli: &'static [u8],
 }
 
 macro_rules! asset {
@@ -20,11 +20,11 @@ macro_rules! asset {
         Asset {
             name: $name,
             media_type: $type,
-            gzip: include_bytes!(concat!(
+            brotli: include_bytes!(concat!(
                 env!("CARGO_MANIFEST_DIR"),
                 "/page/dist/",
                 $name,
-                ".gz"
+                ".br"
             )),
         }
     };
@@ -54,7 +54,7 @@ impl Asset {
     /// Where it was not built as it should be.
     pub fn bytes(&self) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
-        GzDecoder::new(self.gzip).read_to_end(&mut bytes)?;
+        Decompressor::new(self.brotli, 1 << 16).read_to_end(&mut bytes)?;
         Ok(bytes)
     }
 }
@@ -80,7 +80,7 @@ mod tests {
     fn the_page_is_whole() {
         for asset in ASSETS {
             let bytes = asset.bytes().expect(asset.name);
-            assert!(bytes.len() > asset.gzip.len() / 2, "{}", asset.name);
+            assert!(bytes.len() > asset.brotli.len() / 2, "{}", asset.name);
         }
         let page = live_page().expect("a page");
         assert!(page.contains(r#"content="live""#), "{page}");

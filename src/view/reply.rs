@@ -9,8 +9,8 @@ pub struct Reply {
     pub status: u16,
     /// Type of the body.
     pub media_type: &'static str,
-    /// Whether the body is compressed by gzip.
-    pub gzip: bool,
+    /// Whether the body is compressed by brotli.
+    pub brotli: bool,
     /// The body.
     pub body: Vec<u8>,
 }
@@ -37,7 +37,7 @@ impl Reply {
         Self {
             status,
             media_type: "text/plain; charset=utf-8",
-            gzip: false,
+            brotli: false,
             body: message.into().into_bytes(),
         }
     }
@@ -52,7 +52,7 @@ impl Reply {
         Self {
             status: 200,
             media_type: "application/json",
-            gzip: false,
+            brotli: false,
             body: text.into_bytes(),
         }
     }
@@ -62,7 +62,7 @@ impl Reply {
         Self {
             status: 200,
             media_type: "application/octet-stream",
-            gzip: false,
+            brotli: false,
             body,
         }
     }

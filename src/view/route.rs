@@ -78,8 +78,8 @@ impl Route {
     }
 }
 
-/// The answer to a reading request.
-pub fn answer(collection: &Collection, route: &Route) -> Reply {
+/// The answer to a reading request. `brotli` says whether who asks can read that.
+pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
     let with = |id: &str, answer: &dyn Fn(&Shown) -> Result<Reply, ReadError>| {
         let Some(robot) = collection.find(id) else {
             return Reply::failure(404, "there is no such robot\n");
@@ -87,7 +87,7 @@ pub fn answer(collection: &Collection, route: &Route) -> Reply {
         answer(robot).unwrap_or_else(|error| failure(&error))
     };
     match route {
-        Route::Asset(name) => asset(name),
+        Route::Asset(name) => asset(name, brotli),
         Route::Robots => Reply::json(&collection.robots().iter().map(entry).collect()),
         Route::Revision(id) => with(id, &|robot| {
             let revision = revision::of(&robot.path);
@@ -117,22 +117,23 @@ fn failure(error: &ReadError) -> Reply {
     Reply::failure(status, format!("{error}\n"))
 }
 
-fn asset(name: &str) -> Reply {
+fn asset(name: &str, brotli: bool) -> Reply {
     let Some(asset) = assets::find(name) else {
         return Reply::failure(404, "there is no such page\n");
     };
-    let (gzip, body) = match name {
-        "index.html" => match assets::live_page() {
-            Ok(page) => (false, page.into_bytes()),
-            Err(error) => return Reply::failure(500, error.to_string()),
-        },
-        _ => (true, asset.gzip.to_vec()),
+    let body = match name {
+        "index.html" => assets::live_page().map(String::into_bytes),
+        _ if brotli => Ok(asset.brotli.to_vec()),
+        _ => asset.bytes(),
     };
-    Reply {
-        status: 200,
-        media_type: asset.media_type,
-        gzip,
-        body,
+    match body {
+        Ok(body) => Reply {
+            status: 200,
+            media_type: asset.media_type,
+            brotli: brotli && name != "index.html",
+            body,
+        },
+        Err(error) => Reply::failure(500, error.to_string()),
     }
 }
 

@@ -117,8 +117,8 @@ impl Server {
             add(name, value);
         }
         add("Content-Type", reply.media_type);
-        if reply.gzip {
-            add("Content-Encoding", "gzip");
+        if reply.brotli {
+            add("Content-Encoding", "br");
         }
         // Whoever asked may be gone.
         let _ = request.respond(response);
@@ -136,6 +136,12 @@ impl Server {
             site: header("Sec-Fetch-Site"),
             token: header("X-Urdd-Token"),
         };
+        let brotli = header("Accept-Encoding").is_some_and(|words| {
+            let mut words = words
+                .split(',')
+                .map(|word| word.split(';').next().unwrap_or_default());
+            words.any(|word| word.trim() == "br")
+        });
         let route = Route::of(request.url());
         let allowed = match route.is_public() {
             true => self.guard.page(&caller),
@@ -145,7 +151,7 @@ impl Server {
             return Reply::failure(403, refusal.message());
         }
         match (request.method(), &route) {
-            (Method::Get | Method::Head, _) => answer(&self.collection, &route),
+            (Method::Get | Method::Head, _) => answer(&self.collection, &route, brotli),
             (Method::Post, Route::Skips(id)) => {
                 let Some(robot) = self.collection.find(id) else {
                     return Reply::failure(404, "there is no such robot\n");

@@ -33,9 +33,24 @@ fn the_page_has_a_strict_policy_and_no_robot_in_it() {
         Some("same-origin")
     );
     for name in ["app.js", "worker.js", "style.css", "urdd.wasm"] {
-        let answer = server.raw(&format!("GET /{name}"), &[("Host", &*server.host())], b"");
-        assert_eq!(answer.status, 200, "{name}");
-        assert_eq!(answer.header("content-encoding"), Some("gzip"), "{name}");
+        let line = format!("GET /{name}");
+        let plain = server.raw(&line, &[("Host", &*server.host())], b"");
+        assert_eq!(
+            (plain.status, plain.header("content-encoding")),
+            (200, None),
+            "{name}"
+        );
+        let headers = [
+            ("Host", &*server.host()),
+            ("Accept-Encoding", "gzip, br;q=1"),
+        ];
+        let short = server.raw(&line, &headers, b"");
+        assert_eq!(
+            (short.status, short.header("content-encoding")),
+            (200, Some("br")),
+            "{name}"
+        );
+        assert!(short.body.len() < plain.body.len(), "{name}");
     }
 }
 
