@@ -40,6 +40,8 @@ pub mod report;
 pub mod robot;
 pub mod skips;
 pub mod validate;
+#[cfg(feature = "view")]
+pub mod view;
 pub mod xml;
 
 /// The Rust code in README.md is compiled and run with the tests.

@@ -41,7 +41,14 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     (
         "robot",
-        &["format", "directory", "document", "geometry", "kinematics"],
+        &[
+            "format",
+            "directory",
+            "document",
+            "geometry",
+            "kinematics",
+            "skips",
+        ],
     ),
     ("report", &["format", "directory", "document", "validate"]),
     (
@@ -59,6 +66,10 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "view",
+        &["format", "directory", "robot", "validate", "report"],
+    ),
+    (
         "cli",
         &[
             "format",
@@ -71,6 +82,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validate",
             "report",
             "robot",
+            "view",
             "conformance",
         ],
     ),

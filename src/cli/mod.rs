@@ -13,6 +13,7 @@ mod rehash;
 mod schema;
 mod signals;
 mod validate;
+mod view;
 mod words;
 
 use std::io::Write;
@@ -44,6 +45,8 @@ enum Command {
     Validate(validate::ValidateArguments),
     /// Ask a robot whether it collides with itself, and which of its parts are nearest.
     CheckCollisions(check_collisions::CheckCollisionsArguments),
+    /// Show robots in the browser: shapes, joints, distances, skips and findings.
+    View(view::ViewArguments),
     /// Tell about a rule, or list them all.
     Explain(explain::ExplainArguments),
     /// Tell what a URDD holds, without judging it.
@@ -76,6 +79,7 @@ pub fn run(closed: bool) -> ExitCode {
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments, color),
         Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
+        Command::View(arguments) => view::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Rehash(arguments) => rehash::run(&arguments),

@@ -91,6 +91,8 @@ impl Origin {
 /// Mass properties.
 #[derive(Debug, Clone, Copy)]
 pub struct Inertial {
+    /// Centre of mass, and the axes of `inertia`, in the link's frame.
+    pub origin: Origin,
     /// Mass, kg.
     pub mass: Option<f64>,
     /// xx, xy, xz, yy, yz, zz, kg m²; what is absent is 0.
@@ -246,6 +248,7 @@ fn from_v1_link(link: &v1::Link, quaternions: bool) -> Link {
         origin: Origin::of_v1(origin, quaternions),
     };
     let inertial = link.inertial.as_ref().map(|inertial| Inertial {
+        origin: Origin::of_v1(inertial.origin.as_ref(), quaternions),
         mass: inertial.mass.as_ref().map(|mass| mass.value),
         inertia: inertial.inertia.as_ref().map(|i| {
             [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz].map(|element| element.unwrap_or(0.0))
@@ -305,6 +308,7 @@ fn from_legacy_link(link: &legacy::Link) -> Link {
     Link {
         name: link.name.clone(),
         inertial: (!absent).then_some(Inertial {
+            origin: Origin::of_legacy(&link.inertial.origin),
             mass: Some(mass),
             inertia: Some(inertia),
         }),

@@ -35,6 +35,9 @@ pub enum RobotError {
     /// A legacy URDD leaves open how joints move.
     #[error("the modules do not say how the joints move: `urdd validate` says more")]
     MotionOpen,
+    /// `urdd.json` is missing or of no use.
+    #[error("urdd.json: {0}")]
+    Metadata(String),
     /// Modules that kinematics cannot be computed from.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),

@@ -53,7 +53,7 @@ impl Robot {
     }
 }
 
-fn index(what: &'static str, names: &[String], name: &str) -> Result<usize, RobotError> {
+pub(super) fn index(what: &'static str, names: &[String], name: &str) -> Result<usize, RobotError> {
     names
         .iter()
         .position(|known| known == name)

@@ -1,34 +1,35 @@
 //! A robot to ask about itself.
 
-use std::sync::Arc;
-
 use serde_json::{Value, json};
-use urdd::directory::source::Archive;
-use urdd::robot::{PairDistance, Proximity, Robot, RobotError, ShapeKind};
+use urdd::robot::{PairDistance, Proximity, Robot, RobotError, ShapeKind, Solid};
 
+use crate::about::about;
+use crate::files::Files;
+use crate::pairs::Pairs;
 use crate::{answer, memory};
 
-/// A robot, and the shapes that were prepared for it.
+/// A robot, and what was prepared for it.
 pub struct Handle {
+    files: Files,
     robot: Robot,
     proximity: Vec<Proximity>,
+    pairs: Option<Pairs>,
 }
 
-/// Opens the robot in a zip archive; null where it is no archive of a URDD.
+/// Opens the robot whose files these are. Nothing of it is read yet.
 ///
 /// # Safety
-/// The bytes are the host's, as [`memory::bytes`] wants them.
+/// `files` is open.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn urdd_robot_open_zip(zip: *const u8, length: usize) -> *mut Handle {
+pub unsafe extern "C" fn urdd_robot_open(files: *mut Files) -> *mut Handle {
     // SAFETY: as the caller promises.
-    let zip = unsafe { memory::bytes(zip, length) };
-    match Archive::new("robot", Arc::from(zip)) {
-        Ok(source) => Box::into_raw(Box::new(Handle {
-            robot: Robot::of(source),
-            proximity: Vec::new(),
-        })),
-        Err(_) => std::ptr::null_mut(),
-    }
+    let files = unsafe { (*files).clone() };
+    Box::into_raw(Box::new(Handle {
+        robot: Robot::of(files.clone()),
+        files,
+        proximity: Vec::new(),
+        pairs: None,
+    }))
 }
 
 /// Closes a robot.
@@ -41,13 +42,49 @@ pub unsafe extern "C" fn urdd_robot_close(handle: *mut Handle) {
     drop(unsafe { Box::from_raw(handle) });
 }
 
-/// Asks a robot something: JSON in, JSON out.
+/// Seven numbers (x, y, z; quaternion w, x, y, z) of each link in each of the configurations that follow each other in
+/// `values`: an answer as [`answer::bytes_or_error`] makes it, of binary64, little endian.
 ///
-/// - `{"ask": "about"}`: `links`, `joints`, `dofs`, `units`, `bounds`, and the configurations `zero` and `middle`.
+/// # Safety
+/// `handle` is an open robot that nobody else uses now; there are `count` numbers at `values`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_poses(
+    handle: *mut Handle,
+    values: *const u8,
+    count: usize,
+) -> *mut u8 {
+    // SAFETY: as the caller promises.
+    let (handle, values) = unsafe { (&*handle, memory::bytes(values, 8 * count)) };
+    let number = |bytes: &[u8]| f64::from_le_bytes(bytes.try_into().unwrap_or_default());
+    let values: Vec<f64> = values.chunks_exact(8).map(number).collect();
+    let poses = handle.robot.link_poses_batch(&values);
+    answer::bytes_or_error(poses.map_err(|error| error.to_string()).map(|poses| {
+        let seven = |pose: &nalgebra::Isometry3<f64>| {
+            let (t, q) = (pose.translation.vector, pose.rotation.quaternion());
+            [t.x, t.y, t.z, q.w, q.i, q.j, q.k]
+        };
+        let numbers = poses.iter().flat_map(seven);
+        numbers.flat_map(f64::to_le_bytes).collect()
+    }))
+}
+
+/// Asks a robot something: JSON in, JSON out. `q` is a configuration, rad or m; `shapes` a kind of shapes.
+///
+/// - `{"ask": "about"}`: `about`.
 /// - `{"ask": "poses", "q": [...]}`: a list with `position` (m) and `quaternion_wxyz` of each link.
+/// - `{"ask": "random", "k": 7}`: number `k` of the random configurations that SPEC 9.2 defines.
+/// - `{"ask": "clamp", "q": [...]}`: the nearest configuration within the bounds.
+/// - `{"ask": "volumes", "shapes": "boxes"}`: a list with `link`, `piece`, and a box or a sphere.
 /// - `{"ask": "distances", "q": [...], "shapes": "pieces"}`: each pair that is not skipped.
 /// - `{"ask": "nearest", "q": [...], "shapes": "pieces", "k": 3}`: the nearest pairs.
 /// - `{"ask": "in_collision", "q": [...], "shapes": "pieces"}`: true or false.
+/// - `{"ask": "proximity", "q": [...], "shapes": "pieces", "k": 3}`: `nearest`, each with its statistics;
+///   `in_collision`, `pairs` (how many are looked at) and `of` (how many there are).
+/// - `{"ask": "skips", "shapes": "pieces"}`: the matrices of skips and reasons, and the edits.
+/// - `{"ask": "edit_skips", "shapes": "pieces", "edits": [...], "skipped_reasons": null}`: the matrices as they are with
+///   these edits, and `files`: the text of each file of the URDD that changes.
+/// - `{"ask": "prepare", "shapes": "pieces"}`: reads the shapes, so that what is asked next is answered at once.
+/// - `{"ask": "samples"}`: the document of `kinematics_samples_module`.
 ///
 /// # Safety
 /// `handle` is an open robot that nobody else uses now; the bytes are the host's, as [`memory::bytes`] wants them.
@@ -70,8 +107,9 @@ fn ask(handle: &mut Handle, question: &[u8]) -> Result<Value, String> {
         let number = |value: &Value| value.as_f64().ok_or("`q` has what is no number");
         Ok(list.iter().map(number).collect::<Result<_, _>>()?)
     };
+    let count = || usize::try_from(question["k"].as_u64().unwrap_or(1)).unwrap_or(usize::MAX);
     match question["ask"].as_str().unwrap_or_default() {
-        "about" => about(&handle.robot).map_err(said),
+        "about" => about(&handle.files, &handle.robot),
         "poses" => {
             let poses = handle.robot.link_poses(&values()?).map_err(said)?;
             let pose = |pose: &nalgebra::Isometry3<f64>| {
@@ -83,14 +121,26 @@ fn ask(handle: &mut Handle, question: &[u8]) -> Result<Value, String> {
             };
             Ok(poses.iter().map(pose).collect())
         }
+        "random" => {
+            let configurations = handle.robot.configurations().map_err(said)?;
+            Ok(json!(
+                configurations.random(question["k"].as_u64().unwrap_or(0))
+            ))
+        }
+        "clamp" => {
+            let mut q = values()?;
+            let configurations = handle.robot.configurations().map_err(said)?;
+            configurations.clamp(&mut q);
+            Ok(json!(q))
+        }
+        "volumes" => volumes(&handle.robot, kind(&question)?).map_err(said),
         "distances" => {
             let q = values()?;
             let pairs = proximity(handle, &question)?.distances(&q).map_err(said)?;
             Ok(pairs.iter().map(pair).collect())
         }
         "nearest" => {
-            let (q, k) = (values()?, question["k"].as_u64().unwrap_or(1));
-            let k = usize::try_from(k).unwrap_or(usize::MAX);
+            let (q, k) = (values()?, count());
             let pairs = proximity(handle, &question)?.nearest(&q, k).map_err(said)?;
             Ok(pairs.iter().map(pair).collect())
         }
@@ -99,45 +149,103 @@ fn ask(handle: &mut Handle, question: &[u8]) -> Result<Value, String> {
             let found = proximity(handle, &question)?.in_collision(&q);
             found.map(Value::Bool).map_err(said)
         }
+        "proximity" => {
+            let (q, k) = (values()?, count());
+            let shapes = proximity(handle, &question)?;
+            let nearest = shapes.nearest(&q, k).map_err(said)?;
+            let (kind, checked) = (shapes.kind(), shapes.num_pairs());
+            let in_collision = match nearest.first() {
+                Some(pair) => pair.distance <= 0.0,
+                None => shapes.in_collision(&q).map_err(said)?,
+            };
+            let pairs = pairs(handle)?;
+            let with = |found: &PairDistance| {
+                let mut value = pair(found);
+                value["link_idxs"] = json!(found.link_idxs);
+                value["statistics"] = pairs.statistics(kind, found.link_idxs, found.pieces);
+                value
+            };
+            Ok(json!({
+                "nearest": nearest.iter().map(with).collect::<Vec<_>>(),
+                "in_collision": in_collision,
+                "pairs": checked,
+                "of": pairs.count(kind),
+                "num_samples": pairs.num_samples(kind),
+            }))
+        }
+        "skips" => {
+            let kind = kind(&question)?;
+            let skips = handle.robot.skips(kind).map_err(said)?;
+            Ok(pairs(handle)?.skips(kind, &skips))
+        }
+        "edit_skips" => {
+            let kind = kind(&question)?;
+            let list = |key: &str| question[key].clone();
+            let edits = serde_json::from_value(list("edits")).map_err(|error| error.to_string())?;
+            let reasons = serde_json::from_value(list("skipped_reasons"));
+            let reasons = reasons.map_err(|error| error.to_string())?;
+            let edited = handle.robot.with_skip_edits(edits, reasons).map_err(said)?;
+            let skips = handle.robot.skips(kind).map_err(said)?;
+            Ok(pairs(handle)?.edited(kind, &skips, edited))
+        }
+        "prepare" => Ok(json!(proximity(handle, &question)?.num_pairs())),
+        "samples" => {
+            let bytes = handle.files.read(
+                "kinematics_samples_module/module.json",
+                urdd::directory::limits::MAX_DOCUMENT_BYTES,
+            )?;
+            serde_json::from_slice(&bytes).map_err(|error| error.to_string())
+        }
         other => Err(format!("nothing is known of `{}`", other.escape_debug())),
     }
 }
 
-fn about(robot: &Robot) -> Result<Value, RobotError> {
-    let configurations = robot.configurations()?;
-    Ok(json!({
-        "links": robot.links()?,
-        "joints": robot.joints()?,
-        "dofs": robot.dofs()?,
-        "units": robot.units()?,
-        "bounds": configurations.bounds(),
-        "zero": configurations.zero(),
-        "middle": configurations.middle(),
-    }))
+fn kind(question: &Value) -> Result<ShapeKind, String> {
+    let name = question["shapes"].as_str().unwrap_or("pieces");
+    name.parse().map_err(|error: RobotError| error.to_string())
+}
+
+/// The boxes or spheres of a kind.
+fn volumes(robot: &Robot, kind: ShapeKind) -> Result<Value, RobotError> {
+    let shapes = robot.shapes(kind)?;
+    let volume = |shape: &urdd::robot::LinkShape| {
+        let solid = match &shape.solid {
+            Solid::Mesh(_) => Value::Null,
+            Solid::Box { pose, half_extents } => {
+                let (t, q) = (pose.translation.vector, pose.rotation.quaternion());
+                json!({
+                    "position": t.as_slice(),
+                    "quaternion_wxyz": [q.w, q.i, q.j, q.k],
+                    "half_extents": half_extents,
+                })
+            }
+            Solid::Sphere { centre, radius } => json!({ "position": centre, "radius": radius }),
+        };
+        json!({ "link": shape.link, "piece": shape.piece, "solid": solid })
+    };
+    Ok(shapes.iter().map(volume).collect())
 }
 
 /// The shapes of a kind, prepared when they are first asked for.
 fn proximity<'a>(handle: &'a mut Handle, question: &Value) -> Result<&'a Proximity, String> {
-    let kind: ShapeKind = question["shapes"]
-        .as_str()
-        .unwrap_or("pieces")
-        .parse()
-        .map_err(|error: RobotError| error.to_string())?;
-    let at = match handle
-        .proximity
-        .iter()
-        .position(|known| known.kind() == kind)
-    {
+    let kind = kind(question)?;
+    let known = &mut handle.proximity;
+    let at = match known.iter().position(|known| known.kind() == kind) {
         Some(at) => at,
         None => {
             let prepared = handle.robot.proximity(kind);
-            handle
-                .proximity
-                .push(prepared.map_err(|error| error.to_string())?);
-            handle.proximity.len() - 1
+            known.push(prepared.map_err(|error| error.to_string())?);
+            known.len() - 1
         }
     };
     Ok(&handle.proximity[at])
+}
+
+fn pairs(handle: &mut Handle) -> Result<&Pairs, String> {
+    if handle.pairs.is_none() {
+        handle.pairs = Some(Pairs::read(&handle.files)?);
+    }
+    handle.pairs.as_ref().ok_or_else(String::new)
 }
 
 fn pair(pair: &PairDistance) -> Value {

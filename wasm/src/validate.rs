@@ -1,42 +1,33 @@
 //! The report of a URDD.
 
-use std::sync::Arc;
-
-use urdd::directory::source::Archive;
 use urdd::format::report::Severity;
 use urdd::report::{self, model::Report};
 use urdd::validate::settings::Settings;
 use urdd::validate::validate_source;
 
+use crate::files::Files;
 use crate::{answer, memory};
 
-/// The report of the URDD in a zip archive, as `urdd validate --format json` prints it. `name` is what the report calls
-/// it, UTF-8.
+/// The report of the URDD in some files, as `urdd validate --format json` prints it. `name` is what the report calls it,
+/// UTF-8.
 ///
 /// # Safety
-/// Both stretches of bytes are the host's, as [`memory::bytes`] wants them.
+/// `files` is open; the name is the host's, as [`memory::bytes`] wants it.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn urdd_validate_zip(
+pub unsafe extern "C" fn urdd_validate(
+    files: *mut Files,
     name: *const u8,
     name_length: usize,
-    zip: *const u8,
-    zip_length: usize,
 ) -> *mut u8 {
     // SAFETY: as the caller promises.
-    let (name, zip) = unsafe {
-        (
-            memory::bytes(name, name_length),
-            memory::bytes(zip, zip_length),
-        )
-    };
-    match validate(&String::from_utf8_lossy(name), zip) {
+    let (files, name) = unsafe { (&*files, memory::bytes(name, name_length)) };
+    let run = validate_source(
+        files.clone(),
+        &String::from_utf8_lossy(name),
+        &Settings::default(),
+    );
+    match report::json(&Report::new(&run, Severity::Error)) {
         Ok(report) => answer::text(&report),
-        Err(error) => answer::result(Err(error)),
+        Err(error) => answer::result(Err(error.to_string())),
     }
-}
-
-fn validate(name: &str, zip: &[u8]) -> Result<String, String> {
-    let source = Archive::new(name, Arc::from(zip)).map_err(|error| error.to_string())?;
-    let run = validate_source(source, name, &Settings::default());
-    report::json(&Report::new(&run, Severity::Error)).map_err(|error| error.to_string())
 }

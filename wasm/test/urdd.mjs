@@ -10,30 +10,93 @@ export class Urdd {
     return new Urdd(await WebAssembly.instantiate(module, {}));
   }
 
-  validateZip(name, zip) {
-    const nameBytes = new TextEncoder().encode(name);
-    return this.#with([nameBytes, zip], (at) =>
-      this.#answer(this.exports.urdd_validate_zip(at[0], nameBytes.length, at[1], zip.length)),
+  /** The files in a zip archive. */
+  zip(name, zip) {
+    const nameBytes = encode(name);
+    const files = this.#with([nameBytes, zip], (at) =>
+      this.exports.urdd_files_of_zip(at[0], nameBytes.length, at[1], zip.length),
+    );
+    if (files === 0) {
+      this.#with([zip], (at) => this.#json(this.exports.urdd_zip_fault(at[0], zip.length)));
+    }
+    return files;
+  }
+
+  /** Files by path: of each its bytes, or its size, where its bytes may come later by `give`. */
+  files(name, files) {
+    const bytes = encode(name);
+    const handle = this.#with([bytes], (at) => this.exports.urdd_files_new(at[0], bytes.length));
+    for (const [path, content] of Object.entries(files)) {
+      if (typeof content !== "number") this.give(handle, path, content);
+      else {
+        const at = encode(path);
+        this.#with([at], ([place]) => this.exports.urdd_files_name(handle, place, at.length, content));
+      }
+    }
+    return handle;
+  }
+
+  give(files, path, content) {
+    const name = encode(path);
+    this.#with([name, content], (at) =>
+      this.exports.urdd_files_give(files, at[0], name.length, at[1], content.length),
     );
   }
 
-  open(zip) {
-    const handle = this.#with([zip], (at) => this.exports.urdd_robot_open_zip(at[0], zip.length));
-    if (handle === 0) throw new Error("this is no zip archive of a URDD");
-    return handle;
+  list(files) {
+    return this.#json(this.exports.urdd_files_list(files));
+  }
+
+  read(files, path) {
+    const name = encode(path);
+    return this.#with([name], (at) => this.#bytes(this.exports.urdd_files_read(files, at[0], name.length)));
+  }
+
+  /** `positions` (x, y, z of each vertex) and `indices` (three of each triangle). */
+  mesh(files, path) {
+    const name = encode(path);
+    const bytes = this.#with([name], (at) => this.#bytes(this.exports.urdd_mesh(files, at[0], name.length)));
+    const [vertices] = new Uint32Array(bytes.buffer, 0, 2);
+    return {
+      positions: new Float32Array(bytes.buffer, 8, 3 * vertices),
+      indices: new Uint32Array(bytes.buffer, 8 + 12 * vertices),
+    };
+  }
+
+  validate(files, name) {
+    const bytes = encode(name);
+    return this.#with([bytes], (at) => this.#json(this.exports.urdd_validate(files, at[0], bytes.length)));
+  }
+
+  explain(code) {
+    const bytes = encode(code);
+    return this.#with([bytes], (at) => this.#json(this.exports.urdd_explain(at[0], bytes.length)));
+  }
+
+  closeFiles(files) {
+    this.exports.urdd_files_close(files);
+  }
+
+  open(files) {
+    return this.exports.urdd_robot_open(files);
   }
 
   close(handle) {
     this.exports.urdd_robot_close(handle);
   }
 
-  ask(handle, question) {
-    const bytes = new TextEncoder().encode(JSON.stringify(question));
+  /** x, y, z and the quaternion w, x, y, z of each link, in each of the configurations that follow each other. */
+  poses(handle, values) {
+    const bytes = new Uint8Array(new Float64Array(values).buffer);
     const answer = this.#with([bytes], (at) =>
-      this.#answer(this.exports.urdd_robot_ask(handle, at[0], bytes.length)),
+      this.#bytes(this.exports.urdd_robot_poses(handle, at[0], values.length)),
     );
-    if (answer !== null && typeof answer === "object" && "error" in answer) throw new Error(answer.error);
-    return answer;
+    return new Float64Array(answer.buffer);
+  }
+
+  ask(handle, question) {
+    const bytes = encode(JSON.stringify(question));
+    return this.#with([bytes], (at) => this.#json(this.exports.urdd_robot_ask(handle, at[0], bytes.length)));
   }
 
   #with(inputs, call) {
@@ -55,8 +118,24 @@ export class Urdd {
     if (at === 0) throw new Error("the module has no memory left");
     const buffer = this.exports.memory.buffer;
     const length = new DataView(buffer).getUint32(at, true);
-    const text = new TextDecoder().decode(new Uint8Array(buffer, at + 4, length).slice());
+    const bytes = new Uint8Array(buffer, at + 4, length).slice();
     this.exports.urdd_free_answer(at);
-    return JSON.parse(text);
+    return bytes;
   }
+
+  #json(pointer) {
+    const answer = JSON.parse(new TextDecoder().decode(this.#answer(pointer)));
+    if (answer !== null && typeof answer === "object" && "error" in answer) throw new Error(answer.error);
+    return answer;
+  }
+
+  #bytes(pointer) {
+    const answer = this.#answer(pointer);
+    if (answer[0] !== 1) throw new Error(new TextDecoder().decode(answer.slice(1)));
+    return answer.slice(1);
+  }
+}
+
+function encode(text) {
+  return new TextEncoder().encode(text);
 }

@@ -1,0 +1,71 @@
+// Figures of the page, in a browser that draws by software: node bench/page.mjs ADDRESS ROBOT
+//
+// The first picture, a slider step, proximity per step, memory after robots were opened and closed.
+
+import { browser, drawn, open, tab } from "../test/world.mjs";
+
+const [address, robot, shapes = "pieces"] = process.argv.slice(2);
+const chrome = await browser();
+const { page, close } = await tab(chrome, address);
+await page.waitForSelector(".card, .row");
+if (robot) await open(page, robot);
+await drawn(page);
+await page.waitForFunction(() => globalThis.urdd.stage.firstPicture !== null);
+const median = (values) => values.toSorted((a, b) => a - b)[Math.floor(values.length / 2)];
+
+const first = await page.evaluate(() => ({
+  first: globalThis.urdd.stage.firstPicture,
+  triangles: globalThis.urdd.stage.scene
+    .meshes()
+    .reduce((sum, mesh) => sum + (mesh.geometry.index ?? mesh.geometry.attributes.position).count / 3, 0),
+}));
+console.log(`first picture ${Math.round(first.first)} ms after the page began, ${first.triangles} triangles`);
+
+// Script of a slider step: from the event to the last listener, twice (the event, and the answer of the worker).
+const steps = await page.evaluate(async () => {
+  const { app, stage } = globalThis.urdd;
+  stage.view.draw = () => undefined;
+  const begin = [];
+  const { bounds } = app.store.now.robot.dofs[0];
+  for (let k = 0; k < 200; k++) {
+    const value = bounds[0] + ((bounds[1] - bounds[0]) * (k % 50)) / 50;
+    const before = app.store.now.poses;
+    let time = 0;
+    const original = app.store.set;
+    app.store.set = function (change) {
+      const start = performance.now();
+      original.call(this, change);
+      time += performance.now() - start;
+    };
+    const start = performance.now();
+    app.setDof(0, value);
+    const all = performance.now() - start;
+    const inside = time;
+    time = 0;
+    while (app.store.now.poses === before) await new Promise((resolve) => setTimeout(resolve, 0));
+    begin.push(all + time);
+    void inside;
+    app.store.set = original;
+  }
+  return begin;
+});
+console.log(`a slider step ${median(steps).toFixed(2)} ms of script (median of ${steps.length})`);
+
+const proximity = await page.evaluate(async (shapes) => {
+  const { app } = globalThis.urdd;
+  await app.engine.ask("proximity", { q: app.store.now.q, shapes, k: 24 });
+  const times = [];
+  let pairs = 0;
+  for (let k = 0; k < 100; k++) {
+    const q = await app.engine.ask("random", { k });
+    const answer = await app.engine.ask("proximity", { q, shapes, k: 24 });
+    times.push(answer.ms);
+    pairs = answer.pairs;
+  }
+  return { times, pairs };
+}, shapes);
+console.log(
+  `proximity of ${proximity.pairs} pairs of ${shapes}: ${median(proximity.times).toFixed(2)} ms a step (median of 100 random configurations)`,
+);
+await close();
+await chrome.close();

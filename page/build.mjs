@@ -1,0 +1,89 @@
+// Bundles the page into dist/, each file compressed by brotli, with a stamp of what it was made from.
+//
+//     node build.mjs [URDD_WASM]
+//
+// URDD_WASM is the module that `cargo build --release -p urdd-wasm --target wasm32-unknown-unknown` makes.
+
+import { build } from "esbuild";
+import { createHash } from "node:crypto";
+import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, join, relative } from "node:path";
+import { fileURLToPath } from "node:url";
+import { brotliCompressSync, gzipSync } from "node:zlib";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const repository = join(here, "..");
+const dist = join(here, "dist");
+const wasm = process.argv[2] ?? join(repository, "target/wasm32-unknown-unknown/release/urdd_wasm.wasm");
+
+const common = {
+  bundle: true,
+  minify: true,
+  write: false,
+  target: ["chrome111", "firefox114", "safari16.4"],
+  legalComments: "none",
+  charset: "utf8",
+  logLevel: "warning",
+};
+const bundle = async (entry, format) => {
+  const { outputFiles } = await build({ ...common, entryPoints: [join(here, entry)], format });
+  return Buffer.from(outputFiles[0].contents);
+};
+
+const files = {
+  "index.html": readFileSync(join(here, "index.html")),
+  "app.js": await bundle("src/main.ts", "iife"),
+  "worker.js": await bundle("src/engine/worker.ts", "iife"),
+  "style.css": await bundle("src/style.css"),
+  "urdd.wasm": readFileSync(wasm),
+};
+
+rmSync(dist, { recursive: true, force: true });
+mkdirSync(dist, { recursive: true });
+let page = 0;
+for (const [name, bytes] of Object.entries(files)) {
+  const brotli = brotliCompressSync(bytes);
+  writeFileSync(join(dist, `${name}.br`), brotli);
+  if (name !== "urdd.wasm") page += brotli.length;
+  console.log(`${name.padEnd(12)} ${bytes.length} bytes, gzip ${gzipSync(bytes).length}, brotli ${brotli.length}`);
+}
+console.log(`the page without robots and wasm: ${page} bytes compressed`);
+writeFileSync(join(dist, "stamp"), `${stamp()}\n`);
+
+/** SHA-256 of all that the bundle is made from: tests/page_bundle.rs computes it too. */
+export function stamp() {
+  const roots = ["page/src", "wasm/src", "src"];
+  const single = [
+    "Cargo.lock",
+    "page/index.html",
+    "page/build.mjs",
+    "page/package-lock.json",
+    "page/tsconfig.json",
+    "wasm/Cargo.toml",
+  ];
+  const paths = [
+    ...roots.flatMap((root) => walk(join(repository, root))),
+    ...single.map((path) => join(repository, path)),
+  ];
+  const names = paths.map((path) => relative(repository, path).replaceAll("\\", "/"));
+  // What the module is not made of.
+  const without = ["src/cli/", "src/conformance/", "src/generate/", "src/view/", "src/main.rs"];
+  const hash = createHash("sha256");
+  for (const name of names.filter((name) => !without.some((start) => name.startsWith(start))).sort(byBytes)) {
+    const content = createHash("sha256")
+      .update(readFileSync(join(repository, name)))
+      .digest("hex");
+    hash.update(`${content}  ${name}\n`);
+  }
+  return hash.digest("hex");
+}
+
+function byBytes(a, b) {
+  return Buffer.compare(Buffer.from(a), Buffer.from(b));
+}
+
+function walk(folder) {
+  return readdirSync(folder, { withFileTypes: true }).flatMap((entry) =>
+    entry.isDirectory() ? walk(join(folder, entry.name)) : [join(folder, entry.name)],
+  );
+}

@@ -1,0 +1,192 @@
+/** What the page does: opens robots, moves them, asks about them. Panels show the state and call this. */
+
+import type { Engine } from "./engine/client";
+import type { Report, RobotSource, ShapeKind } from "./engine/protocol";
+import { Latest } from "./latest";
+import { RobotModel } from "./model";
+import type { Entry, Part } from "./model";
+import type { Site } from "./site";
+import { LAYERS, NO_SKIPS, StateStore } from "./state";
+import type { Layer, LayerKind } from "./state";
+
+/** Nearest pairs that are shown. */
+const NEAREST = 24;
+
+export class App {
+  readonly store = new StateStore();
+  private readonly poses: Latest<number[]>;
+  private readonly proximity: Latest<{ q: number[]; shapes: ShapeKind }>;
+  /** A word for the files of the robot as they were read; null where nobody says. */
+  revision: string | null = null;
+  private opening = 0;
+  private noting: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(
+    readonly engine: Engine,
+    readonly site: Site,
+  ) {
+    this.poses = new Latest(async (q) => {
+      const robot = this.store.now.robot;
+      const poses = await engine.ask("poses", { q });
+      if (this.store.now.robot === robot) this.store.set({ poses });
+    });
+    this.proximity = new Latest(async ({ q, shapes }) => {
+      const robot = this.store.now.robot;
+      try {
+        const answer = await engine.ask("proximity", { q, shapes, k: NEAREST });
+        if (this.store.now.robot === robot) this.store.set({ proximity: { answer, error: null } });
+      } catch (error) {
+        if (this.store.now.robot === robot) this.store.set({ proximity: { answer: null, error: message(error) } });
+      }
+    });
+  }
+
+  /** Opens a robot. What it showed before, of this robot, stays where it can. */
+  async open(entry: Entry, source: RobotSource, keep = false): Promise<RobotModel | null> {
+    const turn = ++this.opening;
+    const before = this.store.now;
+    this.store.set({
+      robot: null,
+      failure: null,
+      faults: new Map(),
+      loading: { what: "modules", done: 0, of: 0 },
+      ...(keep ? {} : { selected: null, hovered: null, hidden: new Set<number>(), pair: null }),
+      proximity: { answer: null, error: null },
+      skips: NO_SKIPS,
+      report: { report: null, error: null, busy: null },
+      sample: null,
+    });
+    try {
+      const { about, files } = await this.engine.ask("open", { source }, ({ what, done, of }) => {
+        if (turn === this.opening) this.store.set({ loading: { what, done, of } });
+      });
+      if (turn !== this.opening) return null;
+      this.revision = source.kind === "url" ? source.revision : null;
+      const robot = new RobotModel(entry, source, about, files);
+      if (robot.links.length === 0) throw new Error(why(robot));
+      const q = keep && before.q.length === robot.dofs.length ? before.q : (about.zero ?? robot.dofs.map(() => 0));
+      const poses = about.dofs ? await this.engine.ask("poses", { q }) : null;
+      if (turn !== this.opening) return null;
+      this.store.set({ robot, q, poses, loading: null });
+      return robot;
+    } catch (error) {
+      if (turn === this.opening) this.store.set({ loading: null, failure: message(error) });
+      return null;
+    }
+  }
+
+  /** Reads the robot again: its files changed. */
+  async reopen(): Promise<void> {
+    const { robot, skips } = this.store.now;
+    if (robot?.source.kind !== "url") return;
+    await this.open(robot.entry, await this.site.source(robot.entry), true);
+    this.store.set({ skips: { ...this.store.now.skips, saved: skips.saved } });
+    const { tab } = this.store.now;
+    if (tab === "Proximity") this.measure(true);
+    if (tab === "Findings") void this.loadReport();
+  }
+
+  close(): void {
+    this.opening++;
+    this.store.set({ robot: null, failure: null, loading: null, q: [], poses: null });
+  }
+
+  /** Moves the robot. */
+  move(q: number[]): void {
+    if (!q.every(Number.isFinite)) return;
+    this.store.set({ q, sample: null });
+    this.poses.ask(q);
+    this.measure();
+  }
+
+  setDof(dof: number, value: number): void {
+    const q = this.store.now.q.slice();
+    q[dof] = value;
+    this.move(q);
+  }
+
+  /** Asks for distances where somebody looks at them. */
+  measure(always = false): void {
+    const { robot, q, shapes, tab, proximity } = this.store.now;
+    if (!robot?.moves) return;
+    const shown = tab === "Proximity" || proximity.answer !== null;
+    if (always || shown) this.proximity.ask({ q, shapes });
+  }
+
+  useShapes(shapes: ShapeKind): void {
+    this.store.set({ shapes, pair: null, proximity: { answer: null, error: null } });
+    this.measure(true);
+  }
+
+  select(selected: Part | null): void {
+    this.store.set({ selected });
+  }
+
+  hover(hovered: Part | null): void {
+    this.store.set({ hovered });
+  }
+
+  setLayer(kind: LayerKind, change: Partial<Layer>): void {
+    const { layers } = this.store.now;
+    this.store.set({ layers: { ...layers, [kind]: { ...layers[kind], ...change } } });
+  }
+
+  /** Shows this layer alone. */
+  showOnly(kind: LayerKind): void {
+    const { layers } = this.store.now;
+    const next = { ...layers };
+    for (const layer of LAYERS)
+      next[layer] = { on: layer === kind, opacity: layer === kind ? 1 : layers[layer].opacity };
+    this.store.set({ layers: next });
+  }
+
+  hide(links: Iterable<number>, hide: boolean): void {
+    const hidden = new Set(this.store.now.hidden);
+    for (const link of links) {
+      if (hide) hidden.add(link);
+      else hidden.delete(link);
+    }
+    this.store.set({ hidden });
+  }
+
+  /** The report: the site has it, or it is made here. */
+  async loadReport(): Promise<void> {
+    const { robot, report } = this.store.now;
+    if (!robot || report.busy !== null || report.report) return;
+    this.store.set({ report: { report: null, error: null, busy: "Validating" } });
+    const set = (report: Report | null, error: string | null): void => {
+      if (this.store.now.robot === robot) this.store.set({ report: { report, error, busy: null } });
+    };
+    try {
+      const known = robot.source.kind === "url" ? await this.site.report(robot.entry) : null;
+      const made =
+        known ??
+        (await this.engine.aside("validate", { name: robot.entry.name }, ({ done, of }) => {
+          const busy = `Validating: ${done} of ${of} files`;
+          if (this.store.now.robot === robot) this.store.set({ report: { report: null, error: null, busy } });
+        }));
+      set(made, null);
+    } catch (error) {
+      set(null, message(error));
+    }
+  }
+
+  note(text: string): void {
+    clearTimeout(this.noting);
+    this.store.set({ note: text });
+    this.noting = setTimeout(() => {
+      this.store.set({ note: null });
+    }, 4000);
+  }
+}
+
+export function message(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
+/** Why a robot has no links. */
+function why(robot: RobotModel): string {
+  const [fault] = robot.about.faults;
+  if (fault) return `This URDD cannot be shown: ${fault.reason}`;
+  return "This URDD has no urdf_module and no chain_module that can be read, so there is nothing to show.";
+}

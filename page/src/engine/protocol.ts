@@ -1,0 +1,249 @@
+/** What the page and the worker that owns the WebAssembly module say to each other. */
+
+import type { Unit } from "../ui/format";
+
+export type Vector = [number, number, number];
+/** w, x, y, z. */
+export type Quaternion = [number, number, number, number];
+
+export interface Pose {
+  position: Vector;
+  quaternion_wxyz: Quaternion;
+}
+
+export interface Inertial extends Pose {
+  mass: number | null;
+  /** xx, xy, xz, yy, yz, zz; kg m². */
+  inertia: [number, number, number, number, number, number] | null;
+}
+
+export interface Link {
+  name: string;
+  parent_joint: number | null;
+  inertial: Inertial | null;
+}
+
+export type JointType = "Revolute" | "Continuous" | "Prismatic" | "Fixed" | "Floating" | "Planar" | "Spherical";
+
+export interface Limit {
+  lower: number | null;
+  upper: number | null;
+  effort: number | null;
+  velocity: number | null;
+}
+
+export interface Joint {
+  name: string;
+  type: JointType;
+  parent: number | null;
+  child: number | null;
+  origin: Pose | null;
+  axis: Vector | null;
+  dofs: number[] | null;
+  mimic: { dof: number | null; multiplier: number; offset: number } | null;
+  limit: Limit | null;
+}
+
+export interface Dof {
+  name: string;
+  joint: number;
+  unit: Unit;
+  bounds: [number, number] | null;
+}
+
+export interface MeshPaths {
+  glb: string | null;
+  read: string | null;
+}
+
+export interface OriginalMesh {
+  link: number;
+  geometry: "Visual" | "Collision";
+  element: number;
+  filename: string;
+  path: string | null;
+}
+
+export interface Fault {
+  module: string | null;
+  reason: string;
+}
+
+/** What a robot is: see `wasm/src/about.rs`. */
+export interface About {
+  name: string | null;
+  folder: string;
+  profile: string;
+  metadata: Metadata | null;
+  links: Link[];
+  joints: Joint[];
+  dofs: Dof[] | null;
+  zero: number[] | null;
+  middle: number[] | null;
+  meshes: {
+    original: OriginalMesh[] | null;
+    plain: MeshPaths[][] | null;
+    hulls: MeshPaths[][] | null;
+    pieces: MeshPaths[][] | null;
+  };
+  faults: Fault[];
+}
+
+/** `urdd.json`, as far as the page looks at it; it may hold anything. */
+export type Metadata = Record<string, unknown>;
+
+export type ShapeKind = "hulls" | "pieces" | "boxes" | "spheres" | "piece-boxes" | "piece-spheres";
+
+export const SHAPE_KINDS: readonly ShapeKind[] = [
+  "hulls",
+  "pieces",
+  "boxes",
+  "spheres",
+  "piece-boxes",
+  "piece-spheres",
+];
+
+export interface Statistics {
+  min: number;
+  mean: number;
+  max: number;
+}
+
+export interface PairDistance {
+  links: [string, string];
+  link_idxs: [number, number];
+  pieces: [number, number];
+  distance: number;
+  relative: number | null;
+  points: [Vector, Vector];
+  statistics: Statistics | null;
+}
+
+export interface ProximityAnswer {
+  nearest: PairDistance[];
+  in_collision: boolean;
+  pairs: number;
+  of: number | null;
+  num_samples: number | null;
+  /** How long it took, ms. */
+  ms: number;
+}
+
+export interface SkipEdit {
+  link_a: string;
+  link_b: string;
+  skip: boolean;
+  reason: string;
+}
+
+export interface SkipsAnswer {
+  shapes: ShapeKind;
+  places: [number, number][];
+  skipped: string[];
+  reasons: string[] | null;
+  edits: SkipEdit[] | null;
+  skipped_reasons: string[] | null;
+  /** The files that change, where edits were made. */
+  files?: { path: string; text: string }[];
+}
+
+export interface Sample {
+  kind: string;
+  sample_idx: number | null;
+  configuration: number[];
+  link_poses: Pose[];
+}
+
+export interface Volume {
+  link: number;
+  piece: number;
+  solid: { position: Vector; quaternion_wxyz?: Quaternion; half_extents?: Vector; radius?: number };
+}
+
+/** Triangles of a mesh, or why there are none. */
+export interface LinkMesh {
+  link: number;
+  piece: number;
+  positions?: Float32Array;
+  indices?: Uint32Array;
+  error?: string;
+}
+
+export type Severity = "error" | "warning" | "info";
+
+export interface Finding {
+  code: string;
+  name: string;
+  severity: Severity;
+  message: string;
+  count: number;
+  [key: string]: unknown;
+}
+
+export interface UrddReport {
+  path: string;
+  name: string | null;
+  verdict: "pass" | "fail" | "incomplete" | "unreadable";
+  reason: string | null;
+  findings: Finding[];
+  checks: { code: string; status: string; reason: string | null; skipped: string | null }[];
+  not_checked: { codes: string[]; reason: string }[];
+  geometry_not_verified: { link: number; codes: string[]; reasons: string[] }[];
+  modules: { name: string; path: string; version: string | null; profile: string | null }[];
+}
+
+export interface Report {
+  tool: { name: string; version: string };
+  spec_version: string;
+  urdds: UrddReport[];
+  totals: Record<string, number>;
+}
+
+export interface Explanation {
+  code: string;
+  name: string;
+  severity: Severity;
+  clause: string;
+  explanation: string;
+}
+
+export interface FileEntry {
+  path: string;
+  size: number;
+}
+
+/** Where a robot's files lie. */
+export type RobotSource =
+  | { kind: "url"; name: string; base: string; token: string | null; files: FileEntry[]; revision: string | null }
+  | { kind: "local"; name: string; files: { path: string; file: File }[] }
+  | { kind: "zip"; name: string; bytes: ArrayBuffer };
+
+/** What the worker answers, by the name of what is asked. */
+export interface Calls {
+  init: [{ wasm: string | ArrayBuffer }, null];
+  open: [{ source: RobotSource }, { about: About; files: FileEntry[]; folder: string }];
+  poses: [{ q: number[] }, Float64Array];
+  random: [{ k: number }, number[]];
+  file: [{ path: string }, ArrayBuffer];
+  meshes: [{ kind: "plain" | "hulls" | "pieces" }, LinkMesh[]];
+  volumes: [{ shapes: ShapeKind }, Volume[]];
+  proximity: [{ q: number[]; shapes: ShapeKind; k: number }, ProximityAnswer];
+  skips: [{ shapes: ShapeKind }, SkipsAnswer];
+  editSkips: [{ shapes: ShapeKind; edits: SkipEdit[]; skipped_reasons: string[] | null }, SkipsAnswer];
+  samples: [Record<string, never>, { samples: Sample[] }];
+  explain: [{ code: string }, Explanation];
+  validate: [{ name: string }, Report];
+}
+
+export type CallName = keyof Calls;
+
+export interface Request {
+  id: number;
+  call: CallName;
+  question: unknown;
+}
+
+export type Answer =
+  | { id: number; value: unknown }
+  | { id: number; error: string; trapped: boolean }
+  | { id: number; progress: { done: number; of: number; what: string } };

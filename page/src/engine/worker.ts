@@ -1,0 +1,170 @@
+/** The worker: it owns the module, reads files and answers questions, one after another. */
+
+import { UrddModule } from "./module";
+import { Store } from "./store";
+import type { About, Answer, CallName, Calls, LinkMesh, MeshPaths, Request, ShapeKind } from "./protocol";
+
+const scope = self as unknown as {
+  postMessage(message: Answer, transfer: Transferable[]): void;
+  addEventListener(type: "message", listener: (event: MessageEvent<Request>) => void): void;
+};
+
+let module: UrddModule | null = null;
+let store: Store | null = null;
+let robot = 0;
+let about: About | null = null;
+
+function engine(): UrddModule {
+  if (!module) throw new Error("the engine is not loaded");
+  return module;
+}
+
+function opened(): { store: Store; about: About } {
+  if (!store || !about) throw new Error("no robot is open");
+  return { store, about };
+}
+
+type Tell = (done: number, of: number, what: string) => void;
+type Question<K extends CallName> = Calls[K][0];
+type Result<K extends CallName> = Calls[K][1] | Promise<Calls[K][1]>;
+
+const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result<K> } = {
+  async init({ wasm }) {
+    module = await UrddModule.of(typeof wasm === "string" ? fetch(wasm) : wasm);
+    return null;
+  },
+
+  async open({ source }, tell) {
+    const engineNow = engine();
+    if (store) engineNow.close(store.handle, robot);
+    robot = 0;
+    about = null;
+    store = new Store(engineNow, source);
+    await store.ensure(store.needed("about"), (done, of) => {
+      tell(done, of, "modules");
+    });
+    robot = engineNow.openRobot(store.handle);
+    about = engineNow.ask(robot, { ask: "about" }) as About;
+    return { about, files: store.list(), folder: store.name };
+  },
+
+  poses({ q }) {
+    return engine().poses(robot, q);
+  },
+
+  random({ k }) {
+    return engine().ask(robot, { ask: "random", k }) as number[];
+  },
+
+  async file({ path }) {
+    return (await opened().store.read(path)).buffer;
+  },
+
+  async meshes({ kind }, tell) {
+    const { store, about } = opened();
+    const lists: MeshPaths[][] = about.meshes[kind] ?? [];
+    const paths = lists.flat().flatMap((mesh) => mesh.read ?? []);
+    await store.ensure(paths, (done, of) => {
+      tell(done, of, kind);
+    });
+    return lists.flatMap((meshes, link) => meshes.map((mesh, piece) => triangles(store, link, piece, mesh.read)));
+  },
+
+  async volumes({ shapes }) {
+    await opened().store.ensure(opened().store.needed("volumes"));
+    return engine().ask(robot, { ask: "volumes", shapes }) as Calls["volumes"][1];
+  },
+
+  async proximity({ q, shapes, k }, tell) {
+    await ensureShapes(shapes, tell);
+    engine().ask(robot, { ask: "prepare", shapes });
+    const begin = performance.now();
+    const answer = engine().ask(robot, { ask: "proximity", q, shapes, k }) as Calls["proximity"][1];
+    return { ...answer, ms: performance.now() - begin };
+  },
+
+  async skips({ shapes }) {
+    await opened().store.ensure(opened().store.needed("pairs"));
+    return engine().ask(robot, { ask: "skips", shapes }) as Calls["skips"][1];
+  },
+
+  async editSkips({ shapes, edits, skipped_reasons }) {
+    const { store } = opened();
+    await store.ensure([...store.needed("pairs"), ...store.needed("about")]);
+    return engine().ask(robot, { ask: "edit_skips", shapes, edits, skipped_reasons }) as Calls["editSkips"][1];
+  },
+
+  async samples() {
+    await opened().store.ensure(opened().store.needed("samples"));
+    return engine().ask(robot, { ask: "samples" }) as Calls["samples"][1];
+  },
+
+  explain({ code }) {
+    return engine().explain(code) as Calls["explain"][1];
+  },
+
+  async validate({ name }, tell) {
+    const { store } = opened();
+    const all = store.list().map((file) => file.path);
+    await store.ensure(all, (done, of) => {
+      tell(done, of, "files");
+    });
+    return engine().validate(store.handle, name) as Calls["validate"][1];
+  },
+};
+
+/** What distances of these shapes are computed from. */
+async function ensureShapes(shapes: ShapeKind, tell: Tell): Promise<void> {
+  const { store, about } = opened();
+  await store.ensure(store.needed("pairs"));
+  await store.ensure(store.needed("volumes"));
+  const lists = shapes === "hulls" ? about.meshes.hulls : shapes === "pieces" ? about.meshes.pieces : null;
+  const paths = lists?.flat().flatMap((mesh) => mesh.read ?? []) ?? [];
+  await store.ensure(paths, (done, of) => {
+    tell(done, of, shapes);
+  });
+}
+
+function triangles(store: Store, link: number, piece: number, path: string | null): LinkMesh {
+  if (path === null) return { link, piece, error: "it lies outside of this URDD" };
+  try {
+    const bytes = engine().mesh(store.handle, path);
+    const [vertices = 0, faces = 0] = new Uint32Array(bytes.buffer, 0, 2);
+    return {
+      link,
+      piece,
+      positions: new Float32Array(bytes.buffer, 8, 3 * vertices),
+      indices: new Uint32Array(bytes.buffer, 8 + 12 * vertices, 3 * faces),
+    };
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) throw error;
+    return { link, piece, error: `${path}: ${store.fault(path) ?? (error as Error).message}` };
+  }
+}
+
+function transfers(value: unknown): Transferable[] {
+  if (value instanceof ArrayBuffer) return [value];
+  if (value instanceof Float64Array) return [value.buffer as ArrayBuffer];
+  if (Array.isArray(value)) {
+    return value.flatMap((item: LinkMesh | null) => (item?.positions ? [item.positions.buffer as ArrayBuffer] : []));
+  }
+  return [];
+}
+
+async function answer({ id, call, question }: Request): Promise<void> {
+  try {
+    const handler = handlers[call] as (question: unknown, tell: Tell) => unknown;
+    const value = await handler(question, (done, of, what) => {
+      scope.postMessage({ id, progress: { done, of, what } }, []);
+    });
+    scope.postMessage({ id, value }, transfers(value));
+  } catch (error) {
+    const trapped = error instanceof WebAssembly.RuntimeError;
+    const message = error instanceof Error ? error.message : String(error);
+    scope.postMessage({ id, error: message, trapped }, []);
+  }
+}
+
+scope.addEventListener("message", (event) => {
+  void answer(event.data);
+});

@@ -1,0 +1,36 @@
+/** Keys. None counts while a person types. */
+
+import type { App } from "./app";
+import type { Stage } from "./stage";
+import { TABS } from "./state";
+
+export function keys(app: App, stage: Stage | null): void {
+  addEventListener("keydown", (event) => {
+    const target = event.target as HTMLElement;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === "Escape") {
+      app.store.set({ pair: null, selected: null });
+      return;
+    }
+    if (/^(?:INPUT|SELECT|TEXTAREA)$/.test(target.tagName)) return;
+    const number = Number(event.key);
+    const tab = TABS[number - 1];
+    if (tab) {
+      app.store.set({ tab });
+    } else if (event.key === "/") {
+      event.preventDefault();
+      document.getElementById("find")?.focus();
+    } else if (event.key === " " && target.tagName !== "BUTTON") {
+      event.preventDefault();
+      dispatchEvent(new Event("urdd-play"));
+    } else if (event.key === "r") dispatchEvent(new Event("urdd-random"));
+    else if (event.key === "f") stage?.look("fit");
+    else if (event.key === "z") {
+      const zero = app.store.now.robot?.about.zero;
+      if (zero) app.move(zero);
+    } else if (event.key === "h") {
+      const { selected, hidden } = app.store.now;
+      if (selected?.kind === "link") app.hide([selected.index], !hidden.has(selected.index));
+    }
+  });
+}

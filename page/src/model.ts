@@ -1,0 +1,103 @@
+/** A robot that is open: what the engine says of it, and what follows for the page. */
+
+import type { About, Dof, FileEntry, Joint, Link, RobotSource } from "./engine/protocol";
+
+/** A line of `robots.json`. */
+export interface Entry {
+  id: string;
+  name: string;
+  /** Whether skips can be saved: a folder on disk, of version 1. */
+  writable: boolean;
+  links: number | null;
+  dofs: number | null;
+  verdict: string | null;
+  findings: { error: number; warning: number; info: number } | null;
+  /** What was assumed when it was generated for this view. */
+  notes: string[];
+  picture: string | null;
+}
+
+export type Part = { kind: "link"; index: number } | { kind: "joint"; index: number };
+
+export function same(a: Part | null, b: Part | null): boolean {
+  return a?.kind === b?.kind && a?.index === b?.index;
+}
+
+export class RobotModel {
+  readonly links: Link[];
+  readonly joints: Joint[];
+  readonly dofs: Dof[];
+  /** For each link the joints below it. */
+  readonly below: number[][];
+  readonly roots: number[];
+
+  constructor(
+    readonly entry: Entry,
+    readonly source: RobotSource,
+    readonly about: About,
+    readonly files: FileEntry[],
+  ) {
+    this.links = about.links;
+    this.joints = about.joints;
+    this.dofs = about.dofs ?? [];
+    this.below = this.links.map(() => []);
+    this.joints.forEach((joint, index) => {
+      if (joint.parent !== null) this.below[joint.parent]?.push(index);
+    });
+    const isRoot = (link: Link): boolean => link.parent_joint === null;
+    this.roots = this.links.flatMap((link, index) => (isRoot(link) ? [index] : []));
+    if (this.roots.length === 0 && this.links.length > 0) this.roots.push(0);
+  }
+
+  get name(): string {
+    return this.about.name ?? this.entry.name;
+  }
+
+  /** Whether poses can be computed. */
+  get moves(): boolean {
+    return this.about.dofs !== null && this.about.zero !== null;
+  }
+
+  link(name: string): number {
+    return this.links.findIndex((link) => link.name === name);
+  }
+
+  /** The joints from a link to the root, the link's own first. */
+  path(link: number): number[] {
+    const joints: number[] = [];
+    const seen = new Set<number>();
+    for (let at: number | null = link; at !== null && !seen.has(at);) {
+      seen.add(at);
+      const joint: number | null = this.links[at]?.parent_joint ?? null;
+      if (joint === null) break;
+      joints.push(joint);
+      at = this.joints[joint]?.parent ?? null;
+    }
+    return joints;
+  }
+
+  /** The DOFs that move a joint: its own, or the one that it follows. */
+  dofsOf(joint: number): number[] {
+    const found = this.joints[joint];
+    if (!found) return [];
+    if (found.mimic) return found.mimic.dof === null ? [] : [found.mimic.dof];
+    return found.dofs ?? [];
+  }
+
+  /** The first joint above a link that moves. */
+  moving(link: number): number | null {
+    return this.path(link).find((joint) => this.dofsOf(joint).length > 0) ?? null;
+  }
+
+  /** Where a joint of one DOF stands; null for others. */
+  position(joint: number, q: readonly number[]): number | null {
+    const found = this.joints[joint];
+    if (!found) return null;
+    if (found.mimic) {
+      const driver = found.mimic.dof === null ? 0 : (q[found.mimic.dof] ?? 0);
+      return found.mimic.multiplier * driver + found.mimic.offset;
+    }
+    const [dof, ...more] = found.dofs ?? [];
+    return dof === undefined || more.length > 0 ? null : (q[dof] ?? 0);
+  }
+}

@@ -1,0 +1,120 @@
+/** The bar at the top: name, size, findings, layers, and what is about the whole page. */
+
+import type { App } from "../app";
+import { fill, h } from "../ui/dom";
+import { count, name } from "../ui/format";
+import { LAYERS, LAYER_NAMES } from "../state";
+import { toggleTheme } from "../ui/theme";
+
+const SHORT = LAYERS.slice(0, 6);
+
+export function header(
+  app: App,
+  actions: { share: () => void; picture: () => void; gallery: () => void },
+): HTMLElement {
+  const title = h("div", { class: "title" });
+  const chips = h("div", { class: "chips" });
+  const buttons = SHORT.map((layer) => {
+    const button = h("button", { type: "button", "aria-pressed": "false" }, LAYER_NAMES[layer]);
+    button.addEventListener("click", (event) => {
+      const { layers } = app.store.now;
+      if (event.shiftKey) app.setLayer(layer, { on: !layers[layer].on });
+      else app.showOnly(layer);
+    });
+    return [layer, button] as const;
+  });
+  const layers = h(
+    "div",
+    { class: "segments", role: "group", "aria-label": "Shown shapes; shift-click for several" },
+    ...buttons.map(([, button]) => button),
+  );
+  const frames = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, "Frames");
+  frames.addEventListener("click", () => {
+    const { overlays } = app.store.now;
+    app.store.set({ overlays: { ...overlays, frames: !overlays.frames } });
+  });
+  const bar = h(
+    "header",
+    { class: "bar" },
+    title,
+    chips,
+    h("span", { class: "spring" }),
+    layers,
+    frames,
+    h("button", { type: "button", class: "quiet", click: actions.share, title: "Copy a link to this view" }, "Share"),
+    h(
+      "button",
+      { type: "button", class: "quiet", click: actions.picture, title: "Save the picture as PNG" },
+      "Picture",
+    ),
+    h(
+      "button",
+      {
+        type: "button",
+        class: "quiet icon",
+        click: toggleTheme,
+        "aria-label": "Dark or light",
+        title: "Dark or light",
+      },
+      "◐",
+    ),
+  );
+  app.store.on(["robot", "entries", "report"], ({ robot, entries, report }) => {
+    const several = entries.length > 1;
+    fill(
+      title,
+      several &&
+        h("button", { type: "button", class: "quiet back", click: actions.gallery, "aria-label": "All robots" }, "☰"),
+      h("h1", { title: robot ? name(robot.name) : "" }, robot ? name(robot.name) : "urdd"),
+    );
+    const found = report.report?.urdds[0]?.findings;
+    const total = (severity: string): number | undefined =>
+      found?.filter((f) => f.severity === severity).reduce((sum, f) => sum + f.count, 0) ??
+      robot?.entry.findings?.[severity as "error"];
+    const chip = (severity: "error" | "warning"): Node | null => {
+      const n = total(severity);
+      if (!n) return null;
+      return h(
+        "button",
+        {
+          type: "button",
+          class: `chip ${severity}`,
+          click: () => {
+            app.store.set({ tab: "Findings" });
+          },
+        },
+        count(n, severity),
+      );
+    };
+    fill(
+      chips,
+      robot &&
+        h(
+          "span",
+          { class: "chip" },
+          [
+            count(robot.links.length, "link"),
+            robot.about.dofs ? count(robot.dofs.length, "DOF") : null,
+            version(robot.about.metadata, robot.about.profile),
+          ]
+            .filter(Boolean)
+            .join(" · "),
+        ),
+      chip("error"),
+      chip("warning"),
+    );
+    layers.hidden = !robot;
+    frames.hidden = !robot;
+  });
+  app.store.on(["layers", "overlays"], ({ layers, overlays }) => {
+    for (const [layer, button] of buttons) button.setAttribute("aria-pressed", String(layers[layer].on));
+    frames.setAttribute("aria-pressed", String(overlays.frames));
+  });
+  return bar;
+}
+
+function version(metadata: Record<string, unknown> | null, profile: string): string {
+  const found = metadata?.["urdd_version"] ?? metadata?.["spec_version"];
+  if (typeof found === "string") return `URDD ${name(found)}`;
+  return profile === "legacy" ? "legacy URDD" : "URDD";
+}

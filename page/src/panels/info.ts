@@ -1,0 +1,173 @@
+/** What the robot is: its size and mass, its modules, its files; and of a selected link or joint everything known. */
+
+import type { App } from "../app";
+import type { Inertial } from "../engine/protocol";
+import type { RobotModel } from "../model";
+import { fill, h } from "../ui/dom";
+import { bytes, count, dofValue, name, number } from "../ui/format";
+import { linkMatrix } from "../scene/drag";
+
+function line(term: string, ...value: (string | Node | null)[]): Node[] {
+  return [h("dt", {}, term), h("dd", {}, ...value)];
+}
+
+function table(...lines: (Node[] | null | false)[]): HTMLElement {
+  return h("dl", { class: "table" }, ...lines.flatMap((found) => found || []));
+}
+
+function vector(values: readonly number[], unit: string): string {
+  return `${values.map((x) => number(x, 4)).join(", ")} ${unit}`;
+}
+
+export function info(app: App): HTMLElement {
+  const chosen = h("div", {});
+  const whole = h("div", {});
+  app.store.on(["robot", "selected", "q", "poses"], ({ robot, selected, q, poses }) => {
+    if (!robot || !selected) fill(chosen);
+    else if (selected.kind === "link") fill(chosen, ...ofLink(app, robot, selected.index, poses));
+    else fill(chosen, ...ofJoint(app, robot, selected.index, q));
+  });
+  app.store.on(["robot"], ({ robot }) => {
+    fill(whole, ...(robot ? ofRobot(robot) : []));
+  });
+  return h("div", { class: "panel" }, chosen, whole);
+}
+
+function linkButton(app: App, robot: RobotModel, link: number | null): Node {
+  if (link === null) return h("span", {}, "none");
+  return h(
+    "button",
+    {
+      type: "button",
+      class: "place",
+      click: () => {
+        app.select({ kind: "link", index: link });
+      },
+    },
+    name(robot.links[link]?.name ?? ""),
+  );
+}
+
+function jointButton(app: App, robot: RobotModel, joint: number | null): Node {
+  if (joint === null) return h("span", {}, "none, it is the root");
+  return h(
+    "button",
+    {
+      type: "button",
+      class: "place",
+      click: () => {
+        app.select({ kind: "joint", index: joint });
+      },
+    },
+    name(robot.joints[joint]?.name ?? ""),
+  );
+}
+
+function ofLink(app: App, robot: RobotModel, index: number, poses: Float64Array | null): Node[] {
+  const link = robot.links[index];
+  if (!link) return [];
+  const place = poses ? linkMatrix(poses, index).elements.slice(12, 15) : null;
+  const pieces = robot.about.meshes.pieces?.[index]?.length ?? 0;
+  return [
+    h("h2", {}, `Link ${name(link.name)}`),
+    table(
+      line("Index", String(index)),
+      line("Joint above", jointButton(app, robot, link.parent_joint)),
+      line("Joints below", count(robot.below[index]?.length ?? 0, "joint")),
+      place && line("Position", vector(place, "m")),
+      line("Convex pieces", String(pieces)),
+      ...mass(link.inertial),
+    ),
+  ];
+}
+
+function mass(inertial: Inertial | null): (Node[] | null)[] {
+  if (!inertial) return [line("Mass", "not given")];
+  return [
+    line("Mass", inertial.mass === null ? "not given" : `${number(inertial.mass, 4)} kg`),
+    line("Centre of mass", vector(inertial.position, "m")),
+    inertial.inertia &&
+      line(
+        "Inertia",
+        `xx ${number(inertial.inertia[0])}, yy ${number(inertial.inertia[3])}, zz ${number(inertial.inertia[5])} kg m²`,
+      ),
+    inertial.inertia &&
+      line(
+        "Products",
+        `xy ${number(inertial.inertia[1])}, xz ${number(inertial.inertia[2])}, yz ${number(inertial.inertia[4])} kg m²`,
+      ),
+  ];
+}
+
+function ofJoint(app: App, robot: RobotModel, index: number, q: readonly number[]): Node[] {
+  const joint = robot.joints[index];
+  if (!joint) return [];
+  const unit = joint.type === "Prismatic" ? "m" : "rad";
+  const position = robot.position(index, q);
+  const limit = joint.limit;
+  const either = (value: number | null): string => (value === null ? "–" : dofValue(value, unit));
+  return [
+    h("h2", {}, `Joint ${name(joint.name)}`),
+    table(
+      line("Type", joint.type.toLowerCase()),
+      line("Parent", linkButton(app, robot, joint.parent)),
+      line("Child", linkButton(app, robot, joint.child)),
+      joint.axis && line("Axis", joint.axis.map((x) => number(x)).join(", ")),
+      joint.origin && line("Origin", vector(joint.origin.position, "m")),
+      position !== null && joint.type !== "Fixed" && line("Position", dofValue(position, unit)),
+      limit && line("Limits", `${either(limit.lower)} to ${either(limit.upper)}`),
+      limit?.velocity != null && line("Speed limit", `${number(limit.velocity)} ${unit}/s`),
+      limit?.effort != null && line("Effort limit", `${number(limit.effort)} ${unit === "rad" ? "N m" : "N"}`),
+      joint.mimic &&
+        line(
+          "Follows",
+          `${number(joint.mimic.multiplier)} × ${name(robot.dofs[joint.mimic.dof ?? -1]?.name ?? "nothing")} + ${number(joint.mimic.offset)}`,
+        ),
+    ),
+  ];
+}
+
+function ofRobot(robot: RobotModel): Node[] {
+  const { about } = robot;
+  const total = robot.links.reduce((sum, link) => sum + (link.inertial?.mass ?? 0), 0);
+  const size = robot.files.reduce((sum, file) => sum + file.size, 0);
+  const pieces = about.meshes.pieces?.flat().length ?? 0;
+  const modules = new Map<string, { size: number; files: number }>();
+  for (const file of robot.files) {
+    const folder = /^(?:[a-z_]+\/)?[a-z0-9_]+_module(?=\/)/.exec(file.path)?.[0];
+    if (!folder) continue;
+    const known = modules.get(folder) ?? { size: 0, files: 0 };
+    modules.set(folder, { size: known.size + file.size, files: known.files + 1 });
+  }
+  return [
+    h("h2", {}, `Robot ${name(robot.name)}`),
+    table(
+      line("Folder", name(about.folder)),
+      line("Format", about.profile === "legacy" ? "legacy, from before version 1" : "version 1"),
+      line("Links", String(robot.links.length)),
+      line("Joints", `${robot.joints.length}, ${robot.joints.filter((joint) => joint.mimic).length} of them mimic`),
+      line("DOFs", about.dofs ? String(robot.dofs.length) : "not known"),
+      line("Mass", total > 0 ? `${number(total, 4)} kg` : "not given"),
+      pieces > 0 && line("Convex pieces", String(pieces)),
+      line("Files", `${count(robot.files.length, "file")}, ${bytes(size)}`),
+    ),
+    ...(robot.entry.notes.length > 0
+      ? [
+          h("h2", {}, "Assumed when it was generated"),
+          h("ul", { class: "notes" }, ...robot.entry.notes.map((note) => h("li", {}, name(note)))),
+        ]
+      : []),
+    ...(about.faults.length > 0
+      ? [
+          h("h2", {}, "Cannot be read"),
+          h("ul", { class: "notes bad" }, ...about.faults.map((fault) => h("li", {}, name(fault.reason)))),
+        ]
+      : []),
+    h("h2", {}, "Modules"),
+    table(
+      ...[...modules].map(([folder, { size, files }]) =>
+        line(folder.split("/").pop() ?? folder, `${bytes(size)}, ${count(files, "file")}`),
+      ),
+    ),
+  ];
+}

@@ -1,0 +1,246 @@
+/** Every joint that moves: a slider, a number, its limits; and configurations as a whole. */
+
+import type { App } from "../app";
+import { message } from "../app";
+import { h, fill } from "../ui/dom";
+import { count, fromShown, name, number, round, shownUnit, toShown } from "../ui/format";
+import type { RobotModel } from "../model";
+import { Player } from "../play";
+
+interface Control {
+  dof: number;
+  slider: HTMLInputElement;
+  entry: HTMLInputElement;
+  row: HTMLElement;
+}
+
+/** Without bounds a slider has these. */
+const OPEN = { rad: Math.PI, m: 1 };
+
+export function joints(app: App): HTMLElement {
+  const player = new Player(app);
+  const list = h("div", { class: "joints" });
+  const sample = h("p", { class: "sample", "aria-live": "polite" });
+  let controls: Control[] = [];
+  let drawn = 0;
+
+  const button = (text: string, title: string, act: () => void): HTMLButtonElement =>
+    h("button", { type: "button", title, click: act }, text);
+  const at = (key: "zero" | "middle") => () => {
+    const q = app.store.now.robot?.about[key];
+    if (q) app.move(q);
+  };
+  const play = button("Play samples", "Show the stored samples one after another (space)", () => {
+    void player.toggle();
+  });
+  const actions = h(
+    "div",
+    { class: "actions" },
+    button("Zero", "Every DOF 0, or its nearest bound", at("zero")),
+    button("Middle", "Every DOF half-way between its bounds", at("middle")),
+    button("Random", "A random configuration within the bounds (R)", () => {
+      void random(app, drawn++);
+    }),
+    button("Copy", "Copy the configuration as a list of numbers, rad and m", () => {
+      void copy(app);
+    }),
+    button("Paste", "Paste a list of numbers, rad and m", () => {
+      void paste(app);
+    }),
+    play,
+  );
+  const empty = h("p", { class: "empty" });
+  const panel = h("div", { class: "panel" }, actions, sample, list, empty);
+
+  const group = (robot: RobotModel, joint: number): HTMLElement => {
+    const found = robot.joints[joint];
+    const dofs = found?.dofs ?? [];
+    const followers = robot.joints.flatMap((other) =>
+      other.mimic && dofs.includes(other.mimic.dof ?? -1) ? [other] : [],
+    );
+    const sweep =
+      dofs.length === 1
+        ? h(
+            "button",
+            {
+              type: "button",
+              class: "tiny",
+              title: "Sweep this joint through its limits",
+              "aria-label": `Sweep ${name(found?.name ?? "")}`,
+            },
+            "↔",
+          )
+        : null;
+    const [first] = dofs;
+    sweep?.addEventListener("click", () => {
+      if (first !== undefined) player.sweep(first);
+    });
+    const heading = h(
+      "div",
+      { class: "heading" },
+      h("span", { class: "name", title: name(found?.name ?? "") }, name(found?.name ?? "")),
+      h("span", { class: "kind" }, (found?.type ?? "").toLowerCase()),
+      sweep,
+    );
+    heading.addEventListener("click", () => {
+      app.select({ kind: "joint", index: joint });
+    });
+    const block = h(
+      "div",
+      { class: "joint", id: `joint-${joint}` },
+      heading,
+      ...dofs.map((dof) => control(robot, dof, dofs.length > 1)),
+    );
+    for (const other of followers) {
+      block.append(
+        h(
+          "div",
+          { class: "mimic" },
+          `⇄ ${name(other.name)} = ${number(other.mimic?.multiplier ?? 1)} × this${other.mimic?.offset ? ` + ${number(other.mimic.offset)}` : ""}`,
+        ),
+      );
+    }
+    block.addEventListener("pointerenter", () => {
+      app.hover({ kind: "joint", index: joint });
+    });
+    block.addEventListener("pointerleave", () => {
+      app.hover(null);
+    });
+    return block;
+  };
+
+  const control = (robot: RobotModel, dof: number, named: boolean): HTMLElement => {
+    const found = robot.dofs[dof];
+    const unit = found?.unit ?? "rad";
+    const [lower, upper] = found?.bounds ?? [-OPEN[unit], OPEN[unit]];
+    const shown = (value: number): number => round(toShown(value, unit), unit === "rad" ? 2 : 3);
+    const label = name(found?.name ?? "");
+    const slider = h("input", {
+      type: "range",
+      min: lower,
+      max: upper,
+      step: (upper - lower) / 2000 || 1e-6,
+      "aria-label": label,
+      value: 0,
+    });
+    const entry = h("input", {
+      type: "number",
+      step: unit === "rad" ? 1 : 1,
+      "aria-label": `${label}, ${unit === "rad" ? "degrees" : "millimetres"}`,
+    });
+    const row = h(
+      "div",
+      { class: "dof" },
+      named && h("span", { class: "axis" }, label.split("/").pop() ?? ""),
+      slider,
+      h("label", { class: "number" }, entry, h("span", {}, shownUnit(unit))),
+      h("span", { class: "limit low" }, `${number(shown(lower), 4)}${shownUnit(unit)}`),
+      h("span", { class: "limit high" }, `${number(shown(upper), 4)}${shownUnit(unit)}`),
+    );
+    slider.addEventListener("input", () => {
+      player.stop();
+      app.setDof(dof, Number(slider.value));
+    });
+    slider.addEventListener("dblclick", () => {
+      app.setDof(dof, robot.about.zero?.[dof] ?? 0);
+    });
+    entry.addEventListener("change", () => {
+      player.stop();
+      const value = fromShown(Number(entry.value), unit);
+      if (entry.value !== "" && Number.isFinite(value)) app.setDof(dof, value);
+    });
+    controls.push({ dof, slider, entry, row });
+    return row;
+  };
+
+  app.store.on(["robot"], ({ robot }) => {
+    player.stop();
+    controls = [];
+    const moving = robot?.joints.flatMap((joint, index) => ((joint.dofs?.length ?? 0) > 0 ? [index] : [])) ?? [];
+    fill(list, ...(robot ? moving.map((joint) => group(robot, joint)) : []));
+    actions.hidden = !robot?.moves;
+    empty.hidden = moving.length > 0;
+    empty.textContent = !robot
+      ? ""
+      : robot.moves
+        ? "This robot has no joint that moves."
+        : `The joints cannot be moved: ${robot.about.faults[0]?.reason ?? "chain_module or dof_module is missing"}.`;
+  });
+  app.store.on(["robot", "q"], ({ robot, q }) => {
+    for (const { dof, slider, entry, row } of controls) {
+      const value = q[dof] ?? 0;
+      const unit = robot?.dofs[dof]?.unit ?? "rad";
+      const bounds = robot?.dofs[dof]?.bounds;
+      if (Number(slider.value) !== value) slider.value = String(value);
+      const text = String(round(toShown(value, unit), unit === "rad" ? 2 : 3));
+      if (document.activeElement !== entry && entry.value !== text) entry.value = text;
+      row.classList.toggle("beyond", bounds ? value < bounds[0] - 1e-9 || value > bounds[1] + 1e-9 : false);
+    }
+  });
+  app.store.on(["selected"], ({ robot, selected }) => {
+    const joint = selected?.kind === "joint" ? selected.index : selected && robot ? robot.moving(selected.index) : null;
+    for (const block of list.querySelectorAll(".joint")) {
+      const is = joint !== null && block.id === `joint-${joint}`;
+      block.classList.toggle("selected", is);
+      if (is) block.scrollIntoView({ block: "nearest" });
+    }
+  });
+  app.store.on(["sample"], ({ sample: shown }) => {
+    sample.hidden = !shown;
+    if (shown) {
+      const error = (value: number, unit: string): string =>
+        `${value === 0 ? "0" : value.toExponential(1).replace("-", "−")} ${unit}`;
+      sample.textContent = `Sample ${shown.at + 1} of ${shown.of}: poses differ by ${error(shown.position, "m")} and ${error(shown.angle, "rad")} at most`;
+      sample.classList.toggle("bad", shown.position > 1e-6 || shown.angle > 1e-6);
+    }
+  });
+  app.store.on(["robot"], () => {
+    play.textContent = "Play samples";
+  });
+  player.changed = (playing) => {
+    play.textContent = playing ? "Stop" : "Play samples";
+  };
+  addEventListener("urdd-play", () => {
+    void player.toggle();
+  });
+  addEventListener("urdd-random", () => {
+    void random(app, drawn++);
+  });
+  return panel;
+}
+
+async function random(app: App, k: number): Promise<void> {
+  if (!app.store.now.robot?.moves) return;
+  try {
+    app.move(await app.engine.ask("random", { k }));
+  } catch (error) {
+    app.note(message(error));
+  }
+}
+
+async function copy(app: App): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(JSON.stringify(app.store.now.q));
+    app.note(`Copied ${count(app.store.now.q.length, "value")}, rad and m`);
+  } catch (error) {
+    app.note(`The configuration cannot be copied: ${message(error)}`);
+  }
+}
+
+async function paste(app: App): Promise<void> {
+  try {
+    const text = await navigator.clipboard.readText();
+    const values = text
+      .replace(/[[\]]/g, " ")
+      .split(/[\s,;]+/)
+      .filter(Boolean)
+      .map(Number);
+    const wanted = app.store.now.robot?.dofs.length ?? 0;
+    if (values.length !== wanted || !values.every(Number.isFinite)) {
+      throw new Error(`the clipboard does not hold ${count(wanted, "number")}`);
+    }
+    app.move(values);
+  } catch (error) {
+    app.note(`Nothing was pasted: ${message(error)}`);
+  }
+}

@@ -1,0 +1,137 @@
+/** What stands for the links: layers with their opacity, what is drawn over them, and which links are shown. */
+
+import type { App } from "../app";
+import { LAYERS, LAYER_NAMES, OVERLAYS, OVERLAY_NAMES } from "../state";
+import { fill, h } from "../ui/dom";
+import { count, name } from "../ui/format";
+
+export function shapes(app: App): HTMLElement {
+  const layers = LAYERS.map((layer) => {
+    const box = h("input", { type: "checkbox", id: `layer-${layer}` });
+    const opacity = h("input", {
+      type: "range",
+      min: 0,
+      max: 1,
+      step: 0.01,
+      "aria-label": `Opacity of ${LAYER_NAMES[layer]}`,
+    });
+    const faults = h("span", { class: "fault" });
+    box.addEventListener("change", () => {
+      app.setLayer(layer, { on: box.checked });
+    });
+    opacity.addEventListener("input", () => {
+      app.setLayer(layer, { opacity: Number(opacity.value), on: true });
+    });
+    const row = h("div", { class: "layer" }, box, h("label", { for: box.id }, LAYER_NAMES[layer]), opacity, faults);
+    return { layer, box, opacity, faults, row };
+  });
+  const overlays = OVERLAYS.map((kind) => {
+    const box = h("input", { type: "checkbox", id: `overlay-${kind}` });
+    box.addEventListener("change", () => {
+      app.store.set({ overlays: { ...app.store.now.overlays, [kind]: box.checked } });
+    });
+    return { kind, box, row: h("div", { class: "check" }, box, h("label", { for: box.id }, OVERLAY_NAMES[kind])) };
+  });
+  const links = h("div", { class: "links" });
+  const all = (hide: boolean): void => {
+    app.hide(app.store.now.robot?.links.keys() ?? [], hide);
+  };
+  const panel = h(
+    "div",
+    { class: "panel" },
+    h("h2", {}, "Shapes"),
+    h("p", { class: "hint" }, "Several at once, each with its opacity."),
+    ...layers.map(({ row }) => row),
+    h("h2", {}, "Drawn over them"),
+    h("div", { class: "checks" }, ...overlays.map(({ row }) => row)),
+    h(
+      "div",
+      { class: "headline" },
+      h("h2", {}, "Links"),
+      h("span", { class: "spring" }),
+      h(
+        "button",
+        {
+          type: "button",
+          class: "tiny",
+          click: () => {
+            all(false);
+          },
+        },
+        "All",
+      ),
+      h(
+        "button",
+        {
+          type: "button",
+          class: "tiny",
+          click: () => {
+            all(true);
+          },
+        },
+        "None",
+      ),
+      h(
+        "button",
+        {
+          type: "button",
+          class: "tiny",
+          title: "The selected link alone",
+          click: () => {
+            const { selected } = app.store.now;
+            all(true);
+            if (selected?.kind === "link") app.hide([selected.index], false);
+          },
+        },
+        "Selected",
+      ),
+    ),
+    links,
+  );
+  let boxes: HTMLInputElement[] = [];
+  app.store.on(["robot"], ({ robot }) => {
+    boxes = [];
+    fill(
+      links,
+      ...(robot?.links ?? []).map((link, index) => {
+        const box = h("input", { type: "checkbox", id: `link-${index}` });
+        box.addEventListener("change", () => {
+          app.hide([index], !box.checked);
+        });
+        boxes.push(box);
+        const has = robot?.about.meshes.plain?.[index]?.length ?? 0;
+        const pieces = robot?.about.meshes.pieces?.[index]?.length ?? 0;
+        const what = has === 0 && pieces === 0 ? "no geometry" : count(pieces, "piece");
+        return h(
+          "div",
+          { class: "check wide" },
+          box,
+          h("label", { for: box.id, title: name(link.name) }, name(link.name)),
+          h("span", { class: "kind" }, what),
+        );
+      }),
+    );
+  });
+  app.store.on(
+    ["layers", "overlays", "hidden", "robot", "faults"],
+    ({ layers: now, overlays: over, hidden, faults }) => {
+      for (const { layer, box, opacity, faults: line } of layers) {
+        box.checked = now[layer].on;
+        opacity.value = String(now[layer].opacity);
+        const found = faults.get(layer) ?? [];
+        line.textContent =
+          found.length > 0
+            ? found.length === 1
+              ? name(found[0] ?? "")
+              : `${found.length} meshes cannot be shown: ${name(found[0] ?? "")}`
+            : "";
+        line.hidden = found.length === 0;
+      }
+      for (const { kind, box } of overlays) box.checked = over[kind];
+      boxes.forEach((box, link) => {
+        box.checked = !hidden.has(link);
+      });
+    },
+  );
+  return panel;
+}

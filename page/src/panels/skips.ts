@@ -1,0 +1,315 @@
+/** Links by links: which pairs collision checks skip, and why; and a person's decisions on them. */
+
+import type { App } from "../app";
+import { SHAPE_KINDS } from "../engine/protocol";
+import type { ShapeKind, SkipEdit, SkipsAnswer } from "../engine/protocol";
+import type { RobotModel } from "../model";
+import { decide, download, isSkipped, letterAt, load, nearer, save, undo } from "../skips";
+import type { Pair } from "../state";
+import { fill, h } from "../ui/dom";
+import { count, name } from "../ui/format";
+import { SHAPE_NAMES } from "./proximity";
+import { at, draw, REASONS, reasonClass, region } from "./skip_matrix";
+
+export function skips(app: App): HTMLElement {
+  /** The two links whose pieces are shown, one level down. */
+  let down: [number, number] | null = null;
+  const kind = h(
+    "select",
+    { "aria-label": "Shapes" },
+    ...SHAPE_KINDS.map((shapes) => h("option", { value: shapes }, SHAPE_NAMES[shapes])),
+  );
+  kind.value = "hulls";
+  const canvas = h("canvas", {
+    class: "matrix",
+    tabindex: "0",
+    role: "application",
+    "aria-label": "Skips of pairs of shapes; arrows move",
+  });
+  const up = h("button", { type: "button", class: "tiny" }, "All links");
+  const legend = h("div", { class: "legend" });
+  const said = h("p", { class: "hint said", "aria-live": "polite" });
+  const chosen = h("div", {});
+  const edits = h("div", {});
+  const empty = h("p", { class: "empty" });
+  const headline = h(
+    "div",
+    { class: "headline" },
+    h("h2", {}, "Skipped pairs"),
+    h("span", { class: "spring" }),
+    up,
+    kind,
+  );
+  const panel = h("div", { class: "panel" }, headline, canvas, said, legend, chosen, edits, empty);
+  const reload = (shapes: ShapeKind): void => {
+    kind.value = shapes;
+    void load(app, shapes);
+  };
+  kind.addEventListener("change", () => {
+    down = null;
+    reload(kind.value as ShapeKind);
+  });
+  up.addEventListener("click", () => {
+    down = null;
+    reload("hulls");
+  });
+  const render = (): void => {
+    const { skips: state, robot, pair } = app.store.now;
+    const { answer, error } = state;
+    const has = robot !== null && answer !== null && answer.places.length > 0;
+    for (const element of [canvas, legend, said]) element.hidden = !has;
+    up.hidden = down === null;
+    empty.hidden = has;
+    empty.textContent = error
+      ? `There are no skips to show: ${error}`
+      : answer && !has
+        ? "This robot has no shapes, and so no pairs."
+        : "";
+    fill(chosen);
+    fill(edits);
+    if (!has) return;
+    draw(canvas, answer, region(answer, down), pair);
+    fill(
+      legend,
+      ...[...REASONS].flatMap(([letter, text]) => {
+        const n = tally(answer, (i, j) => letterAt(answer, i, j) === letter);
+        return n > 0
+          ? [h("span", { class: `key reason-${reasonClass(letter)}` }, `${text} (${n.toLocaleString("en")})`)]
+          : [];
+      }),
+    );
+    said.textContent = summary(answer);
+    if (pair)
+      fill(
+        chosen,
+        ...decision(app, robot, answer, pair, (links) => {
+          down = links;
+          reload("pieces");
+        }),
+      );
+    fill(edits, ...listed(app, answer));
+  };
+  const under = (event: PointerEvent): [number, number] | null => {
+    const { answer } = app.store.now.skips;
+    const box = canvas.getBoundingClientRect();
+    return (
+      answer && at(region(answer, down), (event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height)
+    );
+  };
+  const choose = (answer: SkipsAnswer, i: number, j: number): void => {
+    const [a, b] = [answer.places[i], answer.places[j]];
+    if (a && b) app.store.set({ pair: [a, b] });
+  };
+  canvas.addEventListener("pointermove", (event) => {
+    const place = under(event);
+    const {
+      robot,
+      skips: { answer },
+    } = app.store.now;
+    if (place && robot && answer) said.textContent = words(robot, answer, place);
+  });
+  canvas.addEventListener("pointerleave", () => {
+    const { answer } = app.store.now.skips;
+    if (answer) said.textContent = summary(answer);
+  });
+  canvas.addEventListener("pointerdown", (event) => {
+    const place = under(event);
+    const { answer } = app.store.now.skips;
+    if (place && answer) choose(answer, ...place);
+  });
+  canvas.addEventListener("keydown", (event) => {
+    const step = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] }[event.key];
+    const {
+      skips: { answer },
+      pair,
+      robot,
+    } = app.store.now;
+    if (!step || !answer || !robot) return;
+    event.preventDefault();
+    const { rows, columns } = region(answer, down);
+    const index = (list: number[], shape: [number, number] | undefined): number =>
+      Math.max(
+        0,
+        list.findIndex((k) => answer.places[k]?.[0] === shape?.[0] && answer.places[k]?.[1] === shape?.[1]),
+      );
+    const i = rows[index(rows, pair?.[0]) + (step[0] ?? 0)];
+    const j = columns[index(columns, pair?.[1]) + (step[1] ?? 0)];
+    if (i === undefined || j === undefined) return;
+    choose(answer, i, j);
+    said.textContent = words(robot, answer, [i, j]);
+  });
+  app.store.on(["skips", "robot", "pair"], render);
+  addEventListener("urdd-theme", render);
+  app.store.on(["robot"], () => {
+    down = null;
+  });
+  app.store.on(["tab", "robot"], ({ tab, robot, skips: { answer, error } }) => {
+    if (tab === "Skips" && robot && !answer && !error) void load(app, kind.value as ShapeKind);
+  });
+  return panel;
+}
+
+function tally(answer: SkipsAnswer, counts: (i: number, j: number) => boolean): number {
+  let n = 0;
+  for (let i = 0; i < answer.places.length; i++) {
+    for (let j = i + 1; j < answer.places.length; j++) if (counts(i, j)) n++;
+  }
+  return n;
+}
+
+function summary(answer: SkipsAnswer): string {
+  const skipped = tally(answer, (i, j) => isSkipped(answer, i, j));
+  const all = (answer.places.length * (answer.places.length - 1)) / 2;
+  return `${skipped.toLocaleString("en")} of ${count(all, "pair")} are skipped.`;
+}
+
+function words(robot: RobotModel, answer: SkipsAnswer, [i, j]: [number, number]): string {
+  const of = (k: number): string => {
+    const [link, piece] = answer.places[k] ?? [0, 0];
+    return name(robot.links[link]?.name ?? "") + (answer.shapes.startsWith("piece") ? ` piece ${piece}` : "");
+  };
+  const reason = REASONS.get(letterAt(answer, i, j)) ?? "";
+  return `${of(i)} · ${of(j)}: ${reason}, ${isSkipped(answer, i, j) ? "skipped" : "checked"}`;
+}
+
+/** What can be decided of the chosen pair of links. */
+function decision(
+  app: App,
+  robot: RobotModel,
+  answer: SkipsAnswer,
+  pair: Pair,
+  enter: (links: [number, number]) => void,
+): Node[] {
+  const links: [number, number] = [pair[0][0], pair[1][0]];
+  const [a, b] = links.map((link) => robot.links[link]?.name ?? "") as [string, string];
+  const pairs = answer.places.flatMap(([first], i) =>
+    answer.places.flatMap(([second], j): [number, number][] =>
+      first === links[0] && second === links[1] && i !== j ? [[i, j]] : [],
+    ),
+  );
+  const skipped = pairs.filter(([i, j]) => isSkipped(answer, i, j)).length;
+  const state =
+    pairs.length === 0
+      ? "no pair"
+      : skipped === pairs.length
+        ? "skipped"
+        : skipped === 0
+          ? "checked"
+          : `${skipped} of ${pairs.length} skipped`;
+  const title = [h("h2", {}, `${name(a)} · ${name(b)}: ${state}`)];
+  const into = h(
+    "button",
+    {
+      type: "button",
+      class: "tiny",
+      click: () => {
+        enter(links);
+      },
+    },
+    "Its pieces",
+  );
+  if (answer.edits === null)
+    return [
+      ...title,
+      into,
+      h("p", { class: "hint" }, "A legacy URDD has no edits: generate a new one to decide on skips."),
+    ];
+  if (links[0] === links[1])
+    return [...title, h("p", { class: "hint" }, "Shapes of one link are never checked against each other.")];
+  const reason = h("input", {
+    type: "text",
+    placeholder: "Why? (kept with the decision)",
+    "aria-label": "Reason",
+    maxlength: 10000,
+  });
+  const say = (skip: boolean): SkipEdit => ({ link_a: a, link_b: b, skip, reason: reason.value.trim() });
+  const button = (text: string, title: string, act: () => void): Node =>
+    h("button", { type: "button", title, click: act }, text);
+  return [
+    ...title,
+    reason,
+    h(
+      "div",
+      { class: "actions" },
+      button("Skip", "All pairs of shapes of these two links", () => {
+        void decide(app, [say(true)]);
+      }),
+      button("Check", "All pairs of shapes of these two links", () => {
+        void decide(app, [say(false)]);
+      }),
+      button("Skip all nearer", "Every pair of links that is nearer than this one in the present configuration", () => {
+        void nearer(app, links, "distance", reason.value.trim());
+      }),
+      button("Skip all relatively nearer", "Every pair of links whose distance is a smaller share of its mean", () => {
+        void nearer(app, links, "relative", reason.value.trim());
+      }),
+      into,
+    ),
+  ];
+}
+
+function listed(app: App, answer: SkipsAnswer): Node[] {
+  const { skips: state, robot } = app.store.now;
+  if (!answer.edits || !robot) return [];
+  const canUndo = state.before.length > 0 || state.saved > 0;
+  const back = h(
+    "button",
+    {
+      type: "button",
+      click: () => {
+        void undo(app);
+      },
+    },
+    state.before.length > 0 || state.saved === 0 ? "Undo" : "Undo the save",
+  );
+  back.disabled = !canUndo;
+  const writable = robot.entry.writable && app.site.mode === "live";
+  const keep = writable
+    ? h(
+        "button",
+        {
+          type: "button",
+          class: "main",
+          click: () => {
+            void save(app);
+          },
+        },
+        "Save",
+      )
+    : h(
+        "button",
+        {
+          type: "button",
+          class: "main",
+          click: () => {
+            download(app);
+          },
+        },
+        "Download the files",
+      );
+  keep.disabled = !state.dirty;
+  return [
+    h("h2", {}, state.dirty ? "Decisions, not saved yet" : "Decisions"),
+    answer.edits.length === 0 &&
+      h("p", { class: "hint" }, "None: skips follow from reasons alone. Click a pair to decide."),
+    h(
+      "ul",
+      { class: "notes" },
+      ...answer.edits.map((edit) =>
+        h(
+          "li",
+          {},
+          `${name(edit.link_a)} · ${name(edit.link_b)}: ${edit.skip ? "skip" : "check"}${edit.reason ? `, ${name(edit.reason)}` : ""}`,
+        ),
+      ),
+    ),
+    h("div", { class: "actions" }, back, keep),
+    !writable &&
+      state.dirty &&
+      h(
+        "p",
+        { class: "hint" },
+        "This page cannot write the URDD: it is shown from a site, an archive, or was made for this view.",
+      ),
+  ].filter((node) => node !== false);
+}

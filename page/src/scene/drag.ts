@@ -1,0 +1,159 @@
+/** Dragging in the picture: a joint follows the pointer, or a link is pulled and the joints above it give way. */
+
+import { Matrix4, Plane, Quaternion, Vector3 } from "three";
+import type { Ray } from "three";
+import type { Pose } from "../engine/protocol";
+import type { RobotModel } from "../model";
+
+/** Computes poses of configurations that follow each other. */
+export type Poses = (configurations: number[]) => Promise<Float64Array>;
+
+function matrix(pose: Pose): Matrix4 {
+  const [w, x, y, z] = pose.quaternion_wxyz;
+  return new Matrix4().compose(new Vector3(...pose.position), new Quaternion(x, y, z, w), new Vector3(1, 1, 1));
+}
+
+export function linkMatrix(poses: Float64Array, link: number): Matrix4 {
+  const get = (k: number): number => poses[7 * link + k] ?? 0;
+  return new Matrix4().compose(
+    new Vector3(get(0), get(1), get(2)),
+    new Quaternion(get(4), get(5), get(6), get(3)),
+    new Vector3(1, 1, 1),
+  );
+}
+
+/** Where a joint is, and along which axis, in the root's frame. */
+export function jointFrame(model: RobotModel, poses: Float64Array, joint: number): { origin: Vector3; axis: Vector3 } {
+  const found = model.joints[joint];
+  const parent = linkMatrix(poses, found?.parent ?? 0);
+  const frame = found?.origin ? parent.multiply(matrix(found.origin)) : parent;
+  const axis = new Vector3(...(found?.axis ?? [0, 0, 1])).transformDirection(frame);
+  return { origin: new Vector3().setFromMatrixPosition(frame), axis };
+}
+
+export interface Drag {
+  /** The configuration for a place of the pointer; null where there is none. */
+  to(ray: Ray, q: number[]): Promise<number[] | null>;
+}
+
+function within(model: RobotModel, dof: number, value: number): number {
+  const bounds = model.dofs[dof]?.bounds;
+  return bounds ? Math.min(Math.max(value, bounds[0]), bounds[1]) : value;
+}
+
+/** A joint of one DOF, or one that follows another: exactly under the pointer. */
+export function dragJoint(
+  model: RobotModel,
+  poses: Float64Array,
+  joint: number,
+  at: Vector3,
+  eye: Vector3,
+): Drag | null {
+  const found = model.joints[joint];
+  const [dof, ...more] = model.dofsOf(joint);
+  if (!found || dof === undefined || more.length > 0) return null;
+  const multiplier = found.mimic?.multiplier ?? 1;
+  if (multiplier === 0) return null;
+  const { origin, axis } = jointFrame(model, poses, joint);
+  const slides = found.type === "Prismatic";
+  const view = at.clone().sub(eye).normalize();
+  // A plane that turns with the joint is seen edge-on from the side: then the pointer's way along the rim counts.
+  const edgeOn = Math.abs(view.dot(axis)) < 0.25;
+  const start = at.clone().sub(origin);
+  const arm = start.clone().projectOnPlane(axis);
+  const rim = axis.clone().cross(arm);
+  const facing = new Plane().setFromNormalAndCoplanarPoint(view, at);
+  const across = new Plane().setFromNormalAndCoplanarPoint(axis, at);
+  let turned = 0;
+  let first: number | null = null;
+  const moved = (ray: Ray): number | null => {
+    if (slides || edgeOn) {
+      const hit = ray.intersectPlane(facing, new Vector3());
+      if (!hit) return null;
+      const way = hit.sub(at);
+      return slides ? way.dot(axis) : arm.lengthSq() > 0 ? way.dot(rim) / rim.lengthSq() : null;
+    }
+    const hit = ray.intersectPlane(across, new Vector3());
+    if (!hit) return null;
+    const now = hit.sub(origin).projectOnPlane(axis);
+    const angle = Math.atan2(axis.dot(arm.clone().cross(now)), arm.dot(now));
+    // Whole turns are counted.
+    turned += Math.atan2(Math.sin(angle - turned), Math.cos(angle - turned));
+    return turned;
+  };
+  return {
+    to(ray, q) {
+      first ??= q[dof] ?? 0;
+      const way = moved(ray);
+      if (way === null || !Number.isFinite(way)) return Promise.resolve(null);
+      const next = q.slice();
+      next[dof] = within(model, dof, first + way / multiplier);
+      return Promise.resolve(next);
+    },
+  };
+}
+
+const STEPS = 12;
+const DIFFERENCE = 1e-6;
+
+/** A point of a link is pulled under the pointer: damped least squares over some DOFs, within the bounds. */
+export function pull(
+  model: RobotModel,
+  computed: Poses,
+  poses: Float64Array,
+  link: number,
+  dofs: number[],
+  at: Vector3,
+  eye: Vector3,
+): Drag | null {
+  if (dofs.length === 0) return null;
+  const local = at.clone().applyMatrix4(linkMatrix(poses, link).invert());
+  const facing = new Plane().setFromNormalAndCoplanarPoint(at.clone().sub(eye).normalize(), at);
+  const stride = 7 * model.links.length;
+  const size = Math.max(at.length(), 0.1);
+  const point = (poses: Float64Array, k: number): Vector3 =>
+    local.clone().applyMatrix4(linkMatrix(poses.subarray(k * stride, (k + 1) * stride), link));
+  return {
+    async to(ray, q) {
+      const target = ray.intersectPlane(facing, new Vector3());
+      if (!target) return null;
+      let now = q.slice();
+      for (let step = 0; step < STEPS; step++) {
+        const batch = [now, ...dofs.map((dof) => now.map((value, k) => (k === dof ? value + DIFFERENCE : value)))];
+        const found = await computed(batch.flat());
+        const here = point(found, 0);
+        const error = target.clone().sub(here);
+        if (error.length() < 1e-5 * size) break;
+        const columns = dofs.map((_, k) =>
+          point(found, k + 1)
+            .sub(here)
+            .divideScalar(DIFFERENCE),
+        );
+        const change = damped(columns, error, size);
+        const before = now;
+        now = now.slice();
+        dofs.forEach((dof, k) => {
+          now[dof] = within(model, dof, (before[dof] ?? 0) + (change[k] ?? 0));
+        });
+      }
+      return now;
+    },
+  };
+}
+
+/** J^T (J J^T + damping)^-1 error, at most half a radian at once. */
+function damped(columns: Vector3[], error: Vector3, size: number): number[] {
+  const damping = (0.02 * size) ** 2;
+  const sum = (a: 0 | 1 | 2, b: 0 | 1 | 2): number =>
+    columns.reduce((total, column) => total + column.getComponent(a) * column.getComponent(b), a === b ? damping : 0);
+  const m = new Matrix4().set(
+    sum(0, 0), sum(0, 1), sum(0, 2), 0,
+    sum(1, 0), sum(1, 1), sum(1, 2), 0,
+    sum(2, 0), sum(2, 1), sum(2, 2), 0,
+    0, 0, 0, 1,
+  ); // prettier-ignore
+  const solved = error.clone().applyMatrix4(m.invert());
+  const change = columns.map((column) => column.dot(solved));
+  const largest = Math.max(...change.map(Math.abs));
+  return largest > 0.5 ? change.map((value) => (value * 0.5) / largest) : change;
+}

@@ -1,0 +1,155 @@
+/** Makes the meshes of layers from what the engine reads. */
+
+import {
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  Mesh,
+  MeshLambertMaterial,
+  SphereGeometry,
+  SRGBColorSpace,
+} from "three";
+import type { Material, Object3D } from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import type { Engine, Progress } from "../engine/client";
+import type { LinkMesh, ShapeKind, Volume } from "../engine/protocol";
+import type { RobotModel } from "../model";
+import type { LayerKind } from "../state";
+import type { MeshData, RobotScene } from "./robot";
+
+const PLAIN = new Color(0x9aa3b2);
+/** Pictures that are fetched at once. */
+const AT_ONCE = 6;
+
+/** A colour for a piece: neighbours in number differ. */
+export function pieceColor(link: number, piece: number): Color {
+  const hue = (0.58 + 0.61803 * piece + 0.137 * link) % 1;
+  return new Color().setHSL(hue, 0.5, 0.56, SRGBColorSpace);
+}
+
+/** Loads a layer. Gives what could not be loaded, a line for each. */
+export async function load(
+  layer: LayerKind,
+  scene: RobotScene,
+  model: RobotModel,
+  engine: Engine,
+  tell: (progress: Progress) => void,
+): Promise<string[]> {
+  switch (layer) {
+    case "original":
+    case "plain":
+      return pictures(layer, scene, model, engine, tell);
+    case "hulls":
+    case "pieces": {
+      if (!model.about.meshes[layer]) return [missing(layer)];
+      const meshes = await engine.ask("meshes", { kind: layer }, tell);
+      scene.begin(layer);
+      return meshes.flatMap((mesh) => solid(layer, scene, mesh) ?? []);
+    }
+    default: {
+      const volumes = await engine.ask("volumes", { shapes: layer satisfies ShapeKind });
+      scene.begin(layer);
+      for (const volume of volumes) scene.add(layer, volume.link, about(layer, volume));
+      return [];
+    }
+  }
+}
+
+function missing(layer: string): string {
+  const module = { hulls: "convex_hull_meshes_module", pieces: "convex_decomposition_meshes_module" }[layer];
+  return `${module ?? "plain_meshes_module"} is missing or cannot be read`;
+}
+
+function material(color: Color, opacity = 1): MeshLambertMaterial {
+  return new MeshLambertMaterial({ color, opacity, transparent: opacity < 1 });
+}
+
+function solid(layer: LayerKind, scene: RobotScene, mesh: LinkMesh): string | null {
+  if (!mesh.positions || !mesh.indices) return mesh.error ?? "it cannot be read";
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(mesh.positions, 3));
+  geometry.setIndex(new BufferAttribute(mesh.indices, 1));
+  const color = pieceColor(mesh.link, layer === "pieces" ? mesh.piece : 0);
+  const paint = material(color);
+  paint.flatShading = true;
+  scene.add(layer, mesh.link, tagged(new Mesh(geometry, paint), layer, mesh.link, mesh.piece, color));
+  return null;
+}
+
+function tagged(mesh: Mesh, layer: LayerKind, link: number, piece: number, color: Color, opacity = 1): Mesh {
+  const of: MeshData = { link, piece, layer, color: color.clone(), opacity };
+  mesh.userData = { of };
+  return mesh;
+}
+
+/** A box or a sphere. */
+function about(layer: LayerKind, { link, piece, solid }: Volume): Mesh {
+  const color = pieceColor(link, piece);
+  const paint = material(color);
+  let mesh: Mesh;
+  if (solid.radius !== undefined) {
+    mesh = new Mesh(new SphereGeometry(solid.radius, 32, 20), paint);
+  } else {
+    const [x, y, z] = solid.half_extents ?? [0, 0, 0];
+    mesh = new Mesh(new BoxGeometry(2 * x, 2 * y, 2 * z), paint);
+  }
+  mesh.position.set(...solid.position);
+  const [w, x, y, z] = solid.quaternion_wxyz ?? [1, 0, 0, 0];
+  mesh.quaternion.set(x, y, z, w);
+  return tagged(mesh, layer, link, piece, color, 0.55);
+}
+
+/** The plain meshes, with the source's colours or without. */
+async function pictures(
+  layer: "original" | "plain",
+  scene: RobotScene,
+  model: RobotModel,
+  engine: Engine,
+  tell: (progress: Progress) => void,
+): Promise<string[]> {
+  const lists = model.about.meshes.plain;
+  if (!lists) return [missing(layer)];
+  const faults: string[] = [];
+  const jobs = lists.flatMap((meshes, link) => meshes.map((mesh, piece) => ({ link, piece, path: mesh.glb })));
+  scene.begin(layer);
+  const loader = new GLTFLoader();
+  let done = 0;
+  const waiting = jobs.slice();
+  const work = async (): Promise<void> => {
+    for (let job = waiting.shift(); job; job = waiting.shift()) {
+      const { link, piece, path } = job;
+      try {
+        if (path === null) throw new Error("there is no .glb of it in this URDD");
+        const bytes = await engine.ask("file", { path });
+        const { scene: picture } = await loader.parseAsync(bytes, "");
+        dress(picture, layer, link, piece);
+        scene.add(layer, link, picture);
+      } catch (error) {
+        faults.push(
+          `${path ?? model.links[link]?.name ?? ""}: ${error instanceof Error ? error.message : String(error)}`,
+        );
+      }
+      tell({ done: ++done, of: jobs.length, what: "meshes" });
+    }
+  };
+  await Promise.all(Array.from({ length: AT_ONCE }, work));
+  return faults;
+}
+
+/** The materials of the page in the place of those of the file, with their colours. */
+function dress(picture: Object3D, layer: LayerKind, link: number, piece: number): void {
+  picture.traverse((object) => {
+    if (!(object instanceof Mesh)) return;
+    const mesh = object as Mesh;
+    const first: Material | undefined = Array.isArray(mesh.material) ? mesh.material[0] : mesh.material;
+    const known = first as Partial<MeshLambertMaterial> | undefined;
+    const color = layer === "plain" ? PLAIN : (known?.color ?? PLAIN);
+    const opacity = layer === "plain" ? 1 : (known?.opacity ?? 1);
+    const paint = material(color, opacity);
+    if (layer === "original" && known?.map) paint.map = known.map;
+    paint.flatShading = !mesh.geometry.getAttribute("normal");
+    mesh.material = paint;
+    tagged(mesh, layer, link, piece, color, opacity);
+  });
+}

@@ -1,0 +1,138 @@
+/** Frames, joint axes, mass and paths, drawn over the robot. */
+
+import {
+  AxesHelper,
+  BoxGeometry,
+  BufferGeometry,
+  Color,
+  EdgesGeometry,
+  Group,
+  Line,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix3,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  Quaternion,
+  SphereGeometry,
+  Vector3,
+} from "three";
+import type { Material, Object3D } from "three";
+import type { Inertial } from "../engine/protocol";
+import type { RobotModel } from "../model";
+import type { OverlayKind } from "../state";
+import { principal } from "./inertia";
+
+type Drawn = Mesh | LineSegments | Line;
+
+export class Overlays {
+  readonly group = new Group();
+  private readonly frames: Group[] = [];
+
+  /** Makes what is asked for. `size` is that of the robot, metres. */
+  make(model: RobotModel, on: Record<OverlayKind, boolean>, size: number, selected: number | null): void {
+    this.clear();
+    this.frames.length = 0;
+    for (const link of model.links) {
+      const group = new Group();
+      group.matrixAutoUpdate = false;
+      this.group.add(group);
+      this.frames.push(group);
+      if (on.frames) group.add(above(new AxesHelper(size * 0.07)));
+      const joint = link.parent_joint === null ? null : model.joints[link.parent_joint];
+      if (on.axes && joint?.axis && joint.type !== "Fixed") group.add(axis(joint.axis, size));
+      if (link.inertial) {
+        if (on.com && (link.inertial.mass ?? 0) > 0) group.add(centre(link.inertial, size));
+        if (on.inertia) {
+          const box = inertia(link.inertial);
+          if (box) group.add(box);
+        }
+      }
+    }
+    if (on.path && selected !== null) this.group.add(path(model, selected));
+  }
+
+  /** Puts them where the links are. */
+  pose(poses: Float64Array): void {
+    const [place, turn, one] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
+    this.frames.forEach((group, link) => {
+      const get = (k: number): number => poses[7 * link + k] ?? 0;
+      place.set(get(0), get(1), get(2));
+      turn.set(get(4), get(5), get(6), get(3));
+      group.matrix.compose(place, turn, one);
+      group.matrixWorldNeedsUpdate = true;
+    });
+    for (const child of this.group.children) {
+      const links = (child.userData as { links?: number[] }).links;
+      if (!links) continue;
+      const points = links.map(
+        (link) => new Vector3(poses[7 * link] ?? 0, poses[7 * link + 1] ?? 0, poses[7 * link + 2] ?? 0),
+      );
+      if (child instanceof Line) (child.geometry as BufferGeometry).setFromPoints(points);
+    }
+  }
+
+  clear(): void {
+    this.group.traverse((object: Object3D) => {
+      const drawn = object as Partial<Drawn>;
+      drawn.geometry?.dispose();
+      (drawn.material as Material | undefined)?.dispose();
+    });
+    this.group.clear();
+  }
+}
+
+/** Drawn over what is before it. */
+function above<T extends Object3D>(object: T): T {
+  object.renderOrder = 5;
+  const material = (object as unknown as { material?: Material }).material;
+  if (material) {
+    material.depthTest = false;
+    material.transparent = true;
+  }
+  return object;
+}
+
+function axis(along: [number, number, number], size: number): Object3D {
+  const half = new Vector3(...along).normalize().multiplyScalar(size * 0.09);
+  const geometry = new BufferGeometry().setFromPoints([half.clone().negate(), half]);
+  return above(new LineSegments(geometry, new LineBasicMaterial({ color: new Color("#d977ff") })));
+}
+
+function centre(inertial: Inertial, size: number): Object3D {
+  const ball = new Mesh(
+    new SphereGeometry(size * 0.01, 12, 8),
+    new MeshBasicMaterial({ color: new Color("#ffd166"), opacity: 0.9 }),
+  );
+  ball.position.set(...inertial.position);
+  return above(ball);
+}
+
+/** The box of even density that has this mass and inertia. */
+function inertia(inertial: Inertial): Object3D | null {
+  const mass = inertial.mass ?? 0;
+  if (mass <= 0 || !inertial.inertia) return null;
+  const { moments, axes } = principal(inertial.inertia);
+  const [a, b, c] = moments;
+  const side = (x: number, y: number, z: number): number => Math.sqrt(Math.max(0, (6 * (y + z - x)) / mass));
+  const sides = [side(a, b, c), side(b, a, c), side(c, a, b)] as const;
+  if (sides.some((length) => !Number.isFinite(length))) return null;
+  const edges = new EdgesGeometry(new BoxGeometry(...sides));
+  const box = above(new LineSegments(edges, new LineBasicMaterial({ color: new Color("#ffd166") })));
+  const [w, x, y, z] = inertial.quaternion_wxyz;
+  const turn = new Matrix4().makeRotationFromQuaternion(new Quaternion(x, y, z, w));
+  const own = new Matrix4().setFromMatrix3(new Matrix3().fromArray(axes.flat()));
+  box.quaternion.setFromRotationMatrix(turn.multiply(own));
+  box.position.set(...inertial.position);
+  return box;
+}
+
+/** A line through the origins from a link to the root. */
+function path(model: RobotModel, link: number): Object3D {
+  const links = [link, ...model.path(link).flatMap((joint) => model.joints[joint]?.parent ?? [])];
+  const line = new Line(new BufferGeometry(), new LineBasicMaterial({ color: new Color("#5aa9ff") }));
+  line.frustumCulled = false;
+  line.userData = { links };
+  return above(line);
+}

@@ -1,0 +1,162 @@
+/** The robot's links in the scene: where they are, what stands for them, how they look. */
+
+import { Box3, Color, Group, Mesh, MeshLambertMaterial, Quaternion, Vector3 } from "three";
+import type { Object3D } from "three";
+import { LAYERS } from "../state";
+import type { Layer, LayerKind } from "../state";
+
+/** What a mesh of the scene is of. */
+export interface MeshData {
+  link: number;
+  piece: number;
+  layer: LayerKind;
+  color: Color;
+  opacity: number;
+}
+
+export function dataOf(object: Object3D): MeshData | null {
+  return (object.userData as { of?: MeshData }).of ?? null;
+}
+
+/** How a link is shown besides its layers: a tint, and how much of its opacity is left. */
+export interface Look {
+  tint: Color | null;
+  fade: number;
+  paint: Color | null;
+}
+
+export class RobotScene {
+  readonly root = new Group();
+  private readonly links: Group[];
+  private readonly layers = new Map<LayerKind, Group[]>();
+
+  constructor(links: number) {
+    this.links = Array.from({ length: links }, () => {
+      const group = new Group();
+      group.matrixAutoUpdate = false;
+      this.root.add(group);
+      return group;
+    });
+  }
+
+  /** Puts each link to its pose: x, y, z and the quaternion w, x, y, z. */
+  pose(poses: Float64Array): void {
+    const [place, turn, scale] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
+    this.links.forEach((group, link) => {
+      const at = 7 * link;
+      const get = (k: number): number => poses[at + k] ?? 0;
+      place.set(get(0), get(1), get(2));
+      turn.set(get(4), get(5), get(6), get(3));
+      group.matrix.compose(place, turn, scale);
+      group.matrixWorldNeedsUpdate = true;
+    });
+    this.root.updateMatrixWorld(true);
+  }
+
+  link(index: number): Group | undefined {
+    return this.links[index];
+  }
+
+  has(layer: LayerKind): boolean {
+    return this.layers.has(layer);
+  }
+
+  /** Makes room for a layer. */
+  begin(layer: LayerKind): void {
+    this.drop(layer);
+    this.layers.set(
+      layer,
+      this.links.map((link) => {
+        const group = new Group();
+        link.add(group);
+        return group;
+      }),
+    );
+  }
+
+  add(layer: LayerKind, link: number, object: Object3D): void {
+    this.layers.get(layer)?.[link]?.add(object);
+    object.updateMatrixWorld(true);
+  }
+
+  drop(layer: LayerKind): void {
+    for (const group of this.layers.get(layer) ?? []) {
+      group.removeFromParent();
+      group.traverse((object) => {
+        if (!(object instanceof Mesh)) return;
+        const mesh = object as Mesh<Mesh["geometry"], MeshLambertMaterial>;
+        mesh.geometry.dispose();
+        mesh.material.map?.dispose();
+        mesh.material.dispose();
+      });
+    }
+    this.layers.delete(layer);
+  }
+
+  dispose(): void {
+    for (const layer of LAYERS) this.drop(layer);
+    this.root.removeFromParent();
+  }
+
+  /** Every mesh that is shown. */
+  meshes(): Mesh[] {
+    const found: Mesh[] = [];
+    for (const groups of this.layers.values()) {
+      for (const group of groups) {
+        if (!group.visible) continue;
+        group.traverse((object) => {
+          if (object instanceof Mesh) found.push(object as Mesh);
+        });
+      }
+    }
+    return found;
+  }
+
+  /** Shows layers and links, tinted and faded as told. */
+  show(
+    layers: Record<LayerKind, Layer>,
+    hidden: ReadonlySet<number>,
+    wireframe: boolean,
+    look: (link: number, piece: number, layer: LayerKind) => Look,
+  ): void {
+    for (const [kind, groups] of this.layers) {
+      const layer = layers[kind];
+      groups.forEach((group, link) => {
+        group.visible = layer.on && layer.opacity > 0 && !hidden.has(link);
+        if (!group.visible) return;
+        group.traverse((object) => {
+          const data = dataOf(object);
+          if (!data || !(object instanceof Mesh)) return;
+          paint(object.material as MeshLambertMaterial, data, look(link, data.piece, kind), layer.opacity, wireframe);
+        });
+      });
+    }
+  }
+
+  /** The box about everything, or about some links. */
+  bounds(of?: ReadonlySet<number>): Box3 {
+    this.root.updateMatrixWorld(true);
+    const box = new Box3();
+    this.links.forEach((group, link) => {
+      if (!of || of.has(link)) box.expandByObject(group);
+    });
+    if (box.isEmpty()) {
+      for (const group of this.links) box.expandByPoint(new Vector3().setFromMatrixPosition(group.matrix));
+      if (!box.isEmpty()) box.expandByScalar(0.1);
+    }
+    return box;
+  }
+}
+
+function paint(material: MeshLambertMaterial, data: MeshData, look: Look, opacity: number, wireframe: boolean): void {
+  const visible = opacity * look.fade * data.opacity;
+  const transparent = visible < 0.999;
+  if (material.transparent !== transparent || material.wireframe !== wireframe) material.needsUpdate = true;
+  material.transparent = transparent;
+  material.depthWrite = !transparent;
+  material.opacity = visible;
+  material.wireframe = wireframe;
+  material.color.copy(look.paint ?? data.color);
+  if (look.tint) material.emissive.copy(look.tint).multiplyScalar(0.45);
+  else material.emissive.setScalar(0);
+}

@@ -1,0 +1,134 @@
+/** Canvas, camera and light; draws when something changed, and not otherwise. */
+
+import {
+  AmbientLight,
+  Box3,
+  Color,
+  DirectionalLight,
+  HemisphereLight,
+  PerspectiveCamera,
+  Raycaster,
+  Scene,
+  Sphere,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+export class View {
+  readonly scene = new Scene();
+  readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
+  readonly controls: OrbitControls;
+  /** Called before each picture. */
+  readonly before: (() => void)[] = [];
+  /** Called when the camera moved. */
+  readonly moved: (() => void)[] = [];
+  /** Number of pictures that were drawn. */
+  pictures = 0;
+  private readonly renderer: WebGLRenderer;
+  private readonly light = new DirectionalLight(0xffffff, 1.6);
+  private waiting = false;
+  private bounds = new Box3();
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, preserveDrawingBuffer: false });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.camera.up.set(0, 0, 1);
+    this.camera.position.set(2, -2, 1.5);
+    this.scene.add(new HemisphereLight(0xffffff, 0x8a94a6, 1.5), new AmbientLight(0xffffff, 0.35));
+    this.camera.add(this.light);
+    this.light.position.set(0.6, 0.9, 1);
+    this.scene.add(this.camera);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener("change", () => {
+      this.invalidate();
+      for (const listener of this.moved) listener();
+    });
+    new ResizeObserver(() => {
+      this.resize();
+    }).observe(canvas.parentElement ?? canvas);
+    this.resize();
+  }
+
+  invalidate(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.draw();
+    });
+  }
+
+  draw(): void {
+    for (const listener of this.before) listener();
+    this.renderer.render(this.scene, this.camera);
+    this.pictures++;
+  }
+
+  background(color: string): void {
+    this.scene.background = new Color(color);
+    this.invalidate();
+  }
+
+  /** The ray under a place of the window. */
+  ray(x: number, y: number): Raycaster {
+    const box = this.canvas.getBoundingClientRect();
+    const place = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
+    const ray = new Raycaster();
+    ray.setFromCamera(place, this.camera);
+    ray.firstHitOnly = true;
+    return ray;
+  }
+
+  /** Where a point is in the picture, pixels from its corner; null behind the camera. */
+  place(point: Vector3): { x: number; y: number } | null {
+    const at = point.clone().project(this.camera);
+    if (at.z > 1) return null;
+    return { x: ((at.x + 1) / 2) * this.canvas.clientWidth, y: ((1 - at.y) / 2) * this.canvas.clientHeight };
+  }
+
+  /** Looks at all of a box, from where it is, or from a direction. */
+  fit(bounds: Box3, from?: Vector3): void {
+    if (bounds.isEmpty()) return;
+    this.bounds = bounds.clone();
+    const sphere = bounds.getBoundingSphere(new Sphere());
+    const radius = Math.max(sphere.radius, 1e-4);
+    const half = Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) * (Math.PI / 360);
+    const away = from?.clone() ?? this.camera.position.clone().sub(this.controls.target);
+    away.normalize().multiplyScalar((radius * 1.05) / Math.sin(half));
+    this.controls.target.copy(sphere.center);
+    this.camera.position.copy(sphere.center).add(away);
+    this.planes();
+    this.controls.update();
+    this.invalidate();
+  }
+
+  /** Depth that holds the robot, however small or large it is. */
+  planes(): void {
+    const sphere = this.bounds.getBoundingSphere(new Sphere());
+    const radius = Math.max(sphere.radius, 1e-4);
+    this.camera.near = radius / 100;
+    this.camera.far = radius * 200;
+    this.controls.minDistance = radius / 20;
+    this.controls.maxDistance = radius * 50;
+    this.camera.updateProjectionMatrix();
+  }
+
+  /** The picture as a PNG. */
+  picture(): Promise<Blob | null> {
+    this.draw();
+    return new Promise((resolve) => {
+      this.canvas.toBlob(resolve, "image/png");
+    });
+  }
+
+  private resize(): void {
+    const box = (this.canvas.parentElement ?? this.canvas).getBoundingClientRect();
+    const [width, height] = [Math.max(1, box.width), Math.max(1, box.height)];
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+}

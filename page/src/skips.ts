@@ -1,0 +1,132 @@
+/** A person's decisions on skips: made, taken back, saved. */
+
+import type { App } from "./app";
+import { message } from "./app";
+import type { PairDistance, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
+
+/** More pairs than any robot has. */
+const ALL = 1e9;
+
+export async function load(app: App, shapes: ShapeKind): Promise<void> {
+  const { skips } = app.store.now;
+  const edits = skips.dirty ? skips.answer?.edits : null;
+  try {
+    const answer = edits
+      ? await app.engine.ask("editSkips", { shapes, edits, skipped_reasons: null })
+      : await app.engine.ask("skips", { shapes });
+    app.store.set({ skips: { ...app.store.now.skips, answer, error: null } });
+  } catch (error) {
+    app.store.set({ skips: { ...app.store.now.skips, answer: null, error: message(error) } });
+  }
+}
+
+/** Adds decisions to those that there are. */
+export function decide(app: App, more: SkipEdit[]): Promise<void> {
+  const edits = app.store.now.skips.answer?.edits ?? [];
+  const same = (a: SkipEdit, b: SkipEdit): boolean =>
+    (a.link_a === b.link_a && a.link_b === b.link_b) || (a.link_a === b.link_b && a.link_b === b.link_a);
+  // The last decision on a pair counts: those before it say nothing any more.
+  const kept = edits.filter((edit) => !more.some((other) => same(edit, other)));
+  return change(app, [...kept, ...more], [...app.store.now.skips.before, edits]);
+}
+
+async function change(app: App, edits: SkipEdit[], before: SkipEdit[][]): Promise<void> {
+  const { skips } = app.store.now;
+  if (!skips.answer) return;
+  try {
+    const answer = await app.engine.ask("editSkips", { shapes: skips.answer.shapes, edits, skipped_reasons: null });
+    app.store.set({ skips: { ...app.store.now.skips, answer, error: null, before, dirty: before.length > 0 } });
+  } catch (error) {
+    app.note(`This cannot be decided: ${message(error)}`);
+  }
+}
+
+/** Takes back the last decision, or, after a save, the save. */
+export async function undo(app: App): Promise<void> {
+  const { skips } = app.store.now;
+  const before = skips.before.slice();
+  const last = before.pop();
+  if (last) await change(app, last, before);
+  else if (skips.saved > 0) await post(app, { undo: true }, "The last save is undone: the files are as they were.");
+}
+
+export async function save(app: App): Promise<void> {
+  const { answer } = app.store.now.skips;
+  if (answer) await post(app, { edits: answer.edits ?? [] }, "Saved.");
+}
+
+async function post(app: App, wish: Record<string, unknown>, done: string): Promise<void> {
+  const { robot } = app.store.now;
+  const { revision } = app;
+  if (!robot || revision === null) {
+    app.note("The server does not answer: nothing was saved.");
+    return;
+  }
+  try {
+    const path = `robots/${encodeURIComponent(robot.entry.id)}/skips`;
+    const answer = (await app.site.post(path, { ...wish, revision })) as { revision: string; undo: number };
+    app.store.set({ skips: { ...app.store.now.skips, before: [], dirty: false, saved: answer.undo } });
+    await app.reopen();
+    app.note(done);
+  } catch (error) {
+    app.note(`Nothing was saved: ${message(error)}`);
+  }
+}
+
+/** The files that change, for a page that cannot write them. */
+export function download(app: App): void {
+  const { answer } = app.store.now.skips;
+  for (const { path, text } of answer?.files ?? []) {
+    const url = URL.createObjectURL(new Blob([text], { type: "application/octet-stream" }));
+    const link = document.createElement("a");
+    link.href = url;
+    link.download = path.split("/").pop() ?? path;
+    link.click();
+    setTimeout(() => {
+      URL.revokeObjectURL(url);
+    }, 1000);
+  }
+  app.note(
+    "Put module.json and module.yaml into link_shapes_modules/link_shapes_skips_module, and urdd.json into the root.",
+  );
+}
+
+/** Skips of all pairs of links that are nearer than this pair now, by distance or by their share of the mean. */
+export async function nearer(
+  app: App,
+  links: [number, number],
+  by: "distance" | "relative",
+  reason: string,
+): Promise<void> {
+  const { robot, q, shapes } = app.store.now;
+  if (!robot) return;
+  const { nearest } = await app.engine.ask("proximity", { q, shapes, k: ALL });
+  const key = (pair: PairDistance): number => (by === "distance" ? pair.distance : (pair.relative ?? Infinity));
+  const least = new Map<string, { links: [number, number]; value: number }>();
+  for (const pair of nearest) {
+    const [a, b] = [Math.min(...pair.link_idxs), Math.max(...pair.link_idxs)];
+    const known = least.get(`${a} ${b}`);
+    if (!known || key(pair) < known.value) least.set(`${a} ${b}`, { links: [a, b], value: key(pair) });
+  }
+  const own = least.get(`${Math.min(...links)} ${Math.max(...links)}`);
+  if (!own || !Number.isFinite(own.value)) {
+    app.note("This pair has no such distance now: it is skipped, or has no mean.");
+    return;
+  }
+  const name = (link: number): string => robot.links[link]?.name ?? "";
+  const found = [...least.values()].filter((pair) => pair.value < own.value);
+  if (found.length === 0) app.note("No other pair is nearer.");
+  else
+    await decide(
+      app,
+      found.map(({ links: [a, b] }) => ({ link_a: name(a), link_b: name(b), skip: true, reason })),
+    );
+}
+
+export function isSkipped(answer: SkipsAnswer, i: number, j: number): boolean {
+  return answer.skipped[i]?.[j] === "1";
+}
+
+export function letterAt(answer: SkipsAnswer, i: number, j: number): string {
+  return answer.reasons?.[i]?.[j] ?? (i === j ? "s" : "?");
+}

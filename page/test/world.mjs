@@ -1,0 +1,118 @@
+// What the tests stand in: URDDs of our robots, `urdd view`, and a browser that tells of every error and foreign request.
+//
+// Set URDD to the program, and CHROMIUM where the browser is not /usr/bin/chromium.
+
+import assert from "node:assert/strict";
+import { spawn, spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+const repository = join(dirname(fileURLToPath(import.meta.url)), "../..");
+export const program = process.env.URDD ?? join(repository, "target/debug/urdd");
+
+export function run(...words) {
+  const done = spawnSync(program, words, { encoding: "utf8", maxBuffer: 1 << 28 });
+  if (done.error) throw done.error;
+  return done;
+}
+
+/** A folder with a URDD for each of these of our robots, by name. */
+export function robots(names) {
+  const folder = mkdtempSync(join(tmpdir(), "urdd-page-"));
+  for (const name of names) {
+    const made = run(
+      "generate",
+      join(repository, `conformance/robots/${name}.urdf`),
+      "-o",
+      join(folder, "robots", name),
+    );
+    assert.equal(made.status, 0, made.stderr);
+  }
+  return { folder, robots: join(folder, "robots"), remove: () => rmSync(folder, { recursive: true, force: true }) };
+}
+
+export function allNames() {
+  const names = readdirSync(join(repository, "conformance/robots")).filter((name) => name.endsWith(".urdf"));
+  return names.map((name) => name.slice(0, -".urdf".length)).sort();
+}
+
+export function read(path) {
+  return JSON.parse(readFileSync(path, "utf8"));
+}
+
+/** `urdd view`: its address, and how to end it. */
+export async function view(...words) {
+  const child = spawn(program, ["view", "--no-open", ...words], { stdio: ["ignore", "pipe", "inherit"] });
+  const address = await new Promise((resolve, reject) => {
+    let text = "";
+    child.stdout.on("data", (data) => {
+      text += data;
+      const found = /http:\/\/\S+/.exec(text);
+      if (found) resolve(found[0]);
+    });
+    child.on("exit", (code) => reject(new Error(`urdd view ended: ${code}`)));
+  });
+  return { address, end: () => child.kill("SIGINT") };
+}
+
+export async function browser() {
+  const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
+  const quiet = [
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+  ];
+  const args = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", ...quiet];
+  return chromium.launch({ executablePath, args });
+}
+
+/** A page of which every console error, failure and request elsewhere is kept. */
+export async function tab(chrome, address, options = {}) {
+  const context = await chrome.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: "dark", ...options });
+  await context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  const page = await context.newPage();
+  const faults = [];
+  const { host } = new URL(address);
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type()) && !/GPU stall|WebGL|swiftshader/i.test(message.text()))
+      faults.push(message.text());
+  });
+  page.on("pageerror", (error) => faults.push(String(error.stack)));
+  page.on("request", (request) => {
+    const url = new URL(request.url());
+    if (!["blob:", "data:"].includes(url.protocol) && url.host !== host) faults.push(`a request to ${url}`);
+  });
+  await page.goto(address);
+  return { page, faults, close: () => context.close() };
+}
+
+/** Opens a robot of the gallery, and waits until it is drawn. */
+export async function open(page, name) {
+  const back = page.getByRole("button", { name: "All robots" });
+  if (await back.isVisible()) await back.click();
+  await page.locator(".card", { has: page.locator(`strong:text-is("${name}")`) }).click();
+  await drawn(page, name);
+}
+
+export async function drawn(page, name) {
+  await page.waitForFunction(
+    (name) => {
+      const { robot, loading } = globalThis.urdd?.app.store.now ?? {};
+      return robot && (!name || robot.entry.name === name) && !loading && globalThis.urdd.stage.scene;
+    },
+    name,
+    { timeout: 120_000 },
+  );
+}
+
+/** A value of the page's state, once it is there. */
+export async function state(page, key, wanted = "value !== null") {
+  const test = `(() => { const value = globalThis.urdd.app.store.now.${key}; return ${wanted}; })()`;
+  await page.waitForFunction(test, null, { timeout: 120_000 });
+  return page.evaluate(`globalThis.urdd.app.store.now.${key}`);
+}

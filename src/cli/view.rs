@@ -1,0 +1,241 @@
+//! `urdd view`.
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+
+use super::generate_output::{Format, Printer};
+use super::output;
+use super::signals::Signals;
+use crate::directory::discover::DiscoverError;
+use crate::format::escape;
+use crate::generate::batch::{Job, Observer, caught};
+use crate::generate::{self, Packages, Settings};
+use crate::view::{Collection, Server, export};
+
+/// Arguments of `urdd view`.
+#[derive(Args)]
+#[command(
+    after_help = "The page is served on 127.0.0.1 alone, and only the address that is printed opens it. A folder without URDDs that \
+    holds one URDF is shown too: a URDD is generated first, into a temporary folder.\n\n\
+    Exit status: 0 after Ctrl-C, or when the site is written; 1 no URDD could be made; 2 wrong usage, no robot was found, \
+    or there is no server."
+)]
+pub struct ViewArguments {
+    /// URDDs, folders of them, zip archives of them, or a URDF.
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+
+    /// The port; without it, 8642 or any that is free.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    port: Option<u16>,
+
+    /// Does not open a browser.
+    #[arg(long)]
+    no_open: bool,
+
+    /// Writes the page and the robots into a folder instead, as a site for any web server.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["port", "no_open"])]
+    export: Option<PathBuf>,
+
+    /// Where a ROS package is, for a URDF; may be given again.
+    #[arg(long = "package", value_name = "NAME=PATH")]
+    packages: Vec<String>,
+
+    /// A folder besides those of the robot and its packages from which mesh files may be taken, for a URDF; may be given
+    /// again.
+    #[arg(long = "allow-folder", value_name = "DIR")]
+    allowed_folders: Vec<PathBuf>,
+}
+
+/// Runs `urdd view`.
+pub fn run(arguments: &ViewArguments) -> ExitCode {
+    match view(arguments) {
+        Ok(status) => ExitCode::from(status),
+        Err((status, message)) => {
+            output::error(&escape::line(&message));
+            ExitCode::from(status)
+        }
+    }
+}
+
+/// Exit status: a robot could not be made.
+const FAILED: u8 = 1;
+
+type Failure = (u8, String);
+
+fn usage(message: impl ToString) -> Failure {
+    (output::USAGE, message.to_string())
+}
+
+fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
+    let signals = Signals::listen().map_err(usage)?;
+    // Generated URDDs live as long as this.
+    let temporary = tempfile::Builder::new()
+        .prefix("urdd-view-")
+        .tempdir()
+        .map_err(usage)?;
+    let mut collection = Collection::default();
+    for path in &arguments.paths {
+        match urdf_at(path)? {
+            Some(urdf) => {
+                made(
+                    &urdf,
+                    arguments,
+                    &signals,
+                    temporary.path(),
+                    &mut collection,
+                )?;
+            }
+            None => collection.add(path).map_err(usage)?,
+        }
+        if let Some(status) = signals.status() {
+            return Ok(status);
+        }
+    }
+    if let Some(folder) = &arguments.export {
+        return written(&collection, folder, &signals);
+    }
+    let count = collection.robots().len();
+    let server = Server::bind(collection, arguments.port).map_err(usage)?;
+    let address = server.address();
+    let robots = if count == 1 { "robot" } else { "robots" };
+    let told = format!("{count} {robots}: {address}\nCtrl-C stops it.\n");
+    output::print(&told).map_err(usage)?;
+    let _ = std::io::stdout().flush();
+    if !arguments.no_open
+        && let Err(error) = open::that_detached(&address)
+    {
+        output::error(&format!(
+            "no browser could be opened ({error}); open the address above yourself"
+        ));
+    }
+    server.run(&signals.cancellation());
+    Ok(0)
+}
+
+/// The URDF that a path stands for: itself, or the only one in a folder in which there is no URDD.
+fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
+    let is_urdf = |path: &Path| {
+        let extension = path.extension().unwrap_or_default();
+        extension.eq_ignore_ascii_case("urdf") || extension.eq_ignore_ascii_case("xacro")
+    };
+    if path.is_file() && is_urdf(path) {
+        if path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("xacro"))
+        {
+            return Err(usage(format!(
+                "{}: macros are not run to show a robot; `urdd generate` expands them",
+                path.display()
+            )));
+        }
+        return Ok(Some(path.to_owned()));
+    }
+    if !path.is_dir() {
+        return Ok(None);
+    }
+    match crate::directory::discover::discover(path) {
+        Err(DiscoverError::NoUrdd { .. }) => {}
+        _ => return Ok(None),
+    }
+    let entries = std::fs::read_dir(path).map_err(usage)?.flatten();
+    let mut found: Vec<PathBuf> = entries
+        .map(|entry| entry.path())
+        .filter(|path| path.is_file() && is_urdf(path))
+        .collect();
+    found.retain(|path| {
+        path.extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("urdf"))
+    });
+    found.sort();
+    match found.as_slice() {
+        [] => Ok(None),
+        [one] => Ok(Some(one.clone())),
+        several => {
+            let names: Vec<String> = several
+                .iter()
+                .map(|path| path.display().to_string())
+                .collect();
+            Err(usage(format!(
+                "{}: there are several URDFs; give one of them: {}",
+                path.display(),
+                names.join(", ")
+            )))
+        }
+    }
+}
+
+/// Makes a URDD of a URDF, into a temporary folder.
+fn made(
+    urdf: &Path,
+    arguments: &ViewArguments,
+    signals: &Signals,
+    folder: &Path,
+    collection: &mut Collection,
+) -> Result<(), Failure> {
+    let stem = urdf.file_stem().unwrap_or_default();
+    let mut name = stem.to_string_lossy().into_owned();
+    if name == "robot"
+        && let Some(parent) = urdf.canonicalize().ok().as_deref().and_then(Path::parent)
+        && let Some(parent) = parent.file_name()
+    {
+        // Many call the file `robot.urdf`, and the folder by the robot's name.
+        name = parent.to_string_lossy().into_owned();
+    }
+    let number = collection.robots().len();
+    let target = folder.join(number.to_string()).join(&name);
+    let mut packages = Packages::from_environment(|name| std::env::var_os(name));
+    for argument in &arguments.packages {
+        let added = packages.add(argument);
+        added.map_err(|error| usage(format!("--package: {error}")))?;
+    }
+    let settings = Settings {
+        packages,
+        allowed_folders: arguments.allowed_folders.clone(),
+        cancellation: signals.cancellation(),
+        ..Settings::default()
+    };
+    let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
+    let printer = Printer::new(Format::Human, false, is_terminal);
+    let job = Job {
+        source: urdf.to_owned(),
+        name: name.clone(),
+    };
+    let progress = printer.begin_robot(&job);
+    // A crash is caught and reported; the default hook would print besides.
+    std::panic::set_hook(Box::new(|_| {}));
+    let outcome = caught(urdf, || {
+        generate::generate(urdf, &target, &settings, &*progress)
+    });
+    let _ = std::panic::take_hook();
+    drop(progress);
+    printer.done(&job, &outcome);
+    match outcome {
+        Ok(generated) => {
+            let notes = generated.notes.iter().map(ToString::to_string).collect();
+            collection.add_generated(name, target, notes);
+            Ok(())
+        }
+        Err(_) => Err((FAILED, "there is nothing to show".to_owned())),
+    }
+}
+
+/// Writes the site.
+fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<u8, Failure> {
+    let mut tell = |robot: &crate::view::Shown| {
+        let name = escape::line(&robot.name).into_owned();
+        let _ = writeln!(std::io::stderr().lock(), "{name}");
+    };
+    export(collection, folder, &signals.cancellation(), &mut tell).map_err(usage)?;
+    let shown = folder.display();
+    let told = format!(
+        "{shown}: a site of {} robots. Browsers fetch nothing from file://: put it on a web server, or try\n  \
+         python3 -m http.server --bind 127.0.0.1 --directory {shown}\n",
+        collection.robots().len()
+    );
+    output::print(&escape::lines(&told)).map_err(usage)?;
+    Ok(0)
+}

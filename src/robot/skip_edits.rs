@@ -1,0 +1,108 @@
+//! What a person's decisions on skips make of a URDD.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+
+use super::Robot;
+use super::error::RobotError;
+use super::parts::usable;
+use crate::directory::canonical;
+use crate::directory::discover::ROOT_METADATA;
+use crate::directory::json;
+use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::format::hexadecimal::hexadecimal;
+use crate::format::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
+use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::skips::skips_module;
+
+const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
+const SIMPLE: ModuleKind = ModuleKind::LinkShapesSimpleSkips;
+
+/// A module with other edits, and the files of the URDD that change.
+#[derive(Debug)]
+pub struct EditedSkips {
+    /// `link_shapes_skips_module`.
+    pub module: LinkShapesSkipsModule,
+    /// By path, relative to the root: the module's JSON and YAML, and `urdd.json` with their sizes and hashes.
+    pub files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Robot {
+    /// The URDD with these edits of skips instead of those that it has, and, where they are given, these skipped reasons.
+    /// Nothing is written.
+    ///
+    /// # Errors
+    /// [`RobotError::Unknown`] for an edit that names no link; [`RobotError::Missing`] and [`RobotError::Unusable`] where
+    /// `urdf_module`, `link_shapes_simple_skips_module` or `link_shapes_skips_module` of version 1 is not there or of no
+    /// use; [`RobotError::Metadata`] where `urdd.json` is.
+    pub fn with_skip_edits(
+        &self,
+        edits: Vec<SkipEdit>,
+        skipped_reasons: Option<Vec<SkippedReason>>,
+    ) -> Result<EditedSkips, RobotError> {
+        let part = self.part(&[ModuleKind::Urdf, SIMPLE, SKIPS])?;
+        let documents = (part.document(SIMPLE), part.document(SKIPS));
+        let (
+            Some(ModuleDocument::LinkShapesSimpleSkips(simple)),
+            Some(ModuleDocument::LinkShapesSkips(now)),
+        ) = documents
+        else {
+            usable(&part, SIMPLE)?;
+            return Err(RobotError::Missing(SKIPS));
+        };
+        let described = part.robot().ok_or(RobotError::Missing(ModuleKind::Urdf))?;
+        let links = described.links.iter();
+        let names: Vec<String> = links.map(|link| link.name.clone()).collect();
+        for edit in &edits {
+            for link in [&edit.link_a, &edit.link_b] {
+                if described.link(link).is_none() {
+                    super::names::index("link", &names, link)?;
+                }
+            }
+        }
+        let reasons = skipped_reasons.unwrap_or_else(|| now.skipped_reasons.clone());
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let module = skips_module(simple, reasons, edits, &names);
+        let mut files = module_files(&module)?;
+        let metadata = self.metadata_with(&files)?;
+        files.insert(ROOT_METADATA.to_owned(), metadata);
+        Ok(EditedSkips { module, files })
+    }
+
+    /// `urdd.json` with the sizes and hashes of some files.
+    fn metadata_with(&self, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, RobotError> {
+        let text = self.root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES);
+        let text = text.map_err(|error| RobotError::Metadata(error.to_string()))?;
+        let document =
+            json::read(&text).map_err(|error| RobotError::Metadata(error.to_string()))?;
+        let mut metadata = document.value;
+        let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
+        for module in modules.into_iter().flatten() {
+            let listed = module.get_mut("files").and_then(Value::as_array_mut);
+            for entry in listed.into_iter().flatten() {
+                let path = entry.get("path").and_then(Value::as_str);
+                if let Some(bytes) = path.and_then(|path| files.get(path)) {
+                    let hash = hexadecimal(&Sha256::digest(bytes));
+                    entry["size"] = json!(bytes.len());
+                    entry["sha256"] = json!(hash);
+                }
+            }
+        }
+        Ok(canonical::json_string(&metadata).into_bytes())
+    }
+}
+
+fn module_files(module: &LinkShapesSkipsModule) -> Result<BTreeMap<String, Vec<u8>>, RobotError> {
+    let document = serde_json::to_value(module);
+    let document = document.map_err(|error| RobotError::Unusable {
+        module: SKIPS,
+        reason: error.to_string(),
+    })?;
+    let file = |name: &str, text: String| (format!("{}/{name}", SKIPS.folder()), text.into_bytes());
+    Ok(BTreeMap::from([
+        file("module.json", canonical::json_string(&document)),
+        file("module.yaml", canonical::yaml_string(&document)),
+    ]))
+}

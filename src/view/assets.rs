@@ -1,0 +1,90 @@
+//! The page's own files: `page/dist`, which `page/build.mjs` makes.
+
+use std::io::{self, Read};
+
+use brotli_decompressor::Decompressor;
+
+/// A file of the page.
+#[derive(Debug, Clone, Copy)]
+pub struct Asset {
+    /// Its name in the site.
+    pub name: &'static str,
+    /// Its type, as servers say it.
+    pub media_type: &'static str,
+    /// Its content, compressed by brotli.
+    pub brotli: &'static [u8],
+}
+
+macro_rules! asset {
+    ($name:literal, $type:literal) => {
+        Asset {
+            name: $name,
+            media_type: $type,
+            brotli: include_bytes!(concat!(
+                env!("CARGO_MANIFEST_DIR"),
+                "/page/dist/",
+                $name,
+                ".br"
+            )),
+        }
+    };
+}
+
+/// Every file of the page.
+pub const ASSETS: &[Asset] = &[
+    asset!("index.html", "text/html; charset=utf-8"),
+    asset!("app.js", "text/javascript; charset=utf-8"),
+    asset!("worker.js", "text/javascript; charset=utf-8"),
+    asset!("style.css", "text/css; charset=utf-8"),
+    asset!("urdd.wasm", "application/wasm"),
+];
+
+/// What the page was made of: a hash (`page/build.mjs`).
+pub const STAMP: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/page/dist/stamp"));
+
+/// The file of a name.
+pub fn find(name: &str) -> Option<&'static Asset> {
+    ASSETS.iter().find(|asset| asset.name == name)
+}
+
+impl Asset {
+    /// Its content.
+    ///
+    /// # Errors
+    /// Where it was not built as it should be.
+    pub fn bytes(&self) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        Decompressor::new(self.brotli, 1 << 16).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+}
+
+/// The page for a server that answers questions, not a static one.
+///
+/// # Errors
+/// As [`Asset::bytes`].
+pub fn live_page() -> io::Result<String> {
+    let index = find("index.html").map_or_else(|| Ok(Vec::new()), Asset::bytes)?;
+    let text = String::from_utf8(index).map_err(io::Error::other)?;
+    Ok(text.replace(
+        r#"<meta name="urdd-mode" content="static" />"#,
+        r#"<meta name="urdd-mode" content="live" />"#,
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_page_is_whole() {
+        for asset in ASSETS {
+            let bytes = asset.bytes().expect(asset.name);
+            assert!(bytes.len() > asset.brotli.len() / 2, "{}", asset.name);
+        }
+        let page = live_page().expect("a page");
+        assert!(page.contains(r#"content="live""#), "{page}");
+        assert!(page.contains("wasm-unsafe-eval"), "{page}");
+        assert_eq!(STAMP.trim().len(), 64);
+    }
+}

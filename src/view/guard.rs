@@ -1,0 +1,160 @@
+//! Who may ask: the page itself, in a browser on this machine, that was opened with the address that was printed.
+
+/// What a request says of where it comes from.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Caller<'a> {
+    /// `Host`.
+    pub host: Option<&'a str>,
+    /// `Origin`.
+    pub origin: Option<&'a str>,
+    /// `Sec-Fetch-Site`.
+    pub site: Option<&'a str>,
+    /// `X-Urdd-Token`.
+    pub token: Option<&'a str>,
+}
+
+/// Why a request is refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refusal {
+    /// It was sent to another name: that is how pages of others reach servers of this machine.
+    Host,
+    /// It comes from another page.
+    Origin,
+    /// It lacks the token.
+    Token,
+}
+
+impl Refusal {
+    /// In words.
+    pub fn message(self) -> &'static str {
+        match self {
+            Refusal::Host => "this server answers to 127.0.0.1 and localhost alone\n",
+            Refusal::Origin => "this server answers to its own page alone\n",
+            Refusal::Token => {
+                "the token is missing or wrong: open the address that `urdd view` printed\n"
+            }
+        }
+    }
+}
+
+/// The rules of one server.
+#[derive(Debug, Clone)]
+pub struct Guard {
+    /// The port.
+    pub port: u16,
+    /// What a caller must know.
+    pub token: String,
+}
+
+impl Guard {
+    /// Whether the page itself may be had: its host is checked, and that no other page asks.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn page(&self, caller: &Caller) -> Result<(), Refusal> {
+        let port = self.port;
+        let hosts = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}"));
+        let is_host = |host: &str| hosts.iter().any(|own| own.eq_ignore_ascii_case(host));
+        if !caller.host.is_some_and(is_host) {
+            return Err(Refusal::Host);
+        }
+        let own = |origin: &str| origin.strip_prefix("http://").is_some_and(is_host);
+        if caller.origin.is_some_and(|origin| !own(origin)) {
+            return Err(Refusal::Origin);
+        }
+        // What was typed or opened from outside says `none`; other pages may not even link to what lies here.
+        match caller.site {
+            None | Some("same-origin" | "none") => Ok(()),
+            Some(_) => Err(Refusal::Origin),
+        }
+    }
+
+    /// Whether a robot may be had or changed: the token is wanted too.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn robots(&self, caller: &Caller) -> Result<(), Refusal> {
+        self.page(caller)?;
+        let given = caller.token.unwrap_or_default().as_bytes();
+        let own = self.token.as_bytes();
+        // Every byte is looked at, so that time tells nothing.
+        let differ = own.iter().zip(given).fold(0, |sum, (a, b)| sum | (a ^ b));
+        match own.len() == given.len() && differ == 0 {
+            true => Ok(()),
+            false => Err(Refusal::Token),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn guard() -> Guard {
+        Guard {
+            port: 8642,
+            token: "abcdef".to_owned(),
+        }
+    }
+
+    fn own() -> Caller<'static> {
+        Caller {
+            host: Some("127.0.0.1:8642"),
+            origin: Some("http://127.0.0.1:8642"),
+            site: Some("same-origin"),
+            token: Some("abcdef"),
+        }
+    }
+
+    #[test]
+    fn the_page_itself_may_ask() {
+        assert_eq!(guard().robots(&own()), Ok(()));
+        let typed = Caller {
+            host: Some("LOCALHOST:8642"),
+            site: Some("none"),
+            ..Caller::default()
+        };
+        assert_eq!(guard().page(&typed), Ok(()));
+        assert_eq!(guard().robots(&typed), Err(Refusal::Token));
+    }
+
+    #[test]
+    fn nobody_else_may() {
+        let hosts = [
+            None,
+            Some("evil.example"),
+            Some("127.0.0.1"),
+            Some("127.0.0.1:80"),
+        ];
+        for host in hosts {
+            let caller = Caller { host, ..own() };
+            assert_eq!(guard().robots(&caller), Err(Refusal::Host), "{host:?}");
+        }
+        let origins = [
+            "null",
+            "http://evil.example",
+            "https://127.0.0.1:8642",
+            "http://127.0.0.1:1",
+        ];
+        for origin in origins {
+            let origin = Some(origin);
+            let caller = Caller { origin, ..own() };
+            assert_eq!(guard().page(&caller), Err(Refusal::Origin), "{origin:?}");
+        }
+        for site in ["cross-site", "same-site"] {
+            let site = Some(site);
+            let caller = Caller { site, ..own() };
+            assert_eq!(guard().page(&caller), Err(Refusal::Origin), "{site:?}");
+        }
+        for token in [
+            None,
+            Some(""),
+            Some("abcde"),
+            Some("abcdeF"),
+            Some("abcdefg"),
+        ] {
+            let caller = Caller { token, ..own() };
+            assert_eq!(guard().robots(&caller), Err(Refusal::Token), "{token:?}");
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! `urdd view`: the page `page/`, the robots that it shows, and a server for both that only this machine's browser, with
+//! the address that was printed, can ask.
+
+pub mod assets;
+pub mod collection;
+pub mod export;
+mod guard;
+mod reply;
+mod revision;
+mod route;
+mod save;
+pub mod server;
+
+pub use collection::{Collection, Shown};
+pub use export::{ExportError, export};
+pub use server::{Server, ServerError};

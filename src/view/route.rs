@@ -1,0 +1,239 @@
+//! Which answer an address has.
+
+use percent_encoding::percent_decode_str;
+use serde_json::{Value, json};
+
+use super::assets;
+use super::collection::{Collection, Shown};
+use super::reply::Reply;
+use super::revision;
+use crate::directory::root::{EntryKind, ReadError};
+use crate::format::report::Severity;
+use crate::report::{self, model::Report};
+use crate::validate::settings::Settings;
+use crate::validate::validate;
+
+/// Most bytes of a file that is sent.
+const MAX_FILE_BYTES: u64 = 1 << 30;
+
+/// What an address asks for.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Route {
+    /// A file of the page.
+    Asset(String),
+    /// The list of robots.
+    Robots,
+    /// What changes when a robot's files do.
+    Revision(String),
+    /// The list of a robot's files.
+    Files(String),
+    /// The report of a robot.
+    Report(String),
+    /// A file of a robot.
+    File(String, String),
+    /// The skips of a robot, to be saved.
+    Skips(String),
+    /// Nothing.
+    Unknown,
+}
+
+impl Route {
+    /// Of the path of an address, still percent-encoded.
+    pub fn of(url: &str) -> Self {
+        let path = url.split(['?', '#']).next().unwrap_or_default();
+        let Some(path) = path.strip_prefix('/') else {
+            return Route::Unknown;
+        };
+        // Decoded after it was split: a slash that is encoded belongs to a name, and no name has one.
+        let parts: Option<Vec<String>> = path
+            .split('/')
+            .map(|part| {
+                let part = percent_decode_str(part).decode_utf8().ok()?;
+                let is_plain = !part.contains(['/', '\\', '\0']) && part != "." && part != "..";
+                is_plain.then(|| part.into_owned())
+            })
+            .collect();
+        let Some(parts) = parts else {
+            return Route::Unknown;
+        };
+        let words: Vec<&str> = parts.iter().map(String::as_str).collect();
+        match words.as_slice() {
+            [""] => Route::Asset("index.html".to_owned()),
+            ["robots.json"] => Route::Robots,
+            ["robots", id, "revision.json"] => Route::Revision((*id).to_owned()),
+            ["robots", id, "files.json"] => Route::Files((*id).to_owned()),
+            ["robots", id, "report.json"] => Route::Report((*id).to_owned()),
+            ["robots", id, "skips"] => Route::Skips((*id).to_owned()),
+            ["robots", id, "files", rest @ ..] if !rest.is_empty() => {
+                Route::File((*id).to_owned(), rest.join("/"))
+            }
+            [name] => Route::Asset((*name).to_owned()),
+            _ => Route::Unknown,
+        }
+    }
+
+    /// Whether it can be had without the token: what is the same on every machine.
+    pub fn is_public(&self) -> bool {
+        matches!(self, Route::Asset(_))
+    }
+}
+
+/// The answer to a reading request. `brotli` says whether who asks can read that.
+pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
+    let with = |id: &str, answer: &dyn Fn(&Shown) -> Result<Reply, ReadError>| {
+        let Some(robot) = collection.find(id) else {
+            return Reply::failure(404, "there is no such robot\n");
+        };
+        answer(robot).unwrap_or_else(|error| failure(&error))
+    };
+    match route {
+        Route::Asset(name) => asset(name, brotli),
+        Route::Robots => Reply::json(&collection.robots().iter().map(entry).collect()),
+        Route::Revision(id) => with(id, &|robot| {
+            let revision = revision::of(&robot.path);
+            Ok(Reply::json(&json!({ "revision": revision })))
+        }),
+        Route::Files(id) => with(id, &|robot| {
+            // Before the files are listed: what changes afterwards is noticed.
+            let revision = revision::of(&robot.path);
+            let mut files = files(robot)?;
+            files["revision"] = json!(revision);
+            Ok(Reply::json(&files))
+        }),
+        Route::Report(id) => with(id, &|robot| Ok(Reply::json_text(report_of(robot)))),
+        Route::File(id, path) => with(id, &|robot| {
+            Ok(Reply::file(robot.open()?.read(path, MAX_FILE_BYTES)?))
+        }),
+        Route::Skips(_) | Route::Unknown => Reply::failure(404, "there is no such page\n"),
+    }
+}
+
+fn failure(error: &ReadError) -> Reply {
+    let status = match error {
+        ReadError::Missing | ReadError::NotAFile | ReadError::NotAUrdd => 404,
+        ReadError::LeavesRoot | ReadError::Path(_) => 403,
+        _ => 500,
+    };
+    Reply::failure(status, format!("{error}\n"))
+}
+
+fn asset(name: &str, brotli: bool) -> Reply {
+    let Some(asset) = assets::find(name) else {
+        return Reply::failure(404, "there is no such page\n");
+    };
+    let body = match name {
+        "index.html" => assets::live_page().map(String::into_bytes),
+        _ if brotli => Ok(asset.brotli.to_vec()),
+        _ => asset.bytes(),
+    };
+    match body {
+        Ok(body) => Reply {
+            status: 200,
+            media_type: asset.media_type,
+            brotli: brotli && name != "index.html",
+            body,
+        },
+        Err(error) => Reply::failure(500, error.to_string()),
+    }
+}
+
+/// A line of `robots.json`.
+pub fn entry(robot: &Shown) -> Value {
+    json!({
+        "id": robot.id,
+        "name": robot.name,
+        "writable": robot.writable,
+        "notes": robot.notes,
+        "links": null,
+        "dofs": null,
+        "verdict": null,
+        "findings": null,
+        "picture": null,
+    })
+}
+
+/// The list of a robot's files.
+///
+/// # Errors
+/// Where they cannot be listed.
+pub fn files(robot: &Shown) -> Result<Value, ReadError> {
+    let root = robot.open()?;
+    let listing = root.list()?;
+    let regular = listing
+        .entries
+        .iter()
+        .filter(|entry| entry.kind == EntryKind::File && entry.utf8);
+    let file =
+        |entry: &crate::directory::root::Entry| json!({ "path": entry.path, "size": entry.size });
+    Ok(json!({
+        "name": root.folder_name(),
+        "files": regular.map(file).collect::<Vec<_>>(),
+    }))
+}
+
+/// The report of a robot, as `urdd validate --format json` prints it. It is made once for each revision.
+pub fn report_of(robot: &Shown) -> String {
+    let revision = revision::of(&robot.path);
+    let mut known = robot
+        .report
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    if let Some((of, report)) = known.as_ref()
+        && *of == revision
+    {
+        return report.clone();
+    }
+    let made = validate(&[&robot.path], &Settings::default())
+        .map_err(|error| error.to_string())
+        .and_then(|run| {
+            report::json(&Report::new(&run, Severity::Error)).map_err(|error| error.to_string())
+        });
+    match made {
+        Ok(report) => {
+            *known = Some((revision, report.clone()));
+            report
+        }
+        Err(error) => json!({ "error": error }).to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn addresses() {
+        let file = |path: &str| Route::File("a".to_owned(), path.to_owned());
+        assert_eq!(Route::of("/"), Route::Asset("index.html".to_owned()));
+        assert_eq!(Route::of("/app.js?1#2"), Route::Asset("app.js".to_owned()));
+        assert_eq!(Route::of("/robots.json"), Route::Robots);
+        assert_eq!(Route::of("/robots/a/files/b/c%20d"), file("b/c d"));
+        assert_eq!(
+            Route::of("/robots/a/files.json"),
+            Route::Files("a".to_owned())
+        );
+    }
+
+    #[test]
+    fn addresses_that_lead_nowhere() {
+        let bad = [
+            "",
+            "http://a/",
+            "/robots/a/files/../x",
+            "/robots/a/files/%2e%2e/x",
+            "/robots/a/files/%2E%2E%2Fx",
+            "/robots/a/files/..%5cx",
+            "/robots/a/files/b%00",
+            "/robots/a/files/%ff",
+            "/robots/a/files",
+            "/robots/a",
+            "/x/y",
+        ];
+        for url in bad {
+            assert_eq!(Route::of(url), Route::Unknown, "{url}");
+        }
+        assert!(Route::of("/app.js").is_public());
+        assert!(!Route::of("/robots.json").is_public());
+        assert!(!Route::of("/robots/a/files/b").is_public());
+    }
+}

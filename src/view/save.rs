@@ -1,0 +1,194 @@
+//! Saving the skips that a person decided: the edits and the matrices that follow, with their sizes and hashes, in one
+//! step; and undoing it.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::collection::Shown;
+use super::reply::Reply;
+use super::revision;
+use crate::directory::cancellation::Cancellation;
+use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::directory::root::Root;
+use crate::directory::staging::Staging;
+use crate::directory::writer::Writer;
+use crate::format::link_shapes_skips::{SkipEdit, SkippedReason};
+use crate::robot::Robot;
+
+/// Most edits, and most characters of a reason.
+const MAX_EDITS: usize = 1_000_000;
+const MAX_REASON: usize = 10_000;
+/// Saves that can be undone.
+const MAX_UNDONE: usize = 100;
+
+/// Files by path, as they are to be written.
+pub(super) type Files = BTreeMap<String, Vec<u8>>;
+
+/// What the page sends.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Wish {
+    /// The revision that the page saw.
+    revision: String,
+    /// What is to be written.
+    edits: Option<Vec<SkipEdit>>,
+    /// Without them those that are there.
+    skipped_reasons: Option<Vec<SkippedReason>>,
+    /// Whether the last save is to be undone instead.
+    #[serde(default)]
+    undo: bool,
+}
+
+/// Saves skips, or undoes the last save.
+pub fn skips(robot: &Shown, body: &[u8]) -> Reply {
+    let wish: Wish = match serde_json::from_slice(body) {
+        Ok(wish) => wish,
+        Err(error) => return Reply::failure(400, format!("this is no list of edits: {error}\n")),
+    };
+    if !robot.writable {
+        let why = "this URDD cannot be written: it is an archive, or was made for this view\n";
+        return Reply::failure(403, why);
+    }
+    match save(robot, wish) {
+        Ok(value) => Reply::json(&value),
+        Err((status, message)) => Reply::failure(status, format!("{message}\n")),
+    }
+}
+
+type Failure = (u16, String);
+
+fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
+    let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
+    // From here on no other run of this program writes there.
+    let staging =
+        Staging::begin(&robot.path, &Cancellation::default()).map_err(|error| failed(&error))?;
+    let unchanged = || match revision::of(&robot.path) == wish.revision {
+        true => Ok(()),
+        false => Err((
+            409,
+            "the files changed on disk since the page read them; nothing was written".to_owned(),
+        )),
+    };
+    unchanged()?;
+    let mut undo = robot
+        .undo
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let files = match wish.undo {
+        true => {
+            let last = undo.last().filter(|(after, _)| *after == wish.revision);
+            let Some((_, files)) = last else {
+                return Err((409, "there is nothing to undo".to_owned()));
+            };
+            files.clone()
+        }
+        false => made(robot, wish.edits.unwrap_or_default(), wish.skipped_reasons)?,
+    };
+    let root = Root::open_folder(&robot.path).map_err(|error| failed(&error))?;
+    let before: Result<Files, Failure> = files
+        .keys()
+        .map(|path| {
+            let bytes = root.read(path, MAX_DOCUMENT_BYTES);
+            Ok((path.clone(), bytes.map_err(|error| failed(&error))?))
+        })
+        .collect();
+    let before = before?;
+    let writer = Writer::new(staging.content());
+    take_over(&robot.path, Path::new(""), &files, &staging, &writer)?;
+    for (path, bytes) in &files {
+        writer.file(path, bytes).map_err(|error| failed(&error))?;
+    }
+    unchanged()?;
+    staging.commit().map_err(|error| failed(&error))?;
+    let now = revision::of(&robot.path);
+    match wish.undo {
+        true => {
+            undo.pop();
+            // What came before is the last save again.
+            if let Some((after, _)) = undo.last_mut() {
+                after.clone_from(&now);
+            }
+        }
+        false => {
+            undo.push((now.clone(), before));
+            if undo.len() > MAX_UNDONE {
+                undo.remove(0);
+            }
+        }
+    }
+    Ok(json!({ "revision": now, "undo": undo.len() }))
+}
+
+/// Every file and link that stays, into the new content.
+fn take_over(
+    root: &Path,
+    below: &Path,
+    instead: &Files,
+    staging: &Staging,
+    writer: &Writer,
+) -> Result<(), Failure> {
+    let failed = |error: std::io::Error| (500, format!("{}: {error}", below.display()));
+    for entry in fs::read_dir(root.join(below)).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        let path = below.join(entry.file_name());
+        let kind = entry.file_type().map_err(failed)?;
+        if kind.is_dir() {
+            fs::create_dir_all(staging.content().join(&path)).map_err(failed)?;
+            take_over(root, &path, instead, staging, writer)?;
+            continue;
+        }
+        let Some(name) = path.to_str() else {
+            let shown = path.display();
+            return Err((
+                500,
+                format!("{shown}: a name that is not UTF-8 cannot be kept"),
+            ));
+        };
+        let name = name.replace('\\', "/");
+        if instead.contains_key(&name) {
+            continue;
+        }
+        if kind.is_symlink() {
+            link(&entry.path(), &staging.content().join(&path)).map_err(failed)?;
+        } else {
+            writer
+                .keep(&entry.path(), &name)
+                .map_err(|error| (500, error.to_string()))?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(unix)]
+fn link(from: &Path, to: &Path) -> std::io::Result<()> {
+    std::os::unix::fs::symlink(fs::read_link(from)?, to)
+}
+
+#[cfg(not(unix))]
+fn link(_: &Path, _: &Path) -> std::io::Result<()> {
+    Err(std::io::Error::other("symbolic links cannot be kept here"))
+}
+
+/// The files that change.
+fn made(
+    robot: &Shown,
+    edits: Vec<SkipEdit>,
+    reasons: Option<Vec<SkippedReason>>,
+) -> Result<Files, Failure> {
+    if edits.len() > MAX_EDITS {
+        return Err((400, "these are too many edits".to_owned()));
+    }
+    if edits
+        .iter()
+        .any(|edit| edit.reason.chars().count() > MAX_REASON)
+    {
+        return Err((400, "a reason is too long".to_owned()));
+    }
+    let opened = Robot::open(&robot.path).map_err(|error| (500, error.to_string()))?;
+    let edited = opened.with_skip_edits(edits, reasons);
+    Ok(edited.map_err(|error| (400, error.to_string()))?.files)
+}

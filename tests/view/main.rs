@@ -1,0 +1,6 @@
+//! `urdd view` as its page and others ask it: who is refused, what is served, what saving skips does.
+
+mod asking;
+mod exporting;
+mod saving;
+mod served;

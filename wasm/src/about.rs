@@ -1,0 +1,232 @@
+//! What a robot is: names, joints, bounds, mass, and where its meshes lie.
+
+use nalgebra::{Rotation3, UnitQuaternion};
+use serde_json::{Value, json};
+use urdd::directory::root::Root;
+use urdd::directory::source::Source;
+use urdd::document::consumer::{self, ConsumerModules};
+use urdd::document::load::Loaded;
+use urdd::document::mesh_files::MeshFiles;
+use urdd::document::meshes::{Format, MeshPath};
+use urdd::document::robot::{Inertial, Limit, Origin};
+use urdd::document::urdd::Urdd;
+use urdd::format::dof::Quantity;
+use urdd::format::registry::{ModuleDocument, ModuleKind};
+use urdd::robot::Robot;
+
+use crate::files::Files;
+
+/// What [`about`] reads.
+const READ: &[ModuleKind] = &[
+    ModuleKind::Urdf,
+    ModuleKind::Chain,
+    ModuleKind::Dof,
+    ModuleKind::Bounds,
+    ModuleKind::OriginalMeshes,
+    ModuleKind::PlainMeshes,
+    ModuleKind::ConvexHullMeshes,
+    ModuleKind::ConvexDecompositionMeshes,
+];
+
+/// What a robot is, as far as its modules can be read: what is missing is null, and said in `faults`.
+///
+/// - `name`, `folder`, `profile`, `metadata` (`urdd.json`).
+/// - `links`: `name`, `parent_joint`, and `inertial`: `mass` (kg), `position` (m) and `quaternion_wxyz` of the centre of
+///   mass in the link's frame, `inertia` (xx, xy, xz, yy, yz, zz; kg m²).
+/// - `joints`: `name`, `type`, `parent`, `child` (links), `origin` (of the joint in its parent's frame), `axis`, `dofs`,
+///   `mimic` (`dof`, `multiplier`, `offset`), `limit` as the URDF has it.
+/// - `dofs`: `name`, `joint`, `unit`, `bounds`. `zero` and `middle` are configurations.
+/// - `meshes`: by kind for each link its meshes, each with `glb` for a picture and `read` for what reads most briefly.
+pub fn about(files: &Files, robot: &Robot) -> Result<Value, String> {
+    let root = Root::of(files.clone());
+    let loaded = Loaded::read_only(root, READ).map_err(|error| error.to_string())?;
+    let part = Urdd::new(loaded.into());
+    let mut faults = Vec::new();
+    for kind in READ {
+        if let Some(module) = part.module(*kind)
+            && let Some(unusable) = module.unusable()
+        {
+            let reason = module.first_fault();
+            faults.push(json!({
+                "module": kind.name(),
+                "reason": reason.unwrap_or_else(|| unusable.to_string()),
+            }));
+        }
+    }
+    let modules = consumer::modules(&part);
+    let configurations = robot.configurations();
+    if let Err(error) = &configurations {
+        faults.push(json!({ "module": Value::Null, "reason": error.to_string() }));
+    }
+    let configurations = configurations.ok();
+    let bounds = configurations.map(urdd::robot::Configurations::bounds);
+    Ok(json!({
+        "name": part.robot().map(|robot| &robot.name),
+        "folder": files.folder_name(),
+        "profile": part.profile().as_str(),
+        "metadata": part.metadata_file().json.document().map(|document| &document.value),
+        "links": links(&part, modules.as_ref()),
+        "joints": joints(&part, modules.as_ref()),
+        "dofs": modules.as_ref().map(|modules| dofs(modules, bounds)),
+        "zero": configurations.map(urdd::robot::Configurations::zero),
+        "middle": configurations.map(urdd::robot::Configurations::middle),
+        "meshes": {
+            "original": original(&part),
+            "plain": meshes(&part, ModuleKind::PlainMeshes),
+            "hulls": meshes(&part, ModuleKind::ConvexHullMeshes),
+            "pieces": meshes(&part, ModuleKind::ConvexDecompositionMeshes),
+        },
+        "faults": faults,
+    }))
+}
+
+fn links(part: &Urdd, modules: Option<&ConsumerModules>) -> Value {
+    let known = part.robot();
+    let inertial = |link: usize| -> Option<Value> {
+        let inertial = known?.links.get(link)?.inertial.as_ref()?;
+        Some(inertial_of(inertial))
+    };
+    match (modules, known) {
+        (Some(modules), _) => {
+            let links = modules.chain.links_in_chain.iter().enumerate();
+            links
+                .map(|(k, link)| {
+                    json!({
+                        "name": link.name,
+                        "parent_joint": link.parent_joint_idx.map(|joint| joint.get()),
+                        "inertial": inertial(k),
+                    })
+                })
+                .collect()
+        }
+        (None, Some(robot)) => {
+            let parent = |name: &str| robot.joints.iter().position(|joint| joint.child == name);
+            let links = robot.links.iter().enumerate();
+            links
+                .map(|(k, link)| {
+                    json!({
+                        "name": link.name,
+                        "parent_joint": parent(&link.name),
+                        "inertial": inertial(k),
+                    })
+                })
+                .collect()
+        }
+        (None, None) => json!([]),
+    }
+}
+
+fn inertial_of(inertial: &Inertial) -> Value {
+    json!({
+        "mass": inertial.mass,
+        "inertia": inertial.inertia,
+        "position": inertial.origin.xyz,
+        "quaternion_wxyz": quaternion(&inertial.origin),
+    })
+}
+
+fn quaternion(origin: &Origin) -> [f64; 4] {
+    let turn =
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(origin.rotation()));
+    [turn.w, turn.i, turn.j, turn.k]
+}
+
+fn limit_of(limit: Limit) -> Value {
+    json!({
+        "lower": limit.lower,
+        "upper": limit.upper,
+        "effort": limit.effort,
+        "velocity": limit.velocity,
+    })
+}
+
+fn joints(part: &Urdd, modules: Option<&ConsumerModules>) -> Value {
+    let Some(robot) = part.robot() else {
+        return json!([]);
+    };
+    let joints = robot.joints.iter().enumerate();
+    joints
+        .map(|(k, joint)| {
+            let chain = modules.and_then(|m| m.chain.joints_in_chain.get(k));
+            let dofs = modules.and_then(|m| m.dof.joint_idx_to_dof_idxs_mapping.get(k));
+            let mimic = modules.and_then(|m| m.dof.joint_idx_to_mimic_mapping.get(k)?.as_ref());
+            json!({
+                "name": joint.name,
+                "type": joint.joint_type,
+                "parent": robot.link(&joint.parent),
+                "child": robot.link(&joint.child),
+                "origin": chain.map(|chain| json!({
+                    "position": chain.origin.position,
+                    "quaternion_wxyz": chain.origin.quaternion_wxyz,
+                })),
+                "axis": chain.and_then(|chain| chain.axis),
+                "dofs": dofs.map(|dofs| dofs.iter().map(|dof| dof.get()).collect::<Vec<_>>()),
+                "mimic": mimic.map(|mimic| json!({
+                    "dof": mimic.dof_idx.map(|dof| dof.get()),
+                    "multiplier": mimic.multiplier,
+                    "offset": mimic.offset,
+                })),
+                "limit": joint.limit.map(limit_of),
+            })
+        })
+        .collect()
+}
+
+fn dofs(modules: &ConsumerModules, bounds: Option<&[[f64; 2]]>) -> Value {
+    let dofs = modules.dof.dofs.iter().enumerate();
+    dofs.map(|(k, dof)| {
+        json!({
+            "name": dof.name,
+            "joint": dof.joint_idx.get(),
+            "unit": match dof.quantity { Quantity::Angle => "rad", Quantity::Length => "m" },
+            "bounds": bounds.and_then(|bounds| bounds.get(k)),
+        })
+    })
+    .collect()
+}
+
+/// For each link its meshes.
+fn meshes(part: &Urdd, kind: ModuleKind) -> Option<Value> {
+    let meshes = part.meshes(kind)?;
+    let files = MeshFiles::new(part);
+    let own = |path: &MeshPath| Some(files.own(meshes.profile, path.path)?.to_owned());
+    let of_link = |link: usize| -> Value {
+        let piece = |piece: usize| {
+            let lists = meshes.lists.iter();
+            let found = lists.filter_map(|list| list.links.get(link)?.get(piece));
+            let paths: Vec<&MeshPath> = found.flat_map(|mesh| &mesh.paths).collect();
+            let of = |format| paths.iter().find(|path| path.format == Some(format));
+            let read = [Format::Stl, Format::Obj, Format::Glb]
+                .into_iter()
+                .find_map(of);
+            json!({
+                "glb": of(Format::Glb).and_then(|path| own(path)),
+                "read": read.or(paths.first()).and_then(|path| own(path)),
+            })
+        };
+        (0..meshes.count(link)).map(piece).collect()
+    };
+    Some((0..meshes.num_links()).map(of_link).collect())
+}
+
+/// The mesh files that the URDF names, with their links.
+fn original(part: &Urdd) -> Option<Value> {
+    let Some(ModuleDocument::OriginalMeshes(module)) = part.document(ModuleKind::OriginalMeshes)
+    else {
+        return None;
+    };
+    let references = module.references.iter();
+    Some(
+        references
+            .map(|reference| {
+                json!({
+                    "link": reference.link_idx.get(),
+                    "geometry": reference.geometry,
+                    "element": reference.element_idx.get(),
+                    "filename": reference.filename,
+                    "path": reference.path,
+                })
+            })
+            .collect(),
+    )
+}

@@ -1,0 +1,29 @@
+//! What rules mean.
+
+use serde_json::json;
+use urdd::validate::rules;
+
+use crate::{answer, memory};
+
+/// What a rule means: `code`, `name`, `severity`, `clause` and `explanation`, as `urdd explain` tells it.
+///
+/// # Safety
+/// The code is the host's, as [`memory::bytes`] wants it.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_explain(code: *const u8, length: usize) -> *mut u8 {
+    // SAFETY: as the caller promises.
+    let code = String::from_utf8_lossy(unsafe { memory::bytes(code, length) });
+    let rule = rules::all()
+        .into_iter()
+        .find(|rule| rule.code.to_string() == code);
+    answer::result(match rule {
+        None => Err(format!("there is no rule `{}`", code.escape_debug())),
+        Some(rule) => Ok(json!({
+            "code": rule.code.to_string(),
+            "name": rule.name,
+            "severity": rule.severity.as_str(),
+            "clause": rule.clause,
+            "explanation": rule.explanation(),
+        })),
+    })
+}

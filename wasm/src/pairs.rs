@@ -1,0 +1,167 @@
+//! What a URDD records of pairs of shapes: statistics of distances, skips and reasons.
+
+use std::collections::HashMap;
+
+use serde_json::{Value, json};
+use urdd::directory::root::Root;
+use urdd::document::load::Loaded;
+use urdd::document::shape_matrices::{Statistics, at, shape_lists, skips as matrices, statistics};
+use urdd::document::urdd::Urdd;
+use urdd::format::link_shapes_simple_skips::SkipReason;
+use urdd::format::registry::{ModuleDocument, ModuleKind};
+use urdd::robot::{EditedSkips, ShapeKind, Skips};
+
+use crate::files::Files;
+
+const STATISTICS: ModuleKind = ModuleKind::LinkShapesDistanceStatistics;
+const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
+
+/// The modules, and the index of each shape.
+pub struct Pairs {
+    part: Urdd,
+    full: HashMap<(usize, usize), usize>,
+    pieces: HashMap<(usize, usize), usize>,
+}
+
+impl Pairs {
+    /// Reads the modules that are there.
+    pub fn read(files: &Files) -> Result<Self, String> {
+        let root = Root::of(files.clone());
+        let loaded = Loaded::read_only(root, &[STATISTICS, SKIPS]);
+        let part = Urdd::new(loaded.map_err(|error| error.to_string())?.into());
+        let (mut full, mut pieces) = (HashMap::new(), HashMap::new());
+        if let Some((links, shapes)) = part.document(STATISTICS).and_then(shape_lists) {
+            full.extend(
+                links
+                    .iter()
+                    .enumerate()
+                    .map(|(k, link)| ((link.get(), 0), k)),
+            );
+            let place = |(k, shape): (usize, &urdd::format::shapes::PieceShape)| {
+                ((shape.link_idx.get(), shape.piece_idx.get()), k)
+            };
+            pieces.extend(shapes.iter().enumerate().map(place));
+        }
+        Ok(Self { part, full, pieces })
+    }
+
+    fn of_kind(&self, kind: ShapeKind) -> Option<Statistics<'_>> {
+        let place = ShapeKind::ALL.iter().position(|other| *other == kind)?;
+        statistics(self.part.document(STATISTICS)?)?[place]
+    }
+
+    /// `min`, `mean` and `max` of the pair, metres, where they are recorded.
+    pub fn statistics(&self, kind: ShapeKind, links: [usize; 2], pieces: [usize; 2]) -> Value {
+        let index = match kind.is_of_pieces() {
+            true => &self.pieces,
+            false => &self.full,
+        };
+        let shape = |k: usize| index.get(&(links[k], pieces[k])).copied();
+        let found = || {
+            let (i, j, all) = (shape(0)?, shape(1)?, self.of_kind(kind)?);
+            Some(json!({
+                "min": at(all.min, i, j)?,
+                "mean": at(all.mean, i, j)?,
+                "max": at(all.max, i, j)?,
+            }))
+        };
+        found().unwrap_or(Value::Null)
+    }
+
+    /// Number of pairs of shapes, skipped ones too; null where the URDD does not say.
+    pub fn count(&self, kind: ShapeKind) -> Value {
+        let shapes = match kind.is_of_pieces() {
+            true => self.pieces.len(),
+            false => self.full.len(),
+        };
+        match shapes {
+            0 => Value::Null,
+            shapes => json!(shapes * (shapes - 1) / 2),
+        }
+    }
+
+    /// Number of configurations that the statistics are of.
+    pub fn num_samples(&self, kind: ShapeKind) -> Value {
+        json!(self.of_kind(kind).and_then(|all| all.num_samples))
+    }
+
+    /// `places` (the link and the piece of each shape), `skipped` (a row of `0` and `1` for each shape), `reasons` (a row
+    /// of letters for each shape; null where there are none): `s` same link, `a` always, `j` adjacent, `d` default, `n`
+    /// never, `-` none, `?` unknown; and the `edits` and `skipped_reasons` of `link_shapes_skips_module`.
+    pub fn skips(&self, kind: ShapeKind, skips: &Skips) -> Value {
+        let count = skips.len();
+        let row = |i: usize| -> String {
+            let letter = |j: usize| if skips.is_skipped(i, j) { '1' } else { '0' };
+            (0..count).map(letter).collect()
+        };
+        let reasons = |i: usize| -> String {
+            let letter = |j: usize| skips.reason(i, j).map_or('?', letter_of);
+            (0..count).map(letter).collect()
+        };
+        let has_reasons = count > 0 && skips.reason(0, 0).is_some();
+        let module = match self.part.document(SKIPS) {
+            Some(ModuleDocument::LinkShapesSkips(module)) => Some(module),
+            _ => None,
+        };
+        json!({
+            "shapes": kind.name(),
+            "places": skips.places(),
+            "skipped": (0..count).map(row).collect::<Vec<_>>(),
+            "reasons": has_reasons.then(|| (0..count).map(reasons).collect::<Vec<_>>()),
+            "edits": module.map(|module| &module.edits),
+            "skipped_reasons": module.map(|module| &module.skipped_reasons),
+        })
+    }
+}
+
+impl Pairs {
+    /// As [`Pairs::skips`], with other edits; and the `files` that change.
+    pub fn edited(&self, kind: ShapeKind, skips: &Skips, edited: EditedSkips) -> Value {
+        let mut answer = self.skips(kind, skips);
+        let files = edited
+            .files
+            .iter()
+            .map(|(path, bytes)| json!({ "path": path, "text": String::from_utf8_lossy(bytes) }));
+        answer["files"] = files.collect();
+        answer["edits"] = json!(edited.module.edits);
+        answer["skipped_reasons"] = json!(edited.module.skipped_reasons);
+        let links = edited.module.full_shapes.clone();
+        let document = ModuleDocument::LinkShapesSkips(edited.module);
+        let Some(six) = matrices(&document) else {
+            return answer;
+        };
+        let place = ShapeKind::ALL.iter().position(|other| *other == kind);
+        let own = place.and_then(|place| six[place]);
+        let hulls = six[0].unwrap_or_default();
+        // Where the matrices of pieces are left out, those of hulls count (SPEC 8.4).
+        let row_of = |shape: usize| match own {
+            Some(_) => Some(shape),
+            None => {
+                let (link, _) = skips.places().get(shape)?;
+                links.iter().position(|other| other.get() == *link)
+            }
+        };
+        let rows = own.unwrap_or(hulls);
+        let is_skipped = |i: usize, j: usize| at(rows, row_of(i)?, row_of(j)?);
+        let row = |i: usize| -> String {
+            let letter = |j: usize| match is_skipped(i, j).unwrap_or(i == j) {
+                true => '1',
+                false => '0',
+            };
+            (0..skips.len()).map(letter).collect()
+        };
+        answer["skipped"] = (0..skips.len()).map(row).collect();
+        answer
+    }
+}
+
+fn letter_of(reason: SkipReason) -> char {
+    match reason {
+        SkipReason::SameLink => 's',
+        SkipReason::Always => 'a',
+        SkipReason::Adjacent => 'j',
+        SkipReason::Default => 'd',
+        SkipReason::Never => 'n',
+        SkipReason::None => '-',
+    }
+}
