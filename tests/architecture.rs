@@ -43,6 +43,10 @@ const ROOMS: &[(&str, &[&str])] = &[
         "robot",
         &["format", "directory", "document", "geometry", "kinematics"],
     ),
+    (
+        "export",
+        &["format", "document", "geometry", "kinematics", "robot"],
+    ),
     ("report", &["format", "directory", "document", "validate"]),
     (
         "conformance",
@@ -71,6 +75,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validate",
             "report",
             "robot",
+            "export",
             "conformance",
         ],
     ),

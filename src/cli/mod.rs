@@ -4,6 +4,7 @@ mod check_collisions;
 mod configurations;
 mod conformance;
 mod explain;
+mod export;
 mod foreign;
 mod generate;
 mod generate_output;
@@ -11,6 +12,7 @@ mod info;
 mod output;
 mod rehash;
 mod schema;
+mod shapes;
 mod signals;
 mod validate;
 mod words;
@@ -44,6 +46,8 @@ enum Command {
     Validate(validate::ValidateArguments),
     /// Ask a robot whether it collides with itself, and which of its parts are nearest.
     CheckCollisions(check_collisions::CheckCollisionsArguments),
+    /// Hand a robot on: SRDF, URDF, MJCF, spheres.
+    Export(export::ExportArguments),
     /// Tell about a rule, or list them all.
     Explain(explain::ExplainArguments),
     /// Tell what a URDD holds, without judging it.
@@ -76,6 +80,7 @@ pub fn run(closed: bool) -> ExitCode {
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments, color),
         Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Rehash(arguments) => rehash::run(&arguments),
