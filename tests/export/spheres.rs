@@ -68,9 +68,45 @@ fn curobo(robot: &Robot) -> Spheres {
     links.iter().map(of_link).collect()
 }
 
-fn volume(spheres: &[(Vector3<f64>, f64)]) -> f64 {
-    let of_one = |radius: f64| 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
-    spheres.iter().map(|(_, radius)| of_one(*radius)).sum()
+/// The volume that spheres fill, by counting points of a grid, and the largest radius.
+fn filled(spheres: &[(Vector3<f64>, f64)]) -> (f64, f64) {
+    let low = |axis: usize| {
+        spheres
+            .iter()
+            .map(|(c, r)| c[axis] - r)
+            .fold(f64::MAX, f64::min)
+    };
+    let high = |axis: usize| {
+        spheres
+            .iter()
+            .map(|(c, r)| c[axis] + r)
+            .fold(f64::MIN, f64::max)
+    };
+    let step = (0..3)
+        .map(|axis| high(axis) - low(axis))
+        .fold(0.0, f64::max)
+        / 60.0;
+    let count = |axis: usize| ((high(axis) - low(axis)) / step).ceil() as usize;
+    let mut inside = 0;
+    for x in 0..count(0) {
+        for y in 0..count(1) {
+            for z in 0..count(2) {
+                let place = |k: usize, axis: usize| low(axis) + (k as f64 + 0.5) * step;
+                let point = Vector3::new(place(x, 0), place(y, 1), place(z, 2));
+                let held =
+                    |(centre, radius): &(Vector3<f64>, f64)| (point - centre).norm() <= *radius;
+                inside += usize::from(spheres.iter().any(held));
+            }
+        }
+    }
+    let radius = spheres
+        .iter()
+        .map(|(_, radius)| *radius)
+        .fold(0.0, f64::max);
+    (
+        f64::from(u32::try_from(inside).expect("a count")) * step.powi(3),
+        radius,
+    )
 }
 
 /// Points inside the pieces, at the corners and between them.
@@ -125,14 +161,33 @@ fn the_spheres_of_a_link_hold_its_pieces() {
 fn more_spheres_waste_less_and_keep_to_their_number() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(path).expect("a robot");
-    let mut last = f64::MAX;
-    for count in [1, 2, 4, 8, 16, 32] {
+    let mut last: BTreeMap<String, (f64, f64)> = BTreeMap::new();
+    let mut first = 0.0;
+    for count in [1, 4, 16, 64] {
         let spheres = foam(&robot, SphereBudget::PerLink(count));
-        assert!(spheres.values().all(|of_link| of_link.len() <= count));
-        let sum: f64 = spheres.values().map(|of_link| volume(of_link)).sum();
-        assert!(sum < last, "{sum} with {count}, {last} before");
-        last = sum;
+        assert!(spheres.values().all(|of_link| of_link.len() == count));
+        let now: BTreeMap<String, (f64, f64)> = spheres
+            .iter()
+            .map(|(link, of_link)| (link.clone(), filled(of_link)))
+            .collect();
+        for (link, (volume, radius)) in &last {
+            assert!(
+                now[link].1 < *radius,
+                "{link}: radius {} with {count}, {radius} before",
+                now[link].1
+            );
+            assert!(
+                now[link].0 < 1.02 * volume,
+                "{link}: {} m3 with {count}, {volume} before",
+                now[link].0
+            );
+        }
+        let sum: f64 = now.values().map(|(volume, _)| volume).sum();
+        first = if count == 1 { sum } else { first };
+        last = now;
     }
+    let sum: f64 = last.values().map(|(volume, _)| volume).sum();
+    assert!(sum < 0.5 * first, "{sum} with 64, {first} with one");
     // One sphere of a link is the smallest about its pieces: no larger than that about its hull, and not smaller.
     let one = foam(&robot, SphereBudget::PerLink(1));
     let links = robot.links().expect("links");

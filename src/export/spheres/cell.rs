@@ -25,6 +25,9 @@ pub(super) struct Cell {
 /// Where cuts are tried along a direction, as parts of the extent.
 const PLACES: [f64; 5] = [0.3, 0.4, 0.5, 0.6, 0.7];
 
+/// A cut counts where both spheres have at most this part of the radius.
+const SMALLER: f64 = 0.97;
+
 impl Chunk {
     fn new(points: Vec<Vector3<f64>>) -> Self {
         let list: Vec<[f64; 3]> = points.iter().map(|p| [p.x, p.y, p.z]).collect();
@@ -118,7 +121,8 @@ impl Cell {
         (volume(&self.sphere) - self.volume).max(0.0)
     }
 
-    /// The cell in two, where that makes the spheres smaller together.
+    /// The cell in two: of the cuts that make both spheres clearly smaller, the one with the least volume together.
+    /// (That may be more than before: a cube is not held better by two spheres, but by eight.)
     pub fn cut(&self) -> Option<[Cell; 2]> {
         let directions = self.directions();
         let mut best: Option<(f64, [Cell; 2])> = None;
@@ -135,7 +139,8 @@ impl Cell {
                 };
                 let total: f64 = halves.iter().map(|half| volume(&half.sphere)).sum();
                 let is_better = best.as_ref().is_none_or(|(least, _)| total < *least);
-                if is_better && total < volume(&self.sphere) {
+                let largest = halves[0].sphere.radius.max(halves[1].sphere.radius);
+                if is_better && largest < SMALLER * self.sphere.radius {
                     best = Some((total, halves));
                 }
             }
@@ -190,13 +195,10 @@ mod tests {
     #[test]
     fn the_spheres_of_a_bar_hold_it_and_shrink() {
         let mut cells = vec![Cell::new(&[box_of([1.0, 0.1, 0.1])])];
-        let mut last = volume(&cells[0].sphere);
         for _ in 0..7 {
             assert!(super::super::cut(&mut cells));
-            let total: f64 = cells.iter().map(|cell| volume(&cell.sphere)).sum();
-            assert!(total < last, "{total} after {last}");
-            last = total;
         }
+        let last: f64 = cells.iter().map(|cell| volume(&cell.sphere)).sum();
         // Eight cubes of 0.125 x 0.1 x 0.1 would be best.
         let best = 8.0 * 4.0 / 3.0
             * std::f64::consts::PI

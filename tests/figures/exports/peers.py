@@ -78,7 +78,7 @@ def worst(poses, expected):
     for (p, r), pose in zip(poses, expected):
         w, x, y, z = pose["quaternion_wxyz"]
         matrix = pin.Quaternion(w, x, y, z).matrix()
-        position = max(position, np.abs(p - np.array(pose["translation"])).max())
+        position = max(position, np.abs(p - np.array(pose["position"])).max())
         rotation = max(rotation, np.abs(r - matrix).max())
     return max(position, rotation)
 
