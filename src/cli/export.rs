@@ -168,10 +168,17 @@ fn merged(file: &Path, new: &str) -> Result<String, String> {
     merge_srdf(&old, new).map_err(|error| format!("{shown}: {error}"))
 }
 
+/// An error where a file is there that says something else.
 fn refuse_existing(arguments: &ExportArguments, made: &Export, place: &Path) -> Result<(), String> {
-    let own = (!arguments.update).then(|| arguments.output.clone());
-    let files = made.files.iter().map(|(path, _)| place.join(path));
-    let Some(there) = own.into_iter().chain(files).find(|file| file.exists()) else {
+    let own = (!arguments.update).then(|| (arguments.output.clone(), made.text.as_bytes()));
+    let meshes = made.files.iter();
+    let meshes = meshes.map(|(path, bytes)| (place.join(path), bytes.as_slice()));
+    let differs = |(file, bytes): &(PathBuf, &[u8])| {
+        let size = fs::symlink_metadata(file).map(|metadata| metadata.len());
+        size.is_ok_and(|size| size != bytes.len() as u64)
+            || fs::read(file).is_ok_and(|there| there != *bytes)
+    };
+    let Some((there, _)) = own.into_iter().chain(meshes).find(differs) else {
         return Ok(());
     };
     let also = match arguments.format {

@@ -27,13 +27,17 @@ fn disabled(subject: &Subject, pair: &LinkPair) -> Element {
     Element::new("disable_collisions")
         .with("link1", a)
         .with("link2", b)
-        .with("reason", reason(pair))
+        .with("reason", reason(subject, pair))
 }
 
-/// As MoveIt's Setup Assistant has them.
-fn reason(pair: &LinkPair) -> &'static str {
+/// As MoveIt's Setup Assistant has them: of two links that a joint connects it says so, whether they always touch or not.
+fn reason(subject: &Subject, pair: &LinkPair) -> &'static str {
+    let [a, b] = pair.links;
+    let parent = &subject.tree.parent_link;
+    let adjacent = parent[a] == Some(b) || parent[b] == Some(a);
     match (&pair.edit, pair.reason) {
         (Some(_), _) => "User",
+        (_, Some(SkipReason::Always)) if adjacent => "Adjacent",
         (_, Some(SkipReason::Always | SkipReason::SameLink)) => "Always",
         (_, Some(SkipReason::Adjacent)) => "Adjacent",
         (_, Some(SkipReason::Default)) => "Default",

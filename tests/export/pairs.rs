@@ -180,6 +180,7 @@ fn reasons_are_named_as_moveit_names_them() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(&path).expect("a robot");
     let skips = robot.skips(ShapeKind::Hulls).expect("skips");
+    let description = robot.description().expect("a description");
     let all = vec![
         SkippedReason::Always,
         SkippedReason::Adjacent,
@@ -211,7 +212,14 @@ fn reasons_are_named_as_moveit_names_them() {
                 .position(|(place, _)| Some(*place) == link);
             place.expect("a link with a hull")
         };
-        let expected = match skips.reason(place("link1"), place("link2")) {
+        let reason = skips.reason(place("link1"), place("link2"));
+        let ends = ["link1", "link2"].map(|key| pair.attribute(key).expect("a link").to_owned());
+        let connected = description.joints.iter().any(|joint| {
+            let joined = [&joint.parent.link, &joint.child.link];
+            ends.iter().all(|end| joined.contains(&end))
+        });
+        let expected = match reason {
+            Some(SkipReason::Always) if connected => "Adjacent",
             Some(SkipReason::Always) => "Always",
             Some(SkipReason::Adjacent) => "Adjacent",
             Some(SkipReason::Default) => "Default",
