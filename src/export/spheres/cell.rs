@@ -25,9 +25,6 @@ pub(super) struct Cell {
 /// Where cuts are tried along a direction, as parts of the extent.
 const PLACES: [f64; 5] = [0.3, 0.4, 0.5, 0.6, 0.7];
 
-/// A cut counts where both spheres have at most this part of the radius.
-const SMALLER: f64 = 0.97;
-
 impl Chunk {
     fn new(points: Vec<Vector3<f64>>) -> Self {
         let list: Vec<[f64; 3]> = points.iter().map(|p| [p.x, p.y, p.z]).collect();
@@ -121,8 +118,8 @@ impl Cell {
         (volume(&self.sphere) - self.volume).max(0.0)
     }
 
-    /// The cell in two: of the cuts that make both spheres clearly smaller, the one with the least volume together.
-    /// (That may be more than before: a cube is not held better by two spheres, but by eight.)
+    /// The cell in two: of all cuts the one with the least volume of spheres. (That may be more than before: a cube is
+    /// not held better by two spheres, but by eight; a disc needs four.)
     pub fn cut(&self) -> Option<[Cell; 2]> {
         let directions = self.directions();
         let mut best: Option<(f64, [Cell; 2])> = None;
@@ -139,8 +136,7 @@ impl Cell {
                 };
                 let total: f64 = halves.iter().map(|half| volume(&half.sphere)).sum();
                 let is_better = best.as_ref().is_none_or(|(least, _)| total < *least);
-                let largest = halves[0].sphere.radius.max(halves[1].sphere.radius);
-                if is_better && largest < SMALLER * self.sphere.radius {
+                if is_better {
                     best = Some((total, halves));
                 }
             }

@@ -16,6 +16,9 @@ use crate::geometry::bounding_sphere::BoundingSphere;
 use crate::robot::{ShapeKind, Solid};
 use cell::Cell;
 
+/// Most cuts for each sphere that is asked for: some cuts alone give no other sphere.
+const CUTS: usize = 4;
+
 /// How many spheres stand for links.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SphereBudget {
@@ -51,10 +54,13 @@ fn spheres(subject: &Subject) -> Result<Vec<Vec<BoundingSphere>>, ExportError> {
         SphereBudget::PerLink(count) => {
             cells
                 .par_iter_mut()
-                .for_each(|cells| while cells.len() < count && cut(cells) {});
+                .for_each(|cells| grow(cells, count, CUTS * count));
         }
         SphereBudget::Total(count) => {
-            while cells.iter().map(Vec::len).sum::<usize>() < count {
+            for _ in 0..CUTS * count {
+                if cells.iter().map(|cells| held(cells).len()).sum::<usize>() >= count {
+                    break;
+                }
                 // The link whose worst cell wastes most; the first of equal ones.
                 let waste = |cells: &[Cell]| cells.iter().map(Cell::waste).fold(0.0, f64::max);
                 let mut order: Vec<usize> = (0..cells.len()).collect();
@@ -65,8 +71,35 @@ fn spheres(subject: &Subject) -> Result<Vec<Vec<BoundingSphere>>, ExportError> {
             }
         }
     }
-    let spheres = |cells: Vec<Cell>| cells.into_iter().map(|cell| cell.sphere()).collect();
-    Ok(cells.into_iter().map(spheres).collect())
+    Ok(cells.iter().map(|cells| held(cells)).collect())
+}
+
+/// Cuts cells until their spheres are so many.
+fn grow(cells: &mut Vec<Cell>, count: usize, cuts: usize) {
+    for _ in 0..cuts {
+        if held(cells).len() >= count || !cut(cells) {
+            break;
+        }
+    }
+}
+
+/// The spheres of cells, without those that lie in another.
+fn held(cells: &[Cell]) -> Vec<BoundingSphere> {
+    let mut spheres: Vec<BoundingSphere> = Vec::new();
+    let inside = |a: &BoundingSphere, b: &BoundingSphere| {
+        let apart: f64 = (0..3)
+            .map(|axis| (a.centre[axis] - b.centre[axis]).powi(2))
+            .sum();
+        apart.sqrt() + a.radius <= b.radius
+    };
+    for cell in cells {
+        let sphere = cell.sphere();
+        if !spheres.iter().any(|other| inside(&sphere, other)) {
+            spheres.retain(|other| !inside(other, &sphere));
+            spheres.push(sphere);
+        }
+    }
+    spheres
 }
 
 /// Cuts the cell that wastes most and can be cut. Whether there was one.
