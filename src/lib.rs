@@ -31,6 +31,7 @@ pub mod cli;
 pub mod conformance;
 pub mod directory;
 pub mod document;
+pub mod export;
 pub mod format;
 #[cfg(feature = "generate")]
 pub mod generate;

@@ -50,6 +50,10 @@ const ROOMS: &[(&str, &[&str])] = &[
             "skips",
         ],
     ),
+    (
+        "export",
+        &["format", "document", "geometry", "kinematics", "robot"],
+    ),
     ("report", &["format", "directory", "document", "validate"]),
     (
         "conformance",
@@ -83,6 +87,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "report",
             "robot",
             "view",
+            "export",
             "conformance",
         ],
     ),

@@ -8,11 +8,10 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use super::{configurations, foreign, output};
-use crate::directory::discover::DiscoverError;
-use crate::directory::source::is_archive;
+use super::shapes::{self, Shapes};
+use super::{configurations, output};
 use crate::format::escape;
-use crate::robot::{PairDistance, Proximity, Robot, RobotError, ShapeKind};
+use crate::robot::{PairDistance, Proximity, RobotError};
 
 /// Arguments of `urdd check-collisions`.
 ///
@@ -52,35 +51,6 @@ enum Format {
     Json,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Shapes {
-    /// The convex pieces of links.
-    Pieces,
-    /// The convex hulls of links.
-    Hulls,
-    /// The boxes about hulls.
-    Boxes,
-    /// The spheres about hulls.
-    Spheres,
-    /// The boxes about pieces.
-    PieceBoxes,
-    /// The spheres about pieces.
-    PieceSpheres,
-}
-
-impl Shapes {
-    fn kind(self) -> ShapeKind {
-        match self {
-            Shapes::Pieces => ShapeKind::Pieces,
-            Shapes::Hulls => ShapeKind::Hulls,
-            Shapes::Boxes => ShapeKind::Boxes,
-            Shapes::Spheres => ShapeKind::Spheres,
-            Shapes::PieceBoxes => ShapeKind::PieceBoxes,
-            Shapes::PieceSpheres => ShapeKind::PieceSpheres,
-        }
-    }
-}
-
 /// More random configurations than this are summed up in text.
 const FEW: u64 = 10;
 
@@ -100,17 +70,7 @@ pub fn run(arguments: &CheckCollisionsArguments) -> ExitCode {
 
 fn check(arguments: &CheckCollisionsArguments) -> Result<(String, bool), String> {
     let path = &arguments.path;
-    if path.is_file() && !is_archive(path) {
-        let path = path.display().to_string();
-        if path.ends_with(".urdf") {
-            let shown = escape::line(&path);
-            return Err(format!(
-                "{shown}: this is a URDF; make a URDD of it first: urdd generate {shown} -o DIR"
-            ));
-        }
-        return Err(foreign::advice(&DiscoverError::NotAFolder { path }));
-    }
-    let robot = Robot::open(path).map_err(|error| escape::line(&error.to_string()).into_owned())?;
+    let robot = shapes::open(path)?;
     let in_urdd =
         |error: RobotError| format!("{}: {error}", escape::line(&path.display().to_string()));
     let space = robot.configurations().map_err(in_urdd)?;

@@ -136,7 +136,7 @@ enum MeshFormat {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Skip {
+pub(super) enum Skip {
     /// Both shapes are on one link.
     SameLink,
     /// In contact in every sampled configuration.

@@ -4,6 +4,7 @@ mod check_collisions;
 mod configurations;
 mod conformance;
 mod explain;
+mod export;
 mod foreign;
 mod generate;
 mod generate_output;
@@ -11,6 +12,7 @@ mod info;
 mod output;
 mod rehash;
 mod schema;
+mod shapes;
 mod signals;
 mod validate;
 mod view;
@@ -47,6 +49,8 @@ enum Command {
     CheckCollisions(check_collisions::CheckCollisionsArguments),
     /// Show robots in the browser: shapes, joints, distances, skips and findings.
     View(view::ViewArguments),
+    /// Hand a robot on: SRDF, URDF, MJCF, spheres.
+    Export(export::ExportArguments),
     /// Tell about a rule, or list them all.
     Explain(explain::ExplainArguments),
     /// Tell what a URDD holds, without judging it.
@@ -80,6 +84,7 @@ pub fn run(closed: bool) -> ExitCode {
         Command::Validate(arguments) => validate::run(&arguments, color),
         Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
         Command::View(arguments) => view::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Rehash(arguments) => rehash::run(&arguments),

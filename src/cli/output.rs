@@ -45,6 +45,14 @@ fn write(text: &str) -> Result<(), String> {
     }
 }
 
+/// As [`print`], for text in a format of its own, whose names are escaped by its rules.
+///
+/// # Errors
+/// As for [`print`].
+pub fn print_raw(text: &str) -> Result<(), String> {
+    write(&escape::lines(text))
+}
+
 /// Prints an error to standard error.
 pub fn error(message: &str) {
     let message = inert(message);
@@ -142,6 +150,14 @@ pub fn is_dumb() -> bool {
 /// # Errors
 /// Where it cannot be written, or would be taken for a URDD: a message.
 pub fn write_file(file: &Path, text: &str) -> Result<(), String> {
+    write_bytes(file, text.as_bytes())
+}
+
+/// As [`write_file`], of bytes.
+///
+/// # Errors
+/// As for [`write_file`].
+pub fn write_bytes(file: &Path, bytes: &[u8]) -> Result<(), String> {
     check_name(file)?;
     let failed = |error: io::Error| {
         let shown = file.display().to_string();
@@ -158,14 +174,14 @@ pub fn write_file(file: &Path, text: &str) -> Result<(), String> {
                 .write(true)
                 .open(file)
                 .map_err(failed)?;
-            out.write_all(text.as_bytes()).map_err(failed)
+            out.write_all(bytes).map_err(failed)
         }
         Ok(metadata) => {
             // A link stays one: what it leads to is replaced.
             let target = fs::canonicalize(file).map_err(failed)?;
-            replace(&target, text, Some(metadata.permissions())).map_err(failed)
+            replace(&target, bytes, Some(metadata.permissions())).map_err(failed)
         }
-        Err(_) => replace(file, text, None).map_err(failed),
+        Err(_) => replace(file, bytes, None).map_err(failed),
     }
 }
 
@@ -180,14 +196,14 @@ pub fn check_name(file: &Path) -> Result<(), String> {
     match marker {
         true => Err(format!(
             "{}: a file of this name makes its folder a URDD, and the next `urdd validate` would examine it as one; \
-             give the report another name, such as urdd-report.json",
+             give it another name, such as urdd-report.json",
             escape::line(&file.display().to_string())
         )),
         false => Ok(()),
     }
 }
 
-fn replace(target: &Path, text: &str, permissions: Option<fs::Permissions>) -> io::Result<()> {
+fn replace(target: &Path, bytes: &[u8], permissions: Option<fs::Permissions>) -> io::Result<()> {
     let folder = match target.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -201,7 +217,7 @@ fn replace(target: &Path, text: &str, permissions: Option<fs::Permissions>) -> i
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let mut beside = builder.tempfile_in(folder)?;
-    beside.write_all(text.as_bytes())?;
+    beside.write_all(bytes)?;
     if let Some(permissions) = permissions {
         beside.as_file().set_permissions(permissions)?;
     }

@@ -58,7 +58,8 @@ pub struct Origin {
 }
 
 impl Origin {
-    fn of_v1(origin: Option<&v1::Origin>, quaternions: bool) -> Self {
+    /// Of a URDF; `quaternions` says whether its version knows them.
+    pub fn of_v1(origin: Option<&v1::Origin>, quaternions: bool) -> Self {
         Origin {
             xyz: origin.and_then(|origin| origin.xyz).unwrap_or_default(),
             rpy: origin.and_then(|origin| origin.rpy).unwrap_or_default(),

@@ -37,12 +37,12 @@ impl BoundingSphere {
     ///
     /// No vertex is farther from the centre than the radius, computed in doubles.
     pub fn around(hull: &ConvexHull) -> Self {
-        let vertices: Vec<_> = hull
-            .mesh()
-            .vertices
-            .iter()
-            .map(|p| Vector3::from(*p))
-            .collect();
+        Self::of_points(&hull.mesh().vertices)
+    }
+
+    /// As [`BoundingSphere::around`], of points in any order and place; at the origin, and of radius 0, without any.
+    pub fn of_points(points: &[[f64; 3]]) -> Self {
+        let vertices: Vec<_> = points.iter().map(|p| Vector3::from(*p)).collect();
         let first = vertices.first().copied().unwrap_or_default();
         let size = vertices
             .iter()

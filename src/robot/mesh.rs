@@ -4,6 +4,7 @@ use std::io::Read;
 
 use rayon::prelude::*;
 
+use super::Robot;
 use super::error::RobotError;
 use super::shapes::{LinkShape, Solid};
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
@@ -12,7 +13,7 @@ use crate::document::meshes::{self, Format, MeshPath};
 use crate::document::urdd::Urdd;
 use crate::format::registry::{ModuleKind, Profile};
 use crate::geometry::Mesh;
-use crate::geometry::read::{GltfUp, Options, read_with};
+use crate::geometry::read::{GltfUp, Options, Part, Scene, read_with};
 
 /// The meshes of one module.
 pub(super) struct Meshes<'a> {
@@ -50,17 +51,70 @@ impl<'a> Meshes<'a> {
         let of = |format| paths.iter().find(|path| path.format == Some(format));
         let path = preferred.into_iter().find_map(of).or(paths.first());
         match path {
-            Some(path) => read(self.part, self.meshes.profile, path.path),
+            Some(path) => {
+                let mesh = read(self.part, self.meshes.profile, path.path)?.merged();
+                match mesh.vertices.is_empty() {
+                    true => Err(fault(path.path, "it has no vertex".to_owned())),
+                    false => Ok(mesh),
+                }
+            }
             None => Err(RobotError::Missing(self.meshes.kind)),
         }
     }
+
+    /// The coloured parts of each link's mesh: only GLB has colours.
+    fn visuals(&self) -> Result<Vec<LinkVisual>, RobotError> {
+        let links = (0..self.meshes.num_links()).filter(|link| self.meshes.count(*link) > 0);
+        let visual = |link: usize| {
+            let lists = self.meshes.lists.iter();
+            let meshes = lists.filter_map(|list| list.links.get(link)?.first());
+            let mut paths = meshes.flat_map(|mesh| &mesh.paths);
+            let glb = paths.clone().find(|path| path.format == Some(Format::Glb));
+            let path = glb.or_else(|| paths.next());
+            let path = path.ok_or(RobotError::Missing(self.meshes.kind))?;
+            let scene = read(self.part, self.meshes.profile, path.path)?;
+            Ok(LinkVisual {
+                link,
+                parts: scene.parts,
+            })
+        };
+        links
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(visual)
+            .collect()
+    }
 }
 
-fn read(part: &Urdd, profile: Profile, path: &str) -> Result<Mesh, RobotError> {
-    let fail = |reason: String| RobotError::Mesh {
+/// What a link looks like, in its frame, in metres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinkVisual {
+    /// The link.
+    pub link: usize,
+    /// Triangles by colour.
+    pub parts: Vec<Part>,
+}
+
+impl Robot {
+    /// The plain mesh of each link that has one, with its colours. Textures are not read. Files are read each time.
+    ///
+    /// # Errors
+    /// Where `plain_meshes_module` is missing or of no use, or a mesh cannot be read.
+    pub fn visuals(&self) -> Result<Vec<LinkVisual>, RobotError> {
+        let part = self.part(&[ModuleKind::PlainMeshes])?;
+        Meshes::new(&part, ModuleKind::PlainMeshes)?.visuals()
+    }
+}
+
+fn fault(path: &str, reason: String) -> RobotError {
+    RobotError::Mesh {
         path: path.to_owned(),
         reason,
-    };
+    }
+}
+
+fn read(part: &Urdd, profile: Profile, path: &str) -> Result<Scene, RobotError> {
+    let fail = |reason: String| fault(path, reason);
     let (file, size) = MeshFiles::new(part)
         .open(profile, path)
         .map_err(|absence| fail(why_absent(absence)))?;
@@ -76,17 +130,12 @@ fn read(part: &Urdd, profile: Profile, path: &str) -> Result<Mesh, RobotError> {
         gltf_up: GltfUp::Keep,
         ..Options::default()
     };
-    let scene = read_with(&bytes, path, &mut |_| None, &options).map_err(|error| {
+    read_with(&bytes, path, &mut |_| None, &options).map_err(|error| {
         fail(match &error.place {
             Some(place) => format!("{place}: {}", error.fault),
             None => error.fault.to_string(),
         })
-    })?;
-    let mesh = scene.merged();
-    match mesh.vertices.is_empty() {
-        true => Err(fail("it has no vertex".to_owned())),
-        false => Ok(mesh),
-    }
+    })
 }
 
 fn why_absent(absence: Absence) -> String {

@@ -30,6 +30,7 @@
 //! each DOF, in the order of [`Robot::dofs`]; values beyond the bounds are allowed. Links are in the order of
 //! `urdf_module`.
 
+mod description;
 mod error;
 mod kinematics;
 mod mesh;
@@ -48,8 +49,10 @@ use std::sync::{Arc, OnceLock};
 use crate::directory::root::Root;
 use crate::directory::source::Source;
 
+pub use description::SourceFile;
 pub use error::RobotError;
 pub use kinematics::Jacobian;
+pub use mesh::LinkVisual;
 pub use proximity::{PairDistance, Proximity};
 pub use shapes::{LinkShape, ShapeKind, Solid};
 pub use skip_edits::EditedSkips;

@@ -55,6 +55,17 @@ impl Robot {
         Ok(one.map(AllStatistics::of))
     }
 
+    /// How many configurations the statistics were taken over; `None` where the URDD does not say.
+    ///
+    /// # Errors
+    /// Where the module cannot be listed.
+    pub fn num_samples(&self) -> Result<Option<u32>, RobotError> {
+        let module = ModuleKind::LinkShapesDistanceStatistics;
+        let part = self.part_as_it_is(&[module])?;
+        let six = part.document(module).and_then(statistics);
+        Ok(six.and_then(|six| six.into_iter().flatten().find_map(|one| one.num_samples)))
+    }
+
     /// The statistics of a pair of shapes of a kind, by their indices (SPEC 8.1); `None` where the URDD has none.
     ///
     /// # Errors

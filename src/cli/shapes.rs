@@ -1,0 +1,58 @@
+//! What commands that ask a robot share: opening it, and the kind of shapes.
+
+use std::path::Path;
+
+use clap::ValueEnum;
+
+use super::foreign;
+use crate::directory::discover::DiscoverError;
+use crate::directory::source::is_archive;
+use crate::format::escape;
+use crate::robot::{Robot, ShapeKind};
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Shapes {
+    /// The convex pieces of links.
+    Pieces,
+    /// The convex hulls of links.
+    Hulls,
+    /// The boxes about hulls.
+    Boxes,
+    /// The spheres about hulls.
+    Spheres,
+    /// The boxes about pieces.
+    PieceBoxes,
+    /// The spheres about pieces.
+    PieceSpheres,
+}
+
+impl Shapes {
+    pub fn kind(self) -> ShapeKind {
+        match self {
+            Shapes::Pieces => ShapeKind::Pieces,
+            Shapes::Hulls => ShapeKind::Hulls,
+            Shapes::Boxes => ShapeKind::Boxes,
+            Shapes::Spheres => ShapeKind::Spheres,
+            Shapes::PieceBoxes => ShapeKind::PieceBoxes,
+            Shapes::PieceSpheres => ShapeKind::PieceSpheres,
+        }
+    }
+}
+
+/// The robot of a URDD.
+///
+/// # Errors
+/// Where there is none: a message that says what to do.
+pub fn open(path: &Path) -> Result<Robot, String> {
+    if path.is_file() && !is_archive(path) {
+        let path = path.display().to_string();
+        if path.ends_with(".urdf") {
+            let shown = escape::line(&path);
+            return Err(format!(
+                "{shown}: this is a URDF; make a URDD of it first: urdd generate {shown} -o DIR"
+            ));
+        }
+        return Err(foreign::advice(&DiscoverError::NotAFolder { path }));
+    }
+    Robot::open(path).map_err(|error| escape::line(&error.to_string()).into_owned())
+}

@@ -1,0 +1,249 @@
+//! Bodies: one for each link, inside that of its parent.
+
+use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
+
+use super::super::element::Element;
+use super::super::error::{ExportError, Note};
+use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
+use super::super::numbers::{number, numbers};
+use super::super::subject::Subject;
+use super::{inertia, joint};
+use crate::document::pose::has_quaternions;
+use crate::geometry::Mesh;
+use crate::geometry::hull::ConvexHull;
+use crate::robot::{LinkShape, ShapeKind, Solid};
+
+/// Volumes below this are flat to MuJoCo (its mjMINVAL is 1e-15 m³).
+const SMALLEST_VOLUME: f64 = 1e-13;
+/// Half the thickness of a flat box, m.
+const HALF_THICKNESS: f64 = 1e-6;
+
+/// What was made while bodies were: assets, files, whether masses are to be bounded and inertia balanced, notes.
+type Made = (Element, Vec<(String, Vec<u8>)>, bool, bool, Vec<Note>);
+
+pub(super) struct Bodies<'a> {
+    subject: &'a Subject<'a>,
+    shapes: Vec<Vec<LinkShape>>,
+    looks: Vec<Vec<Look>>,
+    /// Boxes of the shapes, for flat ones, by link and piece.
+    boxes: Vec<LinkShape>,
+    files: MeshFiles<'a>,
+    assets: Element,
+    /// Paths that are assets already, with their names.
+    named: Vec<(String, String)>,
+    bounded: bool,
+    balanced: bool,
+    notes: Vec<Note>,
+}
+
+impl<'a> Bodies<'a> {
+    pub fn new(subject: &'a Subject<'a>) -> Result<Self, ExportError> {
+        let kind = subject.options.shapes;
+        let mut shapes: Vec<Vec<LinkShape>> = subject.links.iter().map(|_| Vec::new()).collect();
+        for shape in subject.robot.shapes(kind)? {
+            if let Some(of_link) = shapes.get_mut(shape.link) {
+                of_link.push(shape);
+            }
+        }
+        if shapes.iter().all(Vec::is_empty) {
+            return Err(ExportError::NoShapes(kind));
+        }
+        let boxes = match kind {
+            ShapeKind::Pieces => subject.robot.shapes(ShapeKind::PieceBoxes)?,
+            ShapeKind::Hulls => subject.robot.shapes(ShapeKind::Boxes)?,
+            _ => Vec::new(),
+        };
+        Ok(Bodies {
+            subject,
+            shapes,
+            looks: looks(subject)?,
+            boxes,
+            files: MeshFiles::new(subject),
+            assets: Element::new("asset"),
+            named: Vec::new(),
+            bounded: false,
+            balanced: false,
+            notes: Vec::new(),
+        })
+    }
+
+    pub fn finish(self) -> Made {
+        (
+            self.assets,
+            self.files.into_files(),
+            self.bounded,
+            self.balanced,
+            self.notes,
+        )
+    }
+
+    /// The world with all bodies in it.
+    pub fn world(&mut self) -> Result<Element, ExportError> {
+        let world = Element::new("worldbody");
+        let root = self.subject.tree.root;
+        let mut elements: Vec<Option<Element>> = self.subject.links.iter().map(|_| None).collect();
+        // From the leaves up, so that a long chain takes no deep stack here.
+        for &link in self.subject.tree.order.iter().rev() {
+            let is_world = link == root && self.subject.links[link] == "world";
+            let mut element = match is_world {
+                true => world.clone(),
+                false => self.frame(link),
+            };
+            self.fill(link, &mut element)?;
+            for joint in &self.subject.tree.child_joints[link] {
+                let child = self.subject.tree.joint_links[*joint].1;
+                if let Some(child) = elements[child].take() {
+                    element.push(child);
+                }
+            }
+            elements[link] = Some(element);
+        }
+        Ok(match elements[root].take() {
+            Some(element) if self.subject.links[root] == "world" => element,
+            Some(element) => world.holding(element),
+            None => world,
+        })
+    }
+
+    /// A body where its joint has it.
+    fn frame(&self, link: usize) -> Element {
+        let body = Element::new("body").with("name", self.subject.links[link].as_str());
+        let Some(joint) = self.subject.tree.parent_joint[link] else {
+            return body;
+        };
+        let origin = &self.subject.view.joints[joint].origin;
+        let rotation = Rotation3::from_matrix_unchecked(origin.rotation());
+        let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
+        let pose = Isometry3::from_parts(origin.xyz.into(), rotation);
+        placed(body, &pose)
+    }
+
+    /// Mass, joints, and geoms.
+    fn fill(&mut self, link: usize, element: &mut Element) -> Result<(), ExportError> {
+        let subject = self.subject;
+        let joint = subject.tree.parent_joint[link];
+        let joint = joint.map(|joint| (&subject.view.joints[joint], &subject.urdf.joints[joint]));
+        let mut joints = Vec::new();
+        if let Some((view, source)) = joint {
+            joints = joint::joints(view, source, &mut self.notes);
+        }
+        self.mass(link, !joints.is_empty(), element);
+        for joint in joints {
+            element.push(joint);
+        }
+        for (look, place) in std::mem::take(&mut self.looks[link]).into_iter().zip(0..) {
+            let what = format!("visual_{place}");
+            let asset = self.asset(link, &what, look.mesh, MeshFormat::Obj)?;
+            let geom = Element::new("geom")
+                .with("class", "visual")
+                .with("type", "mesh")
+                .with("mesh", asset)
+                .with_some("rgba", look.rgba.map(|rgba| numbers(&rgba)));
+            element.push(geom);
+        }
+        for shape in std::mem::take(&mut self.shapes[link]) {
+            let geom = self.geom(link, shape)?;
+            element.push(geom);
+        }
+        Ok(())
+    }
+
+    fn mass(&mut self, link: usize, moves: bool, element: &mut Element) {
+        let quaternions = has_quaternions(self.subject.urdf.version.as_deref());
+        let source = &self.subject.urdf.links[link];
+        let made = source
+            .inertial
+            .as_ref()
+            .map(|inertial| inertia::inertial(inertial, quaternions));
+        match made {
+            Some(Ok((inertial, breaks_triangle))) => {
+                element.push(inertial);
+                self.balanced |= breaks_triangle;
+            }
+            Some(Err(reason)) => {
+                self.bounded |= moves;
+                self.notes.push(Note::Inertia {
+                    link: source.name.clone(),
+                    reason,
+                });
+            }
+            None => self.bounded |= moves,
+        }
+    }
+
+    fn geom(&mut self, link: usize, shape: LinkShape) -> Result<Element, ExportError> {
+        let geom = Element::new("geom").with("class", "collision");
+        Ok(match shape.solid {
+            Solid::Mesh(mesh) if is_flat(&mesh) => {
+                let found = self
+                    .boxes
+                    .iter()
+                    .find(|other| other.link == link && other.piece == shape.piece);
+                self.notes.push(Note::Flat {
+                    link: self.subject.links[link].clone(),
+                    thickness: "0.000002",
+                });
+                match found.map(|found| &found.solid) {
+                    Some(Solid::Box { pose, half_extents }) => cuboid(geom, pose, *half_extents),
+                    _ => return Err(ExportError::NoShapes(ShapeKind::PieceBoxes)),
+                }
+            }
+            Solid::Mesh(mesh) => {
+                let what = format!("piece_{}", shape.piece);
+                let asset = self.asset(link, &what, mesh, MeshFormat::Stl)?;
+                geom.with("type", "mesh").with("mesh", asset)
+            }
+            Solid::Box { pose, half_extents } => cuboid(geom, &pose, half_extents),
+            Solid::Sphere { centre, radius } => geom
+                .with("type", "sphere")
+                .with("pos", numbers(&centre))
+                .with("size", number(radius.max(HALF_THICKNESS))),
+        })
+    }
+
+    /// The name of the asset of a mesh.
+    fn asset(
+        &mut self,
+        link: usize,
+        what: &str,
+        mesh: Mesh,
+        format: MeshFormat,
+    ) -> Result<String, ExportError> {
+        let path = self.files.add(link, what, mesh, format)?;
+        if let Some((_, name)) = self.named.iter().find(|(known, _)| *known == path) {
+            return Ok(name.clone());
+        }
+        let file = path.rsplit('/').next().unwrap_or(&path);
+        let name = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        let mut asset = Element::new("mesh")
+            .with("name", name)
+            .with("file", path.as_str());
+        if format == MeshFormat::Obj {
+            // What is looked at need not enclose a volume.
+            asset = asset.with("inertia", "shell");
+        }
+        self.assets.push(asset);
+        self.named.push((path.clone(), name.to_owned()));
+        Ok(name.to_owned())
+    }
+}
+
+fn cuboid(geom: Element, pose: &Isometry3<f64>, half_extents: [f64; 3]) -> Element {
+    let half = half_extents.map(|half| half.max(HALF_THICKNESS));
+    placed(geom.with("type", "box"), pose).with("size", numbers(&half))
+}
+
+fn placed(element: Element, pose: &Isometry3<f64>) -> Element {
+    let position = pose.translation.vector;
+    let q = pose.rotation.quaternion();
+    element
+        .with("pos", numbers(position.as_slice()))
+        .with("quat", numbers(&[q.w, q.i, q.j, q.k]))
+}
+
+fn is_flat(mesh: &Mesh) -> bool {
+    let hull = ConvexHull::new(&mesh.vertices);
+    hull.map_or(true, |hull| {
+        hull.is_flat() || hull.mesh().signed_volume() < SMALLEST_VOLUME
+    })
+}

@@ -1,0 +1,135 @@
+//! A robot handed on: what its URDD knows, in the formats of programs that read no URDD.
+//!
+//! [`export`] makes text, and the mesh files that it names, in memory; whoever calls it writes them. Every file says
+//! what it was made from. Same URDD, same bytes.
+//!
+//! | format | for | holds |
+//! |---|---|---|
+//! | [`Format::Srdf`] | MoveIt, and what reads SRDF | the pairs of links that need no check, and why |
+//! | [`Format::Urdf`] | any reader of URDF | the robot, with our shapes as collision geometry |
+//! | [`Format::Drake`] | Drake | the same, with pairs of links as collision filter groups |
+//! | [`Format::Mjcf`] | MuJoCo | bodies, joints, our shapes as geoms, `<exclude>` for pairs |
+//! | [`Format::Curobo`] | cuRobo | spheres by link, and pairs of links that are ignored, as YAML |
+//! | [`Format::Foam`] | readers of Foam's JSON | spheres by link |
+//!
+//! ```
+//! use urdd::export::{Format, Options, export};
+//! use urdd::robot::Robot;
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance/robots/gripper.urdf");
+//! # let path = folder.path().join("gripper");
+//! # urdd::generate::generate(urdf.as_ref(), &path, &Default::default(), &())?;
+//! let robot = Robot::open(&path)?;
+//! let srdf = export(&robot, Format::Srdf, &Options::default())?;
+//! assert!(srdf.text.contains("<disable_collisions "));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod drake;
+mod element;
+mod error;
+mod meshes;
+mod mjcf;
+mod names;
+mod numbers;
+mod pairs;
+mod spheres;
+mod srdf;
+mod srdf_merge;
+mod subject;
+mod urdf;
+
+use crate::format::link_shapes_skips::SkippedReason;
+use crate::robot::{Robot, ShapeKind};
+
+pub use error::{ExportError, Note};
+pub use spheres::SphereBudget;
+pub use srdf_merge::{SrdfError, merge_srdf};
+
+use subject::Subject;
+
+/// A format to export.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// MoveIt's Semantic Robot Description Format.
+    Srdf,
+    /// URDF with other collision geometry.
+    Urdf,
+    /// URDF for Drake.
+    Drake,
+    /// MuJoCo's XML.
+    Mjcf,
+    /// cuRobo's spheres, YAML.
+    Curobo,
+    /// Foam's spheres, JSON.
+    Foam,
+}
+
+impl Format {
+    /// Its name, as messages and comments have it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::Srdf => "SRDF",
+            Format::Urdf => "URDF",
+            Format::Drake => "URDF for Drake",
+            Format::Mjcf => "MJCF",
+            Format::Curobo => "cuRobo's YAML",
+            Format::Foam => "Foam's JSON",
+        }
+    }
+}
+
+/// What to export, where there is a choice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// The shapes that stand for links: as collision geometry, and for which pairs are decided.
+    pub shapes: ShapeKind,
+    /// The reasons for which pairs are disabled; `None` for those of the URDD. A person's edits hold in either case.
+    pub reasons: Option<Vec<SkippedReason>>,
+    /// How many spheres stand for a link, for the formats of spheres.
+    pub spheres: SphereBudget,
+    /// Whether links look like something: plain meshes by colour, beside the shapes.
+    pub visuals: bool,
+    /// The folder of the mesh files, relative to the text: without `/` at its end, and empty for the same folder.
+    pub mesh_folder: String,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            shapes: ShapeKind::Pieces,
+            reasons: None,
+            spheres: SphereBudget::default(),
+            visuals: true,
+            mesh_folder: "meshes".to_owned(),
+        }
+    }
+}
+
+/// What was exported.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Export {
+    /// The text of the file.
+    pub text: String,
+    /// The files that it names, by path relative to it, sorted.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What the format could not say, or said in another way.
+    pub notes: Vec<Note>,
+}
+
+/// Exports a robot.
+///
+/// # Errors
+/// Where a module that is needed is missing or of no use, or a name cannot be written in the format.
+pub fn export(robot: &Robot, format: Format, options: &Options) -> Result<Export, ExportError> {
+    let subject = Subject::new(robot, format, options)?;
+    match format {
+        Format::Srdf => srdf::export(&subject),
+        Format::Urdf => urdf::export(&subject),
+        Format::Drake => drake::export(&subject),
+        Format::Mjcf => mjcf::export(&subject),
+        Format::Curobo => spheres::curobo::export(&subject),
+        Format::Foam => spheres::foam::export(&subject),
+    }
+}

@@ -1,0 +1,12 @@
+//! `urdd::export`: each format read again by a second reader written here, and held to the URDD. What the programs
+//! themselves make of the files is held by `tests/figures/exports`.
+
+#[path = "../support/robots.rs"]
+mod robots;
+
+mod command;
+mod mjcf;
+mod pairs;
+mod spheres;
+mod srdf;
+mod urdf;

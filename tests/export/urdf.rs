@@ -1,0 +1,173 @@
+use std::path::Path;
+
+use urdd::export::{Export, ExportError, Format, Options, export};
+use urdd::generate::{Settings, generate};
+use urdd::robot::{Robot, ShapeKind, Solid};
+
+use crate::robots::{made, made_of, our_robots};
+
+fn write(folder: &Path, made: &Export) -> std::path::PathBuf {
+    let file = folder.join("exported.urdf");
+    std::fs::write(&file, &made.text).expect("a file");
+    for (path, bytes) in &made.files {
+        let path = folder.join(path);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        std::fs::write(path, bytes).expect("a mesh");
+    }
+    file
+}
+
+/// A URDD of the exported URDF says of joints and masses what that of the source says, and its collision geometry is the
+/// shapes.
+#[test]
+fn joints_and_masses_stay_and_shapes_are_the_collision_geometry() {
+    for (name, urdf) in our_robots() {
+        let (_folder, path) = made(&urdf);
+        let robot = Robot::open(path).expect("a robot");
+        let source = robot.description().expect("a description");
+        for kind in [ShapeKind::Hulls, ShapeKind::PieceBoxes, ShapeKind::Spheres] {
+            let options = Options {
+                shapes: kind,
+                ..Options::default()
+            };
+            let exported = export(&robot, Format::Urdf, &options).expect("an export");
+            let folder = tempfile::tempdir().expect("a folder");
+            let file = write(folder.path(), &exported);
+            let target = folder.path().join("again");
+            generate(&file, &target, &Settings::default(), &()).expect("a URDD");
+            let again = Robot::open(&target)
+                .expect("a robot")
+                .description()
+                .expect("a description");
+            assert_eq!(again.joints, source.joints, "{name}");
+            assert_eq!(again.unknown_elements, source.unknown_elements, "{name}");
+            for (new, old) in again.links.iter().zip(&source.links) {
+                assert_eq!(
+                    (&new.name, &new.inertial),
+                    (&old.name, &old.inertial),
+                    "{name}"
+                );
+            }
+            let count = robot.shapes(kind).expect("shapes").len();
+            let collisions: usize = again.links.iter().map(|link| link.collision.len()).sum();
+            assert_eq!(collisions, count, "{name}");
+        }
+    }
+}
+
+/// Boxes come back where they were: corners of one are corners of the other.
+#[test]
+fn boxes_stand_where_the_module_has_them() {
+    let (_folder, path) = made(&our_robots()[8].1);
+    let robot = Robot::open(path).expect("a robot");
+    let options = Options {
+        shapes: ShapeKind::Boxes,
+        visuals: false,
+        ..Options::default()
+    };
+    let made = export(&robot, Format::Urdf, &options).expect("an export");
+    let document = roxmltree::Document::parse(&made.text).expect("well-formed");
+    let numbers = |node: roxmltree::Node, key: &str| -> Vec<f64> {
+        let text = node.attribute(key).expect("an attribute");
+        text.split(' ')
+            .map(|word| word.parse().expect("a number"))
+            .collect()
+    };
+    let collisions: Vec<_> = document
+        .descendants()
+        .filter(|n| n.has_tag_name("collision"))
+        .collect();
+    let shapes = robot.shapes(ShapeKind::Boxes).expect("boxes");
+    assert_eq!(collisions.len(), shapes.len());
+    for (collision, shape) in collisions.iter().zip(&shapes) {
+        let Solid::Box { pose, half_extents } = &shape.solid else {
+            panic!("a box");
+        };
+        let child = |name: &str| {
+            collision
+                .descendants()
+                .find(|n| n.has_tag_name(name))
+                .expect("there")
+        };
+        let (xyz, rpy) = (
+            numbers(child("origin"), "xyz"),
+            numbers(child("origin"), "rpy"),
+        );
+        let size = numbers(child("box"), "size");
+        // Fixed-axis roll, pitch, yaw, by hand (SPEC 5.4).
+        let (cr, sr) = (rpy[0].cos(), rpy[0].sin());
+        let (cp, sp) = (rpy[1].cos(), rpy[1].sin());
+        let (cy, sy) = (rpy[2].cos(), rpy[2].sin());
+        let rows = [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ];
+        for corner in 0..8u32 {
+            let sign = |axis: usize| if corner >> axis & 1 == 1 { 1.0 } else { -1.0 };
+            let local: [f64; 3] = std::array::from_fn(|axis| sign(axis) * size[axis] / 2.0);
+            let expected = pose
+                * nalgebra::Point3::from(std::array::from_fn(|axis| {
+                    sign(axis) * half_extents[axis]
+                }));
+            for axis in 0..3 {
+                let got = xyz[axis] + (0..3).map(|k| rows[axis][k] * local[k]).sum::<f64>();
+                assert!(
+                    (got - expected[axis]).abs() < 1e-7,
+                    "{got} for {}",
+                    expected[axis]
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_the_format_cannot_hold_is_said() {
+    let (_folder, path) = made_of(
+        "<robot name=\"r\"><link name=\"a\"><visual><geometry><box size=\"1 1 1\"/></geometry></visual></link>\
+         <gazebo:plugin xmlns:gazebo=\"urn:g\" name=\"p\"/><link name=\"b\nc\"/>\
+         <joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\nc\"/></joint></robot>",
+    );
+    let robot = Robot::open(path).expect("a robot");
+    // A line break in an attribute is a space to XML, so the name is `b c`, which every format holds.
+    assert!(export(&robot, Format::Urdf, &Options::default()).is_ok());
+    let (_folder, path) = made_of(
+        "<robot name=\"r\"><link name=\"a&#10;b\"><visual><geometry><box size=\"1 1 1\"/></geometry></visual></link></robot>",
+    );
+    let robot = Robot::open(path).expect("a robot");
+    let error = export(&robot, Format::Mjcf, &Options::default()).expect_err("a name");
+    assert!(
+        matches!(&error, ExportError::Name { name, .. } if name == "a\nb"),
+        "{error}"
+    );
+    assert!(!error.to_string().contains('\n'));
+    assert!(export(&robot, Format::Foam, &Options::default()).is_ok());
+}
+
+#[test]
+fn the_same_urdd_gives_the_same_bytes() {
+    let (_folder, path) = made(&our_robots()[8].1);
+    let exports = || {
+        let robot = Robot::open(&path).expect("a robot");
+        [
+            Format::Srdf,
+            Format::Urdf,
+            Format::Drake,
+            Format::Mjcf,
+            Format::Curobo,
+            Format::Foam,
+        ]
+        .map(|format| export(&robot, format, &Options::default()).expect("an export"))
+    };
+    let one = rayon_of(1).install(exports);
+    let two = rayon_of(3).install(exports);
+    assert_eq!(one, two);
+}
+
+fn rayon_of(threads: usize) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .expect("a pool")
+}
