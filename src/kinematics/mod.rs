@@ -1,11 +1,13 @@
 //! Kinematics as a consumer does it: from the modules of a URDD alone, no URDF in sight.
 //!
 //! [`ForwardKinematics`] turns a configuration into the pose of every link;
-//! [`ConfigurationSpace`] makes the configurations that the specification defines.
+//! [`ConfigurationSpace`] makes the configurations that the specification defines; [`inverse`] goes back from a pose to
+//! a configuration.
 
 mod configurations;
 mod error;
 mod forward;
+pub mod inverse;
 mod jacobian;
 mod joint;
 pub mod pose;

@@ -69,6 +69,9 @@ pub enum RobotError {
         /// How many there are.
         count: usize,
     },
+    /// A target of inverse kinematics that is none.
+    #[error("inverse kinematics: {0}")]
+    Target(&'static str),
     /// A mesh file that cannot be used.
     #[error("{}: {reason}", .path.escape_debug())]
     Mesh {

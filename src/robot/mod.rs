@@ -31,6 +31,7 @@
 //! `urdf_module`.
 
 mod error;
+mod inverse;
 mod kinematics;
 mod mesh;
 mod names;
@@ -47,7 +48,9 @@ use std::sync::{Arc, OnceLock};
 use crate::directory::root::Root;
 use crate::directory::source::Source;
 
+pub use crate::kinematics::inverse::{Inverse, InverseSettings, InverseSolution};
 pub use error::RobotError;
+pub use inverse::Target;
 pub use kinematics::Jacobian;
 pub use proximity::{PairDistance, Proximity};
 pub use shapes::{LinkShape, ShapeKind, Solid};

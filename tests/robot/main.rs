@@ -5,6 +5,7 @@
 mod support;
 
 mod command;
+mod inverse;
 mod motion;
 mod nearness;
 mod opening;
