@@ -30,6 +30,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod cancellation;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;

@@ -186,7 +186,7 @@ impl ForwardKinematics {
     }
 }
 
-fn is_finite(pose: &Isometry3<f64>) -> bool {
+pub(super) fn is_finite(pose: &Isometry3<f64>) -> bool {
     pose.translation.vector.iter().all(|x| x.is_finite())
         && pose.rotation.coords.iter().all(|x| x.is_finite())
 }

@@ -4,6 +4,7 @@
 //! [`ConfigurationSpace`] makes the configurations that the specification defines; [`inverse`] goes back from a pose to
 //! a configuration.
 
+mod branch;
 mod configurations;
 mod error;
 mod forward;
@@ -13,6 +14,7 @@ mod joint;
 pub mod pose;
 pub mod rotation;
 
+pub use branch::{Branch, Place};
 pub use configurations::{ConfigurationSpace, unit};
 pub use error::{ConfigurationError, Fault, KinematicsError};
 pub use forward::ForwardKinematics;

@@ -52,7 +52,7 @@ pub use crate::kinematics::inverse::{Inverse, InverseSettings, InverseSolution};
 pub use error::RobotError;
 pub use inverse::Target;
 pub use kinematics::Jacobian;
-pub use proximity::{PairDistance, Proximity};
+pub use proximity::{PairDistance, Proximity, Until};
 pub use shapes::{LinkShape, ShapeKind, Solid};
 pub use skips::Skips;
 pub use space::Configurations;

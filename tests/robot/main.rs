@@ -4,6 +4,7 @@
 #[allow(unused)]
 mod support;
 
+mod cancelled;
 mod command;
 mod inverse;
 mod motion;

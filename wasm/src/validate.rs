@@ -37,6 +37,7 @@ pub unsafe extern "C" fn urdd_validate_zip(
 
 fn validate(name: &str, zip: &[u8]) -> Result<String, String> {
     let source = Archive::new(name, Arc::from(zip)).map_err(|error| error.to_string())?;
-    let run = validate_source(source, name, &Settings::default());
+    let run =
+        validate_source(source, name, &Settings::default()).map_err(|error| error.to_string())?;
     report::json(&Report::new(&run, Severity::Error)).map_err(|error| error.to_string())
 }

@@ -2,8 +2,9 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::path::{Kind, Path, Place, within};
+use super::path::{Kind, Path, within};
 use super::{Goal, InverseSettings};
+use crate::kinematics::branch::Place;
 use crate::kinematics::rotation::to_rotation_vector;
 
 /// Largest change of a DOF in one step, rad or m: beyond, the Jacobian says little.
@@ -59,7 +60,7 @@ impl<'a> Descent<'a> {
             settings,
             length: if reach > 1e-6 { 0.3 * reach } else { 1.0 },
             iterations: 0,
-            place: Place::new(),
+            place: Place::default(),
             jacobian: Vec::new(),
         }
     }
@@ -124,11 +125,11 @@ impl<'a> Descent<'a> {
     }
 
     fn left(&mut self, q: &[f64]) -> Left {
-        self.path.place(q, &mut self.place);
-        let shift = self.goal.position - self.place.point;
+        let point = self.path.place(q, &mut self.place);
+        let shift = self.goal.position - point;
         let turn = match &self.goal.rotation {
             Some(rotation) => Vector3::from(to_rotation_vector(
-                &(rotation * self.place.rotation.inverse()),
+                &(rotation * self.place.pose.rotation.inverse()),
             )),
             None => Vector3::zeros(),
         };

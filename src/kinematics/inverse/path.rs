@@ -2,17 +2,17 @@
 
 use std::f64::consts::{PI, TAU};
 
-use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Point3, Vector3, Vector6};
 
 use super::Goal;
-use crate::kinematics::forward::{ForwardKinematics, Step};
+use crate::kinematics::branch::{Branch, Place};
+use crate::kinematics::forward::ForwardKinematics;
 use crate::kinematics::jacobian::columns;
 use crate::kinematics::joint::Motion;
 
 /// The joints from the root to a link, and the DOFs that move it.
 pub(super) struct Path<'a> {
-    /// From the root on.
-    steps: Vec<&'a Step>,
+    branch: Branch<'a>,
     /// A point of the link, in its frame.
     point: Point3<f64>,
     /// The DOFs that move the link and that bounds leave room, ascending.
@@ -38,24 +38,13 @@ pub(super) enum Kind {
     Free,
 }
 
-/// Where the link is.
-pub(super) struct Place {
-    /// Of each joint the rotation of its frame, and the place of its child.
-    joints: Vec<(UnitQuaternion<f64>, Vector3<f64>)>,
-    /// The point, in the root link's frame.
-    pub point: Point3<f64>,
-    /// The rotation of the link.
-    pub rotation: UnitQuaternion<f64>,
-}
-
 impl<'a> Path<'a> {
     pub fn new(kinematics: &'a ForwardKinematics, goal: &Goal, bounds: &[[f64; 2]]) -> Self {
-        let mut steps: Vec<&Step> = kinematics.path(goal.link).collect();
-        steps.reverse();
+        let branch = kinematics.branch(goal.link);
         let bounds: Vec<[f64; 2]> = bounds.iter().map(|[a, b]| [a.min(*b), a.max(*b)]).collect();
         let mut uses: Vec<Vec<Kind>> = vec![Vec::new(); kinematics.num_dofs()];
         let mut vectors = Vec::new();
-        for step in &steps {
+        for step in &branch.steps {
             match &step.motion {
                 Motion::Fixed => {}
                 Motion::Turn { position, .. } => {
@@ -87,7 +76,7 @@ impl<'a> Path<'a> {
             uses_of(&mut uses, Some(*dof), Kind::Free);
         }
         let mut path = Self {
-            steps,
+            branch,
             point: goal.point,
             dofs: Vec::new(),
             place: vec![None; uses.len()],
@@ -143,32 +132,23 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// Where the link is in a configuration.
-    pub fn place(&self, configuration: &[f64], place: &mut Place) {
-        place.joints.clear();
-        let mut pose = Isometry3::identity();
-        for step in &self.steps {
-            let frame = pose * step.origin;
-            pose = match &step.motion {
-                Motion::Fixed => frame,
-                motion => frame * motion.at(configuration),
-            };
-            place.joints.push((frame.rotation, pose.translation.vector));
-        }
-        place.point = pose * self.point;
-        place.rotation = pose.rotation;
+    /// Where the link is in a configuration, and the point in the root link's frame.
+    pub fn place(&self, configuration: &[f64], place: &mut Place) -> Point3<f64> {
+        self.branch.place(configuration, place);
+        place.pose * self.point
     }
 
     /// How the point and the link move with each of `dofs`: velocity, then angular velocity.
     pub fn jacobian(&self, configuration: &[f64], place: &Place, jacobian: &mut Vec<Vector6<f64>>) {
         jacobian.clear();
         jacobian.resize(self.dofs.len(), Vector6::zeros());
-        for (step, (frame, child)) in self.steps.iter().zip(&place.joints) {
+        let point = place.pose * self.point;
+        for (step, (frame, child)) in self.branch.steps.iter().zip(&place.joints) {
             columns(
                 step,
                 frame,
                 child,
-                &place.point,
+                &point,
                 configuration,
                 |dof, linear, angular| {
                     if let Some(k) = self.place[dof] {
@@ -186,21 +166,12 @@ impl<'a> Path<'a> {
     /// How far from the first joint the point can be, about, metres.
     pub fn reach(&self) -> f64 {
         let shifts = self
+            .branch
             .steps
             .iter()
             .skip(1)
             .map(|step| step.origin.translation.vector.norm());
         shifts.sum::<f64>() + self.point.coords.norm()
-    }
-}
-
-impl Place {
-    pub fn new() -> Self {
-        Self {
-            joints: Vec::new(),
-            point: Point3::origin(),
-            rotation: UnitQuaternion::identity(),
-        }
     }
 }
 
