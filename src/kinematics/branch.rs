@@ -88,7 +88,8 @@ impl Branch<'_> {
         }
         let point = place.pose * point;
         jacobian.fill(0.0);
-        for (step, (frame, child)) in self.steps.iter().zip(&place.joints) {
+        // From the link on, as there, so that sums are the same to the bit.
+        for (step, (frame, child)) in self.steps.iter().zip(&place.joints).rev() {
             columns(
                 step,
                 frame,

@@ -93,8 +93,7 @@ impl<'a> Descent<'a> {
             }
             self.step(&q, &left.vector, damping * left.cost, &mut next);
             let after = self.left(&next);
-            // Also where it is no number.
-            if !(after.cost < left.cost) {
+            if after.cost.is_nan() || after.cost >= left.cost {
                 damping = (damping * 10.0).max(1e-2);
                 refused += 1;
                 continue;
