@@ -3,8 +3,7 @@
 //! `cargo bench --bench kinematics -- URDD...` prints for each URDD the median over five rounds of the mean over 10,000
 //! random configurations, microseconds: the poses of all links, and the Jacobian of the last link by
 //! `Robot::jacobian_batch`. Then, for 1,000 poses of all links in turn in configurations that nobody started from, how
-//! many `Robot::inverse_kinematics` reaches, and in what time. `benches/kinematics_pinocchio.cpp` does the first two by
-//! Pinocchio's C++.
+//! many `Robot::inverse_kinematics` reaches, and in what time.
 //!
 //! With `--json` it measures nothing: it prints for each URDD and each of 20 configurations one line with the values, and
 //! for each link its pose (position, then quaternion x, y, z, w) and its Jacobian, column after column.
