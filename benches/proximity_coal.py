@@ -3,6 +3,9 @@
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install pin
     /tmp/peers/bin/python benches/proximity_coal.py target/release/urdd URDD...
 
+`example-robot-data:NAME` in the place of a URDD stands for one that is made of `NAME.urdf` of that package (`pip install
+example-robot-data`), such as `example-robot-data:panda`.
+
 Each configuration is one of SPEC 9.2. First the distances of all pairs are compared with those of
 `urdd check-collisions` (to 1e-6 m), then the answers yes or no; then the processor's time is measured, one thread: the
 median of five rounds, in microseconds for a configuration, without what Python itself takes for an empty loop.
@@ -10,8 +13,10 @@ median of five rounds, in microseconds for a configuration, without what Python 
 
 import json
 import os
+import pathlib
 import subprocess
 import sys
+import tempfile
 import time
 
 import coal
@@ -30,10 +35,29 @@ PIECES = (
 
 def main() -> None:
     program, *urdds = sys.argv[1:]
-    for urdd in urdds:
-        robot = Robot(urdd)
-        for kind in (HULLS, PIECES):
-            compare(program, robot, *kind)
+    with tempfile.TemporaryDirectory() as folder:
+        for urdd in urdds:
+            robot = Robot(made(program, urdd, folder))
+            for kind in (HULLS, PIECES):
+                compare(program, robot, *kind)
+
+
+EXAMPLE = "example-robot-data:"
+
+
+def made(program: str, urdd: str, folder: str) -> str:
+    """The path of a URDD, which is made first where it is of a robot of example-robot-data."""
+    if not urdd.startswith(EXAMPLE):
+        return urdd
+    name = urdd.removeprefix(EXAMPLE)
+    prefix = next(p for p in pathlib.Path(pinocchio.__file__).parents if p.name == "cmeel.prefix")
+    share = prefix / "share" / "example-robot-data"
+    (urdf,) = (share / "robots").rglob(f"{name}.urdf")
+    target = os.path.join(folder, name)
+    package = f"example-robot-data={share}"
+    command = [program, "generate", str(urdf), "-o", target, "--package", package]
+    subprocess.run(command, check=True, capture_output=True)
+    return target
 
 
 class Robot:

@@ -4,7 +4,7 @@
 //!
 //! ```
 //! # #[cfg(feature = "generate")] {
-//! use urdd::robot::{Robot, ShapeKind};
+//! use urdd::robot::{InverseSettings, Robot, ShapeKind, Target};
 //!
 //! # let folder = tempfile::tempdir()?;
 //! # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance/robots/welding_arm.urdf");
@@ -13,7 +13,13 @@
 //! let robot = Robot::open(path)?;
 //! let q = robot.configurations()?.random(7);
 //! let poses = robot.link_poses(&q)?;
-//! println!("the torch is at {}", poses[robot.link("torch")?].translation);
+//! let torch = robot.link("torch")?;
+//! println!("the torch is at {}", poses[torch].translation);
+//!
+//! let target = Target::pose(torch, poses[torch]);
+//! let start = robot.configurations()?.zero();
+//! let found = robot.inverse_kinematics(&target, &start, &InverseSettings::default())?;
+//! println!("and from {start:?} it gets there at {:?}", found.nearest().configuration);
 //!
 //! let proximity = robot.proximity(ShapeKind::Pieces)?;
 //! for pair in proximity.nearest(&q, 1)? {
@@ -24,6 +30,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod cancellation;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;

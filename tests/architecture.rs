@@ -10,8 +10,9 @@ use urdd::validate::rules;
 
 /// The rooms that each room may import, besides itself.
 const ROOMS: &[(&str, &[&str])] = &[
+    ("cancellation", &[]),
     ("format", &[]),
-    ("directory", &["format"]),
+    ("directory", &["cancellation", "format"]),
     ("document", &["format", "directory", "kinematics"]),
     ("xml", &[]),
     ("geometry", &["xml"]),
@@ -20,6 +21,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "generate",
         &[
+            "cancellation",
             "format",
             "directory",
             "geometry",
@@ -31,6 +33,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "validate",
         &[
+            "cancellation",
             "format",
             "directory",
             "document",
@@ -42,6 +45,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "robot",
         &[
+            "cancellation",
             "format",
             "directory",
             "document",
@@ -76,6 +80,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
+            "cancellation",
             "format",
             "directory",
             "document",

@@ -89,7 +89,7 @@ fn a_urdd_in_memory_has_the_report_of_its_folder() {
             .collect();
         let memory = Memory::new(name, shared).expect("sound paths");
         let settings = Settings::default();
-        let from_memory = validate_source(memory, name, &settings);
+        let from_memory = validate_source(memory, name, &settings).expect("a run");
         let from_folder = validate(&[folder], &settings).expect("a run");
         let text = |run| report::json(&Report::new(run, Severity::Error)).expect("a report");
         assert_eq!(text(&from_memory), text(&from_folder));

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-use crate::directory::cancellation::Cancellation;
+use crate::cancellation::Cancellation;
 
 /// What a shell adds to the number of a signal to make an exit status of it.
 const BY_SIGNAL: i32 = 128;

@@ -19,7 +19,7 @@ use crate::report::{self, Report};
 use crate::validate::rule::Severity;
 use crate::validate::selection::Codes;
 use crate::validate::settings::{Exclude, Settings};
-use crate::validate::{self, rules};
+use crate::validate::{self, ValidateError, rules};
 
 /// Longest settings file, bytes.
 const MAX_SETTINGS_BYTES: u64 = 1 << 20;
@@ -149,8 +149,11 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
     }
     // A crashed rule is caught and reported; the default hook would print besides.
     std::panic::set_hook(Box::new(|_| {}));
-    let run = validate::validate_with(&arguments.paths, &settings, &rules)
-        .map_err(|error| foreign::advice(&error));
+    let run =
+        validate::validate_with(&arguments.paths, &settings, &rules).map_err(|error| match error {
+            ValidateError::Discover(error) => foreign::advice(&error),
+            error => error.to_string(),
+        });
     let _ = std::panic::take_hook();
     let run = run?;
     if run.subjects.is_empty() {

@@ -2,7 +2,6 @@
 //! safely, writing it; JSON and YAML as text; and the folder of published schemas.
 
 pub mod archive_fault;
-pub mod cancellation;
 pub mod canonical;
 pub mod digest;
 pub mod discover;

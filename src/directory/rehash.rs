@@ -7,7 +7,6 @@ use std::path::Path;
 use serde_json::{Value, json};
 use thiserror::Error;
 
-use super::cancellation::Cancellation;
 use super::canonical;
 use super::digest;
 use super::discover::ROOT_METADATA;
@@ -15,6 +14,7 @@ use super::json;
 use super::limits::MAX_DOCUMENT_BYTES;
 use super::root::{ReadError, Root};
 use super::target_lock::TargetLock;
+use crate::cancellation::Cancellation;
 
 /// What the name begins with of the file that is to become `urdd.json`.
 const TEMPORARY_PREFIX: &str = ".urdd.json.";

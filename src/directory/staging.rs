@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::cancellation::Cancellation;
 use super::target_lock::{LockError, TargetLock, beside};
+use crate::cancellation::Cancellation;
 
 /// Why a folder could not be written. What stood in its place still does.
 #[derive(Debug, Error)]

@@ -12,8 +12,8 @@ use std::time::Duration;
 use same_file::Handle;
 use sha2::{Digest, Sha256};
 
-use super::cancellation::Cancellation;
 use super::layout::STAGING_PREFIX;
+use crate::cancellation::Cancellation;
 use crate::format::hexadecimal::hexadecimal;
 
 /// How long to wait before the lock is tried again.

@@ -6,13 +6,18 @@ use std::hash::{Hash, Hasher};
 
 use rayon::prelude::*;
 
+use crate::cancellation::{Cancellation, Cancelled};
 use crate::geometry::Mesh;
 
 /// What `work` makes of each mesh. It is asked once about meshes that are the same, bit for bit.
+///
+/// # Errors
+/// Where it is asked to stop: before the next mesh.
 pub fn for_each_content<T: Clone + Send>(
     meshes: &[&Mesh],
+    cancellation: &Cancellation,
     work: impl Fn(&Mesh) -> T + Sync,
-) -> Vec<T> {
+) -> Result<Vec<T>, Cancelled> {
     let mut seen: HashMap<Content, usize> = HashMap::new();
     let mut distinct: Vec<&Mesh> = Vec::new();
     let places: Vec<usize> = meshes
@@ -24,11 +29,13 @@ pub fn for_each_content<T: Clone + Send>(
             })
         })
         .collect();
-    let made: Vec<T> = distinct.into_par_iter().map(&work).collect();
-    places
-        .into_iter()
-        .map(|place| made[place].clone())
-        .collect()
+    let made = distinct.into_par_iter().map(|mesh| {
+        cancellation.check()?;
+        Ok(work(mesh))
+    });
+    let made: Vec<T> = made.collect::<Result<_, Cancelled>>()?;
+    let made = places.into_iter().map(|place| made[place].clone());
+    Ok(made.collect())
 }
 
 /// A mesh as the bits of its numbers.
@@ -70,15 +77,22 @@ mod tests {
         let mut turned = one.clone();
         turned.triangles.reverse();
         let asked = AtomicUsize::new(0);
-        let found = for_each_content(&[&one, &other, &again, &moved, &turned, &other], |mesh| {
+        let meshes = [&one, &other, &again, &moved, &turned, &other];
+        let cancellation = Cancellation::default();
+        let work = |mesh: &Mesh| {
             asked.fetch_add(1, Ordering::Relaxed);
             (mesh.vertices[7][2], mesh.triangles[0])
-        });
-        assert_eq!(asked.into_inner(), 4);
+        };
+        let found = for_each_content(&meshes, &cancellation, work).expect("all of them");
+        assert_eq!(asked.load(Ordering::Relaxed), 4);
         let expected = [&one, &other, &one, &moved, &turned, &other];
         assert_eq!(
             found,
             expected.map(|mesh| (mesh.vertices[7][2], mesh.triangles[0]))
         );
+        cancellation.cancel();
+        let found = for_each_content(&meshes, &cancellation, work);
+        assert_eq!(found, Err(Cancelled));
+        assert_eq!(asked.into_inner(), 4);
     }
 }

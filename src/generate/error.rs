@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::fault::PlacedFault;
 use super::note::Note;
+use crate::cancellation::Cancelled;
 use crate::directory::position::Position;
 use crate::directory::staging::StagingError;
 use crate::format::escape;
@@ -88,7 +89,10 @@ pub enum GenerateError {
     },
     /// The URDD cannot be written.
     #[error(transparent)]
-    Write(#[from] StagingError),
+    Write(StagingError),
+    /// It was asked to stop: `Settings::cancellation`.
+    #[error("stopped before it was done; nothing was changed")]
+    Cancelled,
     /// The robot's geometry is beyond what can be computed.
     #[error("{file}: {reason}; fix the mesh, or leave out the distances: `--modules geometry`")]
     Geometry {
@@ -109,6 +113,21 @@ pub enum GenerateError {
     },
 }
 
+impl From<StagingError> for GenerateError {
+    fn from(error: StagingError) -> Self {
+        match error {
+            StagingError::Cancelled => GenerateError::Cancelled,
+            error => GenerateError::Write(error),
+        }
+    }
+}
+
+impl From<Cancelled> for GenerateError {
+    fn from(_: Cancelled) -> Self {
+        GenerateError::Cancelled
+    }
+}
+
 impl GenerateError {
     /// A word for programs: what kind of error it is.
     pub fn code(&self) -> &'static str {
@@ -122,6 +141,7 @@ impl GenerateError {
             GenerateError::Xacro { .. } => "xacro-failed",
             GenerateError::SourceInTarget { .. } => "source-in-output",
             GenerateError::Write(_) => "not-written",
+            GenerateError::Cancelled => "cancelled",
             GenerateError::Geometry { .. } => "geometry",
             GenerateError::Internal { .. } => "internal",
         }

@@ -28,7 +28,7 @@ use crate::format::plain_meshes::{PlainMesh, PlainMeshesModule};
 use crate::format::registry::ModuleKind;
 use crate::geometry::Mesh;
 use crate::geometry::decompose;
-use crate::geometry::hull::ConvexHull;
+use crate::geometry::hull::{ConvexHull, HullError};
 use crate::geometry::read::Part;
 use crate::skips::skips_module;
 
@@ -113,7 +113,8 @@ pub(super) fn hulls(work: &mut Work) -> Result<Made, GenerateError> {
             .ok()
             .map(ConvexHull::into_mesh)
     };
-    let mut made_of = for_each_content(&meshes_of(&plain), hull).into_iter();
+    let mut made_of =
+        for_each_content(&meshes_of(&plain), &work.settings.cancellation, hull)?.into_iter();
     let hulls: Vec<Option<WrittenMesh>> = plain
         .iter()
         .map(|plain| {
@@ -151,7 +152,8 @@ pub(super) fn pieces(work: &mut Work) -> Result<Made, GenerateError> {
     let plain = work.artifacts.plain()?;
     let settings = decompose::Settings::default();
     let decompose = |mesh: &Mesh| decompose::decompose(mesh, &settings);
-    let mut made_of = for_each_content(&meshes_of(&plain), decompose).into_iter();
+    let mut made_of =
+        for_each_content(&meshes_of(&plain), &work.settings.cancellation, decompose)?.into_iter();
     let decomposed: Vec<(Vec<WrittenMesh>, f64)> = plain
         .iter()
         .map(|plain| {
@@ -189,10 +191,11 @@ pub(super) fn pieces(work: &mut Work) -> Result<Made, GenerateError> {
 
 pub(super) fn boxes_and_spheres(work: &mut Work) -> Result<Made, GenerateError> {
     let solids = work.artifacts.solids()?;
-    let module = approximations(&solids).map_err(|error| GenerateError::Internal {
+    let internal = |error: HullError| GenerateError::Internal {
         file: work.source.shown.clone(),
         reason: error.to_string(),
-    })?;
+    };
+    let module = approximations(&solids, &work.settings.cancellation)?.map_err(internal)?;
     let document = document(&module)?;
     work.artifacts.approximations = Some(Arc::new(module));
     Ok(document)

@@ -126,9 +126,7 @@ fn make(
     let stages: Vec<&Stage> = settings.selection.kinds().filter_map(stages::of).collect();
     let (mut entries, mut modules) = (Vec::new(), Vec::new());
     for (done, stage) in stages.iter().enumerate() {
-        if settings.cancellation.is_cancelled() {
-            return Err(StagingError::Cancelled.into());
-        }
+        settings.cancellation.check()?;
         progress.module(stage.kind, done, stages.len());
         let (entry, kept) = run(stage, &mut work, &writer, old.as_ref(), &entries)?;
         check_assumptions(&work.notes, settings)?;
@@ -169,9 +167,7 @@ fn make(
     let changed = !old
         .as_ref()
         .is_some_and(|old| is_same(old, &text, &modules));
-    if settings.cancellation.is_cancelled() {
-        return Err(StagingError::Cancelled.into());
-    }
+    settings.cancellation.check()?;
     if changed {
         staging.commit()?;
     }

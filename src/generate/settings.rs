@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::meshes::package::Packages;
 use super::selection::Selection;
 use super::source::xacro::XacroSettings;
-use crate::directory::cancellation::Cancellation;
+use crate::cancellation::Cancellation;
 use crate::format::link_shapes_skips::SkippedReason;
 use crate::format::meshes::GeometryKind;
 
@@ -35,7 +35,10 @@ pub struct Settings {
     pub drop_edits: bool,
     /// Whether to write into a folder that holds something else.
     pub force: bool,
-    /// Where it is asked to stop: before the next module, and nothing is changed.
+    /// Where it is asked to stop: before the next module or mesh, with [`GenerateError::Cancelled`], and nothing is
+    /// changed.
+    ///
+    /// [`GenerateError::Cancelled`]: super::GenerateError::Cancelled
     pub cancellation: Cancellation,
 }
 

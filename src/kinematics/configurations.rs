@@ -89,6 +89,20 @@ impl ConfigurationSpace {
         self.bounds.len()
     }
 
+    /// The bounds of each DOF, in whatever order the two are.
+    pub fn bounds(&self) -> &[[f64; 2]] {
+        &self.bounds
+    }
+
+    /// The same robot's configurations within other bounds; `None` where these are not one finite pair for each DOF.
+    pub fn with_bounds(&self, bounds: &[[f64; 2]]) -> Option<Self> {
+        let finite = bounds.as_flattened().iter().all(|bound| bound.is_finite());
+        (finite && bounds.len() == self.bounds.len()).then(|| Self {
+            bounds: bounds.to_vec(),
+            rotation_vectors: self.rotation_vectors.clone(),
+        })
+    }
+
     /// The DOFs of each rotation vector, three at a time: of floating joints the last three, of
     /// spherical ones all.
     pub fn rotation_vectors(&self) -> &[[usize; 3]] {

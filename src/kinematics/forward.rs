@@ -132,14 +132,7 @@ impl ForwardKinematics {
         poses: &mut Vec<Isometry3<f64>>,
     ) -> Result<(), ConfigurationError> {
         poses.clear();
-        let (expected, found) = (self.num_dofs, configuration.len());
-        if found != expected {
-            return Err(ConfigurationError::Length { expected, found });
-        }
-        if let Some(dof_idx) = configuration.iter().position(|q| !q.is_finite()) {
-            let value = configuration[dof_idx];
-            return Err(ConfigurationError::NotFinite { dof_idx, value });
-        }
+        self.check(configuration)?;
         poses.resize(self.num_links, Isometry3::identity());
         for step in &self.steps {
             let frame = poses[step.parent] * step.origin;
@@ -155,6 +148,24 @@ impl ForwardKinematics {
             poses[step.child] = pose;
         }
         Ok(())
+    }
+
+    /// Whether a configuration is one finite value for each DOF.
+    ///
+    /// # Errors
+    /// Where it is not.
+    pub(super) fn check(&self, configuration: &[f64]) -> Result<(), ConfigurationError> {
+        let (expected, found) = (self.num_dofs, configuration.len());
+        if found != expected {
+            return Err(ConfigurationError::Length { expected, found });
+        }
+        match configuration.iter().position(|q| !q.is_finite()) {
+            Some(dof_idx) => Err(ConfigurationError::NotFinite {
+                dof_idx,
+                value: configuration[dof_idx],
+            }),
+            None => Ok(()),
+        }
     }
 
     /// The joints between a link and the root, from the link on.
@@ -175,7 +186,7 @@ impl ForwardKinematics {
     }
 }
 
-fn is_finite(pose: &Isometry3<f64>) -> bool {
+pub(super) fn is_finite(pose: &Isometry3<f64>) -> bool {
     pose.translation.vector.iter().all(|x| x.is_finite())
         && pose.rotation.coords.iter().all(|x| x.is_finite())
 }

@@ -1,8 +1,8 @@
 //! Geometric Jacobians: how a point of a link moves as the DOFs do.
 
-use nalgebra::{Isometry3, Matrix3, Matrix6xX, Point3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Matrix6xX, Point3, UnitQuaternion, Vector3};
 
-use super::forward::ForwardKinematics;
+use super::forward::{ForwardKinematics, Step};
 use super::joint::Motion;
 
 impl ForwardKinematics {
@@ -29,55 +29,67 @@ impl ForwardKinematics {
             }
         };
         for step in self.path(link) {
-            let joint = poses[step.parent].rotation * step.origin.rotation;
-            let centre = poses[step.child].translation.vector;
-            let arm = point.coords - centre;
-            let mut turn = |dof: usize, angular: Vector3<f64>| {
-                add(dof, angular.cross(&arm), angular);
-            };
-            match &step.motion {
-                Motion::Fixed => {}
-                Motion::Turn { axis, position } => {
-                    if let Some(dof) = position.dof {
-                        turn(dof, joint * axis.into_inner() * position.multiplier);
-                    }
-                }
-                Motion::Slide { axis, position } => {
-                    if let Some(dof) = position.dof {
-                        let along = joint * axis.into_inner() * position.multiplier;
-                        add(dof, along, Vector3::zeros());
-                    }
-                }
-                Motion::Plane {
-                    axis,
-                    basis: [x, y],
-                    dofs: [along_x, along_y, angle],
-                } => {
-                    turn(*angle, joint * axis.into_inner());
-                    add(*along_x, joint * x, Vector3::zeros());
-                    add(*along_y, joint * y, Vector3::zeros());
-                }
-                Motion::Float {
-                    dofs: [x, y, z, a, b, c],
-                } => {
-                    let vector = [*a, *b, *c].map(|dof| configuration[dof]);
-                    let columns = left_jacobian(vector);
-                    for (k, dof) in [*a, *b, *c].into_iter().enumerate() {
-                        turn(dof, joint * columns.column(k));
-                    }
-                    for (axis, dof) in [*x, *y, *z].into_iter().enumerate() {
-                        add(dof, joint * Vector3::ith(axis, 1.0), Vector3::zeros());
-                    }
-                }
-                Motion::Ball { dofs } => {
-                    let columns = left_jacobian(dofs.map(|dof| configuration[dof]));
-                    for (k, dof) in dofs.iter().enumerate() {
-                        turn(*dof, joint * columns.column(k));
-                    }
-                }
-            }
+            let frame = poses[step.parent].rotation * step.origin.rotation;
+            let child = &poses[step.child].translation.vector;
+            columns(step, &frame, child, point, configuration, &mut add);
         }
         jacobian
+    }
+}
+
+/// How a point moves with the DOFs of one joint on its way to the root: for each, velocity and angular velocity.
+///
+/// `frame` is the rotation of the joint's frame, `child` the place of its child link, both in the root link's frame.
+pub(super) fn columns(
+    step: &Step,
+    frame: &UnitQuaternion<f64>,
+    child: &Vector3<f64>,
+    point: &Point3<f64>,
+    configuration: &[f64],
+    mut add: impl FnMut(usize, Vector3<f64>, Vector3<f64>),
+) {
+    let arm = point.coords - child;
+    let mut turn = |dof: usize, angular: Vector3<f64>| add(dof, angular.cross(&arm), angular);
+    match &step.motion {
+        Motion::Fixed => {}
+        Motion::Turn { axis, position } => {
+            if let Some(dof) = position.dof {
+                turn(dof, frame * axis.into_inner() * position.multiplier);
+            }
+        }
+        Motion::Slide { axis, position } => {
+            if let Some(dof) = position.dof {
+                let along = frame * axis.into_inner() * position.multiplier;
+                add(dof, along, Vector3::zeros());
+            }
+        }
+        Motion::Plane {
+            axis,
+            basis: [x, y],
+            dofs: [along_x, along_y, angle],
+        } => {
+            turn(*angle, frame * axis.into_inner());
+            add(*along_x, frame * x, Vector3::zeros());
+            add(*along_y, frame * y, Vector3::zeros());
+        }
+        Motion::Float {
+            dofs: [x, y, z, a, b, c],
+        } => {
+            let vector = [*a, *b, *c].map(|dof| configuration[dof]);
+            let columns = left_jacobian(vector);
+            for (k, dof) in [*a, *b, *c].into_iter().enumerate() {
+                turn(dof, frame * columns.column(k));
+            }
+            for (axis, dof) in [*x, *y, *z].into_iter().enumerate() {
+                add(dof, frame * Vector3::ith(axis, 1.0), Vector3::zeros());
+            }
+        }
+        Motion::Ball { dofs } => {
+            let columns = left_jacobian(dofs.map(|dof| configuration[dof]));
+            for (k, dof) in dofs.iter().enumerate() {
+                turn(*dof, frame * columns.column(k));
+            }
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::cancellation::Cancelled;
 use crate::directory::root::ReadError;
 use crate::format::registry::ModuleKind;
 use crate::kinematics::{ConfigurationError, KinematicsError};
@@ -72,6 +73,12 @@ pub enum RobotError {
         /// How many there are.
         count: usize,
     },
+    /// A target of inverse kinematics that is none.
+    #[error("inverse kinematics: {0}")]
+    Target(&'static str),
+    /// It was asked to stop: [`Proximity::until`](super::Proximity::until).
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// A mesh file that cannot be used.
     #[error("{}: {reason}", .path.escape_debug())]
     Mesh {

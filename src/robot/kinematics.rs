@@ -10,7 +10,7 @@ use super::error::RobotError;
 use crate::document::consumer;
 use crate::document::urdd::Urdd;
 use crate::format::dof::Quantity;
-use crate::kinematics::{ConfigurationError, ForwardKinematics};
+use crate::kinematics::{ConfigurationError, ForwardKinematics, Place};
 
 /// 6 rows, one column for each DOF: velocity, then angular velocity.
 pub type Jacobian = Matrix6xX<f64>;
@@ -167,5 +167,46 @@ impl Robot {
         })?;
         let point = pose * Point3::from(point);
         Ok(kinematics.jacobian(configuration, &poses, link, &point))
+    }
+
+    /// The Jacobians of a link's frame in each of many configurations, which follow each other in `configurations`: as
+    /// [`Robot::jacobian`], column after column. Number `(k * dofs + dof) * 6 + row` is that of row `row` and DOF `dof`
+    /// in configuration `k`. Only the joints that move the link are looked at. The work is done by all threads of
+    /// rayon's pool, and nothing is allocated for each configuration.
+    ///
+    /// # Errors
+    /// [`RobotError::OutOfRange`] for a link that is not there; [`RobotError::Batch`] where the values are no whole
+    /// number of configurations; and as [`Robot::link_poses`], for the first configuration in which the link has no
+    /// pose.
+    pub fn jacobian_batch(
+        &self,
+        configurations: &[f64],
+        link: usize,
+    ) -> Result<Vec<f64>, RobotError> {
+        let motion = self.motion()?;
+        let kinematics = &motion.kinematics;
+        let (dofs, count) = (kinematics.num_dofs(), kinematics.num_links());
+        if link >= count {
+            let (what, index) = ("link", link);
+            return Err(RobotError::OutOfRange { what, index, count });
+        }
+        let branch = kinematics.branch(link);
+        let mut jacobians = vec![0.0; motion.batch(configurations)? * dofs * 6];
+        let faults: Vec<ConfigurationError> = jacobians
+            .par_chunks_mut(BLOCK * dofs.max(1) * 6)
+            .zip(configurations.par_chunks(BLOCK * dofs.max(1)))
+            .filter_map(|(out, block)| {
+                let mut place = Place::default();
+                let mut both = out.chunks_mut(6 * dofs).zip(block.chunks(dofs));
+                both.find_map(|(out, q)| {
+                    let found = branch.jacobian_into(q, &Point3::origin(), &mut place, out);
+                    found.err()
+                })
+            })
+            .collect();
+        match faults.into_iter().next() {
+            Some(error) => Err(error.into()),
+            None => Ok(jacobians),
+        }
     }
 }

@@ -32,6 +32,7 @@
 
 mod description;
 mod error;
+mod inverse;
 mod kinematics;
 mod mesh;
 mod names;
@@ -49,11 +50,13 @@ use std::sync::{Arc, OnceLock};
 use crate::directory::root::Root;
 use crate::directory::source::Source;
 
+pub use crate::kinematics::inverse::{Inverse, InverseSettings, InverseSolution};
 pub use description::SourceFile;
 pub use error::RobotError;
+pub use inverse::Target;
 pub use kinematics::Jacobian;
 pub use mesh::LinkVisual;
-pub use proximity::{PairDistance, Proximity};
+pub use proximity::{PairDistance, Proximity, Until};
 pub use shapes::{LinkShape, ShapeKind, Solid};
 pub use skip_edits::EditedSkips;
 pub use skips::Skips;

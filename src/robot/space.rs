@@ -48,6 +48,10 @@ impl Configurations {
         })
     }
 
+    pub(super) fn space(&self) -> &ConfigurationSpace {
+        &self.space
+    }
+
     /// Number of DOFs.
     pub fn num_dofs(&self) -> usize {
         self.bounds.len()

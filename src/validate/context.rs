@@ -9,6 +9,7 @@ use super::skip::SkipReason;
 use super::solids::Solids;
 use super::solids::placed::{self, Misplaced, Placed};
 use super::urdf_text;
+use crate::cancellation::Cancellation;
 use crate::document::robot;
 use crate::document::shapes::Shapes;
 use crate::document::urdd::{RobotFrom, Urdd};
@@ -23,6 +24,7 @@ pub struct Context {
     urdd: Urdd,
     class: Option<ConformanceClass>,
     deep: bool,
+    cancellation: Cancellation,
     urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
     solids: Arc<OnceLock<Solids>>,
     distances: OnceLock<Result<Distances, SkipReason>>,
@@ -45,6 +47,7 @@ impl Context {
             urdd,
             class,
             deep: false,
+            cancellation: Cancellation::default(),
             urdf_text: Arc::default(),
             solids: Arc::default(),
             distances: OnceLock::new(),
@@ -62,6 +65,7 @@ impl Context {
             urdf_text: Arc::clone(&self.urdf_text),
             solids: Arc::clone(&self.solids),
             deep: self.deep,
+            cancellation: self.cancellation.clone(),
             ..Context::new(self.urdd.with_robot(robot::of_urdf(robot)), self.class)
         })
     }
@@ -70,6 +74,17 @@ impl Context {
     pub fn deep(mut self, deep: bool) -> Self {
         self.deep = deep;
         self
+    }
+
+    /// With a wish to stop, after which no rule is begun.
+    pub fn until(mut self, cancellation: &Cancellation) -> Self {
+        self.cancellation = cancellation.clone();
+        self
+    }
+
+    /// Whether to begin no rule any more.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancellation.is_cancelled()
     }
 
     /// Whether sampled data is recomputed in full.

@@ -35,11 +35,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
+use thiserror::Error;
 
 use self::context::Context;
 use self::engine::{Check, Outcome};
 use self::rule::Rule;
 use self::settings::{Settings, StaleIgnore};
+use crate::cancellation::Cancelled;
 use crate::directory::discover::{DiscoverError, Found, discover};
 use crate::directory::root::{ReadError, Root};
 use crate::directory::source::Source;
@@ -115,11 +117,23 @@ pub struct Run {
     pub stale_ignores: Vec<StaleIgnore>,
 }
 
+/// Why nothing came of a run.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ValidateError {
+    /// Under one of the paths there is nothing to examine.
+    #[error(transparent)]
+    Discover(#[from] DiscoverError),
+    /// It was asked to stop: [`Settings::cancellation`].
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
 /// Examines every URDD at or below each of the paths, in parallel, with every rule.
 ///
 /// # Errors
-/// Where under one of the paths there is nothing to examine.
-pub fn validate<P: AsRef<Path>>(paths: &[P], settings: &Settings) -> Result<Run, DiscoverError> {
+/// Where under one of the paths there is nothing to examine, and where it is asked to stop.
+pub fn validate<P: AsRef<Path>>(paths: &[P], settings: &Settings) -> Result<Run, ValidateError> {
     validate_with(paths, settings, &rules::all())
 }
 
@@ -131,7 +145,7 @@ pub fn validate_with<P: AsRef<Path>>(
     paths: &[P],
     settings: &Settings,
     rules: &[&'static Rule],
-) -> Result<Run, DiscoverError> {
+) -> Result<Run, ValidateError> {
     let mut found = Vec::new();
     for path in paths {
         match bare_urdf::is_urdf(path.as_ref()) {
@@ -166,6 +180,7 @@ pub fn validate_with<P: AsRef<Path>>(
             }
         })
         .collect();
+    settings.cancellation.check()?;
     let stale_ignores = settings.apply(
         subjects
             .iter_mut()
@@ -185,7 +200,14 @@ pub fn validate_with<P: AsRef<Path>>(
 
 /// Examines the URDD whose files a source holds, with every rule. `name` is what it is called in the report. Excludes do
 /// not count.
-pub fn validate_source(source: impl Source + 'static, name: &str, settings: &Settings) -> Run {
+///
+/// # Errors
+/// [`ValidateError::Cancelled`] where it is asked to stop.
+pub fn validate_source(
+    source: impl Source + 'static,
+    name: &str,
+    settings: &Settings,
+) -> Result<Run, ValidateError> {
     let found = Found {
         path: PathBuf::from(name),
         name: name.to_owned(),
@@ -194,13 +216,14 @@ pub fn validate_source(source: impl Source + 'static, name: &str, settings: &Set
     let root = Root::of(source);
     let examine = || examine_urdd(Urdd::of(root)?, &found, settings, &rules::all());
     let mut result = caught(&found, examine);
+    settings.cancellation.check()?;
     let mut stale_ignores = Vec::new();
     if let Ok(examined) = &mut result {
         bound::trim(examined, bound::of_each(1));
         stale_ignores = settings.apply(std::iter::once(&mut *examined));
         settings.selection.apply(&mut examined.checks);
     }
-    Run {
+    Ok(Run {
         subjects: vec![Subject {
             kind: Kind::Urdd,
             found,
@@ -208,7 +231,7 @@ pub fn validate_source(source: impl Source + 'static, name: &str, settings: &Set
         }],
         excluded: 0,
         stale_ignores,
-    }
+    })
 }
 
 /// Examines, and where that crashes outside of any rule says so of this URDD: the others have their
@@ -246,7 +269,9 @@ fn examine_urdd(
     settings: &Settings,
     rules: &[&'static Rule],
 ) -> Result<Examined, ReadError> {
-    let context = Context::new(urdd, settings.class).deep(settings.deep);
+    let context = Context::new(urdd, settings.class)
+        .deep(settings.deep)
+        .until(&settings.cancellation);
     let checks = two_robots::run(&context, rules);
     let modules = context
         .modules()

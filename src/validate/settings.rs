@@ -12,6 +12,7 @@ use super::engine::Outcome;
 use super::rule::Severity;
 use super::selection::Selection;
 use super::skip::SkipReason;
+use crate::cancellation::Cancellation;
 use crate::format::root_metadata::ConformanceClass;
 
 /// Settings of a run.
@@ -31,6 +32,8 @@ pub struct Settings {
     pub excludes: Vec<Exclude>,
     /// Which rules are reported.
     pub selection: Selection,
+    /// Where it is asked to stop: before the next rule, with [`ValidateError::Cancelled`](super::ValidateError).
+    pub cancellation: Cancellation,
 }
 
 /// Folders in which no URDD is looked for.

@@ -4,7 +4,9 @@
 #[allow(unused)]
 mod support;
 
+mod cancelled;
 mod command;
+mod inverse;
 mod motion;
 mod nearness;
 mod opening;

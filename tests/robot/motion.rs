@@ -130,6 +130,38 @@ fn a_batch_is_each_of_its_configurations() {
 }
 
 #[test]
+fn a_batch_of_jacobians_is_each_of_them_to_the_bit() {
+    for (name, urdf) in our_robots() {
+        let (_folder, path) = made(&urdf);
+        let robot = Robot::open(path).unwrap();
+        let space = robot.configurations().unwrap();
+        let all: Vec<Vec<f64>> = (0..70).map(|k| space.random(k)).collect();
+        for link in 0..robot.links().unwrap().len() {
+            let batch = robot.jacobian_batch(&all.concat(), link).unwrap();
+            let each = all.iter().map(|q| robot.jacobian(q, link).unwrap());
+            let each: Vec<f64> = each.flat_map(|j| j.as_slice().to_vec()).collect();
+            assert_eq!(batch, each, "{name}, {link}");
+        }
+    }
+    let (_folder, path) = made_of(PLANAR);
+    let robot = Robot::open(path).unwrap();
+    assert_eq!(robot.jacobian_batch(&[], 1).unwrap(), [0.0; 0]);
+    let (what, index, count) = ("link", 5, 5);
+    let missing = RobotError::OutOfRange { what, index, count };
+    assert_eq!(robot.jacobian_batch(&[0.0; 4], 5), Err(missing));
+    let (found, dofs) = (3, 2);
+    assert_eq!(
+        robot.jacobian_batch(&[0.0; 3], 1),
+        Err(RobotError::Batch { found, dofs })
+    );
+    let broken = [0.0, 0.0, 0.0, f64::NAN];
+    assert!(matches!(
+        robot.jacobian_batch(&broken, 1),
+        Err(RobotError::Configuration(_))
+    ));
+}
+
+#[test]
 fn configurations_are_within_bounds_where_they_are_said_to_be() {
     let (_folder, path) = made_of(PLANAR);
     let robot = Robot::open(path).unwrap();

@@ -21,13 +21,14 @@ pub unsafe extern "C" fn urdd_validate(
 ) -> *mut u8 {
     // SAFETY: as the caller promises.
     let (files, name) = unsafe { (&*files, memory::bytes(name, name_length)) };
-    let run = validate_source(
-        files.clone(),
-        &String::from_utf8_lossy(name),
-        &Settings::default(),
-    );
-    match report::json(&Report::new(&run, Severity::Error)) {
+    match validate(files.clone(), &String::from_utf8_lossy(name)) {
         Ok(report) => answer::text(&report),
-        Err(error) => answer::result(Err(error.to_string())),
+        Err(error) => answer::result(Err(error)),
     }
+}
+
+fn validate(files: Files, name: &str) -> Result<String, String> {
+    let run =
+        validate_source(files, name, &Settings::default()).map_err(|error| error.to_string())?;
+    report::json(&Report::new(&run, Severity::Error)).map_err(|error| error.to_string())
 }

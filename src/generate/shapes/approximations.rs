@@ -1,6 +1,7 @@
 //! `link_shapes_approximations_module`: SPEC 8.2.
 
 use super::ConvexMeshes;
+use crate::cancellation::{Cancellation, Cancelled};
 use crate::format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,
 };
@@ -13,19 +14,27 @@ use crate::geometry::oriented_box::OrientedBox;
 /// Makes the module.
 ///
 /// # Errors
-/// Where a mesh has no hull: a fault of what made it.
+/// Where it is asked to stop; and where a mesh has no hull: a fault of what made it.
 pub(crate) fn approximations(
     solids: &ConvexMeshes,
-) -> Result<LinkShapesApproximationsModule, HullError> {
+    cancellation: &Cancellation,
+) -> Result<Result<LinkShapesApproximationsModule, HullError>, Cancelled> {
     let all = solids
         .hulls
         .iter()
         .flatten()
         .chain(solids.pieces.iter().flatten());
     let meshes: Vec<&Mesh> = all.map(|written| &written.mesh).collect();
-    let found: Vec<(Obb, BoundingSphere)> = for_each_content(&meshes, of_mesh)
-        .into_iter()
-        .collect::<Result<_, _>>()?;
+    let found = for_each_content(&meshes, cancellation, of_mesh)?.into_iter();
+    let found: Result<Vec<(Obb, BoundingSphere)>, HullError> = found.collect();
+    Ok(found.map(|found| module(solids, &found)))
+}
+
+/// The module of the boxes and spheres about all hulls, then about all pieces.
+fn module(
+    solids: &ConvexMeshes,
+    found: &[(Obb, BoundingSphere)],
+) -> LinkShapesApproximationsModule {
     let (of_hulls, of_pieces) = found.split_at(solids.hulls.iter().flatten().count());
     let (mut of_hulls, mut of_pieces) = (of_hulls.iter().cloned(), of_pieces.iter().cloned());
     let hulls = solids.hulls.iter();
@@ -42,12 +51,12 @@ pub(crate) fn approximations(
         .into_iter()
         .map(|pieces| pieces.into_iter().unzip())
         .unzip();
-    Ok(LinkShapesApproximationsModule {
+    LinkShapesApproximationsModule {
         full_obbs,
         full_bounding_spheres,
         decomposition_obbs,
         decomposition_bounding_spheres,
-    })
+    }
 }
 
 fn of_mesh(mesh: &Mesh) -> Result<(Obb, BoundingSphere), HullError> {

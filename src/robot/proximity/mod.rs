@@ -28,6 +28,8 @@ use super::shapes::ShapeKind;
 use super::statistics::AllStatistics;
 use crate::geometry::convex::Level;
 
+pub use batch::Until;
+
 /// What is nearest in a pair of shapes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairDistance {

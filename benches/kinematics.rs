@@ -1,0 +1,118 @@
+//! How long poses, Jacobians and inverse kinematics take, one thread.
+//!
+//! `cargo bench --bench kinematics -- URDD...` prints for each URDD the median over five rounds of the mean over 10,000
+//! random configurations, microseconds: the poses of all links, and the Jacobian of the last link by
+//! `Robot::jacobian_batch`. Then, for 1,000 poses of all links in turn in configurations that nobody started from, how
+//! many `Robot::inverse_kinematics` reaches, and in what time.
+//!
+//! With `--json` it measures nothing: it prints for each URDD and each of 20 configurations one line with the values, and
+//! for each link its pose (position, then quaternion x, y, z, w) and its Jacobian, column after column.
+//! `tests/figures/kinematics_pinocchio.py` holds these to Pinocchio.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use urdd::robot::{InverseSettings, Robot, Target};
+
+const CONFIGURATIONS: u64 = 10_000;
+const TARGETS: u64 = 1000;
+const ROUNDS: usize = 5;
+
+fn main() {
+    let given = || std::env::args().skip(1);
+    let json = given().any(|argument| argument == "--json");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let pool = pool.expect("a thread");
+    for path in given().filter(|argument| !argument.starts_with("--")) {
+        let path = PathBuf::from(path);
+        match json {
+            true => print(&path),
+            false => pool.install(|| measure(&path)),
+        }
+    }
+}
+
+fn print(path: &std::path::Path) {
+    let robot = Robot::open(path).expect("a URDD");
+    let space = robot.configurations().expect("configurations");
+    let links = robot.links().expect("links");
+    for k in 0..20 {
+        let q = space.random(k);
+        let poses = robot.link_poses(&q).expect("poses");
+        let of_link = |(link, name): (usize, &String)| {
+            let pose = &poses[link];
+            let jacobian = robot.jacobian_batch(&q, link).expect("a Jacobian");
+            let place = pose.translation.vector.iter();
+            let pose: Vec<f64> = place.chain(pose.rotation.coords.iter()).copied().collect();
+            serde_json::json!({"link": name, "pose": pose, "jacobian": jacobian})
+        };
+        let links: Vec<_> = links.iter().enumerate().map(of_link).collect();
+        println!("{}", serde_json::json!({"values": q, "links": links}));
+    }
+}
+
+fn measure(path: &std::path::Path) {
+    let robot = Robot::open(path).expect("a URDD");
+    let space = robot.configurations().expect("configurations");
+    let all: Vec<Vec<f64>> = (0..CONFIGURATIONS).map(|k| space.random(k)).collect();
+    let batch = all.concat();
+    let links = robot.links().expect("links");
+    println!("{}: {} links", path.display(), links.len());
+    let mut poses = Vec::new();
+    row("poses of links", || {
+        for q in &all {
+            robot.link_poses_into(q, &mut poses).expect("poses");
+        }
+    });
+    let last = links.len() - 1;
+    row(&format!("Jacobian of {}", links[last]), || {
+        std::hint::black_box(robot.jacobian_batch(&batch, last).expect("Jacobians"));
+    });
+    for with_rotation in [true, false] {
+        inverse(&robot, with_rotation);
+    }
+}
+
+fn inverse(robot: &Robot, with_rotation: bool) {
+    let space = robot.configurations().expect("configurations");
+    let links = robot.links().expect("links").len() as u64;
+    let questions: Vec<(Target, Vec<f64>)> = (0..TARGETS)
+        .map(|k| {
+            // Numbers that no restart begins with.
+            let poses = robot.link_poses(&space.random((1 << 20) + k));
+            let link = (k % links) as usize;
+            let pose = poses.expect("poses")[link];
+            let target = match with_rotation {
+                true => Target::pose(link, pose),
+                false => Target::position(link, pose.translation.vector.into()),
+            };
+            (target, space.random((1 << 21) + k))
+        })
+        .collect();
+    let settings = InverseSettings::default();
+    let (mut reached, mut at_once) = (0, 0);
+    let start = Instant::now();
+    for (target, from) in &questions {
+        let found = robot.inverse_kinematics(target, from, &settings);
+        let found = found.expect("an answer");
+        reached += usize::from(found.is_reached());
+        at_once += usize::from(found.is_reached() && found.nearest().restarts == 0);
+    }
+    let each = 1e6 * start.elapsed().as_secs_f64() / TARGETS as f64;
+    let what = if with_rotation { "poses" } else { "places" };
+    println!(
+        "    {reached} of {TARGETS} {what} reached, {at_once} without a restart, {each:.1} us each"
+    );
+}
+
+fn row(what: &str, mut run: impl FnMut()) {
+    let mut times: Vec<f64> = (0..ROUNDS)
+        .map(|_| {
+            let start = Instant::now();
+            run();
+            1e6 * start.elapsed().as_secs_f64() / CONFIGURATIONS as f64
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    println!("    {what:<42} {:>9.3} us", times[ROUNDS / 2]);
+}
