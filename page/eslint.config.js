@@ -32,6 +32,7 @@ export default tseslint.config(
         setTimeout: "readonly",
         performance: "readonly",
         document: "readonly",
+        fetch: "readonly",
         window: "readonly",
         location: "readonly",
       },

@@ -158,7 +158,10 @@ export class App {
       if (this.store.now.robot === robot) this.store.set({ report: { report, error, busy: null } });
     };
     try {
-      const known = robot.source.kind === "url" ? await this.site.report(robot.entry) : null;
+      const known =
+        robot.source.kind === "url" || this.store.now.entries.includes(robot.entry)
+          ? await this.site.report(robot.entry)
+          : null;
       const made =
         known ??
         (await this.engine.aside("validate", { name: robot.entry.name }, ({ done, of }) => {

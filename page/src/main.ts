@@ -5,6 +5,7 @@ import { dropped, chosen } from "./drop";
 import { Engine } from "./engine/client";
 import type { RobotSource } from "./engine/protocol";
 import * as fragment from "./fragment";
+import * as inline from "./inline";
 import { keys } from "./keys";
 import { follow } from "./live";
 import type { Entry } from "./model";
@@ -23,6 +24,7 @@ import type { Mode } from "./site";
 import { Stage } from "./stage";
 import { LAYERS, OVERLAYS } from "./state";
 import { byId, fill, h } from "./ui/dom";
+import { offer } from "./ui/offer";
 import { startTheme } from "./ui/theme";
 import { tabs } from "./ui/tabs";
 
@@ -43,7 +45,10 @@ function start(): void {
   const mode = (document.querySelector<HTMLMetaElement>('meta[name="urdd-mode"]')?.content ?? "static") as Mode;
   const site = new Site(mode, token(shared));
   const base = document.baseURI;
-  const engine = new Engine(new URL("worker.js", base).href, new URL("urdd.wasm", base).href);
+  const engine =
+    mode === "inline"
+      ? new Engine(inline.worker(), inline.bytes("urdd.wasm"))
+      : new Engine(new URL("worker.js", base).href, new URL("urdd.wasm", base).href);
   const app = new App(engine, site);
 
   let stage: Stage | null = null;
@@ -278,11 +283,7 @@ async function save(app: App, stage: Stage | null): Promise<void> {
     app.note("There is no picture to save.");
     return;
   }
-  const url = URL.createObjectURL(picture);
-  h("a", { href: url, download: `${app.store.now.robot?.entry.name ?? "urdd"}.png` }).click();
-  setTimeout(() => {
-    URL.revokeObjectURL(url);
-  }, 1000);
+  offer(picture, `${app.store.now.robot?.entry.name ?? "urdd"}.png`);
 }
 
 start();

@@ -1,6 +1,7 @@
 /** Where the page's robots come from: `urdd view`, a static site, or a file with a robot inside. */
 
 import type { FileEntry, Report, RobotSource } from "./engine/protocol";
+import * as inline from "./inline";
 import type { Entry } from "./model";
 
 export type Mode = "live" | "static" | "inline";
@@ -12,10 +13,11 @@ export class Site {
   ) {}
 
   async robots(): Promise<Entry[]> {
-    return (await this.json("robots.json")) as Entry[];
+    return this.mode === "inline" ? inline.robots() : ((await this.json("robots.json")) as Entry[]);
   }
 
   async source(entry: Entry): Promise<RobotSource> {
+    if (this.mode === "inline") return inline.source(entry);
     const base = `robots/${encodeURIComponent(entry.id)}/`;
     const listed = (await this.json(`${base}files.json`)) as { name: string; files: FileEntry[]; revision?: string };
     const here = new URL(`${base}files/`, document.baseURI).href;
@@ -30,6 +32,7 @@ export class Site {
   }
 
   async report(entry: Entry): Promise<Report> {
+    if (this.mode === "inline") return inline.report();
     return (await this.json(`robots/${encodeURIComponent(entry.id)}/report.json`)) as Report;
   }
 

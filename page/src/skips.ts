@@ -1,7 +1,9 @@
 /** A person's decisions on skips: made, taken back, saved. */
 
+import { strToU8, zipSync } from "fflate";
 import type { App } from "./app";
 import { message } from "./app";
+import { offer } from "./ui/offer";
 import type { PairDistance, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
 
 /** More pairs than any robot has. */
@@ -73,22 +75,14 @@ async function post(app: App, wish: Record<string, unknown>, done: string): Prom
   }
 }
 
-/** The files that change, for a page that cannot write them. */
+/** The files that change, in an archive, for a page that cannot write them. */
 export function download(app: App): void {
-  const { answer } = app.store.now.skips;
-  for (const { path, text } of answer?.files ?? []) {
-    const url = URL.createObjectURL(new Blob([text], { type: "application/octet-stream" }));
-    const link = document.createElement("a");
-    link.href = url;
-    link.download = path.split("/").pop() ?? path;
-    link.click();
-    setTimeout(() => {
-      URL.revokeObjectURL(url);
-    }, 1000);
-  }
-  app.note(
-    "Put module.json and module.yaml into link_shapes_modules/link_shapes_skips_module, and urdd.json into the root.",
-  );
+  const { skips, robot } = app.store.now;
+  const files = skips.answer?.files;
+  if (!files || !robot) return;
+  const zip = zipSync(Object.fromEntries(files.map(({ path, text }) => [path, strToU8(text)])));
+  offer(new Blob([zip], { type: "application/zip" }), `${robot.entry.name}-skips.zip`);
+  app.note("Unpack the archive into the folder of the URDD: it holds the three files that change.");
 }
 
 /** Skips of all pairs of links that are nearer than this pair now, by distance or by their share of the mean. */

@@ -46,11 +46,11 @@ for (const colorScheme of ["dark", "light"]) {
     for (const name of ["Joints", "Shapes", "Proximity", "Skips", "Findings", "Info"]) {
       await page.click(`#tab-${name}`);
       if (name === "Proximity") {
-        await state(page, "proximity", "value.answer !== null");
+        await state(page, "proximity", (value) => value.answer !== null);
         await page.locator(".pair").first().click();
       }
-      if (name === "Skips") await state(page, "skips", "value.answer !== null");
-      if (name === "Findings") await state(page, "report", "value.report !== null");
+      if (name === "Skips") await state(page, "skips", (value) => value.answer !== null);
+      if (name === "Findings") await state(page, "report", (value) => value.report !== null);
       await look(name);
     }
     await close();

@@ -98,7 +98,7 @@ describe("the page", { concurrency: false }, () => {
     await page.getByRole("button", { name: "Zero", exact: true }).click();
     assert.deepEqual(await state(page, "q"), zero);
     await page.getByRole("button", { name: "Paste", exact: true }).click();
-    assert.equal((await state(page, "q", "value[0] > 0.6"))[0], bounds[0][1]);
+    assert.equal((await state(page, "q", (value) => value[0] > 0.6))[0], bounds[0][1]);
     await page.getByRole("button", { name: "Random", exact: true }).click();
     const random = await state(page, "q");
     random.forEach((value, dof) => assert.ok(value >= bounds[dof][0] && value <= bounds[dof][1]));
@@ -146,7 +146,7 @@ describe("the page", { concurrency: false }, () => {
   inPage("distances are those of the library, and a pair shows its points", async (page) => {
     await open(page, "welding_arm");
     await page.click("#tab-Proximity");
-    const { answer } = await state(page, "proximity", "value.answer !== null");
+    const { answer } = await state(page, "proximity", (value) => value.answer !== null);
     const text = run(
       "check-collisions",
       join(made.robots, "welding_arm"),
@@ -167,7 +167,7 @@ describe("the page", { concurrency: false }, () => {
     assert.notEqual(await state(page, "pair"), null);
     await page.waitForSelector(".witness:not([hidden])");
     await page.getByLabel("Shapes that distances are between").selectOption("boxes");
-    await state(page, "proximity", "value.answer !== null");
+    await state(page, "proximity", (value) => value.answer !== null);
     assert.equal(await state(page, "shapes"), "boxes");
   });
 
@@ -195,7 +195,7 @@ describe("the page", { concurrency: false }, () => {
     const file = join(target, "link_shapes_modules/link_shapes_skips_module/module.json");
     const before = readFileSync(file, "utf8");
     await page.click("#tab-Skips");
-    await state(page, "skips", "value.answer !== null");
+    await state(page, "skips", (value) => value.answer !== null);
     await page.evaluate(() => {
       const { app } = globalThis.urdd;
       const { robot } = app.store.now;
@@ -208,7 +208,7 @@ describe("the page", { concurrency: false }, () => {
     });
     await page.getByLabel("Reason").fill("a fence <b>");
     await page.getByRole("button", { name: "Skip", exact: true }).click();
-    await state(page, "skips", "value.dirty");
+    await state(page, "skips", (value) => value.dirty);
     await page.getByRole("button", { name: "Save", exact: true }).click();
     await page.waitForFunction(
       () => !globalThis.urdd.app.store.now.skips.dirty && globalThis.urdd.app.store.now.skips.saved === 1,
@@ -229,17 +229,21 @@ describe("the page", { concurrency: false }, () => {
     cpSync(target, copy, { recursive: true });
     await open(page, "gripper");
     await page.click("#tab-Findings");
-    const first = (await state(page, "report", "value.report !== null")).report;
+    const first = (await state(page, "report", (value) => value.report !== null)).report;
     assert.equal(first.urdds[0].verdict, "pass");
     const module = join(target, "dof_module/module.json");
     writeFileSync(module, readFileSync(module, "utf8").replace('"Angle"', '"Length"'));
-    const { report } = await state(page, "report", "value.report !== null && value.report.urdds[0].verdict === 'fail'");
+    const { report } = await state(
+      page,
+      "report",
+      (value) => value.report !== null && value.report.urdds[0].verdict === "fail",
+    );
     assert.deepEqual(report, JSON.parse(run("validate", target, "--format", "json").stdout));
     await page.getByRole("button", { name: "Explain" }).first().click();
     await page.waitForSelector(".explanation p");
     await page.check("#painted");
     cpSync(copy, target, { recursive: true });
-    await state(page, "report", "value.report !== null && value.report.urdds[0].verdict === 'pass'");
+    await state(page, "report", (value) => value.report !== null && value.report.urdds[0].verdict === "pass");
   });
 
   inPage("a folder that is chosen is validated in the browser, with the program's findings", async (page) => {
@@ -248,7 +252,7 @@ describe("the page", { concurrency: false }, () => {
     await page.locator('input[type="file"]').first().setInputFiles(target);
     await drawn(page, "planar_base_arm");
     await page.click("#tab-Findings");
-    const { report } = await state(page, "report", "value.report !== null || value.error !== null");
+    const { report } = await state(page, "report", (value) => value.report !== null || value.error !== null);
     const native = JSON.parse(run("validate", target, "--format", "json").stdout);
     assert.deepEqual(report, native);
   });

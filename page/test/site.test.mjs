@@ -54,10 +54,10 @@ test("the site shows its robots, with their reports, and writes nothing", { time
   assert.match(await page.locator(".drop").textContent(), /Nothing is uploaded/);
   await open(page, "welding_arm");
   await page.click("#tab-Findings");
-  const { report } = await state(page, "report", "value.report !== null");
+  const { report } = await state(page, "report", (value) => value.report !== null);
   assert.deepEqual(report, JSON.parse(run("validate", join(made.robots, "welding_arm"), "--format", "json").stdout));
   await page.click("#tab-Skips");
-  await state(page, "skips", "value.answer !== null");
+  await state(page, "skips", (value) => value.answer !== null);
   assert.equal(await page.getByRole("button", { name: "Save", exact: true }).count(), 0);
   assert.equal(await page.getByRole("button", { name: "Download the files" }).count(), 1);
   assert.deepEqual(faults, []);

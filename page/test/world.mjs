@@ -110,9 +110,12 @@ export async function drawn(page, name) {
   );
 }
 
-/** A value of the page's state, once it is there. */
-export async function state(page, key, wanted = "value !== null") {
-  const test = `(() => { const value = globalThis.urdd.app.store.now.${key}; return ${wanted}; })()`;
-  await page.waitForFunction(test, null, { timeout: 120_000 });
-  return page.evaluate(`globalThis.urdd.app.store.now.${key}`);
+/** A value of the page's state, once it is as wanted. */
+export async function state(page, key, wanted = (value) => value !== null) {
+  for (const end = Date.now() + 120_000; ;) {
+    const value = await page.evaluate((key) => globalThis.urdd.app.store.now[key], key);
+    if (wanted(value)) return value;
+    if (Date.now() > end) throw new Error(`${key} stays ${JSON.stringify(value).slice(0, 300)}`);
+    await page.waitForTimeout(50);
+  }
 }

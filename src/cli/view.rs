@@ -13,7 +13,7 @@ use crate::directory::discover::DiscoverError;
 use crate::format::escape;
 use crate::generate::batch::{Job, Observer, caught};
 use crate::generate::{self, Packages, Settings};
-use crate::view::{Collection, Server, export};
+use crate::view::{Collection, Server, export, export_file};
 
 /// Arguments of `urdd view`.
 #[derive(Args)]
@@ -36,8 +36,9 @@ pub struct ViewArguments {
     #[arg(long)]
     no_open: bool,
 
-    /// Writes the page and the robots into a folder instead, as a site for any web server.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["port", "no_open"])]
+    /// Writes the page and the robots into a folder instead, as a site for any web server; or, with a name that ends in
+    /// `.html`, the page with one robot into a file that opens from the disk.
+    #[arg(long, value_name = "DIR|FILE.html", conflicts_with_all = ["port", "no_open"])]
     export: Option<PathBuf>,
 
     /// Where a ROS package is, for a URDF; may be given again.
@@ -229,6 +230,19 @@ fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<
         let name = escape::line(&robot.name).into_owned();
         let _ = writeln!(std::io::stderr().lock(), "{name}");
     };
+    if folder
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("html"))
+    {
+        let [robot] = collection.robots() else {
+            let count = collection.robots().len();
+            return Err(usage(format!(
+                "a page in one file holds one robot, and here are {count}; give one of them, or a folder to --export"
+            )));
+        };
+        export_file(robot, folder).map_err(usage)?;
+        return Ok(0);
+    }
     export(collection, folder, &signals.cancellation(), &mut tell).map_err(usage)?;
     let shown = folder.display();
     let told = format!(

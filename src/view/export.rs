@@ -33,6 +33,22 @@ pub enum ExportError {
     /// The page was not built as it should be.
     #[error("the page cannot be unpacked: {0}")]
     Page(io::Error),
+    /// A file cannot be written.
+    #[error("{}: cannot be written: {error}", file.display())]
+    File {
+        /// The file.
+        file: PathBuf,
+        /// What the operating system said.
+        error: io::Error,
+    },
+    /// A robot is too large for one file.
+    #[error("{robot}: {size} bytes are too much for a page in one file; give a folder")]
+    TooLarge {
+        /// Its name.
+        robot: String,
+        /// How large it is.
+        size: u64,
+    },
     /// A robot cannot be read.
     #[error("{robot}: {error}")]
     Robot {
@@ -100,8 +116,13 @@ fn one(robot: &Shown, writer: &Writer) -> Result<Value, ExportError> {
     writer.file(&format!("{base}/files.json"), files.to_string().as_bytes())?;
     let report = route::report_of(robot);
     writer.file(&format!("{base}/report.json"), report.as_bytes())?;
+    Ok(entry_with(robot, &report))
+}
+
+/// A line of `robots.json` with what the report says.
+pub(super) fn entry_with(robot: &Shown, report: &str) -> Value {
     let mut entry = route::entry(robot);
-    let report: Value = serde_json::from_str(&report).unwrap_or_default();
+    let report: Value = serde_json::from_str(report).unwrap_or_default();
     let found = &report["urdds"][0];
     entry["writable"] = json!(false);
     entry["links"] = found["size"]["links"].clone();
@@ -110,5 +131,5 @@ fn one(robot: &Shown, writer: &Writer) -> Result<Value, ExportError> {
     let total = |key: &str| report["totals"][key].clone();
     entry["findings"] =
         json!({ "error": total("error"), "warning": total("warning"), "info": total("info") });
-    Ok(entry)
+    entry
 }

@@ -5,6 +5,7 @@ pub mod assets;
 pub mod collection;
 pub mod export;
 mod guard;
+mod one_file;
 mod reply;
 mod revision;
 mod route;
@@ -13,4 +14,5 @@ pub mod server;
 
 pub use collection::{Collection, Shown};
 pub use export::{ExportError, export};
+pub use one_file::export_file;
 pub use server::{Server, ServerError};

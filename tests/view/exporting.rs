@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 use urdd::directory::cancellation::Cancellation;
-use urdd::view::{Collection, ExportError, export};
+use urdd::view::{Collection, ExportError, export, export_file};
 
 use super::asking::made;
 
@@ -38,6 +38,32 @@ fn a_site_holds_the_page_and_the_robots() {
         let copy = fs::read(site.join("robots/welding_arm/files").join(name)).expect(name);
         assert_eq!(copy, fs::read(path.join(name)).expect(name), "{name}");
     }
+}
+
+#[test]
+fn one_file_holds_all_and_its_policy_knows_it() {
+    let (folder, path) = made("gripper");
+    let mut collection = Collection::default();
+    collection.add(&path).expect("a URDD");
+    let file = folder.path().join("gripper.html");
+    export_file(&collection.robots()[0], &file).expect("written");
+    let page = fs::read_to_string(&file).expect("a page");
+    assert!(page.contains(r#"content="inline""#));
+    for carried in [
+        "robots.json",
+        "report.json",
+        "robot.zip",
+        "worker.js",
+        "urdd.wasm",
+    ] {
+        assert!(
+            page.contains(&format!(r#"<script type="text/plain" id="{carried}">"#)),
+            "{carried}"
+        );
+    }
+    assert!(!page.contains("src=\"app.js\"") && !page.contains("href=\"style.css\""));
+    assert_eq!(page.matches("'unsafe-inline'").count(), 0);
+    assert_eq!(page.matches("'sha256-").count(), 2);
 }
 
 #[test]

@@ -1,0 +1,142 @@
+//! The page and one robot in a single HTML file, which opens from the disk.
+
+use std::io::{self, Cursor, Write};
+use std::path::Path;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+use zip::write::{SimpleFileOptions, ZipWriter};
+
+use super::assets;
+use super::collection::Shown;
+use super::export::ExportError;
+use super::route;
+use crate::directory::root::{EntryKind, ReadError};
+
+/// Most bytes of a robot that is put into a page.
+const MAX_ROBOT_BYTES: u64 = 100_000_000;
+
+/// Writes the page with a robot in it into a file.
+///
+/// # Errors
+/// [`ExportError`]; [`ExportError::TooLarge`] for a robot that a page cannot hold.
+pub fn export_file(robot: &Shown, file: &Path) -> Result<(), ExportError> {
+    let page = page(robot)?;
+    let write = |error| ExportError::File {
+        file: file.to_owned(),
+        error,
+    };
+    let parent = match file.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    // Beside its place, then put there: whoever looks sees the old one or the new one.
+    let mut temporary = tempfile::NamedTempFile::new_in(parent).map_err(write)?;
+    temporary.write_all(page.as_bytes()).map_err(write)?;
+    temporary
+        .persist(file)
+        .map_err(|error| write(error.error))?;
+    Ok(())
+}
+
+fn page(robot: &Shown) -> Result<String, ExportError> {
+    let asset = |name: &str| {
+        let found = assets::find(name).map_or_else(|| Ok(Vec::new()), assets::Asset::bytes);
+        found.map_err(ExportError::Page)
+    };
+    let text = |name: &str| {
+        let text = String::from_utf8(asset(name)?).map_err(io::Error::other);
+        text.map_err(ExportError::Page)
+    };
+    let (index, script, style) = (text("index.html")?, text("app.js")?, text("style.css")?);
+    let hash = |text: &str| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text)));
+    let policy = format!(
+        "default-src 'none'; script-src {} 'wasm-unsafe-eval'; style-src {}; connect-src blob: data:; \
+         img-src blob: data:; worker-src blob:; base-uri 'none'; form-action 'none'",
+        hash(&script),
+        hash(&style),
+    );
+    let report = route::report_of(robot);
+    let entry = super::export::entry_with(robot, &report);
+    let mut carried = String::new();
+    for (id, bytes) in [
+        (
+            "robots.json",
+            Value::from(vec![entry]).to_string().into_bytes(),
+        ),
+        ("report.json", report.into_bytes()),
+        ("robot.zip", archive(robot)?),
+        ("worker.js", asset("worker.js")?),
+        ("urdd.wasm", asset("urdd.wasm")?),
+    ] {
+        let text = STANDARD.encode(bytes);
+        carried.push_str(&format!(
+            "<script type=\"text/plain\" id=\"{id}\">{text}</script>\n"
+        ));
+    }
+    let mut page = String::new();
+    for line in index.lines() {
+        let of_page = line.trim_start();
+        if of_page.starts_with("<meta name=\"urdd-mode\"") {
+            page.push_str("<meta name=\"urdd-mode\" content=\"inline\" />");
+        } else if of_page.starts_with("<meta http-equiv=\"Content-Security-Policy\"") {
+            page.push_str("<meta http-equiv=\"Content-Security-Policy\" content=\"");
+            page.push_str(&policy);
+            page.push_str("\" />");
+        } else if of_page.starts_with("<link rel=\"stylesheet\"") {
+            page.push_str("<style>");
+            page.push_str(&style);
+            page.push_str("</style>");
+        } else if of_page.starts_with("<script src=") {
+            continue;
+        } else if of_page.starts_with("</body>") {
+            page.push_str(&carried);
+            page.push_str("<script>");
+            page.push_str(&script);
+            page.push_str("</script>\n</body>");
+        } else {
+            page.push_str(line);
+        }
+        page.push('\n');
+    }
+    Ok(page)
+}
+
+/// The robot's files, compressed.
+fn archive(robot: &Shown) -> Result<Vec<u8>, ExportError> {
+    let unread = |error: ReadError| ExportError::Robot {
+        robot: robot.name.clone(),
+        error,
+    };
+    let root = robot.open().map_err(unread)?;
+    let listing = root.list().map_err(unread)?;
+    let files: Vec<_> = listing
+        .entries
+        .iter()
+        .filter(|entry| entry.kind == EntryKind::File && entry.utf8)
+        .collect();
+    let size: u64 = files.iter().map(|entry| entry.size).sum();
+    if size > MAX_ROBOT_BYTES {
+        return Err(ExportError::TooLarge {
+            robot: robot.name.clone(),
+            size,
+        });
+    }
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default();
+    let failed = |error: zip::result::ZipError| ExportError::Page(io::Error::other(error));
+    for entry in files {
+        match root.read(&entry.path, MAX_ROBOT_BYTES) {
+            Ok(bytes) => {
+                zip.start_file(entry.path.as_str(), options)
+                    .map_err(failed)?;
+                zip.write_all(&bytes).map_err(ExportError::Page)?;
+            }
+            Err(ReadError::Path(_)) => {}
+            Err(error) => return Err(unread(error)),
+        }
+    }
+    Ok(zip.finish().map_err(failed)?.into_inner())
+}
