@@ -56,22 +56,32 @@ fn spheres(subject: &Subject) -> Result<Vec<Vec<BoundingSphere>>, ExportError> {
                 .par_iter_mut()
                 .for_each(|cells| grow(cells, count, CUTS * count));
         }
-        SphereBudget::Total(count) => {
-            for _ in 0..CUTS * count {
-                if cells.iter().map(|cells| held(cells).len()).sum::<usize>() >= count {
-                    break;
-                }
-                // The link whose worst cell wastes most; the first of equal ones.
-                let waste = |cells: &[Cell]| cells.iter().map(Cell::waste).fold(0.0, f64::max);
-                let mut order: Vec<usize> = (0..cells.len()).collect();
-                order.sort_by(|a, b| waste(&cells[*b]).total_cmp(&waste(&cells[*a])));
-                if !order.into_iter().any(|link| cut(&mut cells[link])) {
-                    break;
-                }
-            }
-        }
+        SphereBudget::Total(count) => share(&mut cells, count),
     }
     Ok(cells.iter().map(|cells| held(cells)).collect())
+}
+
+/// Cuts cells of all links until their spheres are so many: each time the link whose worst cell wastes most.
+fn share(cells: &mut [Vec<Cell>], count: usize) {
+    let worst = |cells: &[Cell]| cells.iter().map(Cell::waste).fold(0.0, f64::max);
+    let mut wastes: Vec<f64> = cells.iter().map(|cells| worst(cells)).collect();
+    let mut counts: Vec<usize> = cells.iter().map(|cells| held(cells).len()).collect();
+    for _ in 0..CUTS * count {
+        let first =
+            (0..cells.len()).max_by(|a, b| wastes[*a].total_cmp(&wastes[*b]).then(b.cmp(a)));
+        let Some(link) = first else {
+            break;
+        };
+        if counts.iter().sum::<usize>() >= count || wastes[link] <= 0.0 {
+            break;
+        }
+        wastes[link] = match cut(&mut cells[link]) {
+            true => worst(&cells[link]),
+            // Nothing of it can be cut.
+            false => 0.0,
+        };
+        counts[link] = held(&cells[link]).len();
+    }
 }
 
 /// Cuts cells until their spheres are so many.
