@@ -75,7 +75,14 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     (
         "view",
-        &["format", "directory", "robot", "validate", "report"],
+        &[
+            "cancellation",
+            "format",
+            "directory",
+            "robot",
+            "validate",
+            "report",
+        ],
     ),
     (
         "cli",

@@ -10,7 +10,7 @@ use thiserror::Error;
 use super::assets::ASSETS;
 use super::collection::{Collection, Shown};
 use super::route;
-use crate::directory::cancellation::Cancellation;
+use crate::cancellation::Cancellation;
 use crate::directory::root::{EntryKind, ReadError};
 use crate::directory::staging::{Staging, StagingError};
 use crate::directory::writer::Writer;

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::collection::Shown;
 use super::reply::Reply;
 use super::revision;
-use crate::directory::cancellation::Cancellation;
+use crate::cancellation::Cancellation;
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
 use crate::directory::root::Root;
 use crate::directory::staging::Staging;

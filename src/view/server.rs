@@ -13,7 +13,7 @@ use super::guard::{Caller, Guard};
 use super::reply::{HEADERS, Reply};
 use super::route::{Route, answer};
 use super::save;
-use crate::directory::cancellation::Cancellation;
+use crate::cancellation::Cancellation;
 use crate::format::hexadecimal::hexadecimal;
 
 /// The port that is asked for first.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
 
 use serde_json::Value;
-use urdd::directory::cancellation::Cancellation;
+use urdd::cancellation::Cancellation;
 use urdd::view::{Collection, Server};
 
 /// A URDD of one of our robots, in a folder of its own.

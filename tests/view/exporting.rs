@@ -3,7 +3,7 @@
 use std::fs;
 
 use serde_json::Value;
-use urdd::directory::cancellation::Cancellation;
+use urdd::cancellation::Cancellation;
 use urdd::view::{Collection, ExportError, export, export_file};
 
 use super::asking::made;

@@ -175,7 +175,8 @@ impl Cell {
     }
 }
 
-fn volume(sphere: &BoundingSphere) -> f64 {
+/// The volume of a sphere, m³.
+pub(super) fn volume(sphere: &BoundingSphere) -> f64 {
     4.0 / 3.0 * std::f64::consts::PI * sphere.radius.powi(3)
 }
 

@@ -1,8 +1,9 @@
 //! Spheres about links: each link's pieces cut into cells, and the smallest sphere about each cell.
 //!
 //! A link begins as one cell. The cell that wastes most, by the volume of its sphere beyond its own, is cut in two by a
-//! plane, as long as spheres are left. Every convex part lies whole in the cells that it was cut into, so the spheres of
-//! a link together hold all of its pieces, and with them the link.
+//! plane, as long as spheres are left; of all steps on the way, the one whose spheres have the least volume counts. Every
+//! convex part lies whole in the cells that it was cut into, so the spheres of a link together hold all of its pieces, and
+//! with them the link.
 
 mod cell;
 pub(super) mod curobo;
@@ -49,47 +50,78 @@ fn spheres(subject: &Subject) -> Result<Vec<Vec<BoundingSphere>>, ExportError> {
         true => Vec::new(),
         false => vec![Cell::new(&pieces)],
     });
-    let mut cells: Vec<Vec<Cell>> = cells.collect();
+    let mut links: Vec<Cover> = cells.map(Cover::new).collect();
     match subject.options.spheres {
-        SphereBudget::PerLink(count) => {
-            cells
-                .par_iter_mut()
-                .for_each(|cells| grow(cells, count, CUTS * count));
-        }
-        SphereBudget::Total(count) => share(&mut cells, count),
+        SphereBudget::PerLink(count) => links.par_iter_mut().for_each(|link| {
+            for _ in 0..CUTS * count {
+                if !link.cut(count) {
+                    break;
+                }
+            }
+        }),
+        SphereBudget::Total(count) => share(&mut links, count),
     }
-    Ok(cells.iter().map(|cells| held(cells)).collect())
+    Ok(links.into_iter().map(|link| link.best).collect())
 }
 
 /// Cuts cells of all links until their spheres are so many: each time the link whose worst cell wastes most.
-fn share(cells: &mut [Vec<Cell>], count: usize) {
-    let worst = |cells: &[Cell]| cells.iter().map(Cell::waste).fold(0.0, f64::max);
-    let mut wastes: Vec<f64> = cells.iter().map(|cells| worst(cells)).collect();
-    let mut counts: Vec<usize> = cells.iter().map(|cells| held(cells).len()).collect();
+fn share(links: &mut [Cover], count: usize) {
+    let mut wastes: Vec<f64> = links.iter().map(Cover::waste).collect();
     for _ in 0..CUTS * count {
-        let first =
-            (0..cells.len()).max_by(|a, b| wastes[*a].total_cmp(&wastes[*b]).then(b.cmp(a)));
-        let Some(link) = first else {
+        let left = count.saturating_sub(links.iter().map(|link| link.best.len()).sum());
+        let order = |a: &usize, b: &usize| wastes[*a].total_cmp(&wastes[*b]).then(b.cmp(a));
+        let Some(link) = (0..links.len()).max_by(order) else {
             break;
         };
-        if counts.iter().sum::<usize>() >= count || wastes[link] <= 0.0 {
+        if left == 0 || wastes[link] <= 0.0 {
             break;
         }
-        wastes[link] = match cut(&mut cells[link]) {
-            true => worst(&cells[link]),
-            // Nothing of it can be cut.
+        let most = links[link].best.len() + left;
+        wastes[link] = match links[link].cut(most) {
+            true => links[link].waste(),
             false => 0.0,
         };
-        counts[link] = held(&cells[link]).len();
     }
 }
 
-/// Cuts cells until their spheres are so many.
-fn grow(cells: &mut Vec<Cell>, count: usize, cuts: usize) {
-    for _ in 0..cuts {
-        if held(cells).len() >= count || !cut(cells) {
-            break;
+/// The cells of a link, and the best spheres so far.
+struct Cover {
+    cells: Vec<Cell>,
+    /// Those with the least volume, summed.
+    best: Vec<BoundingSphere>,
+    volume: f64,
+}
+
+impl Cover {
+    fn new(cells: Vec<Cell>) -> Self {
+        let best = held(&cells);
+        Cover {
+            volume: best.iter().map(cell::volume).sum(),
+            best,
+            cells,
         }
+    }
+
+    /// The volume that the worst sphere has beyond its cell, m³.
+    fn waste(&self) -> f64 {
+        self.cells.iter().map(Cell::waste).fold(0.0, f64::max)
+    }
+
+    /// Cuts the worst cell. Whether there is more to try with at most so many spheres.
+    fn cut(&mut self, most: usize) -> bool {
+        if !cut(&mut self.cells) {
+            return false;
+        }
+        let spheres = held(&self.cells);
+        let volume: f64 = spheres.iter().map(cell::volume).sum();
+        if spheres.len() > most {
+            return false;
+        }
+        // Some cuts make things worse before the next makes them better.
+        if volume < self.volume {
+            (self.best, self.volume) = (spheres, volume);
+        }
+        true
     }
 }
 
