@@ -28,7 +28,7 @@ mod tests {
         let mut x = 1.000_000_4e-6;
         while x < 1e6 {
             let text = format!("{x:.6e}");
-            assert_eq!(seven_digits(x), text.parse().unwrap(), "{x}");
+            assert_eq!(seven_digits(x), text.parse::<f64>().unwrap(), "{x}");
             x *= 1.000_37;
         }
         assert_eq!(seven_digits(0.0), 0.0);
