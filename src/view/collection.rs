@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use super::save::Files;
-use crate::directory::discover::{DiscoverError, discover};
+use crate::directory::discover::{DiscoverError, ROOT_METADATA, discover};
 use crate::directory::root::{ReadError, Root};
-use crate::directory::source::is_archive;
 
 /// A robot that is shown.
 #[derive(Debug)]
@@ -52,7 +51,9 @@ impl Collection {
     /// Where there is none, or the path cannot be searched.
     pub fn add(&mut self, path: &Path) -> Result<(), DiscoverError> {
         for found in discover(path)? {
-            let writable = found.closed.is_none() && !is_archive(&found.path);
+            // Not archives; and URDDs of before version 1 have no edits.
+            let has_metadata = found.path.join(ROOT_METADATA).is_file();
+            let writable = found.closed.is_none() && has_metadata;
             self.put(found.name, found.path, writable, Vec::new());
         }
         Ok(())

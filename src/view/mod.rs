@@ -5,6 +5,7 @@ pub mod assets;
 pub mod collection;
 pub mod export;
 mod guard;
+mod http;
 mod one_file;
 mod reply;
 mod revision;

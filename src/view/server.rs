@@ -1,16 +1,17 @@
 //! The server: on 127.0.0.1, for the browser of this machine.
 
-use std::io::Read;
+use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
 use thiserror::Error;
-use tiny_http::{Header, Method, Request, Response};
 
 use super::collection::Collection;
 use super::guard::{Caller, Guard};
-use super::reply::{HEADERS, Reply};
+use super::http::{Asked, converse};
+use super::reply::Reply;
 use super::route::{Route, answer};
 use super::save;
 use crate::cancellation::Cancellation;
@@ -18,12 +19,10 @@ use crate::format::hexadecimal::hexadecimal;
 
 /// The port that is asked for first.
 const USUAL_PORT: u16 = 8642;
-/// Requests that are answered at once.
-const THREADS: usize = 4;
-/// Most bytes of what is sent to be saved.
-const MAX_BODY_BYTES: u64 = 64 << 20;
-/// How often it is looked whether to stop.
-const PAUSE: Duration = Duration::from_millis(100);
+/// Most connections at once; who comes after them waits.
+const MAX_CONNECTIONS: usize = 32;
+/// How often it is looked for connections, and whether to stop.
+const PAUSE: Duration = Duration::from_millis(2);
 
 /// Why there is no server.
 #[derive(Debug, Error)]
@@ -44,7 +43,7 @@ pub enum ServerError {
 
 /// A server.
 pub struct Server {
-    http: tiny_http::Server,
+    listener: TcpListener,
     guard: Guard,
     collection: Collection,
 }
@@ -56,24 +55,26 @@ impl Server {
     /// Where the port cannot be had.
     pub fn bind(collection: Collection, port: Option<u16>) -> Result<Self, ServerError> {
         let at = |port: u16| {
-            tiny_http::Server::http(("127.0.0.1", port)).map_err(|error| ServerError::Port {
+            let bound = TcpListener::bind((Ipv4Addr::LOCALHOST, port));
+            let ready = bound.and_then(|listener| {
+                listener.set_nonblocking(true)?;
+                let port = listener.local_addr()?.port();
+                Ok((listener, port))
+            });
+            ready.map_err(|error| ServerError::Port {
                 port,
                 reason: error.to_string(),
             })
         };
-        let http = match port {
+        let (listener, port) = match port {
             Some(port) => at(port)?,
             None => at(USUAL_PORT).or_else(|_| at(0))?,
         };
-        let port = http
-            .server_addr()
-            .to_ip()
-            .map_or(0, |address| address.port());
         let mut random = [0; 24];
         getrandom::fill(&mut random).map_err(|error| ServerError::Random(error.to_string()))?;
         let token = hexadecimal(&random);
         Ok(Self {
-            http,
+            listener,
             guard: Guard { port, token },
             collection,
         })
@@ -85,64 +86,38 @@ impl Server {
         format!("http://127.0.0.1:{port}/#token={token}")
     }
 
-    /// Answers until it is told to stop.
+    /// Answers until it is told to stop. What is being answered then may be cut off.
     pub fn run(self, cancellation: &Cancellation) {
         let server = Arc::new(self);
-        let threads: Vec<_> = (0..THREADS)
-            .map(|_| {
-                let (server, cancellation) = (Arc::clone(&server), cancellation.clone());
-                thread::spawn(move || {
-                    while !cancellation.is_cancelled() {
-                        if let Ok(Some(request)) = server.http.recv_timeout(PAUSE) {
-                            server.answer(request);
-                        }
-                    }
-                })
-            })
-            .collect();
-        for thread in threads {
-            let _ = thread.join();
+        let open = Arc::new(AtomicUsize::new(0));
+        while !cancellation.is_cancelled() {
+            let accepted = match open.load(Ordering::Acquire) < MAX_CONNECTIONS {
+                true => server.listener.accept().ok(),
+                false => None,
+            };
+            let Some((stream, _)) = accepted else {
+                thread::sleep(PAUSE);
+                continue;
+            };
+            let (server, open) = (Arc::clone(&server), Arc::clone(&open));
+            open.fetch_add(1, Ordering::AcqRel);
+            thread::spawn(move || {
+                let _counted = Counted(&open);
+                // Some systems hand the listener's mode on. Whoever asked may be gone by now.
+                let blocking = stream.set_nonblocking(false);
+                let _ = blocking.and_then(|()| converse(stream, |asked| server.reply(asked)));
+            });
         }
     }
 
-    fn answer(&self, mut request: Request) {
-        let reply = self.reply(&mut request);
-        let mut response = Response::from_data(reply.body).with_status_code(reply.status);
-        let mut add = |name: &str, value: &str| {
-            if let Ok(header) = Header::from_bytes(name, value) {
-                response.add_header(header);
-            }
-        };
-        for (name, value) in HEADERS {
-            add(name, value);
-        }
-        add("Content-Type", reply.media_type);
-        if reply.brotli {
-            add("Content-Encoding", "br");
-        }
-        // Whoever asked may be gone.
-        let _ = request.respond(response);
-    }
-
-    fn reply(&self, request: &mut Request) -> Reply {
-        let header = |name: &'static str| {
-            let mut headers = request.headers().iter();
-            let found = headers.find(|header| header.field.equiv(name))?;
-            Some(found.value.as_str())
-        };
+    fn reply(&self, asked: &Asked) -> Reply {
         let caller = Caller {
-            host: header("Host"),
-            origin: header("Origin"),
-            site: header("Sec-Fetch-Site"),
-            token: header("X-Urdd-Token"),
+            host: asked.header("Host"),
+            origin: asked.header("Origin"),
+            site: asked.header("Sec-Fetch-Site"),
+            token: asked.header("X-Urdd-Token"),
         };
-        let brotli = header("Accept-Encoding").is_some_and(|words| {
-            let mut words = words
-                .split(',')
-                .map(|word| word.split(';').next().unwrap_or_default());
-            words.any(|word| word.trim() == "br")
-        });
-        let route = Route::of(request.url());
+        let route = Route::of(&asked.url);
         let allowed = match route.is_public() {
             true => self.guard.page(&caller),
             false => self.guard.robots(&caller),
@@ -150,20 +125,30 @@ impl Server {
         if let Err(refusal) = allowed {
             return Reply::failure(403, refusal.message());
         }
-        match (request.method(), &route) {
-            (Method::Get | Method::Head, _) => answer(&self.collection, &route, brotli),
-            (Method::Post, Route::Skips(id)) => {
-                let Some(robot) = self.collection.find(id) else {
-                    return Reply::failure(404, "there is no such robot\n");
-                };
-                let mut body = Vec::new();
-                let limited = &mut request.as_reader().take(MAX_BODY_BYTES + 1);
-                if limited.read_to_end(&mut body).is_err() || body.len() as u64 > MAX_BODY_BYTES {
-                    return Reply::failure(413, "that is too much to save\n");
-                }
-                save::skips(robot, &body)
-            }
+        match (&*asked.method, &route) {
+            ("GET" | "HEAD", _) => answer(&self.collection, &route, takes_brotli(asked)),
+            ("POST", Route::Skips(id)) => match self.collection.find(id) {
+                Some(robot) => save::skips(robot, &asked.body),
+                None => Reply::failure(404, "there is no such robot\n"),
+            },
             _ => Reply::failure(405, "this cannot be done here\n"),
         }
     }
+}
+
+/// A connection, counted until it is dropped, by a panic too.
+struct Counted<'a>(&'a AtomicUsize);
+
+impl Drop for Counted<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::AcqRel);
+    }
+}
+
+fn takes_brotli(asked: &Asked) -> bool {
+    let words = asked.header("Accept-Encoding").unwrap_or_default();
+    let mut words = words
+        .split(',')
+        .map(|word| word.split(';').next().unwrap_or_default());
+    words.any(|word| word.trim() == "br")
 }
