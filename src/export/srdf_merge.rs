@@ -67,22 +67,15 @@ pub fn merge_srdf(old: &str, new: &str) -> Result<String, SrdfError> {
         .first()
         .map_or_else(|| line_start(old, end), |first| first.start);
     let mut text = String::with_capacity(old.len() + lines.len());
-    let mut from = 0;
-    let mut is_put = false;
-    for cut in gone.iter().cloned().chain([place..place]) {
-        if !is_put && cut.start >= place {
-            text += &old[from..place];
-            if !text.is_empty() && !text.ends_with('\n') {
-                text.push('\n');
-            }
-            text += &lines;
-            from = place;
-            is_put = true;
-        }
-        if cut.start >= from {
-            text += &old[from..cut.start];
-            from = cut.end;
-        }
+    text += &old[..place];
+    if !text.is_empty() && !text.ends_with('\n') {
+        text.push('\n');
+    }
+    text += &lines;
+    let mut from = place;
+    for cut in gone {
+        text += &old[from..cut.start];
+        from = cut.end;
     }
     text += &old[from..];
     Ok(text)
