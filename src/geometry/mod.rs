@@ -14,7 +14,7 @@ pub mod decompose;
 pub mod farthest;
 pub mod hull;
 #[cfg(test)]
-mod levels;
+pub(crate) mod levels;
 pub mod mesh;
 pub mod oriented_box;
 mod polygon;

@@ -8,6 +8,7 @@ pub mod derived;
 pub mod expected;
 pub mod file;
 pub mod glb_header;
+mod half_spaces;
 pub mod original;
 pub mod placed;
 pub mod polytope;

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
+use super::half_spaces::{HalfSpace, HalfSpaces};
 use super::surface::{extent, is_thin};
 use crate::geometry::Mesh;
 use crate::geometry::mesh::Bounds;
@@ -13,21 +14,10 @@ use crate::validate::tolerance::mesh_resolution;
 /// The half-spaces of a mesh's faces.
 #[derive(Debug)]
 pub struct Polytope {
-    planes: Vec<Plane>,
+    planes: HalfSpaces,
     bounds: Bounds,
     /// How exactly its vertices are known, m.
     pub resolution: f64,
-}
-
-/// The plane of a face.
-#[derive(Debug, Clone, Copy)]
-struct Plane {
-    normal: Vector3<f64>,
-    offset: f64,
-    /// How far outside of it a point of a convex body may seem to be, m: the corners of a face are
-    /// known to the resolution, and by what its plane is tilted for that grows with the distance from
-    /// a thin face.
-    slack: f64,
 }
 
 /// Why a mesh is not the surface of a convex body.
@@ -63,14 +53,14 @@ impl Polytope {
             let sides = [(b - a).norm(), (c - b).norm(), (a - c).norm()];
             let height = cross.norm() / sides.into_iter().fold(0.0, f64::max);
             let normal = cross.normalize();
-            planes.push(Plane {
-                normal,
+            planes.push(HalfSpace {
+                normal: normal.into(),
                 offset: normal.dot(&a).max(normal.dot(&b)).max(normal.dot(&c)),
                 slack: resolution * (1.0 + size / height),
             });
         }
-        (!planes.is_empty()).then_some(Polytope {
-            planes,
+        Some(Polytope {
+            planes: HalfSpaces::new(&planes)?,
             bounds,
             resolution,
         })
@@ -79,25 +69,12 @@ impl Polytope {
     /// How far outside a point is, m, by the plane that it is farthest beyond; not positive inside,
     /// and where it may be inside for all that is known of the faces. The true distance is no less.
     pub fn outside(&self, point: [f64; 3]) -> f64 {
-        let point = Vector3::from(point);
-        let mut most = f64::NEG_INFINITY;
-        for plane in &self.planes {
-            let beyond = plane.normal.dot(&point) - plane.offset;
-            if beyond > most && beyond > plane.slack {
-                most = beyond;
-            }
-        }
-        if most == f64::NEG_INFINITY { 0.0 } else { most }
+        self.planes.beyond(point).max(0.0)
     }
 
     /// How deep a point lies inside, m: its distance from the nearest face's plane; not positive outside.
     pub fn depth(&self, point: [f64; 3]) -> f64 {
-        let point = Vector3::from(point);
-        let depths = self
-            .planes
-            .iter()
-            .map(|plane| plane.offset - plane.normal.dot(&point));
-        depths.fold(f64::INFINITY, f64::min)
+        self.planes.depth(point)
     }
 
     /// Whether a point is within a distance of every face's inner side.
@@ -105,10 +82,7 @@ impl Polytope {
         let near = (0..3).all(|i| {
             point[i] >= self.bounds.min[i] - distance && point[i] <= self.bounds.max[i] + distance
         });
-        let at = Vector3::from(point);
-        near && self.planes.iter().all(|plane| {
-            plane.normal.dot(&at) - plane.offset <= distance.max(plane.slack.min(self.resolution))
-        })
+        near && self.planes.hold(point, distance, self.resolution)
     }
 
     /// Number of faces.
