@@ -22,8 +22,11 @@ pub struct Files {
 #[derive(Debug)]
 struct Given {
     name: String,
-    files: Mutex<BTreeMap<String, (u64, Option<Arc<[u8]>>)>>,
+    files: Mutex<BTreeMap<String, Held>>,
 }
+
+/// A file's size, and its bytes.
+type Held = (u64, Option<Arc<[u8]>>);
 
 impl Source for Files {
     fn folder_name(&self) -> String {
