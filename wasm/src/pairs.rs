@@ -126,7 +126,7 @@ impl Pairs {
         answer["edits"] = json!(edited.module.edits);
         answer["skipped_reasons"] = json!(edited.module.skipped_reasons);
         let links = edited.module.full_shapes.clone();
-        let document = ModuleDocument::LinkShapesSkips(edited.module);
+        let document = ModuleDocument::LinkShapesSkips(edited.module.into());
         let Some(six) = matrices(&document) else {
             return answer;
         };
