@@ -194,7 +194,7 @@ def by_drake(program, urdd, folder):
 
 
 def export(program, kind, urdd, file):
-    subprocess.run([program, "export", kind, str(urdd.root), "-o", str(file)], check=True, capture_output=True)
+    subprocess.run([program, "export", kind, str(urdd.root), "-o", str(file), "--force"], check=True, capture_output=True)
 
 
 def disabled_pairs(program, urdd, folder):
