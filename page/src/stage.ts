@@ -44,6 +44,8 @@ export class Stage {
   private size = 1;
   /** Milliseconds from the page's start to the first whole picture. */
   firstPicture: number | null = null;
+  /** The robot that is drawn whole, and looked at. */
+  settledOn: RobotModel | null = null;
 
   constructor(private readonly app: App) {
     const canvas = h("canvas", { id: "picture", tabindex: "0", "aria-label": "The robot" });
@@ -148,6 +150,7 @@ export class Stage {
       if (scene !== this.scene) return;
     }
     if (look) this.settle(scene);
+    this.settledOn = model;
   }
 
   private readonly busy = new Set<LayerKind>();

@@ -103,7 +103,7 @@ export async function drawn(page, name) {
   await page.waitForFunction(
     (name) => {
       const { robot, loading } = globalThis.urdd?.app.store.now ?? {};
-      return robot && (!name || robot.entry.name === name) && !loading && globalThis.urdd.stage.scene;
+      return robot && (!name || robot.entry.name === name) && !loading && globalThis.urdd.stage.settledOn === robot;
     },
     name,
     { timeout: 120_000 },
