@@ -66,11 +66,17 @@ fn nothing_is_written_over_unless_asked() {
         before
     );
 
-    // A mesh in the way alone is not written over either.
+    // A mesh in the way alone is not written over either, unless it is the same.
     std::fs::remove_file(folder.join("arm.urdf")).expect("removed");
+    assert_eq!(export(&["urdf", urdd_folder, "-o", "arm.urdf"]).0, 0);
+    std::fs::remove_file(folder.join("arm.urdf")).expect("removed");
+    let mut meshes = folder.join("arm_meshes").read_dir().expect("meshes");
+    let mesh = meshes.next().expect("a mesh").expect("a mesh").path();
+    std::fs::write(&mesh, "mine").expect("written");
     let (status, _, said) = export(&["urdf", urdd_folder, "-o", "arm.urdf"]);
     assert_eq!(status, 2, "{said}");
     assert!(!folder.join("arm.urdf").exists());
+    assert_eq!(std::fs::read(&mesh).expect("a file"), b"mine");
 }
 
 #[test]
