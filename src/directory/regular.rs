@@ -23,7 +23,7 @@ pub fn open(path: &Path) -> Result<File, ReadError> {
 /// Reads a regular file of at most `limit` bytes, whatever the file system says of its size.
 ///
 /// # Errors
-/// As for [`open`], and where it is longer.
+/// As for [`open()`], and where it is longer.
 pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     open(path)?
