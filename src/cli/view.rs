@@ -13,7 +13,7 @@ use crate::directory::discover::DiscoverError;
 use crate::format::escape;
 use crate::generate::batch::{Job, Observer, caught};
 use crate::generate::{self, Packages, Settings};
-use crate::view::{Collection, Server, export, export_file};
+use crate::view::{Collection, Server, export, may_hold_page, page_with};
 
 /// Arguments of `urdd view`.
 #[derive(Args)]
@@ -119,20 +119,17 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
 
 /// The URDF that a path stands for: itself, or the only one in a folder in which there is no URDD.
 fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
-    let is_urdf = |path: &Path| {
+    let ends_with = |path: &Path, ending: &str| {
         let extension = path.extension().unwrap_or_default();
-        extension.eq_ignore_ascii_case("urdf") || extension.eq_ignore_ascii_case("xacro")
+        extension.eq_ignore_ascii_case(ending) && path.is_file()
     };
-    if path.is_file() && is_urdf(path) {
-        if path
-            .extension()
-            .is_some_and(|ending| ending.eq_ignore_ascii_case("xacro"))
-        {
-            return Err(usage(format!(
-                "{}: macros are not run to show a robot; `urdd generate` expands them",
-                path.display()
-            )));
-        }
+    if ends_with(path, "xacro") {
+        return Err(usage(format!(
+            "{}: macros are not run to show a robot; `urdd generate` expands them",
+            path.display()
+        )));
+    }
+    if ends_with(path, "urdf") {
         return Ok(Some(path.to_owned()));
     }
     if !path.is_dir() {
@@ -145,12 +142,8 @@ fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
     let entries = std::fs::read_dir(path).map_err(usage)?.flatten();
     let mut found: Vec<PathBuf> = entries
         .map(|entry| entry.path())
-        .filter(|path| path.is_file() && is_urdf(path))
+        .filter(|path| ends_with(path, "urdf"))
         .collect();
-    found.retain(|path| {
-        path.extension()
-            .is_some_and(|ending| ending.eq_ignore_ascii_case("urdf"))
-    });
     found.sort();
     match found.as_slice() {
         [] => Ok(None),
@@ -240,7 +233,14 @@ fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<
                 "a page in one file holds one robot, and here are {count}; give one of them, or a folder to --export"
             )));
         };
-        export_file(robot, folder).map_err(usage)?;
+        let shown = folder.display();
+        if !may_hold_page(folder) {
+            return Err(usage(format!(
+                "{shown}: this file is no page that `urdd view --export` wrote; give another one"
+            )));
+        }
+        let page = page_with(robot).map_err(usage)?;
+        output::write_file(folder, &page).map_err(usage)?;
         return Ok(0);
     }
     export(collection, folder, &signals.cancellation(), &mut tell).map_err(usage)?;

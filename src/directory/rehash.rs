@@ -4,12 +4,13 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 use thiserror::Error;
 
 use super::canonical;
 use super::digest;
 use super::discover::ROOT_METADATA;
+use super::file_entry;
 use super::json;
 use super::limits::MAX_DOCUMENT_BYTES;
 use super::root::{ReadError, Root};
@@ -66,12 +67,8 @@ pub fn rehash(root: &Root) -> Result<Vec<String>, RehashError> {
     if let Some(entry) = metadata.pointer_mut("/source/Urdf") {
         update(root, entry, &mut changed)?;
     }
-    let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
-    for module in modules.into_iter().flatten() {
-        let files = module.get_mut("files").and_then(Value::as_array_mut);
-        for entry in files.into_iter().flatten() {
-            update(root, entry, &mut changed)?;
-        }
+    for entry in file_entry::of_modules(&mut metadata) {
+        update(root, entry, &mut changed)?;
     }
     if !changed.is_empty() {
         replace(folder, canonical::json_string(&metadata).as_bytes())?;
@@ -100,17 +97,14 @@ fn replace(folder: &Path, text: &[u8]) -> io::Result<()> {
 }
 
 fn update(root: &Root, entry: &mut Value, changed: &mut Vec<String>) -> Result<(), RehashError> {
-    let Some(path) = entry.get("path").and_then(Value::as_str).map(str::to_owned) else {
+    let Some(path) = file_entry::path(entry).map(str::to_owned) else {
         return Ok(());
     };
     let (size, sha256) = digest::of(root, &path).map_err(|error| RehashError::File {
         path: path.clone(),
         error,
     })?;
-    let (size, sha256) = (json!(size), json!(sha256));
-    if entry["size"] != size || entry["sha256"] != sha256 {
-        entry["size"] = size;
-        entry["sha256"] = sha256;
+    if file_entry::update(entry, size, &sha256) {
         changed.push(path);
     }
     Ok(())

@@ -13,6 +13,7 @@ pub mod dof_layout;
 pub mod dofs;
 pub mod draft;
 pub mod entries;
+pub mod legacy_urdf;
 pub mod load;
 pub mod mesh_files;
 pub mod meshes;

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use nalgebra::Matrix3;
 
+use crate::document::legacy_urdf::of_legacy;
 use crate::document::pose::{
     has_quaternions, rotation_of_quaternion, rotation_of_rpy, unit_quaternion,
 };
-use crate::format::legacy::urdf as legacy;
 use crate::format::registry::ModuleDocument;
 use crate::format::urdf::{self as v1, JointType};
 
@@ -58,22 +58,13 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// Of a URDF; `quaternions` says whether its version knows them.
-    pub fn of_v1(origin: Option<&v1::Origin>, quaternions: bool) -> Self {
+    fn of_v1(origin: Option<&v1::Origin>, quaternions: bool) -> Self {
         Origin {
             xyz: origin.and_then(|origin| origin.xyz).unwrap_or_default(),
             rpy: origin.and_then(|origin| origin.rpy).unwrap_or_default(),
             quat_xyzw: origin
                 .and_then(|origin| origin.quat_xyzw)
                 .filter(|_| quaternions),
-        }
-    }
-
-    fn of_legacy(origin: &legacy::Origin) -> Self {
-        Origin {
-            xyz: origin.xyz,
-            rpy: origin.rpy,
-            quat_xyzw: None,
         }
     }
 
@@ -222,11 +213,7 @@ impl Joint {
 pub fn view(document: &ModuleDocument) -> Option<Robot> {
     match document {
         ModuleDocument::Urdf(module) => Some(of_urdf(module)),
-        ModuleDocument::LegacyUrdf(module) => Some(Robot::new(
-            module.name.clone(),
-            module.links.iter().map(from_legacy_link).collect(),
-            module.joints.iter().map(from_legacy_joint).collect(),
-        )),
+        ModuleDocument::LegacyUrdf(module) => Some(of_urdf(&of_legacy(module))),
         _ => None,
     }
 }
@@ -288,89 +275,6 @@ fn from_v1_joint(joint: &v1::Joint, quaternions: bool) -> Joint {
             upper: limit.upper,
             effort: limit.effort,
             velocity: limit.velocity,
-        }),
-        mimic: joint.mimic.as_ref().map(|mimic| Mimic {
-            joint: mimic.joint.clone(),
-            multiplier: mimic.multiplier.unwrap_or(1.0),
-            offset: mimic.offset.unwrap_or(0.0),
-        }),
-    }
-}
-
-fn from_legacy_link(link: &legacy::Link) -> Link {
-    let i = &link.inertial.inertia;
-    let inertia = [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz];
-    let mass = link.inertial.mass.value;
-    let absent = mass == 0.0 && inertia == [0.0; 6];
-    let element = |geometry, origin| Element {
-        geometry: Some(from_legacy_geometry(geometry)),
-        origin: Origin::of_legacy(origin),
-    };
-    Link {
-        name: link.name.clone(),
-        inertial: (!absent).then_some(Inertial {
-            origin: Origin::of_legacy(&link.inertial.origin),
-            mass: Some(mass),
-            inertia: Some(inertia),
-        }),
-        visual: link
-            .visual
-            .iter()
-            .map(|visual| element(&visual.geometry, &visual.origin))
-            .collect(),
-        collision: link
-            .collision
-            .iter()
-            .map(|collision| element(&collision.geometry, &collision.origin))
-            .collect(),
-    }
-}
-
-fn from_legacy_geometry(geometry: &legacy::Geometry) -> v1::Geometry {
-    match geometry {
-        legacy::Geometry::Mesh(mesh) => v1::Geometry::Mesh(v1::Mesh {
-            filename: mesh.filename.clone(),
-            scale: mesh.scale,
-        }),
-        legacy::Geometry::Box(cuboid) => v1::Geometry::Box(v1::Cuboid { size: cuboid.size }),
-        legacy::Geometry::Cylinder(cylinder) => v1::Geometry::Cylinder(v1::Cylinder {
-            radius: cylinder.radius,
-            length: cylinder.length,
-        }),
-        legacy::Geometry::Capsule(capsule) => v1::Geometry::Capsule(v1::Capsule {
-            radius: capsule.radius,
-            length: capsule.length,
-        }),
-        legacy::Geometry::Sphere(sphere) => v1::Geometry::Sphere(v1::Sphere {
-            radius: sphere.radius,
-        }),
-    }
-}
-
-fn from_legacy_joint(joint: &legacy::Joint) -> Joint {
-    use legacy::JointType as Old;
-    let limit = &joint.limit;
-    let absent = [limit.lower, limit.upper, limit.effort, limit.velocity] == [0.0; 4];
-    Joint {
-        name: joint.name.clone(),
-        joint_type: match joint.joint_type {
-            Old::Revolute => JointType::Revolute,
-            Old::Continuous => JointType::Continuous,
-            Old::Prismatic => JointType::Prismatic,
-            Old::Fixed => JointType::Fixed,
-            Old::Floating => JointType::Floating,
-            Old::Planar => JointType::Planar,
-            Old::Spherical => JointType::Spherical,
-        },
-        origin: Origin::of_legacy(&joint.origin),
-        axis: joint.axis.xyz,
-        parent: joint.parent.link.clone(),
-        child: joint.child.link.clone(),
-        limit: (!absent).then_some(Limit {
-            lower: Some(limit.lower),
-            upper: Some(limit.upper),
-            effort: Some(limit.effort),
-            velocity: Some(limit.velocity),
         }),
         mimic: joint.mimic.as_ref().map(|mimic| Mimic {
             joint: mimic.joint.clone(),

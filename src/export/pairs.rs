@@ -33,16 +33,14 @@ pub(super) fn pairs(
     reasons: Option<&[SkippedReason]>,
 ) -> Result<Vec<LinkPair>, RobotError> {
     let skips = robot.skips(kind)?;
-    let edits = robot.skip_edits()?;
-    let module_reasons = robot.skipped_reasons()?;
-    let chosen = reasons.or(module_reasons.as_deref());
+    let chosen = reasons.or(skips.skipped_reasons());
     let index: HashMap<&str, usize> = names
         .iter()
         .enumerate()
         .map(|(link, name)| (name.as_str(), link))
         .collect();
     let mut last: HashMap<[usize; 2], &SkipEdit> = HashMap::new();
-    for edit in &edits {
+    for edit in skips.edits() {
         let ends = [&edit.link_a, &edit.link_b].map(|name| index.get(name.as_str()).copied());
         if let [Some(a), Some(b)] = ends {
             last.insert([a.min(b), a.max(b)], edit);

@@ -6,7 +6,7 @@ use super::{Format, Options, names};
 use crate::document::robot::{Robot as View, of_urdf};
 use crate::document::tree::Tree;
 use crate::format::urdf::UrdfModule;
-use crate::robot::{Robot, RobotError};
+use crate::robot::{LinkShape, Robot, RobotError, ShapeKind};
 
 /// A robot, as far as every format needs it.
 pub(super) struct Subject<'a> {
@@ -59,6 +59,20 @@ impl<'a> Subject<'a> {
             links,
             pairs,
         })
+    }
+
+    /// The shapes of a kind, of each link, in link order.
+    pub fn shapes_by_link(&self, kind: ShapeKind) -> Result<Vec<Vec<LinkShape>>, ExportError> {
+        let mut shapes: Vec<Vec<LinkShape>> = self.links.iter().map(|_| Vec::new()).collect();
+        for shape in self.robot.shapes(kind)? {
+            if let Some(of_link) = shapes.get_mut(shape.link) {
+                of_link.push(shape);
+            }
+        }
+        match shapes.iter().all(Vec::is_empty) {
+            true => Err(ExportError::NoShapes(kind)),
+            false => Ok(shapes),
+        }
     }
 
     /// The pairs that need no check.

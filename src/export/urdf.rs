@@ -42,15 +42,7 @@ pub(super) fn robot(subject: &Subject, dialect: Dialect) -> Result<Robot, Export
     if dialect == Dialect::Drake {
         robot = robot.with("xmlns:drake", "http://drake.mit.edu");
     }
-    let mut shapes: Vec<Vec<LinkShape>> = urdf.links.iter().map(|_| Vec::new()).collect();
-    for shape in subject.robot.shapes(subject.options.shapes)? {
-        if let Some(of_link) = shapes.get_mut(shape.link) {
-            of_link.push(shape);
-        }
-    }
-    if shapes.iter().all(Vec::is_empty) {
-        return Err(ExportError::NoShapes(subject.options.shapes));
-    }
+    let shapes = subject.shapes_by_link(subject.options.shapes)?;
     let mut files = MeshFiles::new(subject);
     let mut lost = 0;
     let looks = looks(subject)?;

@@ -6,14 +6,16 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::metadata::FOUND_KEY;
 use super::old::Old;
 use crate::directory::digest;
 use crate::directory::discover::ROOT_METADATA;
+use crate::directory::file_entry;
 use crate::directory::root::Root;
 use crate::directory::staging::StagingError;
+use crate::directory::take::take;
 use crate::format::registry::ModuleKind;
 
 /// The files that every module has.
@@ -127,35 +129,6 @@ fn is_same(one: &Path, other: &Path) -> bool {
     size(one) == size(other) && fs::read(one).ok() == fs::read(other).ok()
 }
 
-fn take(from: &Path, to: &Path) -> Result<(), StagingError> {
-    let read = |error| StagingError::Read {
-        path: from.to_owned(),
-        error,
-    };
-    let write = |error| StagingError::Write {
-        path: to.to_owned(),
-        error,
-    };
-    let kind = fs::symlink_metadata(from).map_err(read)?.file_type();
-    if kind.is_dir() {
-        fs::create_dir(to).map_err(write)?;
-        for entry in fs::read_dir(from).map_err(read)? {
-            let name = entry.map_err(read)?.file_name();
-            take(&from.join(&name), &to.join(&name))?;
-        }
-        return Ok(());
-    }
-    #[cfg(unix)]
-    if kind.is_symlink() {
-        let target = fs::read_link(from).map_err(read)?;
-        return std::os::unix::fs::symlink(target, to).map_err(write);
-    }
-    if fs::hard_link(from, to).is_err() {
-        fs::copy(from, to).map_err(write)?;
-    }
-    Ok(())
-}
-
 /// The entries of extension modules that were carried over, their sizes and hashes brought up to
 /// date.
 pub(super) fn extensions(old: Option<&Old>, root: &Path) -> Vec<Value> {
@@ -170,13 +143,10 @@ pub(super) fn extensions(old: Option<&Old>, root: &Path) -> Vec<Value> {
             continue;
         }
         let mut module = module.clone();
-        for file in module["files"].as_array_mut().into_iter().flatten() {
-            let found = file["path"]
-                .as_str()
-                .and_then(|path| digest::of(&root, path).ok());
+        for entry in file_entry::of_module(&mut module) {
+            let found = file_entry::path(entry).and_then(|path| digest::of(&root, path).ok());
             if let Some((size, sha256)) = found {
-                file["size"] = json!(size);
-                file["sha256"] = json!(sha256);
+                file_entry::update(entry, size, &sha256);
             }
         }
         entries.push(module);

@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
 use super::error::ConfigurationError;
 use super::forward::{ForwardKinematics, Step, is_finite};
-use super::jacobian::columns;
+use super::jacobian::{add_to, columns};
 use super::joint::Motion;
 
 /// The joints between the root and one link.
@@ -97,11 +97,7 @@ impl Branch<'_> {
                 &point,
                 configuration,
                 |dof, linear, angular| {
-                    let column = &mut jacobian[6 * dof..6 * dof + 6];
-                    for axis in 0..3 {
-                        column[axis] += linear[axis];
-                        column[axis + 3] += angular[axis];
-                    }
+                    add_to(&mut jacobian[6 * dof..6 * dof + 6], linear, angular);
                 },
             );
         }

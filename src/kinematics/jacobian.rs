@@ -21,12 +21,9 @@ impl ForwardKinematics {
         point: &Point3<f64>,
     ) -> Matrix6xX<f64> {
         let mut jacobian = Matrix6xX::zeros(self.num_dofs());
-        let mut add = |dof: usize, linear: Vector3<f64>, angular: Vector3<f64>| {
-            let mut column = jacobian.column_mut(dof);
-            for k in 0..3 {
-                column[k] += linear[k];
-                column[k + 3] += angular[k];
-            }
+        let all = jacobian.as_mut_slice();
+        let mut add = |dof: usize, linear, angular| {
+            add_to(&mut all[6 * dof..6 * dof + 6], linear, angular);
         };
         for step in self.path(link) {
             let frame = poses[step.parent].rotation * step.origin.rotation;
@@ -34,6 +31,14 @@ impl ForwardKinematics {
             columns(step, &frame, child, point, configuration, &mut add);
         }
         jacobian
+    }
+}
+
+/// Adds a velocity and an angular velocity to a column of 6 numbers.
+pub(super) fn add_to(column: &mut [f64], linear: Vector3<f64>, angular: Vector3<f64>) {
+    for axis in 0..3 {
+        column[axis] += linear[axis];
+        column[axis + 3] += angular[axis];
     }
 }
 

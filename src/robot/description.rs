@@ -1,17 +1,11 @@
-//! What the source URDF says, and what a person decided about skips, as data.
+//! What the source URDF says, as data.
 
 use super::Robot;
 use super::error::RobotError;
-use super::parts::usable;
-use crate::format::legacy::urdf as legacy;
-use crate::format::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
+use crate::document::legacy_urdf::of_legacy;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::format::root_metadata::Source;
-use crate::format::urdf::{
-    Axis, Calibration, Capsule, Collision, Color, Cuboid, Cylinder, Dynamics, Geometry, Inertia,
-    Inertial, Joint, JointType, Limit, Link, LinkName, Mass, Material, Mesh, Mimic, Origin,
-    SafetyController, Sphere, Texture, UrdfModule, Visual,
-};
+use crate::format::urdf::UrdfModule;
 
 /// What a URDD was made from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,37 +31,6 @@ impl Robot {
         }
     }
 
-    /// A person's edits of the skips, in order. None where `link_shapes_skips_module` is not there, or in a legacy URDD.
-    ///
-    /// # Errors
-    /// Where the module is there and of no use.
-    pub fn skip_edits(&self) -> Result<Vec<SkipEdit>, RobotError> {
-        let module = self.skips_module()?;
-        Ok(module.map_or_else(Vec::new, |module| module.edits))
-    }
-
-    /// The reasons for which pairs are skipped, before the edits. `None` where `link_shapes_skips_module` is not there,
-    /// or in a legacy URDD.
-    ///
-    /// # Errors
-    /// Where the module is there and of no use.
-    pub fn skipped_reasons(&self) -> Result<Option<Vec<SkippedReason>>, RobotError> {
-        Ok(self.skips_module()?.map(|module| module.skipped_reasons))
-    }
-
-    fn skips_module(&self) -> Result<Option<LinkShapesSkipsModule>, RobotError> {
-        let kind = ModuleKind::LinkShapesSkips;
-        let part = self.part_as_it_is(&[kind])?;
-        if part.module(kind).is_none() {
-            return Ok(None);
-        }
-        usable(&part, kind)?;
-        match part.document(kind) {
-            Some(ModuleDocument::LinkShapesSkips(module)) => Ok(Some((**module).clone())),
-            _ => Ok(None),
-        }
-    }
-
     /// The source URDF that the URDD carries, by its metadata. `None` without one, or in a legacy URDD.
     ///
     /// # Errors
@@ -81,158 +44,5 @@ impl Robot {
             path: file.path.clone(),
             sha256: file.sha256.to_string(),
         }))
-    }
-}
-
-fn of_legacy(module: &legacy::UrdfModule) -> UrdfModule {
-    UrdfModule {
-        name: module.name.clone(),
-        version: None,
-        links: module.links.iter().map(link).collect(),
-        joints: module.joints.iter().map(joint).collect(),
-        materials: module.materials.iter().map(material).collect(),
-        unknown_elements: Vec::new(),
-    }
-}
-
-fn origin(origin: &legacy::Origin) -> Option<Origin> {
-    Some(Origin {
-        xyz: Some(origin.xyz),
-        rpy: Some(origin.rpy),
-        quat_xyzw: None,
-    })
-}
-
-fn link(link: &legacy::Link) -> Link {
-    let i = &link.inertial.inertia;
-    let inertia = [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz];
-    let mass = link.inertial.mass.value;
-    let absent = mass == 0.0 && inertia == [0.0; 6];
-    let [ixx, ixy, ixz, iyy, iyz, izz] = inertia.map(Some);
-    Link {
-        name: link.name.clone(),
-        inertial: (!absent).then(|| Inertial {
-            origin: origin(&link.inertial.origin),
-            mass: Some(Mass { value: mass }),
-            inertia: Some(Inertia {
-                ixx,
-                ixy,
-                ixz,
-                iyy,
-                iyz,
-                izz,
-            }),
-        }),
-        visual: link
-            .visual
-            .iter()
-            .map(|visual| Visual {
-                name: visual.name.clone(),
-                origin: origin(&visual.origin),
-                geometry: Some(geometry(&visual.geometry)),
-                material: visual.material.as_ref().map(material),
-            })
-            .collect(),
-        collision: link
-            .collision
-            .iter()
-            .map(|collision| Collision {
-                name: collision.name.clone(),
-                origin: origin(&collision.origin),
-                geometry: Some(geometry(&collision.geometry)),
-            })
-            .collect(),
-        unknown_elements: Vec::new(),
-    }
-}
-
-fn geometry(geometry: &legacy::Geometry) -> Geometry {
-    match geometry {
-        legacy::Geometry::Mesh(mesh) => Geometry::Mesh(Mesh {
-            filename: mesh.filename.clone(),
-            scale: mesh.scale,
-        }),
-        legacy::Geometry::Box(cuboid) => Geometry::Box(Cuboid { size: cuboid.size }),
-        legacy::Geometry::Cylinder(cylinder) => Geometry::Cylinder(Cylinder {
-            radius: cylinder.radius,
-            length: cylinder.length,
-        }),
-        legacy::Geometry::Capsule(capsule) => Geometry::Capsule(Capsule {
-            radius: capsule.radius,
-            length: capsule.length,
-        }),
-        legacy::Geometry::Sphere(sphere) => Geometry::Sphere(Sphere {
-            radius: sphere.radius,
-        }),
-    }
-}
-
-fn material(material: &legacy::Material) -> Material {
-    Material {
-        name: Some(material.name.clone()),
-        color: material
-            .color
-            .as_ref()
-            .map(|color| Color { rgba: color.rgba }),
-        texture: material.texture.as_ref().map(|texture| Texture {
-            filename: texture.filename.clone(),
-        }),
-    }
-}
-
-fn joint(joint: &legacy::Joint) -> Joint {
-    use legacy::JointType as Old;
-    let limit = &joint.limit;
-    let absent = [limit.lower, limit.upper, limit.effort, limit.velocity] == [0.0; 4];
-    Joint {
-        name: joint.name.clone(),
-        joint_type: match joint.joint_type {
-            Old::Revolute => JointType::Revolute,
-            Old::Continuous => JointType::Continuous,
-            Old::Prismatic => JointType::Prismatic,
-            Old::Fixed => JointType::Fixed,
-            Old::Floating => JointType::Floating,
-            Old::Planar => JointType::Planar,
-            Old::Spherical => JointType::Spherical,
-        },
-        origin: origin(&joint.origin),
-        parent: LinkName {
-            link: joint.parent.link.clone(),
-        },
-        child: LinkName {
-            link: joint.child.link.clone(),
-        },
-        axis: (joint.axis.xyz != [0.0; 3]).then_some(Axis {
-            xyz: Some(joint.axis.xyz),
-        }),
-        limit: (!absent).then_some(Limit {
-            lower: Some(limit.lower),
-            upper: Some(limit.upper),
-            effort: Some(limit.effort),
-            velocity: Some(limit.velocity),
-            acceleration: None,
-            deceleration: None,
-            jerk: None,
-        }),
-        dynamics: joint.dynamics.as_ref().map(|dynamics| Dynamics {
-            damping: Some(dynamics.damping),
-            friction: Some(dynamics.friction),
-        }),
-        mimic: joint.mimic.as_ref().map(|mimic| Mimic {
-            joint: mimic.joint.clone(),
-            multiplier: mimic.multiplier,
-            offset: mimic.offset,
-        }),
-        safety_controller: joint
-            .safety_controller
-            .as_ref()
-            .map(|safety| SafetyController {
-                soft_lower_limit: Some(safety.soft_lower_limit),
-                soft_upper_limit: Some(safety.soft_upper_limit),
-                k_position: Some(safety.k_position),
-                k_velocity: Some(safety.k_velocity),
-            }),
-        calibration: None::<Calibration>,
-        unknown_elements: Vec::new(),
     }
 }

@@ -2,14 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::Robot;
 use super::error::RobotError;
 use super::parts::usable;
+use super::shapes::ShapeKind;
+use super::skips::Skips;
 use crate::directory::canonical;
 use crate::directory::discover::ROOT_METADATA;
+use crate::directory::file_entry;
 use crate::directory::json;
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
 use crate::format::hexadecimal::hexadecimal;
@@ -27,6 +29,13 @@ pub struct EditedSkips {
     pub module: LinkShapesSkipsModule,
     /// By path, relative to the root: the module's JSON and YAML, and `urdd.json` with their sizes and hashes.
     pub files: BTreeMap<String, Vec<u8>>,
+}
+
+impl EditedSkips {
+    /// The skips between shapes of a kind as they are with the edits; `before` are those of the robot.
+    pub fn skips(&self, kind: ShapeKind, before: &Skips) -> Skips {
+        before.of_module(kind, self.module.clone())
+    }
 }
 
 impl Robot {
@@ -78,16 +87,10 @@ impl Robot {
         let document =
             json::read(&text).map_err(|error| RobotError::Metadata(error.to_string()))?;
         let mut metadata = document.value;
-        let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
-        for module in modules.into_iter().flatten() {
-            let listed = module.get_mut("files").and_then(Value::as_array_mut);
-            for entry in listed.into_iter().flatten() {
-                let path = entry.get("path").and_then(Value::as_str);
-                if let Some(bytes) = path.and_then(|path| files.get(path)) {
-                    let hash = hexadecimal(&Sha256::digest(bytes));
-                    entry["size"] = json!(bytes.len());
-                    entry["sha256"] = json!(hash);
-                }
+        for entry in file_entry::of_modules(&mut metadata) {
+            if let Some(bytes) = file_entry::path(entry).and_then(|path| files.get(path)) {
+                let hash = hexadecimal(&Sha256::digest(bytes));
+                file_entry::update(entry, bytes.len() as u64, &hash);
             }
         }
         Ok(canonical::json_string(&metadata).into_bytes())

@@ -8,7 +8,8 @@ use crate::document::shape_matrices::{at, reasons, shape_lists, skips};
 use crate::document::shapes::Shapes;
 use crate::document::urdd::Urdd;
 use crate::format::link_shapes_simple_skips::SkipReason;
-use crate::format::registry::ModuleKind;
+use crate::format::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
+use crate::format::registry::{ModuleDocument, ModuleKind};
 
 const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
 const SIMPLE: ModuleKind = ModuleKind::LinkShapesSimpleSkips;
@@ -20,6 +21,8 @@ pub struct Skips {
     places: Vec<(usize, usize)>,
     skipped: Matrix<bool>,
     reasons: Option<Matrix<SkipReason>>,
+    edits: Vec<SkipEdit>,
+    skipped_reasons: Option<Vec<SkippedReason>>,
 }
 
 /// Rows over the shapes themselves, or over hulls where those of pieces are left out (SPEC 8.4).
@@ -61,52 +64,60 @@ impl Robot {
             usable(&part, SIMPLE)?;
         }
         let shapes = shapes(&part, from, &meshes)?;
-        let own = kind.of_document();
-        let hulls = ShapeKind::Hulls.of_document();
-        let places: Vec<(usize, usize)> = (0..shapes.count(own))
-            .filter_map(|shape| shapes.place(own, shape))
-            .collect();
-        let rows_of_hulls = || -> Vec<Option<usize>> {
-            let row = |link: usize| shapes.full.iter().position(|full| *full == link);
-            places.iter().map(|(link, _)| row(*link)).collect()
-        };
-        let own_rows = || (0..places.len()).map(Some).collect();
         let document = part.document(from).ok_or(RobotError::Missing(from))?;
         let six = skips(document).ok_or(RobotError::Missing(from))?;
-        let index = |kind| {
-            crate::document::shapes::KINDS
-                .iter()
-                .position(|k| *k == kind)
+        let own = kind.of_document();
+        let places = (0..shapes.count(own)).filter_map(|shape| shapes.place(own, shape));
+        let rows = Rows::new(kind, places.collect(), &shapes.full);
+        let module = match document {
+            ModuleDocument::LinkShapesSkips(module) => Some(&**module),
+            _ => None,
         };
-        let rows = |kind| six[index(kind).unwrap_or(0)];
-        let skipped = match rows(own) {
+        Ok(Skips {
+            skipped: rows.matrix(&six),
+            reasons: part
+                .document(SIMPLE)
+                .and_then(reasons)
+                .map(|six| rows.matrix(&six)),
+            edits: module.map_or_else(Vec::new, |module| module.edits.clone()),
+            skipped_reasons: module.map(|module| module.skipped_reasons.clone()),
+            places: rows.places,
+        })
+    }
+}
+
+/// How the shapes of a kind find their rows in the six matrices of a module.
+struct Rows {
+    kind: ShapeKind,
+    /// Of each shape its link and its piece.
+    places: Vec<(usize, usize)>,
+    /// For each shape the row of its link's hull.
+    of_hulls: Vec<Option<usize>>,
+}
+
+impl Rows {
+    /// `full` are the links that have a hull, in the order of its rows.
+    fn new(kind: ShapeKind, places: Vec<(usize, usize)>, full: &[usize]) -> Self {
+        let row = |link: usize| full.iter().position(|full| *full == link);
+        Rows {
+            kind,
+            of_hulls: places.iter().map(|(link, _)| row(*link)).collect(),
+            places,
+        }
+    }
+
+    /// The matrix of the kind; that of the hulls where it is left out (SPEC 8.4).
+    fn matrix<T: Copy>(&self, six: &[Option<&[Vec<T>]>; 6]) -> Matrix<T> {
+        match six[self.kind as usize] {
             Some(rows) => Matrix {
                 rows: rows.to_vec(),
-                row_of: own_rows(),
+                row_of: (0..self.places.len()).map(Some).collect(),
             },
             None => Matrix {
-                rows: rows(hulls).unwrap_or_default().to_vec(),
-                row_of: rows_of_hulls(),
+                rows: six[ShapeKind::Hulls as usize].unwrap_or_default().to_vec(),
+                row_of: self.of_hulls.clone(),
             },
-        };
-        let reasons = part.document(SIMPLE).and_then(reasons).map(|six| {
-            let rows = |kind| six[index(kind).unwrap_or(0)];
-            match rows(own) {
-                Some(rows) => Matrix {
-                    rows: rows.to_vec(),
-                    row_of: own_rows(),
-                },
-                None => Matrix {
-                    rows: rows(hulls).unwrap_or_default().to_vec(),
-                    row_of: rows_of_hulls(),
-                },
-            }
-        });
-        Ok(Skips {
-            places,
-            skipped,
-            reasons,
-        })
+        }
     }
 }
 
@@ -153,5 +164,32 @@ impl Skips {
     /// never touch, and so on. Edits may decide otherwise. `None` for legacy URDDs, or without that module.
     pub fn reason(&self, i: usize, j: usize) -> Option<SkipReason> {
         self.reasons.as_ref()?.at(i, j)
+    }
+
+    /// A person's edits, in order. None where `link_shapes_skips_module` is not there, or in a legacy URDD.
+    pub fn edits(&self) -> &[SkipEdit] {
+        &self.edits
+    }
+
+    /// The reasons for which pairs are skipped, before the edits. `None` where `link_shapes_skips_module` is not there,
+    /// or in a legacy URDD.
+    pub fn skipped_reasons(&self) -> Option<&[SkippedReason]> {
+        self.skipped_reasons.as_deref()
+    }
+
+    /// The same shapes and reasons with the skips of another `link_shapes_skips_module` of the same URDD. `kind` is
+    /// theirs.
+    pub(super) fn of_module(&self, kind: ShapeKind, module: LinkShapesSkipsModule) -> Self {
+        let full: Vec<usize> = module.full_shapes.iter().map(|link| link.get()).collect();
+        let rows = Rows::new(kind, self.places.clone(), &full);
+        let (edits, skipped_reasons) = (module.edits.clone(), module.skipped_reasons.clone());
+        let document = ModuleDocument::LinkShapesSkips(Box::new(module));
+        Skips {
+            skipped: skips(&document).map_or_else(|| self.skipped.clone(), |six| rows.matrix(&six)),
+            reasons: self.reasons.clone(),
+            edits,
+            skipped_reasons: Some(skipped_reasons),
+            places: rows.places,
+        }
     }
 }

@@ -33,14 +33,6 @@ pub enum ExportError {
     /// The page was not built as it should be.
     #[error("the page cannot be unpacked: {0}")]
     Page(io::Error),
-    /// A file cannot be written.
-    #[error("{}: cannot be written: {error}", file.display())]
-    File {
-        /// The file.
-        file: PathBuf,
-        /// What the operating system said.
-        error: io::Error,
-    },
     /// A robot is too large for one file.
     #[error("{robot}: {size} bytes are too much for a page in one file; give a folder")]
     TooLarge {

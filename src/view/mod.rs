@@ -15,5 +15,5 @@ pub mod server;
 
 pub use collection::{Collection, Shown};
 pub use export::{ExportError, export};
-pub use one_file::export_file;
+pub use one_file::{may_hold_page, page_with};
 pub use server::{Server, ServerError};

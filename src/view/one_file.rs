@@ -1,6 +1,7 @@
 //! The page and one robot in a single HTML file, which opens from the disk.
 
-use std::io::{self, Cursor, Write};
+use std::fs::File;
+use std::io::{self, Cursor, Read, Write};
 use std::path::Path;
 
 use base64::Engine;
@@ -18,30 +19,26 @@ use crate::directory::root::{EntryKind, ReadError};
 /// Most bytes of a robot that is put into a page.
 const MAX_ROBOT_BYTES: u64 = 100_000_000;
 
-/// Writes the page with a robot in it into a file.
+/// By this a file is known as one that holds such a page. It stands near its beginning.
+const MARK: &str = "<meta name=\"urdd-mode\" content=\"inline\" />";
+/// Most bytes before the mark.
+const MAX_HEAD_BYTES: u64 = 1 << 16;
+
+/// Whether a page may be written to a path: no file is there, or it is empty or holds such a page.
+pub fn may_hold_page(file: &Path) -> bool {
+    if !file.is_file() {
+        return true;
+    }
+    let mut head = Vec::new();
+    let read = File::open(file).and_then(|open| open.take(MAX_HEAD_BYTES).read_to_end(&mut head));
+    read.is_ok() && (head.is_empty() || String::from_utf8_lossy(&head).contains(MARK))
+}
+
+/// The page with a robot in it, as HTML.
 ///
 /// # Errors
 /// [`ExportError`]; [`ExportError::TooLarge`] for a robot that a page cannot hold.
-pub fn export_file(robot: &Shown, file: &Path) -> Result<(), ExportError> {
-    let page = page(robot)?;
-    let write = |error| ExportError::File {
-        file: file.to_owned(),
-        error,
-    };
-    let parent = match file.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    // Beside its place, then put there: whoever looks sees the old one or the new one.
-    let mut temporary = tempfile::NamedTempFile::new_in(parent).map_err(write)?;
-    temporary.write_all(page.as_bytes()).map_err(write)?;
-    temporary
-        .persist(file)
-        .map_err(|error| write(error.error))?;
-    Ok(())
-}
-
-fn page(robot: &Shown) -> Result<String, ExportError> {
+pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
     let asset = |name: &str| {
         let found = assets::find(name).map_or_else(|| Ok(Vec::new()), assets::Asset::bytes);
         found.map_err(ExportError::Page)
@@ -80,7 +77,7 @@ fn page(robot: &Shown) -> Result<String, ExportError> {
     for line in index.lines() {
         let of_page = line.trim_start();
         if of_page.starts_with("<meta name=\"urdd-mode\"") {
-            page.push_str("<meta name=\"urdd-mode\" content=\"inline\" />");
+            page.push_str(MARK);
         } else if of_page.starts_with("<meta http-equiv=\"Content-Security-Policy\"") {
             page.push_str("<meta http-equiv=\"Content-Security-Policy\" content=\"");
             page.push_str(&policy);

@@ -1,8 +1,7 @@
 //! Saving the skips that a person decided: the edits and the matrices that follow, with their sizes and hashes, in one
 //! step; and undoing it.
 
-use std::collections::BTreeMap;
-use std::fs;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde::Deserialize;
@@ -15,6 +14,7 @@ use crate::cancellation::Cancellation;
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
 use crate::directory::root::Root;
 use crate::directory::staging::Staging;
+use crate::directory::take::take_content;
 use crate::directory::writer::Writer;
 use crate::format::link_shapes_skips::{SkipEdit, SkippedReason};
 use crate::robot::Robot;
@@ -98,7 +98,11 @@ fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
         .collect();
     let before = before?;
     let writer = Writer::new(staging.content());
-    take_over(&robot.path, Path::new(""), &files, &staging, &writer)?;
+    let instead: BTreeSet<&Path> = files.keys().map(Path::new).collect();
+    take_content(&robot.path, staging.content(), &|path| {
+        instead.contains(path)
+    })
+    .map_err(|error| failed(&error))?;
     for (path, bytes) in &files {
         writer.file(path, bytes).map_err(|error| failed(&error))?;
     }
@@ -121,56 +125,6 @@ fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
         }
     }
     Ok(json!({ "revision": now, "undo": undo.len() }))
-}
-
-/// Every file and link that stays, into the new content.
-fn take_over(
-    root: &Path,
-    below: &Path,
-    instead: &Files,
-    staging: &Staging,
-    writer: &Writer,
-) -> Result<(), Failure> {
-    let failed = |error: std::io::Error| (500, format!("{}: {error}", below.display()));
-    for entry in fs::read_dir(root.join(below)).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        let path = below.join(entry.file_name());
-        let kind = entry.file_type().map_err(failed)?;
-        if kind.is_dir() {
-            fs::create_dir_all(staging.content().join(&path)).map_err(failed)?;
-            take_over(root, &path, instead, staging, writer)?;
-            continue;
-        }
-        let Some(name) = path.to_str() else {
-            let shown = path.display();
-            return Err((
-                500,
-                format!("{shown}: a name that is not UTF-8 cannot be kept"),
-            ));
-        };
-        let name = name.replace('\\', "/");
-        if instead.contains_key(&name) {
-            continue;
-        }
-        if kind.is_symlink() {
-            link(&entry.path(), &staging.content().join(&path)).map_err(failed)?;
-        } else {
-            writer
-                .keep(&entry.path(), &name)
-                .map_err(|error| (500, error.to_string()))?;
-        }
-    }
-    Ok(())
-}
-
-#[cfg(unix)]
-fn link(from: &Path, to: &Path) -> std::io::Result<()> {
-    std::os::unix::fs::symlink(fs::read_link(from)?, to)
-}
-
-#[cfg(not(unix))]
-fn link(_: &Path, _: &Path) -> std::io::Result<()> {
-    Err(std::io::Error::other("symbolic links cannot be kept here"))
 }
 
 /// The files that change.

@@ -8,27 +8,7 @@ use parry3d_f64::shape::ConvexPolyhedron;
 use urdd::geometry::convex::across::{PlacedPair, any_touches, distances, witnesses};
 use urdd::geometry::convex::{ConvexShape, Level, TOLERANCE, distance};
 
-/// Numbers in [0, 1), the same in each run.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.roll()
-    }
-
-    fn turn(&mut self) -> UnitQuaternion<f64> {
-        let [r, p, y] = [3.1, 1.5, 3.1].map(|most| self.within(-most, most));
-        UnitQuaternion::from_euler_angles(r, p, y)
-    }
-}
+use crate::dice::Dice;
 
 /// A prism with its corners on a circle, from z = -half to half. It holds the circle of radius `inner`.
 #[derive(Clone)]

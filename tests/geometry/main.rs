@@ -5,6 +5,7 @@ mod across;
 mod bounding_sphere;
 mod brute_force;
 mod decompose;
+mod dice;
 mod distance;
 mod hull;
 mod mesh_operations;

@@ -12,44 +12,7 @@ use urdd::geometry::convex::across::{PlacedPair, any_touches, distances, witness
 use urdd::geometry::convex::{ConvexShape, Level, distance};
 use urdd::geometry::hull::ConvexHull;
 
-/// Numbers in [0, 1), the same in each run.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.roll()
-    }
-
-    /// Points in a ball that is squeezed along its axes.
-    fn body(&mut self, count: usize) -> Vec<[f64; 3]> {
-        let size = [0, 1, 2].map(|_| self.within(0.05, 0.5));
-        (0..count)
-            .map(|_| {
-                let p =
-                    nalgebra::Vector3::from([0, 1, 2].map(|_| self.within(-1.0, 1.0))).normalize();
-                [0, 1, 2].map(|k| size[k] * p[k] + 0.3)
-            })
-            .collect()
-    }
-
-    fn pose(&mut self) -> Isometry3<f64> {
-        let q = UnitQuaternion::from_euler_angles(
-            self.within(-3.1, 3.1),
-            self.within(-1.5, 1.5),
-            self.within(-3.1, 3.1),
-        );
-        let t = Translation3::from([0, 1, 2].map(|_| self.within(-0.6, 0.6)));
-        Isometry3::from_parts(t, q)
-    }
-}
+use crate::dice::Dice;
 
 fn vector([x, y, z]: [f64; 3]) -> Vector {
     Vector::new(x, y, z)

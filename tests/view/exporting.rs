@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 use urdd::cancellation::Cancellation;
-use urdd::view::{Collection, ExportError, export, export_file};
+use urdd::view::{Collection, ExportError, export, may_hold_page, page_with};
 
 use super::asking::made;
 
@@ -42,12 +42,10 @@ fn a_site_holds_the_page_and_the_robots() {
 
 #[test]
 fn one_file_holds_all_and_its_policy_knows_it() {
-    let (folder, path) = made("gripper");
+    let (_folder, path) = made("gripper");
     let mut collection = Collection::default();
     collection.add(&path).expect("a URDD");
-    let file = folder.path().join("gripper.html");
-    export_file(&collection.robots()[0], &file).expect("written");
-    let page = fs::read_to_string(&file).expect("a page");
+    let page = page_with(&collection.robots()[0]).expect("a page");
     assert!(page.contains(r#"content="inline""#));
     for carried in [
         "robots.json",
@@ -64,6 +62,25 @@ fn one_file_holds_all_and_its_policy_knows_it() {
     assert!(!page.contains("src=\"app.js\"") && !page.contains("href=\"style.css\""));
     assert_eq!(page.matches("'unsafe-inline'").count(), 0);
     assert_eq!(page.matches("'sha256-").count(), 2);
+}
+
+#[test]
+fn a_page_takes_the_place_of_a_page_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("robot.html");
+    assert!(may_hold_page(&file), "nothing is there");
+    for (text, may) in [
+        ("", true),
+        ("<!doctype html><title>mine</title>", false),
+        ("<meta name=\"urdd-mode\" content=\"served\" />", false),
+        (
+            "<head>\n<meta name=\"urdd-mode\" content=\"inline\" />",
+            true,
+        ),
+    ] {
+        fs::write(&file, text).expect("written");
+        assert_eq!(may_hold_page(&file), may, "{text}");
+    }
 }
 
 #[test]

@@ -5,16 +5,15 @@ use std::collections::HashMap;
 use serde_json::{Value, json};
 use urdd::directory::root::Root;
 use urdd::document::load::Loaded;
-use urdd::document::shape_matrices::{Statistics, at, shape_lists, skips as matrices, statistics};
+use urdd::document::shape_matrices::{Statistics, at, shape_lists, statistics};
 use urdd::document::urdd::Urdd;
 use urdd::format::link_shapes_simple_skips::SkipReason;
-use urdd::format::registry::{ModuleDocument, ModuleKind};
+use urdd::format::registry::ModuleKind;
 use urdd::robot::{EditedSkips, ShapeKind, Skips};
 
 use crate::files::Files;
 
 const STATISTICS: ModuleKind = ModuleKind::LinkShapesDistanceStatistics;
-const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
 
 /// The modules, and the index of each shape.
 pub struct Pairs {
@@ -27,7 +26,7 @@ impl Pairs {
     /// Reads the modules that are there.
     pub fn read(files: &Files) -> Result<Self, String> {
         let root = Root::of(files.clone());
-        let loaded = Loaded::read_only(root, &[STATISTICS, SKIPS]);
+        let loaded = Loaded::read_only(root, &[STATISTICS]);
         let part = Urdd::new(loaded.map_err(|error| error.to_string())?.into());
         let (mut full, mut pieces) = (HashMap::new(), HashMap::new());
         if let Some((links, shapes)) = part.document(STATISTICS).and_then(shape_lists) {
@@ -99,58 +98,26 @@ impl Pairs {
             (0..count).map(letter).collect()
         };
         let has_reasons = count > 0 && skips.reason(0, 0).is_some();
-        let module = match self.part.document(SKIPS) {
-            Some(ModuleDocument::LinkShapesSkips(module)) => Some(module),
-            _ => None,
-        };
         json!({
             "shapes": kind.name(),
             "places": skips.places(),
             "skipped": (0..count).map(row).collect::<Vec<_>>(),
             "reasons": has_reasons.then(|| (0..count).map(reasons).collect::<Vec<_>>()),
-            "edits": module.map(|module| &module.edits),
-            "skipped_reasons": module.map(|module| &module.skipped_reasons),
+            "edits": skips.skipped_reasons().map(|_| skips.edits()),
+            "skipped_reasons": skips.skipped_reasons(),
         })
     }
 }
 
 impl Pairs {
     /// As [`Pairs::skips`], with other edits; and the `files` that change.
-    pub fn edited(&self, kind: ShapeKind, skips: &Skips, edited: EditedSkips) -> Value {
-        let mut answer = self.skips(kind, skips);
+    pub fn edited(&self, kind: ShapeKind, skips: &Skips, edited: &EditedSkips) -> Value {
+        let mut answer = self.skips(kind, &edited.skips(kind, skips));
         let files = edited
             .files
             .iter()
             .map(|(path, bytes)| json!({ "path": path, "text": String::from_utf8_lossy(bytes) }));
         answer["files"] = files.collect();
-        answer["edits"] = json!(edited.module.edits);
-        answer["skipped_reasons"] = json!(edited.module.skipped_reasons);
-        let links = edited.module.full_shapes.clone();
-        let document = ModuleDocument::LinkShapesSkips(Box::new(edited.module));
-        let Some(six) = matrices(&document) else {
-            return answer;
-        };
-        let place = ShapeKind::ALL.iter().position(|other| *other == kind);
-        let own = place.and_then(|place| six[place]);
-        let hulls = six[0].unwrap_or_default();
-        // Where the matrices of pieces are left out, those of hulls count (SPEC 8.4).
-        let row_of = |shape: usize| match own {
-            Some(_) => Some(shape),
-            None => {
-                let (link, _) = skips.places().get(shape)?;
-                links.iter().position(|other| other.get() == *link)
-            }
-        };
-        let rows = own.unwrap_or(hulls);
-        let is_skipped = |i: usize, j: usize| at(rows, row_of(i)?, row_of(j)?);
-        let row = |i: usize| -> String {
-            let letter = |j: usize| match is_skipped(i, j).unwrap_or(i == j) {
-                true => '1',
-                false => '0',
-            };
-            (0..skips.len()).map(letter).collect()
-        };
-        answer["skipped"] = (0..skips.len()).map(row).collect();
         answer
     }
 }

@@ -186,7 +186,7 @@ fn ask(handle: &mut Handle, question: &[u8]) -> Result<Value, String> {
             let reasons = reasons.map_err(|error| error.to_string())?;
             let edited = handle.robot.with_skip_edits(edits, reasons).map_err(said)?;
             let skips = handle.robot.skips(kind).map_err(said)?;
-            Ok(pairs(handle)?.edited(kind, &skips, edited))
+            Ok(pairs(handle)?.edited(kind, &skips, &edited))
         }
         "prepare" => Ok(json!(proximity(handle, &question)?.num_pairs())),
         "samples" => {

@@ -1,5 +1,7 @@
 //! Bodies: one for each link, inside that of its parent.
 
+use std::collections::HashSet;
+
 use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
 
 use super::super::element::Element;
@@ -8,7 +10,6 @@ use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
 use super::super::numbers::{number, numbers};
 use super::super::subject::Subject;
 use super::{inertia, joint};
-use crate::document::pose::has_quaternions;
 use crate::geometry::Mesh;
 use crate::geometry::hull::ConvexHull;
 use crate::robot::{LinkShape, ShapeKind, Solid};
@@ -18,8 +19,16 @@ const SMALLEST_VOLUME: f64 = 1e-13;
 /// Half the thickness of a flat box, m.
 const HALF_THICKNESS: f64 = 1e-6;
 
-/// What was made while bodies were: assets, files, whether masses are to be bounded and inertia balanced, notes.
-type Made = (Element, Vec<(String, Vec<u8>)>, bool, bool, Vec<Note>);
+/// What was made while bodies were.
+pub(super) struct Made {
+    pub assets: Element,
+    pub files: Vec<(String, Vec<u8>)>,
+    /// Whether moving bodies without mass need a least one.
+    pub bounded: bool,
+    /// Whether moments break the triangle inequality.
+    pub balanced: bool,
+    pub notes: Vec<Note>,
+}
 
 pub(super) struct Bodies<'a> {
     subject: &'a Subject<'a>,
@@ -29,8 +38,8 @@ pub(super) struct Bodies<'a> {
     boxes: Vec<LinkShape>,
     files: MeshFiles<'a>,
     assets: Element,
-    /// Paths that are assets already, with their names.
-    named: Vec<(String, String)>,
+    /// Paths that are assets already.
+    named: HashSet<String>,
     bounded: bool,
     balanced: bool,
     notes: Vec<Note>,
@@ -39,15 +48,7 @@ pub(super) struct Bodies<'a> {
 impl<'a> Bodies<'a> {
     pub fn new(subject: &'a Subject<'a>) -> Result<Self, ExportError> {
         let kind = subject.options.shapes;
-        let mut shapes: Vec<Vec<LinkShape>> = subject.links.iter().map(|_| Vec::new()).collect();
-        for shape in subject.robot.shapes(kind)? {
-            if let Some(of_link) = shapes.get_mut(shape.link) {
-                of_link.push(shape);
-            }
-        }
-        if shapes.iter().all(Vec::is_empty) {
-            return Err(ExportError::NoShapes(kind));
-        }
+        let shapes = subject.shapes_by_link(kind)?;
         let boxes = match kind {
             ShapeKind::Pieces => subject.robot.shapes(ShapeKind::PieceBoxes)?,
             ShapeKind::Hulls => subject.robot.shapes(ShapeKind::Boxes)?,
@@ -60,7 +61,7 @@ impl<'a> Bodies<'a> {
             boxes,
             files: MeshFiles::new(subject),
             assets: Element::new("asset"),
-            named: Vec::new(),
+            named: HashSet::new(),
             bounded: false,
             balanced: false,
             notes: Vec::new(),
@@ -68,13 +69,13 @@ impl<'a> Bodies<'a> {
     }
 
     pub fn finish(self) -> Made {
-        (
-            self.assets,
-            self.files.into_files(),
-            self.bounded,
-            self.balanced,
-            self.notes,
-        )
+        Made {
+            assets: self.assets,
+            files: self.files.into_files(),
+            bounded: self.bounded,
+            balanced: self.balanced,
+            notes: self.notes,
+        }
     }
 
     /// The world with all bodies in it.
@@ -149,13 +150,8 @@ impl<'a> Bodies<'a> {
     }
 
     fn mass(&mut self, link: usize, moves: bool, element: &mut Element) {
-        let quaternions = has_quaternions(self.subject.urdf.version.as_deref());
-        let source = &self.subject.urdf.links[link];
-        let made = source
-            .inertial
-            .as_ref()
-            .map(|inertial| inertia::inertial(inertial, quaternions));
-        match made {
+        let source = &self.subject.view.links[link];
+        match source.inertial.as_ref().map(inertia::inertial) {
             Some(Ok((inertial, breaks_triangle))) => {
                 element.push(inertial);
                 self.balanced |= breaks_triangle;
@@ -210,11 +206,11 @@ impl<'a> Bodies<'a> {
         format: MeshFormat,
     ) -> Result<String, ExportError> {
         let path = self.files.add(link, what, mesh, format)?;
-        if let Some((_, name)) = self.named.iter().find(|(known, _)| *known == path) {
-            return Ok(name.clone());
-        }
         let file = path.rsplit('/').next().unwrap_or(&path);
         let name = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        if self.named.contains(&path) {
+            return Ok(name.to_owned());
+        }
         let mut asset = Element::new("mesh")
             .with("name", name)
             .with("file", path.as_str());
@@ -223,8 +219,9 @@ impl<'a> Bodies<'a> {
             asset = asset.with("inertia", "shell");
         }
         self.assets.push(asset);
-        self.named.push((path.clone(), name.to_owned()));
-        Ok(name.to_owned())
+        let name = name.to_owned();
+        self.named.insert(path);
+        Ok(name)
     }
 }
 

@@ -15,12 +15,18 @@ use super::element::Element;
 use super::error::{ExportError, Note};
 use super::numbers::numbers;
 use super::subject::Subject;
-use body::Bodies;
+use body::{Bodies, Made};
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut bodies = Bodies::new(subject)?;
     let world = bodies.world()?;
-    let (assets, files, bounded, balanced, mut notes) = bodies.finish();
+    let Made {
+        assets,
+        files,
+        bounded,
+        balanced,
+        mut notes,
+    } = bodies.finish();
     let mut compiler = Element::new("compiler")
         .with("angle", "radian")
         .with("autolimits", "true");

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use super::error::ExportError;
 use super::subject::Subject;
 use crate::geometry::bounding_sphere::BoundingSphere;
-use crate::robot::{ShapeKind, Solid};
+use crate::robot::{LinkShape, ShapeKind, Solid};
 use cell::Cell;
 
 /// Most cuts for each sphere that is asked for: some cuts alone give no other sphere.
@@ -37,18 +37,17 @@ impl Default for SphereBudget {
 
 /// The spheres of each link, in link order; none for one without pieces.
 fn spheres(subject: &Subject) -> Result<Vec<Vec<BoundingSphere>>, ExportError> {
-    let mut points: Vec<Vec<Vec<[f64; 3]>>> = subject.links.iter().map(|_| Vec::new()).collect();
-    for shape in subject.robot.shapes(ShapeKind::Pieces)? {
-        if let (Solid::Mesh(mesh), Some(of_link)) = (shape.solid, points.get_mut(shape.link)) {
-            of_link.push(mesh.vertices);
-        }
-    }
-    if points.iter().all(Vec::is_empty) {
-        return Err(ExportError::NoShapes(ShapeKind::Pieces));
-    }
-    let cells = points.into_iter().map(|pieces| match pieces.is_empty() {
+    let vertices = |shape: LinkShape| match shape.solid {
+        Solid::Mesh(mesh) => Some(mesh.vertices),
+        Solid::Box { .. } | Solid::Sphere { .. } => None,
+    };
+    let links = subject.shapes_by_link(ShapeKind::Pieces)?;
+    let cells = links.into_iter().map(|pieces| match pieces.is_empty() {
         true => Vec::new(),
-        false => vec![Cell::new(&pieces)],
+        false => {
+            let points: Vec<Vec<[f64; 3]>> = pieces.into_iter().filter_map(vertices).collect();
+            vec![Cell::new(&points)]
+        }
     });
     let mut links: Vec<Cover> = cells.map(Cover::new).collect();
     match subject.options.spheres {

@@ -7,7 +7,7 @@ use nalgebra::{Point3, Vector3, Vector6};
 use super::Goal;
 use crate::kinematics::branch::{Branch, Place};
 use crate::kinematics::forward::ForwardKinematics;
-use crate::kinematics::jacobian::columns;
+use crate::kinematics::jacobian::{add_to, columns};
 use crate::kinematics::joint::Motion;
 
 /// The joints from the root to a link, and the DOFs that move it.
@@ -152,11 +152,7 @@ impl<'a> Path<'a> {
                 configuration,
                 |dof, linear, angular| {
                     if let Some(k) = self.place[dof] {
-                        let column = &mut jacobian[k];
-                        for axis in 0..3 {
-                            column[axis] += linear[axis];
-                            column[axis + 3] += angular[axis];
-                        }
+                        add_to(jacobian[k].as_mut_slice(), linear, angular);
                     }
                 },
             );
