@@ -16,5 +16,8 @@ ctor::declarative::ctor! {
 }
 
 fn main() -> ExitCode {
-    urdd::cli::run(CLOSED.load(Ordering::Relaxed))
+    urdd::cli::run(
+        std::env::args_os().collect(),
+        CLOSED.load(Ordering::Relaxed),
+    )
 }

@@ -18,6 +18,7 @@ mod validate;
 mod view;
 mod words;
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -68,15 +69,15 @@ enum Command {
     },
 }
 
-/// Reads the command line and runs what it asks for. `closed` says that standard output was closed
-/// when the program started.
-pub fn run(closed: bool) -> ExitCode {
+/// Reads the command line and runs what it asks for. The first word is the program's name. `closed`
+/// says that standard output was closed when the program started.
+pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
     if closed {
         output::standard_output_is_closed();
     }
-    let arguments = match Arguments::try_parse() {
+    let arguments = match Arguments::try_parse_from(&words) {
         Ok(arguments) => arguments,
-        Err(error) => return usage(error),
+        Err(error) => return usage(error, &words),
     };
     let color = arguments.color;
     match arguments.command {
@@ -100,11 +101,12 @@ pub fn run(closed: bool) -> ExitCode {
 
 /// Prints help where it was asked for, or what is wrong with the command line: its words are the
 /// user's, or those of a file's name, and are escaped.
-fn usage(error: clap::Error) -> ExitCode {
+fn usage(error: clap::Error, words: &[OsString]) -> ExitCode {
     if error.use_stderr() {
         // Once more with escaped words, so that none of them adds a line of its own.
-        let words = std::env::args_os();
-        let words = words.map(|word| escape::line(&word.to_string_lossy()).into_owned());
+        let words = words
+            .iter()
+            .map(|word| escape::line(&word.to_string_lossy()).into_owned());
         let error = Arguments::try_parse_from(words).err().unwrap_or(error);
         let text = error.render().to_string();
         let text = escape::lines(text.trim_end());

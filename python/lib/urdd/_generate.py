@@ -1,0 +1,266 @@
+"""Making URDDs."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+from . import _urdd
+from ._robot import Robot, load
+
+__all__ = ["GenerateOptions", "Generated", "Job", "Note", "find_urdfs", "generate", "generate_text"]
+
+
+@dataclass(frozen=True)
+class Note:
+    """Something odd in a source, and what was made of it."""
+
+    kind: str
+    """What kind of oddity it is, such as ``mesh-not-found``."""
+    file: str
+    """The file, as it was named."""
+    line: int
+    """Line, from 1; 0 where it is about the file as a whole."""
+    column: int
+    """Column, from 1; 0 where it is about the file as a whole."""
+    problem: str
+    """What is wrong."""
+    assumed: str
+    """What was assumed, or done."""
+
+    def __str__(self) -> str:
+        place = f":{self.line}:{self.column}" if self.line else ""
+        return f"{self.file}{place}: {self.problem}: {self.assumed}"
+
+
+@dataclass(frozen=True)
+class Generated:
+    """A URDD that was made."""
+
+    path: Path
+    """Its folder."""
+    robot_name: str
+    """The robot's name."""
+    num_links: int
+    """Number of links."""
+    num_joints: int
+    """Number of joints."""
+    num_dofs: int
+    """Number of DOFs."""
+    conformance_class: str
+    """The class that it claims: ``Core``, ``Geometry`` or ``Shapes``."""
+    modules_made: list[str]
+    """The modules that were made."""
+    modules_kept: list[str]
+    """The modules that were taken over from the URDD before, since nothing that they are made of changed."""
+    changed: bool
+    """Whether anything is different from what was there before; if not, nothing was written."""
+    meshes_named: int
+    """Names of meshes in the source."""
+    meshes_not_found: int
+    """Those of which no file was found, or one that is no mesh."""
+    meshes_not_usable: int
+    """Those whose file is carried and cannot be used."""
+    notes: list[Note]
+    """What was odd in the source, and what was made of it."""
+
+    def load(self) -> Robot:
+        """The robot."""
+        return load(self.path)
+
+
+@dataclass(frozen=True)
+class GenerateOptions:
+    """How URDDs are made; each is described at :func:`generate`."""
+
+    modules: list[str] | None
+    packages: list[tuple[str, Path]]
+    allowed_folders: list[Path]
+    geometry: str
+    mesh_formats: list[str]
+    samples: int
+    skip: list[str] | None
+    strict: bool
+    xacro: bool
+    xacro_arguments: list[str]
+    xacro_timeout: float
+    drop_edits: bool
+    force: bool
+
+
+class Job(NamedTuple):
+    """A robot of many."""
+
+    source: Path
+    """The URDF or xacro file."""
+    name: str
+    """A name for its URDD, unlike every other in more than case."""
+
+
+def generate(
+    source: str | os.PathLike[str],
+    output: str | os.PathLike[str],
+    *,
+    modules: Iterable[str] | None = None,
+    packages: Mapping[str, str | os.PathLike[str]] | None = None,
+    allowed_folders: Iterable[str | os.PathLike[str]] = (),
+    geometry: Literal["visual", "collision"] = "visual",
+    mesh_formats: Iterable[Literal["glb", "stl", "obj"]] = ("glb", "stl", "obj"),
+    samples: int = 1000,
+    skip: Iterable[Literal["same-link", "always", "adjacent", "default", "never"]] | None = None,
+    strict: bool = False,
+    xacro: bool = False,
+    xacro_arguments: Mapping[str, object] | None = None,
+    xacro_timeout: float = 60.0,
+    drop_edits: bool = False,
+    force: bool = False,
+    progress: Callable[[str, int, int], object] | None = None,
+) -> Generated:
+    """Makes a URDD of a URDF or xacro file, in the folder ``output``. It is there as a whole afterwards, or as it was.
+
+    A second run makes only what changed, and keeps a person's edits of skips.
+
+    Args:
+        source: the file.
+        output: the folder of the URDD.
+        modules: modules to make besides the core class, or classes: ``["geometry"]``. Without it, all.
+        packages: where ROS packages are, by name.
+        allowed_folders: folders besides those of the robot and its packages from which mesh files may be taken.
+        geometry: which geometry links are made from; a link that has none of it gets the other.
+        mesh_formats: the files of each derived mesh. The .glb is always made.
+        samples: sampled configurations of the distance statistics, 100,000 at most.
+        skip: for which reasons pairs of shapes are skipped in collision checks. Without it, those of the URDD that is
+            replaced; of a new one all but ``never``.
+        strict: refuses a robot of which a mesh is not found, or anything has to be assumed that changes it.
+        xacro: expands macros in .urdf files too.
+        xacro_arguments: arguments of the xacro file, by name.
+        xacro_timeout: how long the program xacro may take, seconds.
+        drop_edits: drops the edits of skips in the URDD that is replaced.
+        force: writes into a folder that holds something else than a URDD of this program.
+        progress: is called with a module's name, how many modules are done, and how many there are.
+
+    Raises:
+        GenerateError: where the source is no robot, or the URDD cannot be written.
+        KeyboardInterrupt: after Ctrl-C; nothing was changed then.
+    """
+    options = _options(
+        modules,
+        packages,
+        allowed_folders,
+        geometry,
+        mesh_formats,
+        samples,
+        skip,
+        strict,
+        xacro,
+        xacro_arguments,
+        xacro_timeout,
+        drop_edits,
+        force,
+    )
+    target = Path(output)
+    return _generated(target, _urdd.generate(Path(source), target, options, progress))
+
+
+def generate_text(
+    urdf: str | bytes,
+    output: str | os.PathLike[str],
+    *,
+    folder: str | os.PathLike[str] = ".",
+    modules: Iterable[str] | None = None,
+    packages: Mapping[str, str | os.PathLike[str]] | None = None,
+    allowed_folders: Iterable[str | os.PathLike[str]] = (),
+    geometry: Literal["visual", "collision"] = "visual",
+    mesh_formats: Iterable[Literal["glb", "stl", "obj"]] = ("glb", "stl", "obj"),
+    samples: int = 1000,
+    skip: Iterable[Literal["same-link", "always", "adjacent", "default", "never"]] | None = None,
+    strict: bool = False,
+    drop_edits: bool = False,
+    force: bool = False,
+    progress: Callable[[str, int, int], object] | None = None,
+) -> Generated:
+    """As :func:`generate`, of the text of a URDF. Relative names of meshes begin in ``folder``."""
+    options = _options(
+        modules,
+        packages,
+        allowed_folders,
+        geometry,
+        mesh_formats,
+        samples,
+        skip,
+        strict,
+        False,
+        None,
+        60.0,
+        drop_edits,
+        force,
+    )
+    text = urdf.encode() if isinstance(urdf, str) else bytes(urdf)
+    target = Path(output)
+    return _generated(target, _urdd.generate_text(text, Path(folder), target, options, progress))
+
+
+def find_urdfs(*paths: str | os.PathLike[str], shard: tuple[int, int] | None = None) -> list[Job]:
+    """The robots below folders: every ``.urdf``, and every ``.urdf.xacro`` without one beside it, with a name for each.
+
+    Args:
+        paths: files and folders.
+        shard: ``(i, n)``: the i-th of n parts alone, from 1; as ``urdd generate --shard i/n`` has them.
+
+    Raises:
+        OpenError: where a path is not there, or a folder holds none.
+    """
+    jobs = [Job(source, name) for source, name in _urdd.find_urdfs([Path(path) for path in paths])]
+    if shard is None:
+        return jobs
+    part, of = shard
+    if not 1 <= part <= of:
+        raise ValueError(f"a shard is (i, n) with i from 1 to n, and this is {shard}")
+    return jobs[part - 1 :: of]
+
+
+def _options(
+    modules: Iterable[str] | None,
+    packages: Mapping[str, str | os.PathLike[str]] | None,
+    allowed_folders: Iterable[str | os.PathLike[str]],
+    geometry: str,
+    mesh_formats: Iterable[str],
+    samples: int,
+    skip: Iterable[str] | None,
+    strict: bool,
+    xacro: bool,
+    xacro_arguments: Mapping[str, object] | None,
+    xacro_timeout: float,
+    drop_edits: bool,
+    force: bool,
+) -> GenerateOptions:
+    return GenerateOptions(
+        modules=None if modules is None else words(modules, "modules"),
+        packages=[(name, Path(path)) for name, path in (packages or {}).items()],
+        allowed_folders=[Path(folder) for folder in allowed_folders],
+        geometry=geometry,
+        mesh_formats=words(mesh_formats, "mesh_formats"),
+        samples=int(samples),
+        skip=None if skip is None else words(skip, "skip"),
+        strict=bool(strict),
+        xacro=bool(xacro),
+        xacro_arguments=[f"{name}:={value}" for name, value in (xacro_arguments or {}).items()],
+        xacro_timeout=float(xacro_timeout),
+        drop_edits=bool(drop_edits),
+        force=bool(force),
+    )
+
+
+def words(given: Iterable[str], what: str) -> list[str]:
+    """A list of words. A single text is one by mistake: its letters would be the words."""
+    if isinstance(given, str):
+        raise TypeError(f"{what} must be a list of words: [{given!r}]")
+    return list(given)
+
+
+def _generated(path: Path, found: dict[str, Any]) -> Generated:
+    notes = [Note(*note) for note in found.pop("notes")]
+    return Generated(path=path, notes=notes, **found)

@@ -1,0 +1,91 @@
+"""Distances and collisions."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _urdd
+from ._answers import Pair, PairDistance
+from ._arrays import Bools, Floats, Indices, configurations, one_configuration, scalar
+
+
+class Proximity:
+    """The shapes of one kind, prepared for distances: ``robot.proximity("pieces")``.
+
+    Distances are right within 1e-9 m, and 0 for shapes that touch or overlap: depths of penetration are not given.
+    """
+
+    def __init__(self, core: _urdd.Proximity, link_names: tuple[str, ...], dof_names: tuple[str, ...]) -> None:
+        self._core = core
+        self._link_names = link_names
+        self._dof_names = dof_names
+
+    @property
+    def kind(self) -> str:
+        """Of which kind the shapes are."""
+        return self._core.kind
+
+    @property
+    def num_shapes(self) -> int:
+        """Number of shapes."""
+        return self._core.num_shapes
+
+    @property
+    def num_pairs(self) -> int:
+        """Number of pairs that are not skipped."""
+        return self._core.num_pairs
+
+    @cached_property
+    def pair_indices(self) -> Indices:
+        """(pairs, 2, 2): of each pair that is not skipped, and each of its two shapes, the link and the piece."""
+        return self._core.pairs()
+
+    @cached_property
+    def pairs(self) -> list[Pair]:
+        """The pairs that are not skipped, in the order of :meth:`distances`."""
+        return [
+            Pair((self._link_names[a], self._link_names[b]), (i, j)) for (a, i), (b, j) in self.pair_indices.tolist()
+        ]
+
+    def distances(self, q: ArrayLike) -> Floats:
+        """(..., pairs): the distance of each pair that is not skipped, metres."""
+        rows, batch = configurations(q, self._dof_names)
+        return self._core.distances(rows).reshape(*batch, self.num_pairs)
+
+    def self_distance(self, q: ArrayLike) -> Floats:
+        """(...): the least distance of all pairs, metres; infinite where there is no pair."""
+        rows, batch = configurations(q, self._dof_names)
+        return scalar(self._core.self_distance(rows).reshape(batch))
+
+    def in_collision(self, q: ArrayLike) -> Bools:
+        """(...): whether any pair touches or overlaps. This is answered soonest: it ends with the first that does."""
+        rows, batch = configurations(q, self._dof_names)
+        return scalar(self._core.in_collision(rows).reshape(batch))
+
+    def nearest(self, q: ArrayLike, k: int = 1) -> list[PairDistance]:
+        """The ``k`` nearest pairs in one configuration, nearest first; fewer where there are fewer pairs."""
+        if k < 0:
+            raise ValueError(f"the number of pairs must not be negative, and is {k}")
+        return self._answers(self._core.nearest(one_configuration(q, self._dof_names), k))
+
+    def collisions(self, q: ArrayLike) -> list[PairDistance]:
+        """The pairs that touch or overlap in one configuration."""
+        return self._answers(self._core.collisions(one_configuration(q, self._dof_names)))
+
+    def _answers(self, found: list[_urdd._Near]) -> list[PairDistance]:
+        return [
+            PairDistance(
+                links=(self._link_names[links[0]], self._link_names[links[1]]),
+                pieces=(pieces[0], pieces[1]),
+                distance=distance,
+                relative=relative,
+                points=np.array(points, dtype=np.float64),
+            )
+            for links, pieces, distance, relative, points in found
+        ]
+
+    def __repr__(self) -> str:
+        return f"<urdd.Proximity of {self.kind}: {self.num_shapes} shapes, {self.num_pairs} pairs that are not skipped>"

@@ -1,0 +1,1833 @@
+"""The modules of version 1, as dataclasses: every field with its meaning, shape, unit and frame.
+
+Written by `python/scripts/make_types.py` from `schema/`. Do not edit.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias, TypeVar
+
+from . import _urdd
+from .errors import ModuleUnusableError
+
+__all__ = [
+    "Axis",
+    "BoundingSphere",
+    "BoundsModule",
+    "Calibration",
+    "Capsule",
+    "ChainModule",
+    "Collision",
+    "Color",
+    "ConfigurationKind",
+    "ConformanceClass",
+    "ConnectionsModule",
+    "ConvexDecompositionMeshesModule",
+    "ConvexHullMeshesModule",
+    "Cuboid",
+    "Cylinder",
+    "DecompositionMethod",
+    "DistanceStatistics",
+    "Dof",
+    "DofModule",
+    "Dynamics",
+    "FileEntry",
+    "Generator",
+    "Geometry",
+    "GeometryKind",
+    "Inertia",
+    "Inertial",
+    "Joint",
+    "JointInChain",
+    "JointType",
+    "KinematicsSample",
+    "KinematicsSamplesModule",
+    "Limit",
+    "Link",
+    "LinkInChain",
+    "LinkName",
+    "LinkPath",
+    "LinkShapesApproximationsModule",
+    "LinkShapesDistanceStatisticsModule",
+    "LinkShapesMaxDistanceFromOriginModule",
+    "LinkShapesSimpleSkipsModule",
+    "LinkShapesSkipsModule",
+    "Mass",
+    "Material",
+    "Mesh",
+    "MeshFiles",
+    "MeshReference",
+    "Mimic",
+    "ModuleEntry",
+    "Modules",
+    "Obb",
+    "Origin",
+    "OriginalMesh",
+    "OriginalMeshesModule",
+    "PieceShape",
+    "PlainMesh",
+    "PlainMeshesModule",
+    "Pose",
+    "Quantity",
+    "ResolvedMimic",
+    "RootMetadata",
+    "SafetyController",
+    "SkipEdit",
+    "SkipReason",
+    "SkipReasons",
+    "SkippedReason",
+    "Source",
+    "Sphere",
+    "Texture",
+    "UrdfModule",
+    "Visual",
+    "read_root_metadata",
+]
+
+ConformanceClass: TypeAlias = Literal["Core", "Geometry", "Shapes"]
+"""How much of the specification a URDD carries and fulfils; each class holds those before it.
+- `Core`: Kinematics: urdf, dof, chain, connections, bounds (and kinematics samples, recommended).
+- `Geometry`: Core, and the four mesh modules.
+- `Shapes`: Geometry, and the link shape modules.
+"""
+
+JointType: TypeAlias = Literal["Revolute", "Continuous", "Prismatic", "Fixed", "Floating", "Planar", "Spherical"]
+"""How a joint moves.
+- `Revolute`: Turns about its axis, within limits. One DOF, rad.
+- `Continuous`: Turns about its axis, without limits. One DOF, rad.
+- `Prismatic`: Slides along its axis. One DOF, m.
+- `Fixed`: Does not move. No DOF.
+- `Floating`: Moves freely. Six DOFs: x, y, z (m), then a rotation vector (rad).
+- `Planar`: Slides in the plane normal to its axis and turns about it. Three DOFs: x, y (m), angle (rad).
+- `Spherical`: Turns freely. Three DOFs: a rotation vector (rad). Not in URDF's own list; accepted by many
+  readers.
+"""
+
+Quantity: TypeAlias = Literal["Angle", "Length"]
+"""What a DOF measures.
+- `Angle`: An angle, or a component of a rotation vector: radians.
+- `Length`: A length: metres.
+"""
+
+ConfigurationKind: TypeAlias = Literal["Zero", "Middle", "Lower", "Upper", "Sampled"]
+"""A configuration that the specification defines.
+- `Zero`: Every DOF 0, even where 0 is out of bounds.
+- `Middle`: Every DOF half-way between its bounds; a rotation vector 0.
+- `Lower`: Every DOF at its lower bound; a rotation vector (-pi, 0, 0).
+- `Upper`: Every DOF at its upper bound; a rotation vector (pi, 0, 0).
+- `Sampled`: Number `sample_idx` of the sequence of sampled configurations.
+"""
+
+GeometryKind: TypeAlias = Literal["Visual", "Collision"]
+"""Which of a link's two geometries a mesh was made from.
+- `Visual`: The `visual` elements.
+- `Collision`: The `collision` elements.
+"""
+
+SkipReason: TypeAlias = Literal["SameLink", "Always", "Adjacent", "Default", "Never", "None"]
+"""The reason of a pair of shapes: the first of these that applies.
+- `SameLink`: Both shapes are on one link. A simple skip.
+- `Always`: The largest sampled distance is at most 0.001 m: always in contact. A simple skip.
+- `Adjacent`: A joint connects the two links. Not a simple skip.
+- `Default`: The distance in the default configuration is at most 0.001 m: in contact when the robot stands still
+  at zero. Not a simple skip.
+- `Never`: The smallest sampled distance is more than 0.001 m: never in contact, as far as the samples show. Not
+  a simple skip.
+- `None`: None of these: in contact in some of the sampled configurations and not in others.
+"""
+
+SkippedReason: TypeAlias = Literal["SameLink", "Always", "Adjacent", "Default", "Never"]
+"""A reason of `link_shapes_simple_skips_module` for which pairs can be skipped: all but `None`.
+- `SameLink`: Both shapes are on one link.
+- `Always`: Always in contact, as far as the samples show.
+- `Adjacent`: A joint connects the two links.
+- `Default`: In contact in the default configuration.
+- `Never`: Never in contact, as far as the samples show: the number of samples is `num_samples` of
+  `link_shapes_distance_statistics_module`.
+"""
+
+
+@dataclass(frozen=True)
+class Generator:
+    """The program that wrote a URDD."""
+
+    name: str
+    """Name of the program."""
+
+    version: str
+    """Its version, in its own numbering."""
+
+
+@dataclass(frozen=True)
+class FileEntry:
+    """A file of the directory, with what is needed to see that it is unchanged."""
+
+    path: str
+    """Path relative to the URDD's root, with forward slashes."""
+
+    size: int
+    """Size in bytes."""
+
+    sha256: str
+    """SHA-256 of the bytes."""
+
+
+@dataclass(frozen=True)
+class ModuleEntry:
+    """One module of the directory."""
+
+    name: str
+    """Name of the module, such as `dof_module`: the last part of its path."""
+
+    version: str
+    """Version of the module's format; equal to the module's `VERSION` file."""
+
+    path: str
+    """Folder of the module, relative to the URDD's root, with forward slashes."""
+
+    depends_on: list[str]
+    """Names of the modules that this one was derived from."""
+
+    files: list[FileEntry]
+    """Every file of the module, sorted by path (byte order)."""
+
+
+@dataclass(frozen=True)
+class RootMetadata:
+    """Root metadata of a URDD (`urdd.json`): names the robot, the specification's version, the source, and every
+    module with its files."""
+
+    urdd_version: str
+    """Version of the URDD specification that this directory follows."""
+
+    robot_name: str
+    """Name of the robot; equal to `name` of `urdf_module`."""
+
+    conformance_class: ConformanceClass
+    """The conformance class that the directory claims to fulfil."""
+
+    generator: Generator | None
+    """The program that wrote the directory; null when written by hand. Free: not checked."""
+
+    source: Source | None
+    """What the directory was made from; null when from nothing that can be named."""
+
+    modules: list[ModuleEntry]
+    """Every module, in the order of the specification's table of modules, extensions last."""
+
+
+@dataclass(frozen=True)
+class Link:
+    """A link: a rigid body."""
+
+    name: str
+    """Name, unique among the links."""
+
+    inertial: Inertial | None
+    """Mass, centre of mass and inertia."""
+
+    visual: list[Visual]
+    """Visual elements in the order of the file."""
+
+    collision: list[Collision]
+    """Collision elements in the order of the file."""
+
+    unknown_elements: list[str]
+    """Other elements directly under `<link>`, each as its own XML text."""
+
+
+@dataclass(frozen=True)
+class Inertial:
+    """Mass properties of a link."""
+
+    origin: Origin | None
+    """Centre of mass, and the axes of `inertia`, in the link's frame."""
+
+    mass: Mass | None
+    """Mass."""
+
+    inertia: Inertia | None
+    """Inertia tensor about the centre of mass, in the axes of `origin`."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """A pose as the URDF writes it."""
+
+    xyz: list[float] | None
+    """Position, metres: x, y, z."""
+
+    rpy: list[float] | None
+    """Fixed-axis roll, pitch, yaw, radians: turn about x, then y, then z of the outer frame."""
+
+    quat_xyzw: list[float] | None
+    """Rotation as a quaternion x, y, z, w of any length but zero, instead of `rpy`. It counts from URDF version 1.1
+    on; before, it has no meaning."""
+
+
+@dataclass(frozen=True)
+class Mass:
+    """Mass of a link."""
+
+    value: float
+    """Kilograms."""
+
+
+@dataclass(frozen=True)
+class Inertia:
+    """The six independent elements of a symmetric inertia tensor, kg m²."""
+
+    ixx: float | None
+    """Element xx."""
+
+    ixy: float | None
+    """Element xy."""
+
+    ixz: float | None
+    """Element xz."""
+
+    iyy: float | None
+    """Element yy."""
+
+    iyz: float | None
+    """Element yz."""
+
+    izz: float | None
+    """Element zz."""
+
+
+@dataclass(frozen=True)
+class Visual:
+    """What a link looks like, or a part of it."""
+
+    name: str | None
+    """Name of the element."""
+
+    origin: Origin | None
+    """Pose of the geometry in the link's frame."""
+
+    geometry: Geometry | None
+    """Its shape."""
+
+    material: Material | None
+    """Its material."""
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A mesh file."""
+
+    filename: str
+    """File name as the URDF has it (`package://…`, `file://…`, relative or absolute)."""
+
+    scale: list[float] | None
+    """Factors along x, y, z; null means 1, 1, 1."""
+
+
+@dataclass(frozen=True)
+class Cuboid:
+    """A box about the origin."""
+
+    size: list[float]
+    """Full side lengths along x, y, z, metres."""
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """A cylinder about the origin, along z."""
+
+    radius: float
+    """Radius, metres."""
+
+    length: float
+    """Full length, metres."""
+
+
+@dataclass(frozen=True)
+class Capsule:
+    """A capsule about the origin, along z: a cylinder with half a sphere on each end."""
+
+    radius: float
+    """Radius, metres."""
+
+    length: float
+    """Length of the cylinder without the half spheres, metres."""
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """A sphere about the origin."""
+
+    radius: float
+    """Radius, metres."""
+
+
+@dataclass(frozen=True)
+class Material:
+    """A material, or a reference to one by its name."""
+
+    name: str | None
+    """Name."""
+
+    color: Color | None
+    """Colour."""
+
+    texture: Texture | None
+    """Texture."""
+
+
+@dataclass(frozen=True)
+class Color:
+    """A colour."""
+
+    rgba: list[float]
+    """Red, green, blue, opacity, each from 0 to 1."""
+
+
+@dataclass(frozen=True)
+class Texture:
+    """A texture."""
+
+    filename: str
+    """File name as the URDF has it."""
+
+
+@dataclass(frozen=True)
+class Collision:
+    """What a link collides with, or a part of it."""
+
+    name: str | None
+    """Name of the element."""
+
+    origin: Origin | None
+    """Pose of the geometry in the link's frame."""
+
+    geometry: Geometry | None
+    """Its shape."""
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint: how one link moves on another."""
+
+    name: str
+    """Name, unique among the joints."""
+
+    joint_type: JointType
+    """How it moves."""
+
+    origin: Origin | None
+    """Pose of the joint's frame (which is the child link's frame at zero) in the parent link's frame."""
+
+    parent: LinkName
+    """The link that carries the joint."""
+
+    child: LinkName
+    """The link that the joint moves."""
+
+    axis: Axis | None
+    """Axis in the joint's frame, as written: not normalised. Null means (1, 0, 0)."""
+
+    limit: Limit | None
+    """Limits."""
+
+    dynamics: Dynamics | None
+    """Damping and friction."""
+
+    mimic: Mimic | None
+    """The joint that this one follows."""
+
+    safety_controller: SafetyController | None
+    """Soft limits."""
+
+    calibration: Calibration | None
+    """Reference positions."""
+
+    unknown_elements: list[str]
+    """Other elements directly under `<joint>`, each as its own XML text."""
+
+
+@dataclass(frozen=True)
+class LinkName:
+    """A link, by name."""
+
+    link: str
+    """Name of the link."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """The axis of a joint."""
+
+    xyz: list[float] | None
+    """Direction in the joint's frame, of any length but zero."""
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Limits of a joint: rad, rad/s, N m for turning joints; m, m/s, N for sliding ones."""
+
+    lower: float | None
+    """Smallest position."""
+
+    upper: float | None
+    """Largest position."""
+
+    effort: float | None
+    """Largest effort."""
+
+    velocity: float | None
+    """Largest speed."""
+
+    acceleration: float | None
+    """Largest acceleration, rad/s² or m/s². This and the next two: from URDF version 1.2 on."""
+
+    deceleration: float | None
+    """Largest deceleration, rad/s² or m/s²; where it is absent, that of `acceleration`."""
+
+    jerk: float | None
+    """Largest rate of change of acceleration, rad/s³ or m/s³."""
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """Dynamics of a joint."""
+
+    damping: float | None
+    """Damping: N m s/rad, or N s/m."""
+
+    friction: float | None
+    """Static friction: N m, or N."""
+
+
+@dataclass(frozen=True)
+class Mimic:
+    """Follows another joint: `position = multiplier * position of joint + offset`."""
+
+    joint: str
+    """Name of the joint that is followed."""
+
+    multiplier: float | None
+    """Factor; null means 1."""
+
+    offset: float | None
+    """Offset, rad or m; null means 0."""
+
+
+@dataclass(frozen=True)
+class SafetyController:
+    """Soft limits of a joint."""
+
+    soft_lower_limit: float | None
+    """Where the controller begins to limit the position, below."""
+
+    soft_upper_limit: float | None
+    """Where the controller begins to limit the position, above."""
+
+    k_position: float | None
+    """Relation between position and velocity limits."""
+
+    k_velocity: float | None
+    """Relation between effort and velocity limits."""
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """Reference positions of a joint."""
+
+    rising: float | None
+    """Position at which a rising edge is seen."""
+
+    falling: float | None
+    """Position at which a falling edge is seen."""
+
+
+@dataclass(frozen=True)
+class UrdfModule:
+    """The source URDF as data. What the URDF leaves out is null (or an empty list), never a default. Lengths are
+    metres, angles radians, masses kilograms; rotations are the URDF's own fixed-axis roll, pitch, yaw. Numbers
+    that are not finite in the URDF are written as null."""
+
+    name: str
+    """Name of the robot (`<robot name>`)."""
+
+    version: str | None
+    """The URDF format version that the file states (`<robot version>`)."""
+
+    links: list[Link]
+    """Links in the order of the file. The place in this list is the link index."""
+
+    joints: list[Joint]
+    """Joints in the order of the file. The place in this list is the joint index."""
+
+    materials: list[Material]
+    """Materials declared at the top of the file, in its order."""
+
+    unknown_elements: list[str]
+    """Other elements directly under `<robot>` (transmission, gazebo, ros2_control, …), each as its own XML text, in
+    the order of the file."""
+
+
+@dataclass(frozen=True)
+class ResolvedMimic:
+    """What a mimic joint's position is: `multiplier * q[dof_idx] + offset`."""
+
+    dof_idx: int | None
+    """The DOF that drives the joint; null where the chain of mimics ends in a fixed joint, and the position is
+    `offset` at all times."""
+
+    multiplier: float
+    """Factor: the product of the factors along the chain of mimics."""
+
+    offset: float
+    """Offset, rad or m, accumulated along the chain of mimics."""
+
+
+@dataclass(frozen=True)
+class Dof:
+    """A degree of freedom."""
+
+    name: str
+    """Unique name: the joint's name where the joint has one DOF; else that name, a slash, and `trans_x`, `trans_y`,
+    `trans_z`, `rot_x`, `rot_y`, `rot_z` or (planar) `rot`."""
+
+    joint_idx: int
+    """The joint that it moves."""
+
+    joint_name: str
+    """Name of that joint."""
+
+    quantity: Quantity
+    """What it measures."""
+
+
+@dataclass(frozen=True)
+class DofModule:
+    """The robot's degrees of freedom (DOFs), in joint order, and the position of every joint as a function of them."""
+
+    num_dofs: int
+    """Number of DOFs: the length of a configuration vector."""
+
+    dof_idx_to_joint_idx_mapping: list[int]
+    """For each DOF, its joint."""
+
+    joint_idx_to_dof_idxs_mapping: list[list[int]]
+    """For each joint, its DOFs, ascending; empty for fixed and for mimic joints."""
+
+    joint_idx_to_mimic_mapping: list[ResolvedMimic | None]
+    """For each joint, how it follows a DOF if it is a mimic joint, else null. Chains of mimics are resolved."""
+
+    dofs: list[Dof]
+    """What each DOF is."""
+
+
+@dataclass(frozen=True)
+class LinkInChain:
+    """A link, with its neighbours."""
+
+    name: str
+    """Name of the link."""
+
+    link_idx: int
+    """Its own index: its place in this list."""
+
+    parent_joint_idx: int | None
+    """The joint that moves it; null for the root."""
+
+    parent_link_idx: int | None
+    """The link that this joint sits on; null for the root."""
+
+    children_joint_idxs: list[int]
+    """The joints that sit on this link, ascending."""
+
+    children_link_idxs: list[int]
+    """The links that these joints move, ascending."""
+
+
+@dataclass(frozen=True)
+class JointInChain:
+    """A joint, with its two links and its motion."""
+
+    joint_name: str
+    """Name of the joint."""
+
+    joint_idx: int
+    """Its own index: its place in this list."""
+
+    parent_link_name: str
+    """Name of the link that carries it."""
+
+    parent_link_idx: int
+    """That link."""
+
+    child_link_name: str
+    """Name of the link that it moves."""
+
+    child_link_idx: int
+    """That link."""
+
+    joint_type: JointType
+    """How it moves."""
+
+    origin: Pose
+    """Pose of the joint's frame in the parent link's frame. At the zero position the child link's frame is the
+    joint's frame."""
+
+    axis: list[float] | None
+    """Unit axis in the joint's frame; for a planar joint the plane's normal. Null for fixed, floating and spherical
+    joints, which have none."""
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A rigid transform: where a frame lies, and how it is turned, seen from another frame. It takes coordinates of
+    the inner frame to the outer one: `p_outer = R * p_inner + position`."""
+
+    position: list[float]
+    """Origin of the inner frame in the outer frame, metres: x, y, z."""
+
+    quaternion_wxyz: list[float]
+    """Rotation from the inner to the outer frame as a unit quaternion: w, x, y, z, with `w >= 0`."""
+
+
+@dataclass(frozen=True)
+class ChainModule:
+    """The kinematic tree: who is whose parent, and where each joint sits and how it moves. With `dof_module`, this
+    is all that forward kinematics needs."""
+
+    links_in_chain: list[LinkInChain]
+    """Every link, in link order."""
+
+    joints_in_chain: list[JointInChain]
+    """Every joint, in joint order."""
+
+    kinematic_hierarchy: list[list[int]]
+    """Links by their depth below the root: level 0 is the root alone; each level ascending."""
+
+    root_idx: int
+    """The one link without a parent."""
+
+
+@dataclass(frozen=True)
+class LinkPath:
+    """A path through the kinematic tree."""
+
+    links: list[int]
+    """The links along the path, both ends included."""
+
+    joints: list[int]
+    """The joints between them: one fewer than `links`."""
+
+
+@dataclass(frozen=True)
+class ConnectionsModule:
+    """Paths through the kinematic tree. The path from link i to link j climbs from i to their lowest common
+    ancestor and goes down to j, so two slices of `root_paths` give it."""
+
+    root_paths: list[LinkPath]
+    """For each link, the path to it from the root."""
+
+    lowest_common_ancestors: list[list[int]]
+    """Element (i, j) is the lowest link that lies above (or is) both i and j."""
+
+    link_to_link_paths: list[list[LinkPath]] | None
+    """Element (i, j) is the path from link i to link j. May be null above 300 links, and where the paths hold more
+    than 2,000,000 links together."""
+
+    link_connection_paths: list[list[list[int] | None]] | None
+    """Element (i, j), where j is a descendant of i: the links from i (left out) to j (included); where i is j:
+    `[i]`; else null. The whole may be null where `link_to_link_paths` may."""
+
+
+@dataclass(frozen=True)
+class BoundsModule:
+    """Bounds of the configuration space, per DOF: rad or m as `dofs` of `dof_module` says. Every bound is finite."""
+
+    bounds: list[list[float]]
+    """Lower and upper bound of each DOF."""
+
+    dof_lower_bounds: list[float]
+    """Lower bound of each DOF: the first elements of `bounds`."""
+
+    dof_upper_bounds: list[float]
+    """Upper bound of each DOF: the second elements of `bounds`."""
+
+    dof_limited: list[bool]
+    """For each DOF, whether the source limits it. A DOF without limits has the bounds [-pi, pi] if it is an angle
+    and [-1, 1] if it is a length; a rotation vector's norm is at most pi."""
+
+    dof_velocity_limits: list[float | None]
+    """For each DOF, the largest speed (rad/s or m/s); null where the source has none."""
+
+    dof_effort_limits: list[float | None]
+    """For each DOF, the largest effort (N m or N); null where the source has none."""
+
+
+@dataclass(frozen=True)
+class KinematicsSample:
+    """A configuration, and where every link is then."""
+
+    kind: ConfigurationKind
+    """Which configuration it is."""
+
+    sample_idx: int | None
+    """The number of a sampled configuration; null for the other kinds."""
+
+    configuration: list[float]
+    """One value per DOF, rad or m."""
+
+    link_poses: list[Pose]
+    """For each link, its frame's pose in the root link's frame."""
+
+
+@dataclass(frozen=True)
+class KinematicsSamplesModule:
+    """Configurations, and the pose of every link in each: values by which a consumer in any language proves its
+    forward kinematics right."""
+
+    samples: list[KinematicsSample]
+    """The samples: zero, middle, lower, upper, then sampled ones in order."""
+
+
+@dataclass(frozen=True)
+class MeshReference:
+    """A place in the URDF that names a mesh."""
+
+    link_idx: int
+    """The link."""
+
+    geometry: GeometryKind
+    """Whether a visual or a collision element names it."""
+
+    element_idx: int
+    """Which of the link's elements of that kind."""
+
+    filename: str
+    """File name as the URDF has it."""
+
+    path: str | None
+    """The carried file, relative to the URDD's root; null where the mesh could not be found."""
+
+
+@dataclass(frozen=True)
+class OriginalMesh:
+    """A carried mesh file."""
+
+    path: str
+    """Path relative to the URDD's root, with forward slashes."""
+
+    side_files: list[str]
+    """Files that the mesh names in turn (`.mtl`, `.bin`, textures), relative to the URDD's root, sorted. They lie
+    where the mesh expects them."""
+
+    usable: bool
+    """Whether the file can be read as a mesh, and has a triangle with an area. Where not, elements that name it
+    have no surface."""
+
+
+@dataclass(frozen=True)
+class OriginalMeshesModule:
+    """Every mesh that the URDF names, carried unchanged."""
+
+    references: list[MeshReference]
+    """Every mesh reference of the URDF: links in order, visual before collision, elements in order."""
+
+    files: list[OriginalMesh]
+    """Every carried mesh file once, sorted by path (byte order)."""
+
+
+@dataclass(frozen=True)
+class PlainMesh:
+    """The mesh of a link."""
+
+    geometry: GeometryKind
+    """Which geometry it was made from."""
+
+    files: MeshFiles
+    """Its files."""
+
+
+@dataclass(frozen=True)
+class MeshFiles:
+    """One mesh in up to three formats, the same triangles in each: vertices in metres, in the link's frame,
+    binary32. Paths are relative to the URDD's root, with forward slashes."""
+
+    stl: str | None
+    """Binary STL; null where the module has none."""
+
+    obj: str | None
+    """Wavefront OBJ; null where the module has none."""
+
+    glb: str
+    """Binary glTF 2.0, no node with a transform, vertices in link axes, with the source's colours."""
+
+
+@dataclass(frozen=True)
+class PlainMeshesModule:
+    """One mesh per link: all its geometry of one kind, with origin, rotation and scale applied and primitives
+    tessellated."""
+
+    preferred_geometry: GeometryKind
+    """Which geometry is preferred; the other is used for a link that has none of it."""
+
+    link_meshes: list[PlainMesh | None]
+    """For each link its mesh, or null for a link without geometry."""
+
+
+@dataclass(frozen=True)
+class ConvexHullMeshesModule:
+    """The convex hull of each link's plain mesh."""
+
+    link_hulls: list[MeshFiles | None]
+    """For each link its hull, or null for a link without a plain mesh."""
+
+
+@dataclass(frozen=True)
+class DecompositionMethod:
+    """How convex pieces were made."""
+
+    name: str
+    """Name of the algorithm."""
+
+    surface_tolerance: float | None
+    """How far a point of the link's surface may lie outside the pieces, metres, where the algorithm promises that;
+    else null."""
+
+
+@dataclass(frozen=True)
+class ConvexDecompositionMeshesModule:
+    """Each link's plain mesh as a union of convex pieces."""
+
+    method: DecompositionMethod
+    """How the pieces were made. Free, but for what `surface_tolerance` promises (7.10)."""
+
+    link_pieces: list[list[MeshFiles]]
+    """For each link its pieces; empty for a link without a plain mesh. The place in the list is the piece index."""
+
+
+@dataclass(frozen=True)
+class Obb:
+    """An oriented bounding box."""
+
+    half_extents: list[float]
+    """Half of each side length, metres, along the box's own axes."""
+
+    offset_xyz: list[float]
+    """Centre in the link's frame, metres."""
+
+    offset_rpy: list[float]
+    """Rotation from the box's axes to the link's: fixed-axis roll, pitch, yaw, radians."""
+
+
+@dataclass(frozen=True)
+class BoundingSphere:
+    """A bounding sphere."""
+
+    radius: float
+    """Radius, metres."""
+
+    offset_xyz: list[float]
+    """Centre in the link's frame, metres."""
+
+
+@dataclass(frozen=True)
+class LinkShapesApproximationsModule:
+    """Oriented bounding boxes (OBBs) and bounding spheres of each link and of each convex piece, in the link's
+    frame."""
+
+    full_obbs: list[Obb | None]
+    """For each link, a box that holds its hull; null for a link without a mesh."""
+
+    full_bounding_spheres: list[BoundingSphere | None]
+    """For each link, a sphere that holds its hull; null for a link without a mesh."""
+
+    decomposition_obbs: list[list[Obb]]
+    """For each link, a box for each convex piece."""
+
+    decomposition_bounding_spheres: list[list[BoundingSphere]]
+    """For each link, a sphere for each convex piece."""
+
+
+@dataclass(frozen=True)
+class LinkShapesMaxDistanceFromOriginModule:
+    """The largest distance of any point of a shape from the origin of its link's frame, metres."""
+
+    full_convex_hulls_maximum_distances: list[float | None]
+    """For each link, of its convex hull; null for a link without one."""
+
+    full_obbs_maximum_distances: list[float | None]
+    """For each link, of its box; null for a link without one."""
+
+    full_bounding_spheres_maximum_distances: list[float | None]
+    """For each link, of its sphere; null for a link without one."""
+
+    decomposition_convex_hulls_maximum_distances: list[list[float]]
+    """For each link, of each convex piece."""
+
+    decomposition_obbs_maximum_distances: list[list[float]]
+    """For each link, of the box of each convex piece."""
+
+    decomposition_bounding_spheres_maximum_distances: list[list[float]]
+    """For each link, of the sphere of each convex piece."""
+
+
+@dataclass(frozen=True)
+class PieceShape:
+    """A convex piece of a link."""
+
+    link_idx: int
+    """The link."""
+
+    piece_idx: int
+    """The piece, as in `link_pieces` of `convex_decomposition_meshes_module`."""
+
+
+@dataclass(frozen=True)
+class DistanceStatistics:
+    """Square symmetric matrices over one list of shapes, metres."""
+
+    mean_distances: list[list[float]]
+    """Mean distance of each pair."""
+
+    min_distances: list[list[float]]
+    """Smallest distance of each pair."""
+
+    max_distances: list[list[float]]
+    """Largest distance of each pair."""
+
+
+@dataclass(frozen=True)
+class LinkShapesDistanceStatisticsModule:
+    """Mean, smallest and largest distance of each pair of shapes over the specification's sampled configurations,
+    metres. A distance is 0 where the shapes touch or overlap."""
+
+    num_samples: int
+    """Number of sampled configurations, from the first of the specification's sequence."""
+
+    full_shapes: list[int]
+    """What index i of a `full_…` matrix stands for: the links that have a shape, ascending."""
+
+    decomposition_shapes: list[PieceShape]
+    """What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order."""
+
+    full_convex_hulls: DistanceStatistics
+    """Between the links' convex hulls."""
+
+    full_obbs: DistanceStatistics
+    """Between the links' boxes."""
+
+    full_bounding_spheres: DistanceStatistics
+    """Between the links' spheres."""
+
+    decomposition_convex_hulls: DistanceStatistics | None
+    """Between convex pieces; null above 500 pieces, unless asked for."""
+
+    decomposition_obbs: DistanceStatistics | None
+    """Between the boxes of convex pieces; null above 500 pieces, unless asked for."""
+
+    decomposition_bounding_spheres: DistanceStatistics | None
+    """Between the spheres of convex pieces; null above 500 pieces, unless asked for."""
+
+
+@dataclass(frozen=True)
+class SkipReasons:
+    """The reason of each pair, for each kind of shape."""
+
+    full_convex_hulls: list[list[SkipReason]]
+    """Between the links' convex hulls."""
+
+    full_obbs: list[list[SkipReason]]
+    """Between the links' boxes."""
+
+    full_bounding_spheres: list[list[SkipReason]]
+    """Between the links' spheres."""
+
+    decomposition_convex_hulls: list[list[SkipReason]] | None
+    """Between convex pieces; null where the statistics are."""
+
+    decomposition_obbs: list[list[SkipReason]] | None
+    """Between the boxes of convex pieces; null where the statistics are."""
+
+    decomposition_bounding_spheres: list[list[SkipReason]] | None
+    """Between the spheres of convex pieces; null where the statistics are."""
+
+
+@dataclass(frozen=True)
+class LinkShapesSimpleSkipsModule:
+    """For each pair of shapes, whether the two are always in contact, so that a collision check says nothing about
+    them, and the reason by which the pair is classed."""
+
+    full_shapes: list[int]
+    """What index i of a `full_…` matrix stands for: the links that have a shape, ascending."""
+
+    decomposition_shapes: list[PieceShape]
+    """What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order."""
+
+    full_convex_hulls_simple_skips: list[list[bool]]
+    """Skips between the links' convex hulls: true where both shapes are on one link, or where the largest sampled
+    distance is at most 0.001 m."""
+
+    full_obbs_simple_skips: list[list[bool]]
+    """Skips between the links' boxes."""
+
+    full_bounding_spheres_simple_skips: list[list[bool]]
+    """Skips between the links' spheres."""
+
+    decomposition_convex_hulls_simple_skips: list[list[bool]] | None
+    """Skips between convex pieces; null where the statistics are."""
+
+    decomposition_obbs_simple_skips: list[list[bool]] | None
+    """Skips between the boxes of convex pieces; null where the statistics are."""
+
+    decomposition_bounding_spheres_simple_skips: list[list[bool]] | None
+    """Skips between the spheres of convex pieces; null where the statistics are."""
+
+    reasons: SkipReasons
+    """The reason of each pair, for each of the matrices above."""
+
+
+@dataclass(frozen=True)
+class SkipEdit:
+    """A person's decision on a pair of links, for all their shapes of every kind."""
+
+    link_a: str
+    """Name of one link."""
+
+    link_b: str
+    """Name of the other link; may be the same."""
+
+    skip: bool
+    """Whether checks between the two are skipped."""
+
+    reason: str
+    """Why."""
+
+
+@dataclass(frozen=True)
+class LinkShapesSkipsModule:
+    """The pairs of shapes that a collision check skips: those with one of the skipped reasons, and then a person's
+    edits, applied in order."""
+
+    skipped_reasons: list[SkippedReason]
+    """The reasons of `link_shapes_simple_skips_module` for which a pair is skipped, each once, in the order of the
+    specification."""
+
+    edits: list[SkipEdit]
+    """The edits, applied in order. What a person decides is free; the names must exist."""
+
+    full_shapes: list[int]
+    """What index i of a `full_…` matrix stands for: the links that have a shape, ascending."""
+
+    decomposition_shapes: list[PieceShape]
+    """What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order."""
+
+    full_convex_hulls_skips: list[list[bool]]
+    """Skips between the links' convex hulls."""
+
+    full_obbs_skips: list[list[bool]]
+    """Skips between the links' boxes."""
+
+    full_bounding_spheres_skips: list[list[bool]]
+    """Skips between the links' spheres."""
+
+    decomposition_convex_hulls_skips: list[list[bool]] | None
+    """Skips between convex pieces; null where the statistics are."""
+
+    decomposition_obbs_skips: list[list[bool]] | None
+    """Skips between the boxes of convex pieces; null where the statistics are."""
+
+    decomposition_bounding_spheres_skips: list[list[bool]] | None
+    """Skips between the spheres of convex pieces; null where the statistics are."""
+
+
+Source: TypeAlias = FileEntry
+"""What a URDD was made from: in JSON an object of one key, here that key's value."""
+
+Geometry: TypeAlias = Mesh | Cuboid | Cylinder | Capsule | Sphere
+"""A shape: in JSON an object of one key, here that key's value."""
+
+
+def _generator(v: Any) -> Generator:
+    return Generator(
+        name=v["name"],
+        version=v["version"],
+    )
+
+
+def _source(v: Any) -> Source:
+    (value,) = v.values()
+    return _file_entry(value)
+
+
+def _file_entry(v: Any) -> FileEntry:
+    return FileEntry(
+        path=v["path"],
+        size=int(v["size"]),
+        sha256=v["sha256"],
+    )
+
+
+def _module_entry(v: Any) -> ModuleEntry:
+    return ModuleEntry(
+        name=v["name"],
+        version=v["version"],
+        path=v["path"],
+        depends_on=v["depends_on"],
+        files=[_file_entry(x) for x in v["files"]],
+    )
+
+
+def _root_metadata(v: Any) -> RootMetadata:
+    return RootMetadata(
+        urdd_version=v["urdd_version"],
+        robot_name=v["robot_name"],
+        conformance_class=v["conformance_class"],
+        generator=None if v["generator"] is None else _generator(v["generator"]),
+        source=None if v["source"] is None else _source(v["source"]),
+        modules=[_module_entry(x) for x in v["modules"]],
+    )
+
+
+def _link(v: Any) -> Link:
+    return Link(
+        name=v["name"],
+        inertial=None if v["inertial"] is None else _inertial(v["inertial"]),
+        visual=[_visual(x) for x in v["visual"]],
+        collision=[_collision(x) for x in v["collision"]],
+        unknown_elements=v["unknown_elements"],
+    )
+
+
+def _inertial(v: Any) -> Inertial:
+    return Inertial(
+        origin=None if v["origin"] is None else _origin(v["origin"]),
+        mass=None if v["mass"] is None else _mass(v["mass"]),
+        inertia=None if v["inertia"] is None else _inertia(v["inertia"]),
+    )
+
+
+def _origin(v: Any) -> Origin:
+    return Origin(
+        xyz=v["xyz"],
+        rpy=v["rpy"],
+        quat_xyzw=v["quat_xyzw"],
+    )
+
+
+def _mass(v: Any) -> Mass:
+    return Mass(
+        value=v["value"],
+    )
+
+
+def _inertia(v: Any) -> Inertia:
+    return Inertia(
+        ixx=v["ixx"],
+        ixy=v["ixy"],
+        ixz=v["ixz"],
+        iyy=v["iyy"],
+        iyz=v["iyz"],
+        izz=v["izz"],
+    )
+
+
+def _visual(v: Any) -> Visual:
+    return Visual(
+        name=v["name"],
+        origin=None if v["origin"] is None else _origin(v["origin"]),
+        geometry=None if v["geometry"] is None else _geometry(v["geometry"]),
+        material=None if v["material"] is None else _material(v["material"]),
+    )
+
+
+def _geometry(v: Any) -> Geometry:
+    ((kind, value),) = v.items()
+    if kind == "Mesh":
+        return _mesh(value)
+    if kind == "Box":
+        return _cuboid(value)
+    if kind == "Cylinder":
+        return _cylinder(value)
+    if kind == "Capsule":
+        return _capsule(value)
+    return _sphere(value)
+
+
+def _mesh(v: Any) -> Mesh:
+    return Mesh(
+        filename=v["filename"],
+        scale=v["scale"],
+    )
+
+
+def _cuboid(v: Any) -> Cuboid:
+    return Cuboid(
+        size=v["size"],
+    )
+
+
+def _cylinder(v: Any) -> Cylinder:
+    return Cylinder(
+        radius=v["radius"],
+        length=v["length"],
+    )
+
+
+def _capsule(v: Any) -> Capsule:
+    return Capsule(
+        radius=v["radius"],
+        length=v["length"],
+    )
+
+
+def _sphere(v: Any) -> Sphere:
+    return Sphere(
+        radius=v["radius"],
+    )
+
+
+def _material(v: Any) -> Material:
+    return Material(
+        name=v["name"],
+        color=None if v["color"] is None else _color(v["color"]),
+        texture=None if v["texture"] is None else _texture(v["texture"]),
+    )
+
+
+def _color(v: Any) -> Color:
+    return Color(
+        rgba=v["rgba"],
+    )
+
+
+def _texture(v: Any) -> Texture:
+    return Texture(
+        filename=v["filename"],
+    )
+
+
+def _collision(v: Any) -> Collision:
+    return Collision(
+        name=v["name"],
+        origin=None if v["origin"] is None else _origin(v["origin"]),
+        geometry=None if v["geometry"] is None else _geometry(v["geometry"]),
+    )
+
+
+def _joint(v: Any) -> Joint:
+    return Joint(
+        name=v["name"],
+        joint_type=v["joint_type"],
+        origin=None if v["origin"] is None else _origin(v["origin"]),
+        parent=_link_name(v["parent"]),
+        child=_link_name(v["child"]),
+        axis=None if v["axis"] is None else _axis(v["axis"]),
+        limit=None if v["limit"] is None else _limit(v["limit"]),
+        dynamics=None if v["dynamics"] is None else _dynamics(v["dynamics"]),
+        mimic=None if v["mimic"] is None else _mimic(v["mimic"]),
+        safety_controller=None if v["safety_controller"] is None else _safety_controller(v["safety_controller"]),
+        calibration=None if v["calibration"] is None else _calibration(v["calibration"]),
+        unknown_elements=v["unknown_elements"],
+    )
+
+
+def _link_name(v: Any) -> LinkName:
+    return LinkName(
+        link=v["link"],
+    )
+
+
+def _axis(v: Any) -> Axis:
+    return Axis(
+        xyz=v["xyz"],
+    )
+
+
+def _limit(v: Any) -> Limit:
+    return Limit(
+        lower=v["lower"],
+        upper=v["upper"],
+        effort=v["effort"],
+        velocity=v["velocity"],
+        acceleration=v["acceleration"],
+        deceleration=v["deceleration"],
+        jerk=v["jerk"],
+    )
+
+
+def _dynamics(v: Any) -> Dynamics:
+    return Dynamics(
+        damping=v["damping"],
+        friction=v["friction"],
+    )
+
+
+def _mimic(v: Any) -> Mimic:
+    return Mimic(
+        joint=v["joint"],
+        multiplier=v["multiplier"],
+        offset=v["offset"],
+    )
+
+
+def _safety_controller(v: Any) -> SafetyController:
+    return SafetyController(
+        soft_lower_limit=v["soft_lower_limit"],
+        soft_upper_limit=v["soft_upper_limit"],
+        k_position=v["k_position"],
+        k_velocity=v["k_velocity"],
+    )
+
+
+def _calibration(v: Any) -> Calibration:
+    return Calibration(
+        rising=v["rising"],
+        falling=v["falling"],
+    )
+
+
+def _urdf_module(v: Any) -> UrdfModule:
+    return UrdfModule(
+        name=v["name"],
+        version=v["version"],
+        links=[_link(x) for x in v["links"]],
+        joints=[_joint(x) for x in v["joints"]],
+        materials=[_material(x) for x in v["materials"]],
+        unknown_elements=v["unknown_elements"],
+    )
+
+
+def _resolved_mimic(v: Any) -> ResolvedMimic:
+    return ResolvedMimic(
+        dof_idx=None if v["dof_idx"] is None else int(v["dof_idx"]),
+        multiplier=v["multiplier"],
+        offset=v["offset"],
+    )
+
+
+def _dof(v: Any) -> Dof:
+    return Dof(
+        name=v["name"],
+        joint_idx=int(v["joint_idx"]),
+        joint_name=v["joint_name"],
+        quantity=v["quantity"],
+    )
+
+
+def _dof_module(v: Any) -> DofModule:
+    return DofModule(
+        num_dofs=int(v["num_dofs"]),
+        dof_idx_to_joint_idx_mapping=[int(x) for x in v["dof_idx_to_joint_idx_mapping"]],
+        joint_idx_to_dof_idxs_mapping=[[int(y) for y in x] for x in v["joint_idx_to_dof_idxs_mapping"]],
+        joint_idx_to_mimic_mapping=[None if x is None else _resolved_mimic(x) for x in v["joint_idx_to_mimic_mapping"]],
+        dofs=[_dof(x) for x in v["dofs"]],
+    )
+
+
+def _link_in_chain(v: Any) -> LinkInChain:
+    return LinkInChain(
+        name=v["name"],
+        link_idx=int(v["link_idx"]),
+        parent_joint_idx=None if v["parent_joint_idx"] is None else int(v["parent_joint_idx"]),
+        parent_link_idx=None if v["parent_link_idx"] is None else int(v["parent_link_idx"]),
+        children_joint_idxs=[int(x) for x in v["children_joint_idxs"]],
+        children_link_idxs=[int(x) for x in v["children_link_idxs"]],
+    )
+
+
+def _joint_in_chain(v: Any) -> JointInChain:
+    return JointInChain(
+        joint_name=v["joint_name"],
+        joint_idx=int(v["joint_idx"]),
+        parent_link_name=v["parent_link_name"],
+        parent_link_idx=int(v["parent_link_idx"]),
+        child_link_name=v["child_link_name"],
+        child_link_idx=int(v["child_link_idx"]),
+        joint_type=v["joint_type"],
+        origin=_pose(v["origin"]),
+        axis=v["axis"],
+    )
+
+
+def _pose(v: Any) -> Pose:
+    return Pose(
+        position=v["position"],
+        quaternion_wxyz=v["quaternion_wxyz"],
+    )
+
+
+def _chain_module(v: Any) -> ChainModule:
+    return ChainModule(
+        links_in_chain=[_link_in_chain(x) for x in v["links_in_chain"]],
+        joints_in_chain=[_joint_in_chain(x) for x in v["joints_in_chain"]],
+        kinematic_hierarchy=[[int(y) for y in x] for x in v["kinematic_hierarchy"]],
+        root_idx=int(v["root_idx"]),
+    )
+
+
+def _link_path(v: Any) -> LinkPath:
+    return LinkPath(
+        links=[int(x) for x in v["links"]],
+        joints=[int(x) for x in v["joints"]],
+    )
+
+
+def _connections_module(v: Any) -> ConnectionsModule:
+    return ConnectionsModule(
+        root_paths=[_link_path(x) for x in v["root_paths"]],
+        lowest_common_ancestors=[[int(y) for y in x] for x in v["lowest_common_ancestors"]],
+        link_to_link_paths=None
+        if v["link_to_link_paths"] is None
+        else [[_link_path(y) for y in x] for x in v["link_to_link_paths"]],
+        link_connection_paths=None
+        if v["link_connection_paths"] is None
+        else [[None if y is None else [int(z) for z in y] for y in x] for x in v["link_connection_paths"]],
+    )
+
+
+def _bounds_module(v: Any) -> BoundsModule:
+    return BoundsModule(
+        bounds=v["bounds"],
+        dof_lower_bounds=v["dof_lower_bounds"],
+        dof_upper_bounds=v["dof_upper_bounds"],
+        dof_limited=v["dof_limited"],
+        dof_velocity_limits=v["dof_velocity_limits"],
+        dof_effort_limits=v["dof_effort_limits"],
+    )
+
+
+def _kinematics_sample(v: Any) -> KinematicsSample:
+    return KinematicsSample(
+        kind=v["kind"],
+        sample_idx=None if v["sample_idx"] is None else int(v["sample_idx"]),
+        configuration=v["configuration"],
+        link_poses=[_pose(x) for x in v["link_poses"]],
+    )
+
+
+def _kinematics_samples_module(v: Any) -> KinematicsSamplesModule:
+    return KinematicsSamplesModule(
+        samples=[_kinematics_sample(x) for x in v["samples"]],
+    )
+
+
+def _mesh_reference(v: Any) -> MeshReference:
+    return MeshReference(
+        link_idx=int(v["link_idx"]),
+        geometry=v["geometry"],
+        element_idx=int(v["element_idx"]),
+        filename=v["filename"],
+        path=v["path"],
+    )
+
+
+def _original_mesh(v: Any) -> OriginalMesh:
+    return OriginalMesh(
+        path=v["path"],
+        side_files=v["side_files"],
+        usable=v["usable"],
+    )
+
+
+def _original_meshes_module(v: Any) -> OriginalMeshesModule:
+    return OriginalMeshesModule(
+        references=[_mesh_reference(x) for x in v["references"]],
+        files=[_original_mesh(x) for x in v["files"]],
+    )
+
+
+def _plain_mesh(v: Any) -> PlainMesh:
+    return PlainMesh(
+        geometry=v["geometry"],
+        files=_mesh_files(v["files"]),
+    )
+
+
+def _mesh_files(v: Any) -> MeshFiles:
+    return MeshFiles(
+        stl=v["stl"],
+        obj=v["obj"],
+        glb=v["glb"],
+    )
+
+
+def _plain_meshes_module(v: Any) -> PlainMeshesModule:
+    return PlainMeshesModule(
+        preferred_geometry=v["preferred_geometry"],
+        link_meshes=[None if x is None else _plain_mesh(x) for x in v["link_meshes"]],
+    )
+
+
+def _convex_hull_meshes_module(v: Any) -> ConvexHullMeshesModule:
+    return ConvexHullMeshesModule(
+        link_hulls=[None if x is None else _mesh_files(x) for x in v["link_hulls"]],
+    )
+
+
+def _decomposition_method(v: Any) -> DecompositionMethod:
+    return DecompositionMethod(
+        name=v["name"],
+        surface_tolerance=v["surface_tolerance"],
+    )
+
+
+def _convex_decomposition_meshes_module(v: Any) -> ConvexDecompositionMeshesModule:
+    return ConvexDecompositionMeshesModule(
+        method=_decomposition_method(v["method"]),
+        link_pieces=[[_mesh_files(y) for y in x] for x in v["link_pieces"]],
+    )
+
+
+def _obb(v: Any) -> Obb:
+    return Obb(
+        half_extents=v["half_extents"],
+        offset_xyz=v["offset_xyz"],
+        offset_rpy=v["offset_rpy"],
+    )
+
+
+def _bounding_sphere(v: Any) -> BoundingSphere:
+    return BoundingSphere(
+        radius=v["radius"],
+        offset_xyz=v["offset_xyz"],
+    )
+
+
+def _link_shapes_approximations_module(v: Any) -> LinkShapesApproximationsModule:
+    return LinkShapesApproximationsModule(
+        full_obbs=[None if x is None else _obb(x) for x in v["full_obbs"]],
+        full_bounding_spheres=[None if x is None else _bounding_sphere(x) for x in v["full_bounding_spheres"]],
+        decomposition_obbs=[[_obb(y) for y in x] for x in v["decomposition_obbs"]],
+        decomposition_bounding_spheres=[[_bounding_sphere(y) for y in x] for x in v["decomposition_bounding_spheres"]],
+    )
+
+
+def _link_shapes_max_distance_from_origin_module(v: Any) -> LinkShapesMaxDistanceFromOriginModule:
+    return LinkShapesMaxDistanceFromOriginModule(
+        full_convex_hulls_maximum_distances=v["full_convex_hulls_maximum_distances"],
+        full_obbs_maximum_distances=v["full_obbs_maximum_distances"],
+        full_bounding_spheres_maximum_distances=v["full_bounding_spheres_maximum_distances"],
+        decomposition_convex_hulls_maximum_distances=v["decomposition_convex_hulls_maximum_distances"],
+        decomposition_obbs_maximum_distances=v["decomposition_obbs_maximum_distances"],
+        decomposition_bounding_spheres_maximum_distances=v["decomposition_bounding_spheres_maximum_distances"],
+    )
+
+
+def _piece_shape(v: Any) -> PieceShape:
+    return PieceShape(
+        link_idx=int(v["link_idx"]),
+        piece_idx=int(v["piece_idx"]),
+    )
+
+
+def _distance_statistics(v: Any) -> DistanceStatistics:
+    return DistanceStatistics(
+        mean_distances=v["mean_distances"],
+        min_distances=v["min_distances"],
+        max_distances=v["max_distances"],
+    )
+
+
+def _link_shapes_distance_statistics_module(v: Any) -> LinkShapesDistanceStatisticsModule:
+    return LinkShapesDistanceStatisticsModule(
+        num_samples=int(v["num_samples"]),
+        full_shapes=[int(x) for x in v["full_shapes"]],
+        decomposition_shapes=[_piece_shape(x) for x in v["decomposition_shapes"]],
+        full_convex_hulls=_distance_statistics(v["full_convex_hulls"]),
+        full_obbs=_distance_statistics(v["full_obbs"]),
+        full_bounding_spheres=_distance_statistics(v["full_bounding_spheres"]),
+        decomposition_convex_hulls=None
+        if v["decomposition_convex_hulls"] is None
+        else _distance_statistics(v["decomposition_convex_hulls"]),
+        decomposition_obbs=None if v["decomposition_obbs"] is None else _distance_statistics(v["decomposition_obbs"]),
+        decomposition_bounding_spheres=None
+        if v["decomposition_bounding_spheres"] is None
+        else _distance_statistics(v["decomposition_bounding_spheres"]),
+    )
+
+
+def _skip_reasons(v: Any) -> SkipReasons:
+    return SkipReasons(
+        full_convex_hulls=v["full_convex_hulls"],
+        full_obbs=v["full_obbs"],
+        full_bounding_spheres=v["full_bounding_spheres"],
+        decomposition_convex_hulls=v["decomposition_convex_hulls"],
+        decomposition_obbs=v["decomposition_obbs"],
+        decomposition_bounding_spheres=v["decomposition_bounding_spheres"],
+    )
+
+
+def _link_shapes_simple_skips_module(v: Any) -> LinkShapesSimpleSkipsModule:
+    return LinkShapesSimpleSkipsModule(
+        full_shapes=[int(x) for x in v["full_shapes"]],
+        decomposition_shapes=[_piece_shape(x) for x in v["decomposition_shapes"]],
+        full_convex_hulls_simple_skips=v["full_convex_hulls_simple_skips"],
+        full_obbs_simple_skips=v["full_obbs_simple_skips"],
+        full_bounding_spheres_simple_skips=v["full_bounding_spheres_simple_skips"],
+        decomposition_convex_hulls_simple_skips=v["decomposition_convex_hulls_simple_skips"],
+        decomposition_obbs_simple_skips=v["decomposition_obbs_simple_skips"],
+        decomposition_bounding_spheres_simple_skips=v["decomposition_bounding_spheres_simple_skips"],
+        reasons=_skip_reasons(v["reasons"]),
+    )
+
+
+def _skip_edit(v: Any) -> SkipEdit:
+    return SkipEdit(
+        link_a=v["link_a"],
+        link_b=v["link_b"],
+        skip=v["skip"],
+        reason=v["reason"],
+    )
+
+
+def _link_shapes_skips_module(v: Any) -> LinkShapesSkipsModule:
+    return LinkShapesSkipsModule(
+        skipped_reasons=v["skipped_reasons"],
+        edits=[_skip_edit(x) for x in v["edits"]],
+        full_shapes=[int(x) for x in v["full_shapes"]],
+        decomposition_shapes=[_piece_shape(x) for x in v["decomposition_shapes"]],
+        full_convex_hulls_skips=v["full_convex_hulls_skips"],
+        full_obbs_skips=v["full_obbs_skips"],
+        full_bounding_spheres_skips=v["full_bounding_spheres_skips"],
+        decomposition_convex_hulls_skips=v["decomposition_convex_hulls_skips"],
+        decomposition_obbs_skips=v["decomposition_obbs_skips"],
+        decomposition_bounding_spheres_skips=v["decomposition_bounding_spheres_skips"],
+    )
+
+
+_T = TypeVar("_T")
+
+
+class Modules:
+    """The modules of a URDD, as typed objects. Each is read when it is first asked for, and then kept.
+
+    Each property raises `ModuleMissingError` where the module is not there, and `ModuleUnusableError` where it is of no
+    use, or of before version 1: `json` reads those too.
+    """
+
+    def __init__(self, core: _urdd.Robot) -> None:
+        self._core = core
+        self._known: dict[str, Any] = {}
+
+    def names(self) -> list[str]:
+        """The names of the modules that are there, in the order of the specification."""
+        return self._core.module_names()
+
+    def version(self, name: str) -> str:
+        """The version of a module."""
+        return self._core.module(name)[0]
+
+    def json(self, name: str) -> Any:
+        """The document of a module as it is, of any version: dictionaries, lists, numbers, texts."""
+        return json.loads(self._core.module(name)[2])
+
+    def _read(self, name: str, make: Callable[[Any], _T]) -> _T:
+        if name not in self._known:
+            version, is_legacy, text = self._core.module(name)
+            if is_legacy:
+                raise ModuleUnusableError(
+                    f"{name} has version {version}, of before version 1, which has no type here: "
+                    f"`modules.json({name!r})` gives it as it is",
+                    name,
+                )
+            self._known[name] = make(json.loads(text))
+        found: _T = self._known[name]
+        return found
+
+    def __repr__(self) -> str:
+        return f"<urdd.Modules: {', '.join(self.names())}>"
+
+    @property
+    def urdf(self) -> UrdfModule:
+        """The source URDF as data. What the URDF leaves out is null (or an empty list), never a default. Lengths
+        are metres, angles radians, masses kilograms; rotations are the URDF's own fixed-axis roll, pitch, yaw.
+        Numbers that are not finite in the URDF are written as null."""
+        return self._read("urdf_module", _urdf_module)
+
+    @property
+    def dof(self) -> DofModule:
+        """The robot's degrees of freedom (DOFs), in joint order, and the position of every joint as a function of
+        them."""
+        return self._read("dof_module", _dof_module)
+
+    @property
+    def chain(self) -> ChainModule:
+        """The kinematic tree: who is whose parent, and where each joint sits and how it moves. With `dof_module`,
+        this is all that forward kinematics needs."""
+        return self._read("chain_module", _chain_module)
+
+    @property
+    def connections(self) -> ConnectionsModule:
+        """Paths through the kinematic tree. The path from link i to link j climbs from i to their lowest common
+        ancestor and goes down to j, so two slices of `root_paths` give it."""
+        return self._read("connections_module", _connections_module)
+
+    @property
+    def bounds(self) -> BoundsModule:
+        """Bounds of the configuration space, per DOF: rad or m as `dofs` of `dof_module` says. Every bound is
+        finite."""
+        return self._read("bounds_module", _bounds_module)
+
+    @property
+    def kinematics_samples(self) -> KinematicsSamplesModule:
+        """Configurations, and the pose of every link in each: values by which a consumer in any language proves its
+        forward kinematics right."""
+        return self._read("kinematics_samples_module", _kinematics_samples_module)
+
+    @property
+    def original_meshes(self) -> OriginalMeshesModule:
+        """Every mesh that the URDF names, carried unchanged."""
+        return self._read("original_meshes_module", _original_meshes_module)
+
+    @property
+    def plain_meshes(self) -> PlainMeshesModule:
+        """One mesh per link: all its geometry of one kind, with origin, rotation and scale applied and primitives
+        tessellated."""
+        return self._read("plain_meshes_module", _plain_meshes_module)
+
+    @property
+    def convex_hull_meshes(self) -> ConvexHullMeshesModule:
+        """The convex hull of each link's plain mesh."""
+        return self._read("convex_hull_meshes_module", _convex_hull_meshes_module)
+
+    @property
+    def convex_decomposition_meshes(self) -> ConvexDecompositionMeshesModule:
+        """Each link's plain mesh as a union of convex pieces."""
+        return self._read("convex_decomposition_meshes_module", _convex_decomposition_meshes_module)
+
+    @property
+    def link_shapes_approximations(self) -> LinkShapesApproximationsModule:
+        """Oriented bounding boxes (OBBs) and bounding spheres of each link and of each convex piece, in the link's
+        frame."""
+        return self._read("link_shapes_approximations_module", _link_shapes_approximations_module)
+
+    @property
+    def link_shapes_max_distance_from_origin(self) -> LinkShapesMaxDistanceFromOriginModule:
+        """The largest distance of any point of a shape from the origin of its link's frame, metres."""
+        return self._read("link_shapes_max_distance_from_origin_module", _link_shapes_max_distance_from_origin_module)
+
+    @property
+    def link_shapes_distance_statistics(self) -> LinkShapesDistanceStatisticsModule:
+        """Mean, smallest and largest distance of each pair of shapes over the specification's sampled
+        configurations, metres. A distance is 0 where the shapes touch or overlap."""
+        return self._read("link_shapes_distance_statistics_module", _link_shapes_distance_statistics_module)
+
+    @property
+    def link_shapes_simple_skips(self) -> LinkShapesSimpleSkipsModule:
+        """For each pair of shapes, whether the two are always in contact, so that a collision check says nothing
+        about them, and the reason by which the pair is classed."""
+        return self._read("link_shapes_simple_skips_module", _link_shapes_simple_skips_module)
+
+    @property
+    def link_shapes_skips(self) -> LinkShapesSkipsModule:
+        """The pairs of shapes that a collision check skips: those with one of the skipped reasons, and then a
+        person's edits, applied in order."""
+        return self._read("link_shapes_skips_module", _link_shapes_skips_module)
+
+
+def read_root_metadata(text: str) -> RootMetadata:
+    """`urdd.json`."""
+    return _root_metadata(json.loads(text))

@@ -1,0 +1,509 @@
+"""The report of a validation, as dataclasses.
+
+Written by `python/scripts/make_types.py` from `schema/`. Do not edit.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+__all__ = [
+    "CheckStatus",
+    "Consequence",
+    "Finding",
+    "Kind",
+    "LinkNotVerified",
+    "Magnitude",
+    "Module",
+    "NotChecked",
+    "Place",
+    "Report",
+    "Severity",
+    "Size",
+    "Skipped",
+    "StaleIgnore",
+    "Status",
+    "Tool",
+    "Totals",
+    "Urdd",
+    "Verdict",
+    "read_report",
+]
+
+Kind: TypeAlias = Literal["urdd", "urdf"]
+"""What was examined.
+- `urdd`: A URDD.
+- `urdf`: A URDF by itself, judged by the rules that need nothing else.
+"""
+
+Verdict: TypeAlias = Literal["pass", "fail", "unreadable", "incomplete"]
+"""What came of examining a URDD.
+- `pass`: Nothing found at or above the severity at which a run fails.
+- `fail`: Something found.
+- `unreadable`: The folder could not be read.
+- `incomplete`: A rule crashed: a fault of this program. The URDD is not fully examined.
+"""
+
+Status: TypeAlias = Literal["passed", "failed", "skipped", "crashed"]
+"""What became of a rule.
+- `passed`: It found nothing.
+- `failed`: It found something.
+- `skipped`: It did not run.
+- `crashed`: It ran into a fault of its own.
+"""
+
+Skipped: TypeAlias = Literal["absent", "other-format", "ignored", "not-verified"]
+"""Why a rule did not run.
+- `absent`: What it is about is not there.
+- `other-format`: It is for another family of URDDs.
+- `ignored`: The settings say to leave it out.
+- `not-verified`: Something that it needs is at fault or missing: what it checks is not verified.
+"""
+
+Severity: TypeAlias = Literal["info", "warning", "error"]
+"""How bad a finding is; the worst is the greatest.
+- `info`: A convention of old, or something worth knowing.
+- `warning`: A SHOULD of the specification that is not kept, or an odd robot.
+- `error`: A MUST of the specification that is not kept.
+"""
+
+Consequence: TypeAlias = Literal[
+    "looseness",
+    "appearance",
+    "format",
+    "collisions",
+    "missing-geometry",
+    "wrong-place",
+    "wrong-motion",
+]
+"""What a fault does to whoever uses the URDD; the worst is the greatest.
+- `looseness`: Nothing is wrong, but it could be tighter, or the robot itself is odd.
+- `appearance`: The robot is shown in other colours or textures.
+- `format`: A reader may refuse it, or read it in another way.
+- `collisions`: Collision checking misses contacts, or sees some that are not there.
+- `missing-geometry`: Geometry is not there, or cannot be read.
+- `wrong-place`: Something is in another place than the robot has it.
+- `wrong-motion`: The robot moves otherwise than it says.
+"""
+
+
+@dataclass(frozen=True)
+class Tool:
+    """The program that wrote a report."""
+
+    name: str
+    """Its name."""
+
+    version: str
+    """Its version."""
+
+
+@dataclass(frozen=True)
+class Urdd:
+    """One URDD, or a URDF by itself."""
+
+    kind: Kind
+    """Which of them it is."""
+
+    path: str
+    """Its folder's path from the path that was given, with forward slashes; its own name where that path was the
+    URDD itself."""
+
+    name: str | None
+    """Name of the robot; null where no module says it."""
+
+    verdict: Verdict
+    """What came of it."""
+
+    reason: str | None
+    """Why it is unreadable; else null."""
+
+    size: Size
+    """How large the robot is."""
+
+    modules: list[Module]
+    """Its modules."""
+
+    checks: list[CheckStatus]
+    """Every rule, in order of code."""
+
+    findings: list[Finding]
+    """What was found: by module, then by severity and code."""
+
+    not_checked: list[NotChecked]
+    """What was not verified, by reason."""
+
+    geometry_not_verified: list[LinkNotVerified]
+    """Links whose geometry was not verified by every rule, in order of index."""
+
+
+@dataclass(frozen=True)
+class Size:
+    """How large a robot is; null where no module says it."""
+
+    links: int | None
+    """Number of links."""
+
+    joints: int | None
+    """Number of joints."""
+
+    dofs: int | None
+    """Number of degrees of freedom."""
+
+
+@dataclass(frozen=True)
+class Module:
+    """A module of a URDD."""
+
+    name: str
+    """Its name."""
+
+    path: str
+    """Its folder, relative to the URDD's root."""
+
+    version: str | None
+    """Its version; null where it has none."""
+
+    profile: str | None
+    """`1.0` or `legacy`; null for extensions and unknown modules."""
+
+
+@dataclass(frozen=True)
+class CheckStatus:
+    """What became of a rule."""
+
+    code: str
+    """Its code."""
+
+    status: Status
+    """What became of it."""
+
+    reason: str | None
+    """Why it was skipped, or how it crashed; else null."""
+
+    skipped: Skipped | None
+    """What kind of reason a skip has; null where it was not skipped."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that was found, or several of the same."""
+
+    code: str
+    """Code of the rule."""
+
+    name: str
+    """Name of the rule."""
+
+    severity: Severity
+    """How bad it is, settings applied."""
+
+    default_severity: Severity
+    """The severity that the rule has without settings."""
+
+    clause: str
+    """Clause of the specification."""
+
+    consequence: Consequence
+    """What it does to whoever uses the URDD."""
+
+    module: str | None
+    """The module; null where it is about none."""
+
+    file: str | None
+    """The file, relative to the URDD's root, with forward slashes."""
+
+    pointer: str | None
+    """JSON Pointer into the document."""
+
+    line: int | None
+    """Line in the file, from 1."""
+
+    column: int | None
+    """Column in the line, in characters, from 1."""
+
+    subject: str | None
+    """What the pointer leads to, by the names of links, joints or DOFs."""
+
+    message: str
+    """What is wrong, and what to do."""
+
+    expected: str | None
+    """What should be there."""
+
+    actual: str | None
+    """What is there."""
+
+    tolerance: float | None
+    """Where numbers were compared: the tolerance, in their unit."""
+
+    magnitude: Magnitude | None
+    """Where numbers were compared: by how much they differ."""
+
+    count: int
+    """How many findings this one stands for."""
+
+    places: list[Place]
+    """All places, the worst first; the first is the finding's own."""
+
+    places_cut: int
+    """How many of the count have no place here, since there are too many."""
+
+
+@dataclass(frozen=True)
+class Magnitude:
+    """By how much something is off."""
+
+    value: float | None
+    """How much; null where it is no finite number."""
+
+    unit: str
+    """Its unit; empty for a ratio."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place of a finding."""
+
+    file: str | None
+    """The file."""
+
+    pointer: str | None
+    """JSON Pointer into the document."""
+
+    line: int | None
+    """Line in the file, from 1."""
+
+    column: int | None
+    """Column in the line, in characters, from 1."""
+
+    expected: str | None
+    """What should be there."""
+
+    actual: str | None
+    """What is there."""
+
+    subject: str | None
+    """What the pointer leads to, by the names of links, joints or DOFs."""
+
+    message: str | None
+    """What is wrong there, where that is not what the finding says."""
+
+    magnitude: Magnitude | None
+    """By how much it is off."""
+
+
+@dataclass(frozen=True)
+class NotChecked:
+    """What was not verified."""
+
+    codes: list[str]
+    """Codes of the rules that were to verify it."""
+
+    reason: str
+    """Why they could not."""
+
+
+@dataclass(frozen=True)
+class LinkNotVerified:
+    """A link of which some mesh or shape was not verified."""
+
+    link: int
+    """Index of the link."""
+
+    codes: list[str]
+    """Codes of the rules that were to verify it."""
+
+    reasons: list[str]
+    """Why they could not."""
+
+
+@dataclass(frozen=True)
+class StaleIgnore:
+    """An ignore of the settings that matched nothing."""
+
+    code: str | None
+    """Code of the rule; null where it is for all."""
+
+    path: str
+    """The pattern."""
+
+
+@dataclass(frozen=True)
+class Totals:
+    """Sums over all URDDs."""
+
+    urdds: int
+    """Number of URDDs."""
+
+    error: int
+    """Number of errors."""
+
+    warning: int
+    """Number of warnings."""
+
+    info: int
+    """Number of informations."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a run of `urdd validate` found."""
+
+    tool: Tool
+    """The program."""
+
+    spec_version: str
+    """Version of the specification that was checked against."""
+
+    urdds: list[Urdd]
+    """Every URDD, in the order of the paths given, then by name."""
+
+    stale_ignores: list[StaleIgnore]
+    """Ignores of the settings that matched nothing."""
+
+    totals: Totals
+    """Sums over all URDDs."""
+
+
+def _tool(v: Any) -> Tool:
+    return Tool(
+        name=v["name"],
+        version=v["version"],
+    )
+
+
+def _urdd(v: Any) -> Urdd:
+    return Urdd(
+        kind=v["kind"],
+        path=v["path"],
+        name=v["name"],
+        verdict=v["verdict"],
+        reason=v["reason"],
+        size=_size(v["size"]),
+        modules=[_module(x) for x in v["modules"]],
+        checks=[_check_status(x) for x in v["checks"]],
+        findings=[_finding(x) for x in v["findings"]],
+        not_checked=[_not_checked(x) for x in v["not_checked"]],
+        geometry_not_verified=[_link_not_verified(x) for x in v["geometry_not_verified"]],
+    )
+
+
+def _size(v: Any) -> Size:
+    return Size(
+        links=None if v["links"] is None else int(v["links"]),
+        joints=None if v["joints"] is None else int(v["joints"]),
+        dofs=None if v["dofs"] is None else int(v["dofs"]),
+    )
+
+
+def _module(v: Any) -> Module:
+    return Module(
+        name=v["name"],
+        path=v["path"],
+        version=v["version"],
+        profile=v["profile"],
+    )
+
+
+def _check_status(v: Any) -> CheckStatus:
+    return CheckStatus(
+        code=v["code"],
+        status=v["status"],
+        reason=v["reason"],
+        skipped=v["skipped"],
+    )
+
+
+def _finding(v: Any) -> Finding:
+    return Finding(
+        code=v["code"],
+        name=v["name"],
+        severity=v["severity"],
+        default_severity=v["default_severity"],
+        clause=v["clause"],
+        consequence=v["consequence"],
+        module=v["module"],
+        file=v["file"],
+        pointer=v["pointer"],
+        line=None if v["line"] is None else int(v["line"]),
+        column=None if v["column"] is None else int(v["column"]),
+        subject=v["subject"],
+        message=v["message"],
+        expected=v["expected"],
+        actual=v["actual"],
+        tolerance=v["tolerance"],
+        magnitude=None if v["magnitude"] is None else _magnitude(v["magnitude"]),
+        count=int(v["count"]),
+        places=[_place(x) for x in v["places"]],
+        places_cut=int(v["places_cut"]),
+    )
+
+
+def _magnitude(v: Any) -> Magnitude:
+    return Magnitude(
+        value=v["value"],
+        unit=v["unit"],
+    )
+
+
+def _place(v: Any) -> Place:
+    return Place(
+        file=v["file"],
+        pointer=v["pointer"],
+        line=None if v["line"] is None else int(v["line"]),
+        column=None if v["column"] is None else int(v["column"]),
+        expected=v["expected"],
+        actual=v["actual"],
+        subject=v["subject"],
+        message=v["message"],
+        magnitude=None if v["magnitude"] is None else _magnitude(v["magnitude"]),
+    )
+
+
+def _not_checked(v: Any) -> NotChecked:
+    return NotChecked(
+        codes=v["codes"],
+        reason=v["reason"],
+    )
+
+
+def _link_not_verified(v: Any) -> LinkNotVerified:
+    return LinkNotVerified(
+        link=int(v["link"]),
+        codes=v["codes"],
+        reasons=v["reasons"],
+    )
+
+
+def _stale_ignore(v: Any) -> StaleIgnore:
+    return StaleIgnore(
+        code=v["code"],
+        path=v["path"],
+    )
+
+
+def _totals(v: Any) -> Totals:
+    return Totals(
+        urdds=int(v["urdds"]),
+        error=int(v["error"]),
+        warning=int(v["warning"]),
+        info=int(v["info"]),
+    )
+
+
+def _report(v: Any) -> Report:
+    return Report(
+        tool=_tool(v["tool"]),
+        spec_version=v["spec_version"],
+        urdds=[_urdd(x) for x in v["urdds"]],
+        stale_ignores=[_stale_ignore(x) for x in v["stale_ignores"]],
+        totals=_totals(v["totals"]),
+    )
+
+
+def read_report(text: str) -> Report:
+    """A report as `urdd validate --format json` writes it."""
+    return _report(json.loads(text))

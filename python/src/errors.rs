@@ -1,0 +1,138 @@
+//! Errors, as the exceptions of `urdd.errors`.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use urdd::generate::GenerateError;
+use urdd::kinematics::ConfigurationError;
+use urdd::robot::RobotError;
+
+/// An exception of this class. The message comes first.
+pub fn raise<'py>(
+    py: Python<'py>,
+    class: &str,
+    message: impl ToString,
+    more: &[(&str, Bound<'py, PyAny>)],
+) -> PyErr {
+    let made = || -> PyResult<PyErr> {
+        let class = py.import("urdd.errors")?.getattr(class)?;
+        let named = PyDict::new(py);
+        for (name, value) in more {
+            named.set_item(name, value)?;
+        }
+        let message = PyTuple::new(py, [message.to_string()])?;
+        Ok(PyErr::from_value(class.call(message, Some(&named))?))
+    };
+    made().unwrap_or_else(|error| error)
+}
+
+fn text<'py>(py: Python<'py>, text: &str) -> Bound<'py, PyAny> {
+    pyo3::types::PyString::new(py, text).into_any()
+}
+
+/// Why a robot cannot be asked something.
+pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
+    let none = || py.None().into_bound(py);
+    match error {
+        RobotError::Open { .. } | RobotError::List(_) => raise(py, "OpenError", error, &[]),
+        RobotError::Missing(module) => raise(
+            py,
+            "ModuleMissingError",
+            error,
+            &[("module", text(py, module.name()))],
+        ),
+        RobotError::Unusable { module, .. } => raise(
+            py,
+            "ModuleUnusableError",
+            error,
+            &[("module", text(py, module.name()))],
+        ),
+        RobotError::MotionOpen | RobotError::Metadata(_) | RobotError::Kinematics(_) => {
+            raise(py, "ModuleUnusableError", error, &[])
+        }
+        RobotError::Unknown {
+            what,
+            name,
+            nearest,
+        } => raise(
+            py,
+            "UnknownNameError",
+            error,
+            &[
+                ("what", text(py, what)),
+                ("name", text(py, name)),
+                (
+                    "nearest",
+                    nearest.as_deref().map_or_else(none, |name| text(py, name)),
+                ),
+            ],
+        ),
+        RobotError::OutOfRange { .. } => pyo3::exceptions::PyIndexError::new_err(error.to_string()),
+        RobotError::Configuration(error) => of_configuration(py, error),
+        RobotError::Batch { .. } | RobotError::Target(_) => {
+            raise(py, "ConfigurationError", error, &[])
+        }
+        RobotError::Mesh { .. } => raise(py, "MeshError", error, &[]),
+        RobotError::Cancelled(_) => {
+            pyo3::exceptions::PyKeyboardInterrupt::new_err(error.to_string())
+        }
+        _ => raise(py, "UrddError", error, &[]),
+    }
+}
+
+fn of_configuration(py: Python<'_>, error: &ConfigurationError) -> PyErr {
+    raise(py, "ConfigurationError", error, &[])
+}
+
+/// Why a URDD could not be made.
+pub fn of_generate(py: Python<'_>, error: &GenerateError) -> PyErr {
+    if matches!(error, GenerateError::Cancelled) {
+        return pyo3::exceptions::PyKeyboardInterrupt::new_err(error.to_string());
+    }
+    let mut places: Vec<(String, u32, u32, String)> = Vec::new();
+    match error {
+        GenerateError::Refused { file, faults } => places.extend(faults.iter().map(|fault| {
+            (
+                file.clone(),
+                fault.line,
+                fault.column,
+                fault.fault.to_string(),
+            )
+        })),
+        GenerateError::Outside { file, meshes } => places.extend(meshes.iter().map(|mesh| {
+            let leads = mesh.path.display();
+            (
+                file.clone(),
+                mesh.line,
+                mesh.column,
+                format!("mesh {}: leads to {leads}", mesh.name),
+            )
+        })),
+        GenerateError::Strict { notes } => places.extend(notes.iter().map(|note| {
+            (
+                note.file.clone(),
+                note.line,
+                note.column,
+                format!("{}: {}", note.problem, note.assumed),
+            )
+        })),
+        GenerateError::Edits {
+            file,
+            at: Some(at),
+            fault,
+        } => places.push((
+            file.display().to_string(),
+            at.line,
+            at.column,
+            fault.to_string(),
+        )),
+        _ => {}
+    }
+    let made = places.into_pyobject(py).map(Bound::into_any);
+    let places = made.unwrap_or_else(|_| py.None().into_bound(py));
+    raise(
+        py,
+        "GenerateError",
+        error,
+        &[("code", text(py, error.code())), ("places", places)],
+    )
+}

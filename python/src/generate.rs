@@ -1,0 +1,218 @@
+//! Making URDDs.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use urdd::cancellation::Cancellation;
+use urdd::format::link_shapes_skips::SkippedReason;
+use urdd::format::meshes::GeometryKind;
+use urdd::format::registry::ModuleKind;
+use urdd::generate::batch::caught;
+use urdd::generate::{
+    GenerateError, Generated, MeshFormats, Packages, Progress, Selection, Settings, XacroSettings,
+};
+
+use crate::errors::of_generate;
+use crate::work::{self, Teller};
+
+/// How URDDs are made: what `urdd.generate` takes, checked there for types.
+#[derive(FromPyObject)]
+pub struct Options {
+    modules: Option<Vec<String>>,
+    packages: Vec<(String, PathBuf)>,
+    allowed_folders: Vec<PathBuf>,
+    geometry: String,
+    mesh_formats: Vec<String>,
+    samples: u32,
+    skip: Option<Vec<String>>,
+    strict: bool,
+    xacro: bool,
+    xacro_arguments: Vec<String>,
+    xacro_timeout: f64,
+    drop_edits: bool,
+    force: bool,
+}
+
+impl Options {
+    fn settings(self) -> Result<Settings, String> {
+        let selection = match &self.modules {
+            None => Selection::all(),
+            Some(words) => Selection::parse(words.iter().map(String::as_str))
+                .map_err(|error| format!("modules: {error}"))?,
+        };
+        let mut packages = Packages::from_environment(|name| std::env::var_os(name));
+        for (name, path) in &self.packages {
+            let added = packages.add(&format!("{name}={}", path.display()));
+            added.map_err(|error| format!("packages: {error}"))?;
+        }
+        for folder in &self.allowed_folders {
+            if !folder.is_dir() {
+                let folder = folder.display();
+                return Err(format!("allow_folders: {folder} is not a folder"));
+            }
+        }
+        if !(1..=100_000).contains(&self.samples) {
+            return Err("samples must be from 1 to 100,000".to_owned());
+        }
+        if !(self.xacro_timeout > 0.0 && self.xacro_timeout < 1e9) {
+            return Err("xacro_timeout must be a number of seconds above 0".to_owned());
+        }
+        let skip = self.skip.map(|words| {
+            let each = words.iter().map(|word| skipped_reason(word));
+            each.collect::<Result<Vec<_>, _>>()
+        });
+        for word in &self.mesh_formats {
+            if !["glb", "stl", "obj"].contains(&word.as_str()) {
+                let word = word.escape_debug();
+                return Err(format!(
+                    "mesh_formats: there is no `{word}`; there are: glb, stl, obj"
+                ));
+            }
+        }
+        let has = |word: &str| self.mesh_formats.iter().any(|format| format == word);
+        Ok(Settings {
+            selection,
+            packages,
+            preferred_geometry: match self.geometry.as_str() {
+                "visual" => GeometryKind::Visual,
+                "collision" => GeometryKind::Collision,
+                other => {
+                    let other = other.escape_debug();
+                    return Err(format!(
+                        "geometry: `{other}` is neither visual nor collision"
+                    ));
+                }
+            },
+            mesh_formats: MeshFormats {
+                stl: has("stl"),
+                obj: has("obj"),
+            },
+            allowed_folders: self.allowed_folders,
+            num_samples: self.samples,
+            skipped_reasons: skip.transpose()?,
+            xacro: XacroSettings {
+                expand_urdf: self.xacro,
+                arguments: self.xacro_arguments,
+                time_limit: Duration::from_secs_f64(self.xacro_timeout),
+            },
+            strict: self.strict,
+            drop_edits: self.drop_edits,
+            force: self.force,
+            cancellation: Cancellation::default(),
+        })
+    }
+}
+
+/// A reason by its word on the command line.
+pub fn skipped_reason(word: &str) -> Result<SkippedReason, String> {
+    Ok(match word {
+        "same-link" => SkippedReason::SameLink,
+        "always" => SkippedReason::Always,
+        "adjacent" => SkippedReason::Adjacent,
+        "default" => SkippedReason::Default,
+        "never" => SkippedReason::Never,
+        other => {
+            return Err(format!(
+                "there is no reason `{}`; there are: same-link, always, adjacent, default, never",
+                other.escape_debug()
+            ));
+        }
+    })
+}
+
+/// A module is begun: its name, how many are done, and how many there are.
+type Begun = (&'static str, usize, usize);
+type Outcome = Result<Generated, GenerateError>;
+
+struct Told<'a>(std::sync::Mutex<&'a Teller<Outcome, Begun>>);
+
+impl Progress for Told<'_> {
+    fn module(&self, kind: ModuleKind, done: usize, total: usize) {
+        if let Ok(teller) = self.0.lock() {
+            teller.tell((kind.name(), done, total));
+        }
+    }
+}
+
+fn made<'py>(
+    py: Python<'py>,
+    options: Options,
+    progress: Option<Bound<'py, PyAny>>,
+    make: impl FnOnce(&Settings, &dyn Progress) -> Outcome + Send + 'static,
+) -> PyResult<Bound<'py, PyDict>> {
+    let mut settings = options.settings().map_err(PyValueError::new_err)?;
+    let hear = |begun: Begun| match &progress {
+        Some(progress) => progress.call1(begun).map(drop),
+        None => Ok(()),
+    };
+    let outcome = work::run_and_tell(py, hear, move |cancellation, teller| {
+        settings.cancellation = cancellation.clone();
+        make(&settings, &Told(std::sync::Mutex::new(teller)))
+    })?;
+    let generated = outcome.map_err(|error| of_generate(py, &error))?;
+    let found = PyDict::new(py);
+    found.set_item("robot_name", &generated.robot_name)?;
+    found.set_item("num_links", generated.num_links)?;
+    found.set_item("num_joints", generated.num_joints)?;
+    found.set_item("num_dofs", generated.num_dofs)?;
+    found.set_item("conformance_class", generated.class.as_str())?;
+    let kept = |kept: bool| -> Vec<&str> {
+        let modules = generated.modules.iter().filter(|made| made.kept == kept);
+        modules.map(|made| made.kind.name()).collect()
+    };
+    found.set_item("modules_made", kept(false))?;
+    found.set_item("modules_kept", kept(true))?;
+    found.set_item("changed", generated.changed)?;
+    found.set_item("meshes_named", generated.meshes.named)?;
+    found.set_item("meshes_not_found", generated.meshes.not_found)?;
+    found.set_item("meshes_not_usable", generated.meshes.not_usable)?;
+    let notes = generated.notes.iter().map(|note| {
+        (
+            note.kind.as_str(),
+            note.file.clone(),
+            note.line,
+            note.column,
+            note.problem.clone(),
+            note.assumed.clone(),
+        )
+    });
+    found.set_item("notes", notes.collect::<Vec<_>>())?;
+    Ok(found)
+}
+
+/// Makes a URDD of a file.
+#[pyfunction]
+pub fn generate<'py>(
+    py: Python<'py>,
+    source: PathBuf,
+    target: PathBuf,
+    options: Options,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    made(py, options, progress, move |settings, progress| {
+        caught(&source, || {
+            urdd::generate::generate(&source, &target, settings, progress)
+        })
+    })
+}
+
+/// Makes a URDD of a text. Relative names of meshes begin in `folder`.
+#[pyfunction]
+pub fn generate_text<'py>(
+    py: Python<'py>,
+    urdf: Vec<u8>,
+    folder: PathBuf,
+    target: PathBuf,
+    options: Options,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    made(py, options, progress, move |settings, progress| {
+        let shown = "<text>";
+        caught(shown.as_ref(), || {
+            urdd::generate::generate_text(urdf, shown, &folder, &target, settings, progress)
+        })
+    })
+}

@@ -1,0 +1,17 @@
+//! Which robots lie in folders.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use urdd::generate::batch;
+
+use crate::errors::raise;
+use crate::work;
+
+/// The robots below these paths: for each its file, and a name unlike all others.
+#[pyfunction]
+pub fn find_urdfs(py: Python<'_>, paths: Vec<PathBuf>) -> PyResult<Vec<(PathBuf, String)>> {
+    let jobs = work::run(py, move |_| batch::jobs(&paths))?;
+    let jobs = jobs.map_err(|error| raise(py, "OpenError", error, &[]))?;
+    Ok(jobs.into_iter().map(|job| (job.source, job.name)).collect())
+}

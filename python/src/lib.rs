@@ -1,0 +1,50 @@
+//! The library for Python: `python/lib/urdd` is what people import, and has the documentation; this is what it stands on.
+//!
+//! Arrays that come in are contiguous and of binary64: `urdd._arrays` makes them so. They are copied before the
+//! interpreter is let go, so that no other thread changes them under the work.
+
+mod arrays;
+mod command;
+mod errors;
+mod export;
+mod generate;
+mod jobs;
+mod page;
+mod parts;
+mod proximity;
+mod robot;
+mod shapes;
+mod threads;
+mod validate;
+mod work;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _urdd {
+    #[pymodule_export]
+    use crate::command::main;
+    #[pymodule_export]
+    use crate::export::export;
+    #[pymodule_export]
+    use crate::generate::{generate, generate_text};
+    #[pymodule_export]
+    use crate::jobs::find_urdfs;
+    #[pymodule_export]
+    use crate::page::{Page, page_html};
+    #[pymodule_export]
+    use crate::proximity::Proximity;
+    #[pymodule_export]
+    use crate::robot::Robot;
+    #[pymodule_export]
+    use crate::threads::{num_threads, set_num_threads};
+    #[pymodule_export]
+    use crate::validate::{explain, validate};
+
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,85 @@
+//! The page of `urdd view`.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::thread::JoinHandle;
+
+use pyo3::exceptions::PyOSError;
+use pyo3::prelude::*;
+use urdd::cancellation::Cancellation;
+use urdd::view::{Collection, Server};
+
+use crate::errors::raise;
+use crate::work;
+
+/// The page, served to this machine's browser until it is closed.
+#[pyclass(frozen, module = "urdd._urdd")]
+pub struct Page {
+    address: String,
+    process: u32,
+    cancellation: Cancellation,
+    thread: Mutex<Option<JoinHandle<()>>>,
+}
+
+fn collection(py: Python<'_>, path: &Path) -> PyResult<Collection> {
+    let mut robots = Collection::default();
+    let added = robots.add(path);
+    added.map_err(|error| raise(py, "OpenError", error, &[]))?;
+    Ok(robots)
+}
+
+#[pymethods]
+impl Page {
+    #[new]
+    #[pyo3(signature = (path, port=None))]
+    fn new(py: Python<'_>, path: PathBuf, port: Option<u16>) -> PyResult<Self> {
+        let server = Server::bind(collection(py, &path)?, port);
+        let server = server.map_err(|error| PyOSError::new_err(error.to_string()))?;
+        let (address, cancellation) = (server.address(), Cancellation::default());
+        let own = cancellation.clone();
+        let thread = std::thread::Builder::new()
+            .name("urdd-page".to_owned())
+            .spawn(move || server.run(&own))?;
+        Ok(Page {
+            address,
+            process: std::process::id(),
+            cancellation,
+            thread: Mutex::new(Some(thread)),
+        })
+    }
+
+    /// The address to open. It carries the token without which nothing is answered.
+    #[getter]
+    fn address(&self) -> &str {
+        &self.address
+    }
+
+    /// Stops serving.
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        self.cancellation.cancel();
+        let thread = work::lock(py, &self.thread)?.take();
+        if let Some(thread) = thread
+            && self.process == std::process::id()
+        {
+            let _ = py.detach(|| thread.join());
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Page {
+    fn drop(&mut self) {
+        self.cancellation.cancel();
+    }
+}
+
+/// The page with one robot in it, as HTML.
+#[pyfunction]
+pub fn page_html(py: Python<'_>, path: PathBuf) -> PyResult<String> {
+    let robots = collection(py, &path)?;
+    let made = work::run(py, move |_| match robots.robots() {
+        [robot] => urdd::view::page_with(robot).map_err(|error| error.to_string()),
+        several => Err(format!("{} robots, and a page holds one", several.len())),
+    })?;
+    made.map_err(PyOSError::new_err)
+}

@@ -1,0 +1,127 @@
+//! Modules and files of a URDD as they are.
+
+use std::sync::Arc;
+
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use urdd::directory::discover::ROOT_METADATA;
+use urdd::directory::limits::MAX_DOCUMENT_BYTES;
+use urdd::directory::root::ReadError;
+use urdd::document::load::Loaded;
+use urdd::document::urdd::Urdd;
+use urdd::format::registry::{ModuleKind, Profile};
+
+use crate::errors::raise;
+use crate::robot::Robot;
+use crate::work;
+
+/// What came of reading a module.
+enum Read {
+    Text {
+        version: String,
+        is_legacy: bool,
+        text: String,
+    },
+    Missing,
+    Unusable(String),
+    NotListed(ReadError),
+}
+
+#[pymethods]
+impl Robot {
+    /// The names of the modules that are there, in the order of the specification.
+    fn module_names(&self, py: Python<'_>) -> PyResult<Vec<&'static str>> {
+        let listing = py.detach(|| self.root.list());
+        let listing = listing.map_err(|error| raise(py, "OpenError", error, &[]))?;
+        let kinds = ModuleKind::ALL.iter();
+        let there = kinds.filter(|kind| listing.has_folder(kind.folder()));
+        Ok(there.map(|kind| kind.name()).collect())
+    }
+
+    /// A module's version, whether it is a legacy one, and its JSON, which fits its schema.
+    fn module(&self, py: Python<'_>, name: &str) -> PyResult<(String, bool, String)> {
+        let kind = ModuleKind::ALL.iter().find(|kind| kind.name() == name);
+        let Some(kind) = kind.copied() else {
+            let message = format!("there is no module `{}`", name.escape_debug());
+            return Err(raise(py, "UnknownNameError", message, &[]));
+        };
+        let root = self.root.clone();
+        let read = work::run(py, move |_| {
+            let loaded = match Loaded::read_only(root, &[kind]) {
+                Ok(loaded) => loaded,
+                Err(error) => return Read::NotListed(error),
+            };
+            let part = Urdd::new(Arc::new(loaded));
+            let Some(module) = part.module(kind) else {
+                return Read::Missing;
+            };
+            if let Some(unusable) = module.unusable() {
+                let fault = module.first_fault();
+                return Read::Unusable(fault.unwrap_or_else(|| unusable.to_string()));
+            }
+            let file = module.file("module.json");
+            match part.root().read(&file, MAX_DOCUMENT_BYTES) {
+                Err(error) => Read::Unusable(format!("{file}: {error}")),
+                Ok(bytes) => Read::Text {
+                    version: module.version.clone().unwrap_or_default(),
+                    is_legacy: module
+                        .spec
+                        .is_some_and(|spec| spec.profile == Profile::Legacy),
+                    text: String::from_utf8_lossy(&bytes).into_owned(),
+                },
+            }
+        })?;
+        let name = || vec![("module", pyo3::types::PyString::new(py, name).into_any())];
+        match read {
+            Read::Text {
+                version,
+                is_legacy,
+                text,
+            } => Ok((version, is_legacy, text)),
+            Read::NotListed(error) => Err(raise(py, "OpenError", error, &[])),
+            Read::Missing => {
+                let error = urdd::robot::RobotError::Missing(kind);
+                Err(raise(py, "ModuleMissingError", error, &name()))
+            }
+            Read::Unusable(fault) => {
+                let fault = fault.escape_debug();
+                let message = format!("{}: {fault}: `urdd validate` says more", kind.name());
+                Err(raise(py, "ModuleUnusableError", message, &name()))
+            }
+        }
+    }
+
+    /// The text of `urdd.json`; None where there is none.
+    fn metadata(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        match py.detach(|| self.root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES)) {
+            Ok(bytes) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
+            Err(ReadError::Missing) => Ok(None),
+            Err(error) => {
+                let message = format!("{ROOT_METADATA}: {error}");
+                Err(raise(py, "OpenError", message, &[]))
+            }
+        }
+    }
+
+    /// The bytes of a file of the URDD.
+    fn read_file<'py>(&self, py: Python<'py>, path: &str) -> PyResult<Bound<'py, PyBytes>> {
+        match py.detach(|| self.root.read(path, MAX_DOCUMENT_BYTES)) {
+            Ok(bytes) => Ok(PyBytes::new(py, &bytes)),
+            Err(error) => {
+                let message = format!("{}: {error}", path.escape_debug());
+                Err(raise(py, "OpenError", message, &[]))
+            }
+        }
+    }
+
+    /// The path of the carried URDF in the URDD; None without one.
+    fn source(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        let source = self.ask(py, |robot, _| robot.source())?;
+        Ok(source.map(|source| source.path))
+    }
+
+    /// The folder on disk; None for an archive.
+    fn folder(&self) -> Option<std::path::PathBuf> {
+        self.root.folder().map(std::path::Path::to_owned)
+    }
+}

@@ -1,0 +1,70 @@
+//! The threads that work.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// The pool, and for whom it was made.
+struct Made {
+    /// A child of `fork` has none of the threads of its parent.
+    process: u32,
+    /// How many were asked for; `None`: one for each processor.
+    wanted: Option<usize>,
+    pool: Arc<ThreadPool>,
+}
+
+static WANTED: Mutex<Option<usize>> = Mutex::new(None);
+static MADE: Mutex<Option<Made>> = Mutex::new(None);
+
+/// The pool of this process. Everything that works in parallel works in it, and never in rayon's global pool, which
+/// would be of no use after a `fork`.
+pub fn pool() -> PyResult<Arc<ThreadPool>> {
+    let wanted = *WANTED.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(made) = &*made
+        && made.process == process
+        && made.wanted == wanted
+    {
+        return Ok(Arc::clone(&made.pool));
+    }
+    let mut builder = ThreadPoolBuilder::new().thread_name(|k| format!("urdd-{k}"));
+    if let Some(wanted) = wanted {
+        builder = builder.num_threads(wanted);
+    }
+    let pool = builder.build();
+    let pool = Arc::new(pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?);
+    let old = made.replace(Made {
+        process,
+        wanted,
+        pool: Arc::clone(&pool),
+    });
+    if let Some(old) = old
+        && old.process != process
+    {
+        // Its threads stayed in the parent: nobody would answer when it is told to end.
+        std::mem::forget(old);
+    }
+    Ok(pool)
+}
+
+/// Sets how many threads work; `None`: one for each processor, or as `RAYON_NUM_THREADS` says.
+#[pyfunction]
+#[pyo3(signature = (count=None))]
+pub fn set_num_threads(count: Option<usize>) -> PyResult<()> {
+    if count == Some(0) {
+        return Err(pyo3::exceptions::PyValueError::new_err(
+            "the number of threads must be at least 1; None is one for each processor",
+        ));
+    }
+    *WANTED.lock().unwrap_or_else(PoisonError::into_inner) = count;
+    Ok(())
+}
+
+/// How many threads work.
+#[pyfunction]
+pub fn num_threads() -> PyResult<usize> {
+    Ok(pool()?.current_num_threads())
+}

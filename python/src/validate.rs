@@ -1,0 +1,112 @@
+//! Validation.
+
+use std::path::PathBuf;
+
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use serde_json::{Value, from_value};
+use urdd::report::{self, Report};
+use urdd::validate::rule::Severity;
+use urdd::validate::selection::Codes;
+use urdd::validate::settings::{Exclude, Settings};
+use urdd::validate::{ValidateError, rules};
+
+use crate::errors::raise;
+use crate::work;
+
+/// What `urdd.validate` takes.
+#[derive(FromPyObject)]
+pub struct Options {
+    conformance_class: Option<String>,
+    deep: bool,
+    fail_on: Option<String>,
+    config: Option<String>,
+    select: Vec<String>,
+    ignore: Vec<String>,
+    exclude: Vec<String>,
+}
+
+impl Options {
+    fn settings(self) -> Result<Settings, String> {
+        let mut settings = match &self.config {
+            None => Settings::default(),
+            Some(text) => Settings::from_toml(text).map_err(|error| format!("config: {error}"))?,
+        };
+        if let Some(class) = self.conformance_class {
+            let read = from_value(Value::String(class.clone()));
+            let wrong = |_| {
+                let class = class.escape_debug();
+                format!("conformance_class: `{class}` is none of core, geometry, shapes")
+            };
+            settings.class = Some(read.map_err(wrong)?);
+        }
+        if let Some(severity) = self.fail_on {
+            let read = from_value(Value::String(severity.clone()));
+            let wrong = |_| {
+                let severity = severity.escape_debug();
+                format!("fail_on: `{severity}` is none of error, warning, info")
+            };
+            settings.fail_on = Some(read.map_err(wrong)?);
+        }
+        let codes = |words: &[String]| -> Result<Vec<Codes>, String> {
+            let each = words.iter().map(|word| word.parse::<Codes>());
+            each.collect::<Result<_, _>>()
+                .map_err(|error| error.to_string())
+        };
+        settings.selection.select.extend(codes(&self.select)?);
+        settings.selection.ignore.extend(codes(&self.ignore)?);
+        for pattern in &self.exclude {
+            let exclude = Exclude::new(pattern);
+            settings
+                .excludes
+                .push(exclude.map_err(|error| format!("exclude: {error}"))?);
+        }
+        settings.deep |= self.deep;
+        Ok(settings)
+    }
+}
+
+/// The report on every URDD at or below the paths, as JSON.
+#[pyfunction]
+pub fn validate(py: Python<'_>, paths: Vec<PathBuf>, options: Options) -> PyResult<String> {
+    let mut settings = options.settings().map_err(PyValueError::new_err)?;
+    let outcome = work::run(py, move |cancellation| {
+        settings.cancellation = cancellation.clone();
+        let run = urdd::validate::validate(&paths, &settings)?;
+        let fail_on = settings.fail_on.unwrap_or(Severity::Error);
+        Ok(report::json(&Report::new(&run, fail_on)))
+    })?;
+    match outcome {
+        Ok(text) => text.map_err(|error| PyRuntimeError::new_err(error.to_string())),
+        Err(ValidateError::Cancelled(error)) => {
+            Err(PyKeyboardInterrupt::new_err(error.to_string()))
+        }
+        Err(error) => Err(raise(py, "OpenError", error, &[])),
+    }
+}
+
+/// What a rule means: its name, severity, clause and explanation.
+#[pyfunction]
+pub fn explain(
+    py: Python<'_>,
+    code: &str,
+) -> PyResult<(&'static str, &'static str, &'static str, String)> {
+    let rules = rules::all();
+    let mut rules = rules.into_iter();
+    let rule = rules.find(|rule| rule.code.to_string() == code);
+    match rule {
+        Some(rule) => Ok((
+            rule.name,
+            rule.severity.as_str(),
+            rule.clause,
+            rule.explanation().to_string(),
+        )),
+        None => {
+            let message = format!(
+                "there is no rule `{}`; `urdd explain` lists them",
+                code.escape_debug()
+            );
+            Err(raise(py, "UnknownNameError", message, &[]))
+        }
+    }
+}

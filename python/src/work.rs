@@ -1,0 +1,108 @@
+//! Work that takes long: without the interpreter, on the threads of the pool, until Ctrl-C.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::Duration;
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::panic::PanicException;
+use pyo3::prelude::*;
+use urdd::cancellation::Cancellation;
+
+use crate::threads::pool;
+
+/// How often it is looked whether Ctrl-C was pressed.
+const PAUSE: Duration = Duration::from_millis(20);
+
+enum Word<T, M> {
+    Told(M),
+    Done(Result<T, Box<dyn Any + Send>>),
+}
+
+/// Where work tells how far it is.
+pub struct Teller<T, M>(Sender<Word<T, M>>);
+
+impl<T, M> Teller<T, M> {
+    pub fn tell(&self, message: M) {
+        // Who should hear it may have given up.
+        let _ = self.0.send(Word::Told(message));
+    }
+}
+
+/// Runs a job. Ctrl-C asks it to stop, and is raised when it has.
+pub fn run<T: Send + 'static>(
+    py: Python<'_>,
+    job: impl FnOnce(&Cancellation) -> T + Send + 'static,
+) -> PyResult<T> {
+    run_and_tell(
+        py,
+        |(): ()| Ok(()),
+        move |cancellation, _| job(cancellation),
+    )
+}
+
+/// As [`run`]; `hear` is called on the caller's thread with what the job tells. An error of it stops the job too.
+pub fn run_and_tell<T: Send + 'static, M: Send + 'static>(
+    py: Python<'_>,
+    mut hear: impl FnMut(M) -> PyResult<()>,
+    job: impl FnOnce(&Cancellation, &Teller<T, M>) -> T + Send + 'static,
+) -> PyResult<T> {
+    let cancellation = Cancellation::default();
+    let (sender, receiver) = channel();
+    let own = cancellation.clone();
+    pool()?.spawn(move || {
+        let teller = Teller(sender);
+        let outcome = catch_unwind(AssertUnwindSafe(|| job(&own, &teller)));
+        let _ = teller.0.send(Word::Done(outcome));
+    });
+    // A receiver may be moved between threads, but not shared; the lock is always free.
+    let receiver = Mutex::new(receiver);
+    let mut stopped: Option<PyErr> = None;
+    loop {
+        let word = py.detach(|| next(&receiver));
+        let heard = match word {
+            Ok(Word::Done(Ok(value))) => return stopped.map_or(Ok(value), Err),
+            Ok(Word::Done(Err(panic))) => return Err(crash(&*panic)),
+            Ok(Word::Told(message)) if stopped.is_none() => hear(message),
+            Ok(Word::Told(_)) | Err(RecvTimeoutError::Timeout) => Ok(()),
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("the work ended without an answer"));
+            }
+        };
+        if let Err(error) = heard.and_then(|()| py.check_signals()) {
+            cancellation.cancel();
+            stopped.get_or_insert(error);
+        }
+    }
+}
+
+fn next<W>(receiver: &Mutex<Receiver<W>>) -> Result<W, RecvTimeoutError> {
+    let receiver = receiver.lock().unwrap_or_else(PoisonError::into_inner);
+    receiver.recv_timeout(PAUSE)
+}
+
+/// A fault of this program, as an exception.
+fn crash(panic: &(dyn Any + Send)) -> PyErr {
+    let words = panic.downcast_ref::<String>().cloned();
+    let words = words.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
+    let words = words.unwrap_or_else(|| "it crashed".to_owned());
+    PanicException::new_err(format!(
+        "{words}; this is a fault of the program, please report it"
+    ))
+}
+
+/// Takes a lock, and lets other threads of the interpreter work as long as it is not free.
+pub fn lock<'a, T>(py: Python<'_>, mutex: &'a Mutex<T>) -> PyResult<MutexGuard<'a, T>> {
+    loop {
+        match mutex.try_lock() {
+            Ok(guard) => return Ok(guard),
+            Err(TryLockError::Poisoned(poisoned)) => return Ok(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => {
+                py.detach(|| std::thread::sleep(Duration::from_millis(1)));
+                py.check_signals()?;
+            }
+        }
+    }
+}

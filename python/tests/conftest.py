@@ -1,0 +1,51 @@
+"""The robots of the repository as URDDs, made once."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import urdd
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+ROBOTS = REPOSITORY / "conformance" / "robots"
+NAMES = [
+    "gripper",
+    "hand",
+    "planar_base_arm",
+    "quadruped",
+    "single_link",
+    "six_axis_arm",
+    "toy_all_joints",
+    "welding_arm",
+]
+
+
+@pytest.fixture(scope="session")
+def urdds(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a URDD of each of our robots, by name."""
+    folder = tmp_path_factory.mktemp("urdds")
+    for name in NAMES:
+        urdd.generate(ROBOTS / f"{name}.urdf", folder / name, samples=100)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def arm(urdds: Path) -> urdd.Robot:
+    """A robot with meshes, one DOF a joint."""
+    return urdd.load(urdds / "welding_arm")
+
+
+@pytest.fixture(scope="session")
+def toy(urdds: Path) -> urdd.Robot:
+    """A robot with every type of joint, and mimics of mimics."""
+    return urdd.load(urdds / "toy_all_joints")
+
+
+@pytest.fixture(scope="session")
+def figures() -> Any:
+    """Poses of our robots by closed forms, Pinocchio, MuJoCo and yourdfpy."""
+    return json.loads((REPOSITORY / "conformance" / "vectors" / "forward_kinematics.json").read_text(encoding="utf-8"))

@@ -1,0 +1,201 @@
+"""What people get wrong: each is an error that says what, where and what to do."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import signal
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import urdd
+from conftest import REPOSITORY, ROBOTS
+
+
+@pytest.mark.parametrize(
+    ("q", "words"),
+    [
+        ([0.0] * 5, r"shape must be \(6,\) or \(n, 6\), and is \(5,\)"),
+        (np.zeros((6, 5)), r"\(6, 5\)"),
+        (0.0, r"is \(\)"),
+        ([], r"is \(0,\)"),
+        ([0, 0, 0, 0, 0, float("nan")], r"is nan: every value must be finite"),
+        ([[0] * 6, [0, float("inf"), 0, 0, 0, 0]], r"configuration 1: DOF `.+` is inf"),
+        (np.zeros(6, dtype=complex), r"one of complex128"),
+        (["a"] * 6, r"one of <U1"),
+        ([[0, 0], [0]], r"array of numbers"),
+        (None, r"array of numbers"),
+        (np.array([object()] * 6), r"one of object"),
+    ],
+)
+def test_no_configurations(q: Any, words: str, arm: urdd.Robot) -> None:
+    for ask in (arm.fk, arm.in_collision, arm.distances, arm.clamp, arm.nearest):
+        with pytest.raises(urdd.ConfigurationError, match=words):
+            ask(q)
+    with pytest.raises(ValueError, match=words):
+        arm.jacobian(q, "torch")
+
+
+def test_every_kind_of_array(arm: urdd.Robot) -> None:
+    q = arm.sample(40)
+    expected = arm.fk(q)
+    read_only = q.copy()
+    read_only.flags.writeable = False
+    wide = np.zeros((40, 2 * arm.num_dofs))
+    wide[:, ::2] = q
+    swapped = q.astype(">f8")
+    for same in (q.tolist(), read_only, wide[:, ::2], np.asfortranarray(q), swapped, q[::-1][::-1]):
+        np.testing.assert_array_equal(arm.fk(same), expected)
+    single = q.astype(np.float32)
+    np.testing.assert_array_equal(arm.fk(single), arm.fk(single.astype(np.float64)))
+    np.testing.assert_array_equal(arm.fk(np.ones((2, 6), dtype=int)), arm.fk(np.ones((2, 6))))
+    assert arm.fk(np.empty((0, arm.num_dofs))).shape == (0, arm.num_links, 4, 4)
+
+
+def test_no_names(arm: urdd.Robot) -> None:
+    with pytest.raises(urdd.UnknownNameError, match="did you mean `torch`") as caught:
+        arm.jacobian(arm.zero, "trch")
+    assert (caught.value.what, caught.value.nearest) == ("link", "torch")
+    with pytest.raises(LookupError, match="there is no DOF"):
+        arm.dof("zzz")
+    with pytest.raises(urdd.UnknownNameError, match="kind of shapes `cubes`"):
+        arm.proximity("cubes")  # type: ignore[arg-type]
+    with pytest.raises(IndexError, match="there is no link 99"):
+        arm.fk(arm.zero, 99)
+    np.testing.assert_array_equal(arm.fk(arm.zero, -1), arm.fk(arm.zero)[-1])
+    with pytest.raises(urdd.UnknownNameError, match="there is no rule"):
+        urdd.explain("XYZ999")
+    assert "DOF" in urdd.explain("DOF003").explanation
+
+
+@pytest.mark.parametrize(
+    ("target", "words"),
+    [
+        (np.eye(3), "shape"),
+        ([0.0, float("nan"), 0.0], "not finite"),
+        (np.diag([1.0, 1.0, 2.0, 1.0]), "no pose"),
+        (np.diag([1.0, 1.0, -1.0, 1.0]), "no pose"),
+    ],
+)
+def test_no_targets(target: Any, words: str, arm: urdd.Robot) -> None:
+    with pytest.raises(urdd.ConfigurationError, match=words):
+        arm.ik("torch", target)
+
+
+def test_no_urdds(tmp_path: Path, urdds: Path) -> None:
+    with pytest.raises(urdd.OpenError, match="no such file"):
+        urdd.load(tmp_path / "nothing")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(OSError, match="there is no URDD in this folder"):
+        urdd.load(tmp_path / "empty")
+    with pytest.raises(urdd.OpenError, match="urdd generate") as caught:
+        urdd.load(ROBOTS / "welding_arm.urdf")
+    assert "urdd.generate(" in str(caught.value)
+    with pytest.raises(urdd.OpenError, match="folder that it lies in"):
+        urdd.load(urdds / "welding_arm" / "urdd.json")
+    (tmp_path / "bad.zip").write_bytes(b"PK\x03\x04 and nothing else")
+    with pytest.raises(urdd.OpenError):
+        urdd.load(tmp_path / "bad.zip")
+    with pytest.raises(urdd.OpenError):
+        urdd.validate(tmp_path / "empty")
+
+
+def test_a_urdd_that_fails_validation(urdds: Path, tmp_path: Path) -> None:
+    shutil.copytree(urdds / "gripper", tmp_path / "gripper")
+    file = tmp_path / "gripper" / "dof_module" / "module.json"
+    document = json.loads(file.read_text())
+    document["num_dofs"] = "one"
+    file.write_text(json.dumps(document))
+    robot = urdd.load(tmp_path / "gripper")
+    with pytest.raises(urdd.ModuleUnusableError, match=r"dof_module.*module\.json.*urdd validate") as caught:
+        robot.fk([0.0])
+    assert caught.value.module == "dof_module"
+    assert "dof_module" in repr(robot)
+    with pytest.raises(urdd.ModuleUnusableError):
+        _ = robot.modules.dof
+    (one,) = urdd.validate(tmp_path / "gripper").urdds
+    assert one.verdict == "fail"
+    assert any(finding.pointer == "/num_dofs" and finding.line is not None for finding in one.findings)
+
+
+def test_a_urdd_of_before_version_1() -> None:
+    robot = urdd.load(REPOSITORY / "conformance" / "bases" / "legacy" / "robot")
+    with pytest.raises(urdd.ModuleUnusableError, match="before version 1"):
+        _ = robot.modules.dof
+    assert robot.modules.json("dof_module")["num_dofs"] >= 1
+    with pytest.raises(urdd.ModuleMissingError, match="chain_module"):
+        robot.fk([0.0])
+
+
+def test_no_sources(tmp_path: Path) -> None:
+    with pytest.raises(urdd.GenerateError, match="cannot be read") as caught:
+        urdd.generate(tmp_path / "nothing.urdf", tmp_path / "out")
+    assert caught.value.code == "unreadable"
+    (tmp_path / "bad.urdf").write_text('<robot name="a">\n  <link name="l"/>\n  <link name="l"/>\n</robot>\n')
+    with pytest.raises(urdd.GenerateError) as caught:
+        urdd.generate(tmp_path / "bad.urdf", tmp_path / "out")
+    assert caught.value.code == "refused"
+    assert caught.value.places[0].line > 0
+    assert not (tmp_path / "out").exists()
+    for wrong, words in (
+        ({"modules": ["cheese"]}, "there is no module `cheese`"),
+        ({"samples": 0}, "from 1 to 100,000"),
+        ({"geometry": "both"}, "neither visual nor collision"),
+        ({"mesh_formats": ["ply"]}, "there are: glb, stl, obj"),
+        ({"skip": ["sometimes"]}, "there are: same-link"),
+        ({"packages": {"a": tmp_path / "nowhere"}}, "is not a folder"),
+    ):
+        options: dict[str, Any] = wrong
+        with pytest.raises(ValueError, match=words):
+            urdd.generate(ROBOTS / "gripper.urdf", tmp_path / "out", **options)
+    with pytest.raises(TypeError, match="list of words"):
+        urdd.generate(ROBOTS / "gripper.urdf", tmp_path / "out", modules="core")
+
+
+def _press_after(seconds: float) -> threading.Timer:
+    timer = threading.Timer(seconds, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    return timer
+
+
+def test_control_c_in_a_batch(arm: urdd.Robot) -> None:
+    q = np.tile(arm.sample(20_000), (20, 1))
+    arm.proximity()
+    timer = _press_after(0.2)
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):  # noqa: PT012
+        for _ in range(100):
+            arm.distances(q)
+    timer.join()
+    assert time.monotonic() - begin < 30
+    assert arm.fk(q[:3]).shape == (3, arm.num_links, 4, 4)
+
+
+def test_control_c_in_generate(tmp_path: Path) -> None:
+    begun: list[str] = []
+
+    def progress(module: str, done: int, total: int) -> None:
+        begun.append(module)
+        assert done < total
+        # Not at the last one: what is begun is made before it is looked whether to stop.
+        if module == "link_shapes_distance_statistics_module":
+            signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt):
+        urdd.generate(ROBOTS / "welding_arm.urdf", tmp_path / "out", progress=progress)
+    assert begun[0] == "urdf_module"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_error_of_a_callback_stops(tmp_path: Path) -> None:
+    def progress(module: str, done: int, total: int) -> None:
+        raise RuntimeError(f"{module} {done} {total}")
+
+    with pytest.raises(RuntimeError, match="urdf_module 0 15"):
+        urdd.generate(ROBOTS / "welding_arm.urdf", tmp_path / "out", samples=100_000, progress=progress)
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,102 @@
+"""Distances, collisions, shapes and skips."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import urdd
+
+KINDS: list[urdd.ShapeKind] = ["hulls", "boxes", "spheres", "pieces", "piece-boxes", "piece-spheres"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_batches_give_what_each_configuration_gives(kind: urdd.ShapeKind, arm: urdd.Robot) -> None:
+    proximity = arm.proximity(kind)
+    q = arm.sample(40)
+    distances = proximity.distances(q)
+    assert distances.shape == (40, proximity.num_pairs) == (40, len(proximity.pairs))
+    np.testing.assert_array_equal(proximity.in_collision(q), (distances <= 0).any(axis=1))
+    np.testing.assert_array_equal(proximity.self_distance(q), distances.min(axis=1))
+    for k in (0, 7, 39):
+        np.testing.assert_array_equal(proximity.distances(q[k]), distances[k])
+        assert proximity.in_collision(q[k]) == (distances[k] <= 0).any()
+        assert proximity.self_distance(q[k]) == distances[k].min()
+        nearest = proximity.nearest(q[k], 4)
+        np.testing.assert_array_equal([pair.distance for pair in nearest], np.sort(distances[k])[:4])
+        assert len(proximity.collisions(q[k])) == (distances[k] <= 0).sum()
+
+
+def test_the_points_of_a_pair_are_as_far_apart_as_its_distance(arm: urdd.Robot) -> None:
+    for pair in arm.nearest(arm.sample(seed=4), 10):
+        assert np.linalg.norm(pair.points[0] - pair.points[1]) == pytest.approx(pair.distance, abs=1e-9)
+        assert pair.links[0] != pair.links[1]
+        assert pair.relative is None or pair.relative >= 0
+
+
+def test_spheres_are_where_a_few_lines_of_numpy_put_them(arm: urdd.Robot) -> None:
+    q, proximity, spheres = arm.sample(20), arm.proximity("spheres"), arm.spheres("hulls")
+    poses = arm.fk(q)
+    at = {link: k for k, link in enumerate(spheres.links)}
+    links = [arm.link(link) for link in spheres.links]
+    frames = poses[:, links]
+    centres = np.einsum("nsij,sj->nsi", frames[..., :3, :3], spheres.centres) + frames[..., :3, 3]
+    for column, pair in enumerate(proximity.pairs):
+        a, b = (at[link] for link in pair.links)
+        apart = np.linalg.norm(centres[:, a] - centres[:, b], axis=1) - spheres.radii[a] - spheres.radii[b]
+        np.testing.assert_allclose(proximity.distances(q)[:, column], np.maximum(apart, 0), atol=1e-9)
+
+
+def test_shapes_hold_what_they_are_about(arm: urdd.Robot) -> None:
+    hulls, pieces = arm.hulls(), arm.pieces()
+    assert {hull.link for hull in hulls} == {piece.link for piece in pieces}
+    for meshes, boxes, spheres in (
+        (hulls, arm.boxes("hulls"), arm.spheres("hulls")),
+        (pieces, arm.boxes("pieces"), arm.spheres("pieces")),
+    ):
+        assert len(meshes) == len(boxes) == len(spheres.radii)
+        for k, (mesh, box) in enumerate(zip(meshes, boxes, strict=True)):
+            assert mesh.faces.max() < len(mesh.vertices)
+            assert (mesh.link, mesh.piece) == (box.link, box.piece) == (spheres.links[k], spheres.pieces[k])
+            inside = (mesh.vertices - box.pose[:3, 3]) @ box.pose[:3, :3]
+            assert (np.abs(inside) <= box.half_extents + 1e-6).all()
+            assert (np.linalg.norm(mesh.vertices - spheres.centres[k], axis=1) <= spheres.radii[k] + 1e-6).all()
+    assert {visual.link for visual in arm.visuals()} == {hull.link for hull in hulls}
+    for kind in KINDS:
+        assert len(arm.shapes(kind)) > 0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_pairs_are_those_that_are_not_skipped(kind: urdd.ShapeKind, arm: urdd.Robot) -> None:
+    skips, proximity = arm.skips(kind), arm.proximity(kind)
+    assert skips.skipped.diagonal().all()
+    assert (skips.skipped == skips.skipped.T).all()
+    upper = np.triu(~skips.skipped, 1)
+    assert upper.sum() == proximity.num_pairs
+    assert skips.reasons is not None
+    for row, reasons in enumerate(skips.reasons):
+        for column, reason in enumerate(reasons):
+            assert (reason == "same-link") == (skips.links[row] == skips.links[column])
+            assert bool(skips.skipped[row, column]) == (reason not in ("never", "none"))
+    neighbours = {frozenset((joint.parent.link, joint.child.link)) for joint in arm.modules.urdf.joints}
+    assert skips.pairs_of_links() <= {frozenset(pair) for pair in _all_pairs(arm.link_names)}
+    adjacent = {
+        frozenset((skips.links[i], skips.links[j]))
+        for i, j in np.argwhere(skips.skipped & ~np.eye(len(skips.links), dtype=bool))
+    }
+    assert any(pair in neighbours for pair in adjacent)
+
+
+def _all_pairs(names: tuple[str, ...]) -> list[tuple[str, str]]:
+    return [(a, b) for k, a in enumerate(names) for b in names[k + 1 :]]
+
+
+def test_a_robot_without_geometry_says_what_is_missing(urdds: Path, tmp_path: Path) -> None:
+    made = urdd.generate(urdds / "six_axis_arm" / "six_axis_arm.urdf", tmp_path / "core", modules=["core"])
+    robot = made.load()
+    assert robot.fk(robot.zero).shape == (robot.num_links, 4, 4)
+    with pytest.raises(urdd.ModuleMissingError, match="urdd generate") as caught:
+        robot.in_collision(robot.zero)
+    assert caught.value.module.startswith("link_shapes") or caught.value.module.endswith("meshes_module")
