@@ -22,8 +22,9 @@ impl Proximity {
         Proximity(Arc::new(proximity))
     }
 
-    /// What each of many configurations gives; of a single one by itself, on this thread.
-    fn each<T: Send + 'static>(
+    /// What each of many configurations gives; of a single one by itself, on this thread. Those of a robot without DOFs
+    /// are all the same one.
+    fn each<T: Copy + Send + 'static>(
         &self,
         py: Python<'_>,
         batch: Batch,
@@ -32,7 +33,10 @@ impl Proximity {
     ) -> PyResult<Vec<T>> {
         let answer = match batch.count {
             0 => Ok(Vec::new()),
-            1 => py.detach(|| one(&self.0, &batch.values)),
+            count if count == 1 || batch.values.is_empty() => {
+                let found = py.detach(|| one(&self.0, &batch.values));
+                found.map(|found| found.repeat(count))
+            }
             _ => {
                 let own = Arc::clone(&self.0);
                 work::run(py, move |cancellation| {

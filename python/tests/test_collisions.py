@@ -100,3 +100,16 @@ def test_a_robot_without_geometry_says_what_is_missing(urdds: Path, tmp_path: Pa
     with pytest.raises(urdd.ModuleMissingError, match="urdd generate") as caught:
         robot.in_collision(robot.zero)
     assert caught.value.module.startswith("link_shapes") or caught.value.module.endswith("meshes_module")
+
+
+@pytest.mark.parametrize("count", [0, 1, 5])
+def test_a_robot_without_dofs(count: int, urdds: Path) -> None:
+    robot = urdd.load(urdds / "single_link")
+    q = np.zeros((count, 0))
+    assert robot.fk(q).shape == (count, 1, 4, 4)
+    assert robot.jacobian(q, 0).shape == (count, 6, 0)
+    assert robot.in_collision(q).tolist() == [False] * count
+    assert robot.distances(q).shape == (count, 0)
+    assert robot.self_distance(q).tolist() == [float("inf")] * count
+    assert robot.nearest(robot.zero, 3) == []
+    assert robot.sample(count).shape == (count, 0)

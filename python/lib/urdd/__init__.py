@@ -31,8 +31,13 @@ from ._answers import (
 )
 from ._export import Export, export
 from ._generate import Generated, Job, Note, find_urdfs, generate, generate_text
+from ._mujoco import MujocoRobot
+from ._pinocchio import PinocchioRobot
 from ._proximity import Proximity
+from ._pybullet import PybulletRobot
 from ._robot import Robot, load
+from ._show import Frame, Shown, ShownByViser
+from ._trimesh import MeshKind
 from ._urdd import __version__, num_threads, set_num_threads
 from ._validate import Rule, explain, validate
 from .errors import (
@@ -54,22 +59,29 @@ __all__ = [
     "ConvexMesh",
     "Export",
     "ExportError",
+    "Frame",
     "GenerateError",
     "Generated",
     "InverseSolution",
     "InverseSolutions",
     "Job",
     "MeshError",
+    "MeshKind",
     "ModuleMissingError",
     "ModuleUnusableError",
+    "MujocoRobot",
     "Note",
     "OpenError",
     "Pair",
     "PairDistance",
+    "PinocchioRobot",
     "Proximity",
+    "PybulletRobot",
     "Robot",
     "Rule",
     "ShapeKind",
+    "Shown",
+    "ShownByViser",
     "SkipReason",
     "Skips",
     "Spheres",

@@ -37,12 +37,17 @@ def configurations(q: ArrayLike, dof_names: tuple[str, ...]) -> tuple[Floats, tu
             f"and is {given.shape}"
         )
     batch = given.shape[:-1]
-    rows = given.reshape(int(np.prod(batch, dtype=np.intp)), dofs)
+    rows = flat(given)
     if not np.isfinite(rows).all():
         row, dof = (int(index) for index in np.argwhere(~np.isfinite(rows))[0])
         where = f"configuration {row}: " if batch else ""
         raise ConfigurationError(f"{where}DOF `{dof_names[dof]}` is {rows[row, dof]}: every value must be finite")
     return rows, batch
+
+
+def flat(given: Floats) -> Floats:
+    """(n, last): all axes but the last as one, also where the last has no values."""
+    return given.reshape(int(np.prod(given.shape[:-1], dtype=np.intp)), given.shape[-1])
 
 
 def one_configuration(q: ArrayLike, dof_names: tuple[str, ...]) -> Floats:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,7 +23,12 @@ from ._answers import (
     Visual,
 )
 from ._arrays import Bools, Floats, Indices, configurations, numbers, points, scalar
+from ._mujoco import MujocoRobot, to_mujoco
+from ._pinocchio import PinocchioRobot, to_pinocchio
 from ._proximity import Proximity
+from ._pybullet import PybulletRobot, to_pybullet
+from ._show import Frame, Shown, ShownByViser, frame, show
+from ._trimesh import MeshKind, link_mesh, to_trimesh
 from .errors import ConfigurationError, OpenError, UrddError
 from .modules import Modules, RootMetadata, read_root_metadata
 
@@ -460,6 +465,76 @@ class Robot:
         words = None if reasons is None else [[SKIP_REASONS[number] for number in row] for row in reasons.tolist()]
         links = tuple(self.link_names[link] for link in places[:, 0].tolist())
         return Skips(kind, links, places[:, 1], skipped, words)
+
+    # Other programs.
+
+    def link_mesh(self, link: str, kind: MeshKind = "plain") -> Any:
+        """A link's mesh as ``trimesh.Trimesh``, in the link's frame, metres: as it looks (``plain``, with colours and
+        textures), its convex hull (``hulls``), or its convex pieces together (``pieces``).
+
+        Raises:
+            MeshError: where the link has no geometry.
+        """
+        return link_mesh(self, link, kind)
+
+    def to_trimesh(self, q: ArrayLike | None = None, kind: MeshKind = "plain") -> Any:
+        """A ``trimesh.Scene`` of the robot in one configuration, :attr:`zero` unless you say otherwise. Each mesh is a
+        node ``link/number``."""
+        return to_trimesh(self, q, kind)
+
+    def to_pinocchio(self, shapes: ShapeKind | None = "pieces") -> PinocchioRobot:
+        """Pinocchio's model, with shapes of this kind as its collision geometry, and the pairs that are not skipped."""
+        return to_pinocchio(self, shapes)
+
+    def to_mujoco(self, shapes: ShapeKind = "pieces", *, visuals: bool = True) -> MujocoRobot:
+        """MuJoCo's model, with shapes of this kind as its geoms, and the skips as excluded pairs of bodies."""
+        return to_mujoco(self, shapes, visuals=visuals)
+
+    def to_pybullet(self, client: int = 0, shapes: ShapeKind = "pieces", *, visuals: bool = False) -> PybulletRobot:
+        """Loads the robot into a client of PyBullet, with shapes of this kind, its root fixed; pairs of links all of
+        whose shapes are skipped do not collide there.
+
+        Raises:
+            ExportError: for planar, floating and spherical joints, which PyBullet does not read.
+        """
+        return to_pybullet(self, client, shapes, visuals=visuals)
+
+    @overload
+    def show(
+        self,
+        q: ArrayLike | None = None,
+        *,
+        backend: Literal["page"] = "page",
+        open_browser: bool = True,
+        port: int | None = None,
+    ) -> Shown: ...
+    @overload
+    def show(
+        self,
+        q: ArrayLike | None = None,
+        *,
+        backend: Literal["viser"],
+        open_browser: bool = True,
+        port: int | None = None,
+    ) -> ShownByViser: ...
+    def show(
+        self,
+        q: ArrayLike | None = None,
+        *,
+        backend: Literal["page", "viser"] = "page",
+        open_browser: bool = True,
+        port: int | None = None,
+    ) -> Shown | ShownByViser:
+        """Shows the robot in the browser: the page of ``urdd view``, or viser.
+
+        It is served to this machine alone, until what this gives is closed, or Python ends. In a notebook :meth:`frame`
+        shows the page in a cell.
+        """
+        return show(self, q, backend=backend, open_browser=open_browser, port=port)
+
+    def frame(self, height: int = 600) -> Frame:
+        """The page with this robot, as the output of a notebook's cell; nothing is served."""
+        return frame(self, height)
 
     # Habits of Python.
 

@@ -1,0 +1,89 @@
+"""MuJoCo's model of a robot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._answers import ShapeKind
+from ._arrays import Floats, configurations, flat, numbers
+from ._joints import Joint, joints_of, quaternion_of, rotation_vector_of
+from ._need import need
+from .errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from ._robot import Robot
+
+
+@dataclass(frozen=True)
+class MujocoRobot:
+    """A robot for MuJoCo. Its positions are in MuJoCo's own order: :meth:`qpos` and :meth:`dofs` map configurations.
+
+    A floating joint is three slides and a ball, a planar one two slides and a hinge. Mimic joints are joints of their
+    own, held by equality constraints, which :meth:`qpos` sets.
+    """
+
+    model: Any
+    """``mujoco.MjModel``. Each link is a body of its name."""
+    dof_names: tuple[str, ...]
+    """The DOFs here."""
+    notes: list[str]
+    """What MuJoCo's format could not say, or says in another way."""
+    _places: tuple[tuple[Joint, tuple[int, ...]], ...]
+
+    def qpos(self, q: ArrayLike) -> Floats:
+        """(..., nq): MuJoCo's positions of one of our configurations (..., dofs)."""
+        rows, batch = configurations(q, self.dof_names)
+        found = np.zeros((len(rows), self.model.nq))
+        for joint, at in self._places:
+            if joint.mimic is not None or len(joint.dofs) == 1:
+                found[:, at[0]] = joint.position(rows)[:, 0]
+                continue
+            slides = len(joint.dofs) if joint.kind == "Planar" else len(joint.dofs) - 3
+            found[:, at[:slides]] = rows[:, joint.dofs[:slides]]
+            if joint.kind != "Planar":
+                found[:, at[slides] : at[slides] + 4] = quaternion_of(rows[:, joint.dofs[slides:]])
+        return found.reshape(*batch, self.model.nq)
+
+    def dofs(self, qpos: ArrayLike) -> Floats:
+        """(..., dofs): our configuration of MuJoCo's positions (..., nq). What mimic joints say is not looked at."""
+        given = numbers(qpos, "MuJoCo's positions")
+        if given.ndim == 0 or given.shape[-1] != self.model.nq:
+            raise ConfigurationError(f"MuJoCo's positions have {self.model.nq} values, and these {given.shape}")
+        rows = flat(given)
+        found = np.zeros((len(rows), len(self.dof_names)))
+        for joint, at in self._places:
+            if joint.mimic is not None:
+                continue
+            slides = len(joint.dofs) - (3 if joint.kind in ("Spherical", "Floating") else 0)
+            found[:, joint.dofs[:slides]] = rows[:, at[:slides]]
+            if slides < len(joint.dofs):
+                found[:, joint.dofs[slides:]] = rotation_vector_of(rows[:, at[slides] : at[slides] + 4])
+        return found.reshape(*given.shape[:-1], len(self.dof_names))
+
+
+def to_mujoco(robot: Robot, shapes: ShapeKind = "pieces", *, visuals: bool = True) -> MujocoRobot:
+    """As :meth:`urdd.Robot.to_mujoco`."""
+    from ._export import export
+
+    mujoco = need("mujoco", "mujoco", "to_mujoco")
+    made = export(robot, "mjcf", shapes=shapes, visuals=visuals)
+    model = mujoco.MjModel.from_xml_string(made.text, made.files)
+
+    def at(name: str) -> int:
+        return int(model.jnt_qposadr[model.joint(name).id])
+
+    places: list[tuple[Joint, tuple[int, ...]]] = []
+    for joint in joints_of(robot.modules):
+        if joint.kind == "Fixed":
+            continue
+        names = [joint.name]
+        if joint.kind == "Planar":
+            names = [f"{joint.name}/{part}" for part in ("trans_x", "trans_y", "rot")]
+        if joint.kind == "Floating":
+            names = [*(f"{joint.name}/trans_{part}" for part in "xyz"), joint.name]
+        places.append((joint, tuple(at(name) for name in names)))
+    return MujocoRobot(model, robot.dof_names, made.notes, tuple(places))

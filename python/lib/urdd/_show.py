@@ -1,0 +1,118 @@
+"""Showing a robot: the page of `urdd view`, or viser."""
+
+from __future__ import annotations
+
+import html
+import webbrowser
+from typing import TYPE_CHECKING, Any, Literal
+
+from numpy.typing import ArrayLike
+
+from . import _urdd
+from ._arrays import one_configuration
+from ._need import need
+
+if TYPE_CHECKING:
+    from ._robot import Robot
+
+
+class Shown:
+    """A robot in the browser, until :meth:`close` is called or Python ends."""
+
+    def __init__(self, page: _urdd.Page, address: str) -> None:
+        self._page = page
+        self.address = address
+        """What to open. It carries the key without which nothing is answered."""
+
+    def close(self) -> None:
+        """Stops serving."""
+        self._page.close()
+
+    def __enter__(self) -> Shown:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<urdd.Shown at {self.address}>"
+
+
+class ShownByViser:
+    """A robot in viser."""
+
+    def __init__(self, robot: Robot, server: Any, frames: dict[str, Any]) -> None:
+        self._robot = robot
+        self._frames = frames
+        self.server = server
+        """``viser.ViserServer``."""
+
+    def set(self, q: ArrayLike) -> None:
+        """Shows another configuration (dofs,)."""
+        from ._joints import quaternion_of_matrix
+
+        row = one_configuration(q, self._robot.dof_names)[0]
+        for link, pose in self._robot.link_poses(row).items():
+            if link in self._frames:
+                self._frames[link].position = pose[:3, 3]
+                self._frames[link].wxyz = quaternion_of_matrix(pose[:3, :3])
+
+    def close(self) -> None:
+        """Stops serving."""
+        self.server.stop()
+
+
+class Frame:
+    """The page with one robot, for a notebook: the last expression of a cell shows it."""
+
+    def __init__(self, text: str, height: int) -> None:
+        self.text = text
+        """The page, as HTML."""
+        self._height = height
+
+    def _repr_html_(self) -> str:
+        # Scripts alone: the page asks for nothing else.
+        return (
+            f'<iframe sandbox="allow-scripts" style="width: 100%; height: {self._height}px; border: 0" '
+            f'srcdoc="{html.escape(self.text)}"></iframe>'
+        )
+
+
+def show(
+    robot: Robot,
+    q: ArrayLike | None,
+    *,
+    backend: Literal["page", "viser"],
+    open_browser: bool,
+    port: int | None,
+) -> Shown | ShownByViser:
+    """As :meth:`urdd.Robot.show`."""
+    row = None if q is None else one_configuration(q, robot.dof_names)[0]
+    if backend == "page":
+        page = _urdd.Page(robot.path, port)
+        address = page.address
+        if row is not None:
+            address += "&q=" + ",".join(repr(value) for value in row.tolist())
+        if open_browser:
+            webbrowser.open(address)
+        return Shown(page, address)
+    if backend != "viser":
+        raise ValueError(f"there is no backend {backend!r}; there are: page, viser")
+    viser = need("viser", "viser", "show(backend='viser')")
+    from ._trimesh import link_mesh
+
+    server = viser.ViserServer(**({} if port is None else {"port": port}))
+    frames: dict[str, Any] = {}
+    for link, mesh in zip(robot.link_names, robot.modules.plain_meshes.link_meshes, strict=True):
+        if mesh is not None:
+            frames[link] = server.scene.add_mesh_trimesh(f"/{link}", link_mesh(robot, link))
+    shown = ShownByViser(robot, server, frames)
+    shown.set(robot.zero if row is None else row)
+    if open_browser:
+        webbrowser.open(f"http://127.0.0.1:{server.get_port()}")
+    return shown
+
+
+def frame(robot: Robot, height: int) -> Frame:
+    """As :meth:`urdd.Robot.frame`."""
+    return Frame(_urdd.page_html(robot.path), height)

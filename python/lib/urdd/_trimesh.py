@@ -1,0 +1,60 @@
+"""Meshes and scenes of trimesh."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._arrays import one_configuration
+from ._need import need
+from .errors import MeshError
+
+if TYPE_CHECKING:
+    from ._robot import Robot
+
+MeshKind: TypeAlias = Literal["plain", "hulls", "pieces"]
+"""A kind of meshes: what a link looks like, its convex hull, its convex pieces."""
+
+
+def link_mesh(robot: Robot, link: str, kind: MeshKind = "plain") -> Any:
+    """As :meth:`urdd.Robot.link_mesh`."""
+    trimesh = need("trimesh", "trimesh", "link_mesh")
+    meshes = _meshes(robot, trimesh, robot.link_names[robot.link(link)], kind)
+    if not meshes:
+        raise MeshError(f"link `{link}` has no geometry: a list of those that have is in `robot.hulls()`")
+    return meshes[0] if len(meshes) == 1 else trimesh.util.concatenate(meshes)
+
+
+def to_trimesh(robot: Robot, q: ArrayLike | None = None, kind: MeshKind = "plain") -> Any:
+    """As :meth:`urdd.Robot.to_trimesh`."""
+    trimesh = need("trimesh", "trimesh", "to_trimesh")
+    row = one_configuration(robot.zero if q is None else q, robot.dof_names)[0]
+    scene = trimesh.Scene(base_frame=robot.link_names[robot.modules.chain.root_idx])
+    for link, pose in robot.link_poses(row).items():
+        for piece, mesh in enumerate(_meshes(robot, trimesh, link, kind)):
+            scene.add_geometry(mesh, node_name=f"{link}/{piece}", geom_name=f"{link}/{piece}", transform=pose)
+    return scene
+
+
+def _meshes(robot: Robot, trimesh: Any, link: str, kind: MeshKind) -> list[Any]:
+    """The meshes of a link, in its frame, as its .glb has them: with colours and textures."""
+    modules, index = robot.modules, robot.link(link)
+    if kind == "plain":
+        plain = modules.plain_meshes.link_meshes[index]
+        paths = [] if plain is None else [plain.files.glb]
+    elif kind == "hulls":
+        hull = modules.convex_hull_meshes.link_hulls[index]
+        paths = [] if hull is None else [hull.glb]
+    elif kind == "pieces":
+        paths = [piece.glb for piece in modules.convex_decomposition_meshes.link_pieces[index]]
+    else:
+        raise ValueError(f"there is no kind of meshes {kind!r}; there are: plain, hulls, pieces")
+    found: list[Any] = []
+    for path in paths:
+        scene = trimesh.load_scene(io.BytesIO(robot.read_file(path)), file_type="glb")
+        parts = scene.dump()
+        found += [part for part in (parts if isinstance(parts, (list, np.ndarray)) else [parts]) if len(part.faces)]
+    return found

@@ -1,0 +1,103 @@
+"""What people copy runs, and gives what it says."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import urdd
+from conftest import REPOSITORY, ROBOTS
+
+EXAMPLES = REPOSITORY / "python" / "examples"
+SCRIPTS = sysconfig.get_path("scripts")
+
+
+def run(name: str, *words: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, EXAMPLES / name, *words], capture_output=True, text=True, check=True, timeout=300
+    )
+
+
+def test_forward_kinematics(arm: urdd.Robot) -> None:
+    lines = run("forward_kinematics.py", arm.path).stdout.splitlines()
+    assert [line.split()[0] for line in lines] == list(arm.link_names)
+    poses = arm.fk(arm.middle)
+    np.testing.assert_allclose([float(x) for x in lines[-1].split()[1:4]], poses[-1, :3, 3], atol=1e-4)
+
+
+def test_inverse_kinematics(arm: urdd.Robot) -> None:
+    own, ours = run("inverse_kinematics.py", arm.path, "torch").stdout.splitlines()
+    assert float(own.split("error ")[1].split(",")[0]) < 1e-6
+    assert "reached True" in ours
+
+
+def test_collision_free(arm: urdd.Robot) -> None:
+    found = run("collision_free.py", arm.path, "200")
+    head, *rows = found.stdout.splitlines()
+    assert head.split(",") == list(arm.dof_names)
+    q = np.array([[float(word) for word in row.split(",")] for row in rows])
+    assert q.shape == (200, arm.num_dofs)
+    assert not arm.in_collision(q).any()
+
+
+def test_nearest_pairs(arm: urdd.Robot) -> None:
+    _, *rows = run("nearest_pairs.py", arm.path, "5").stdout.splitlines()
+    found = [float(row.split()[2]) for row in rows]
+    np.testing.assert_allclose(found, np.sort(arm.distances(arm.zero))[:5], atol=1e-4)
+
+
+def test_planner_spheres(arm: urdd.Robot) -> None:
+    words = run("planner_spheres.py", arm.path).stdout.split()
+    assert int(words[0]) == len(arm.spheres().radii)
+
+
+def test_the_notebook(urdds: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its cells, one after the other. `peers/test_notebook.py` runs it in a kernel."""
+    monkeypatch.chdir(urdds)
+    notebook: Any = json.loads((EXAMPLES / "robot.ipynb").read_text(encoding="utf-8"))
+    names: dict[str, object] = {}
+    cells = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
+    assert len(cells) >= 4
+    for cell in cells:
+        exec(compile(cell, "robot.ipynb", "exec"), names)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Slurm runs on Linux")
+def test_a_slurm_array_makes_every_robot_once(tmp_path: Path) -> None:
+    output = tmp_path / "urdds"
+    sources = tmp_path / "robots"
+    sources.mkdir()
+    for name in ("gripper", "six_axis_arm", "planar_base_arm"):
+        (sources / f"{name}.urdf").write_bytes((ROBOTS / f"{name}.urdf").read_bytes())
+    (sources / "bad.urdf").write_text("<robot/>")
+    for task in ("1", "2"):
+        environment = {
+            **os.environ,
+            "PATH": f"{SCRIPTS}{os.pathsep}{os.environ['PATH']}",
+            "SLURM_ARRAY_TASK_ID": task,
+            "SLURM_ARRAY_TASK_COUNT": "2",
+        }
+        words: list[str | Path] = ["bash", EXAMPLES / "many_robots_slurm.sh", sources, output]
+        subprocess.run(words, env=environment, check=True, timeout=300)
+    told = [json.loads(line) for task in "12" for line in (output / f"{task}.jsonl").read_text().splitlines()]
+    robots = [one for one in told if "summary" not in one]
+    assert len(robots) == 4
+    made = {path.name for path in output.iterdir() if path.is_dir()}
+    assert made == {"gripper", "six_axis_arm", "planar_base_arm"}
+    # The same shares as Python's.
+    shares = [urdd.find_urdfs(sources, shard=(part, 2)) for part in (1, 2)]
+    assert sorted(job.name for share in shares for job in share) == [
+        "bad",
+        "gripper",
+        "planar_base_arm",
+        "six_axis_arm",
+    ]
+    assert [len(share) for share in shares] == [2, 2]
