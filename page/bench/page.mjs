@@ -1,6 +1,6 @@
 // Figures of the page, in a browser that draws by software: node bench/page.mjs ADDRESS ROBOT
 //
-// The first picture, a slider step, proximity per step, memory after robots were opened and closed.
+// The first picture (where ADDRESS shows one robot, and ROBOT is not given: else a person's click is in it), a slider step, proximity per step, memory after robots were opened and closed.
 
 import { browser, drawn, open, tab } from "../test/world.mjs";
 
@@ -67,5 +67,38 @@ const proximity = await page.evaluate(async (shapes) => {
 console.log(
   `proximity of ${proximity.pairs} pairs of ${shapes}: ${median(proximity.times).toFixed(2)} ms a step (median of 100 random configurations)`,
 );
+
+// Memory after loading and closing ten robots, in turn, all layers of each: what stays must not grow with their number.
+const session = await page.context().newCDPSession(page);
+const names = await page.evaluate(() => globalThis.urdd.app.store.now.entries.map(({ name }) => name));
+const memory = async () => {
+  await page.evaluate(() => globalThis.urdd.app.close());
+  await page.waitForTimeout(500);
+  await session.send("HeapProfiler.collectGarbage");
+  const { usedSize } = await session.send("Runtime.getHeapUsage");
+  const { geometries, textures } = await page.evaluate(() => globalThis.urdd.stage.view.held());
+  const engine = await page.evaluate(() => globalThis.urdd.app.engine.ask("memory", {}));
+  return { heap: usedSize, geometries, textures, engine };
+};
+const told = ({ heap, geometries, textures, engine }) =>
+  `heap ${(heap / 1e6).toFixed(1)} MB, ${geometries} geometries, ${textures} textures, engine ${(engine / 1e6).toFixed(1)} MB`;
+if (names.length > 0) {
+  for (let round = 0; round < 10; round++) {
+    const name = names[round % names.length];
+    if (await page.getByRole("button", { name: "All robots" }).isVisible()) await open(page, name);
+    else await page.evaluate(async () => globalThis.urdd.app.reopen());
+    for (const layer of ["plain", "hulls", "pieces", "boxes", "spheres"])
+      await page.evaluate((layer) => globalThis.urdd.app.setLayer(layer, { on: true }), layer);
+    await page.waitForFunction(
+      () => !globalThis.urdd.app.store.now.loading && globalThis.urdd.stage.busy.size === 0,
+      undefined,
+      { timeout: 120_000 },
+    );
+    await page.evaluate(() =>
+      globalThis.urdd.app.engine.ask("proximity", { q: globalThis.urdd.app.store.now.q, shapes: "hulls", k: 1 }),
+    );
+    if (round === 0 || round === 9) console.log(`after ${round + 1} robots: ${told(await memory())}`);
+  }
+}
 await close();
 await chrome.close();

@@ -1,5 +1,6 @@
 /** What the page does: opens robots, moves them, asks about them. Panels show the state and call this. */
 
+import { Trapped } from "./engine/client";
 import type { Engine } from "./engine/client";
 import type { Report, RobotSource, ShapeKind } from "./engine/protocol";
 import { Latest } from "./latest";
@@ -170,7 +171,9 @@ export class App {
         }));
       set(made, null);
     } catch (error) {
-      set(null, message(error));
+      // A trap ends the validator: what it had found is lost, and nothing is proven.
+      const incomplete = error instanceof Trapped ? "not fully examined: " : "";
+      set(null, incomplete + message(error));
     }
   }
 

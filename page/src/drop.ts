@@ -4,7 +4,7 @@ import type { RobotSource } from "./engine/protocol";
 
 /** Most files, and most bytes, of what is dropped. */
 const MOST_FILES = 50_000;
-const MOST_BYTES = 1_500_000_000;
+const MOST_BYTES = 1_000_000_000;
 
 interface Dropped {
   path: string;
@@ -63,7 +63,9 @@ function check(found: Dropped[]): void {
   if (found.length > MOST_FILES)
     throw new Error(`This folder has more than ${MOST_FILES.toLocaleString("en")} files. Drop the folder of one URDD.`);
   if (size > MOST_BYTES)
-    throw new Error("This folder has more than 1.5 GB. A browser cannot hold that; use `urdd view` on this machine.");
+    throw new Error(
+      "This folder has more than 1 GB, too much for a browser. Look at it with `urdd view` on this machine.",
+    );
 }
 
 const IS_URDD =
@@ -102,6 +104,9 @@ async function ofFile(files: File[]): Promise<RobotSource> {
   const [file] = files;
   if (!file) throw new Error("Nothing was dropped. Drop the folder of a URDD, or a .zip of it.");
   if (!/\.zip$/i.test(file.name)) throw new Error(notAUrdd(files.map((file) => ({ path: file.name, file }))));
-  if (file.size > MOST_BYTES) throw new Error("This archive has more than 1.5 GB. A browser cannot hold that.");
+  if (file.size > MOST_BYTES)
+    throw new Error(
+      "This archive has more than 1 GB, too much for a browser. Look at it with `urdd view` on this machine.",
+    );
   return { kind: "zip", name: file.name.replace(/\.zip$/i, ""), bytes: await file.arrayBuffer() };
 }

@@ -1,13 +1,19 @@
 /** The state that a link carries, in the URL's fragment: `#r=h1&q=0,0.5&t=Proximity`. */
 
 import { LAYERS, OVERLAYS, TABS } from "./state";
-import type { Layer, LayerKind, OverlayKind, Tab } from "./state";
+import type { Layer, LayerKind, OverlayKind, Pair, Tab } from "./state";
+import { SHAPE_KINDS } from "./engine/protocol";
+import type { ShapeKind } from "./engine/protocol";
 
 export interface Shared {
   robot: string | null;
   q: number[] | null;
   tab: Tab | null;
   selected: string | null;
+  joint: string | null;
+  hidden: number[] | null;
+  pair: Pair | null;
+  shapes: ShapeKind | null;
   layers: Partial<Record<LayerKind, Layer>> | null;
   overlays: OverlayKind[] | null;
   camera: number[] | null;
@@ -18,6 +24,43 @@ function numbers(text: string | null): number[] | null {
   if (text === null || text === "") return null;
   const values = text.split(",").map(Number);
   return values.every(Number.isFinite) ? values : null;
+}
+
+/** `3,7-9` as 3, 7, 8, 9: links by number. */
+function ranges(text: string | null): number[] | null {
+  if (text === null) return null;
+  const found: number[] = [];
+  for (const word of text.split(",")) {
+    const match = /^(\d{1,6})(?:-(\d{1,6}))?$/.exec(word);
+    if (!match) continue;
+    const [first, last] = [Number(match[1]), Number(match[2] ?? match[1])];
+    for (let link = first; link <= last; link++) found.push(link);
+  }
+  return found;
+}
+
+function inRanges(links: readonly number[]): string {
+  const words: string[] = [];
+  const sorted = [...links].sort((a, b) => a - b);
+  for (let k = 0; k < sorted.length;) {
+    const first = sorted[k] ?? 0;
+    let n = 1;
+    while (sorted[k + n] === first + n) n++;
+    words.push(n === 1 ? `${first}` : `${first}-${first + n - 1}`);
+    k += n;
+  }
+  return words.join(",");
+}
+
+/** `3.0,5.2`: piece 0 of link 3, and piece 2 of link 5. */
+function pairOf(text: string | null): Pair | null {
+  const match = /^(\d{1,6})\.(\d{1,6}),(\d{1,6})\.(\d{1,6})$/.exec(text ?? "");
+  if (!match) return null;
+  const [a = 0, b = 0, c = 0, d = 0] = match.slice(1).map(Number);
+  return [
+    [a, b],
+    [c, d],
+  ];
 }
 
 export function read(fragment: string): Shared {
@@ -36,6 +79,10 @@ export function read(fragment: string): Shared {
     q: numbers(words.get("q")),
     tab,
     selected: words.get("s"),
+    joint: words.get("j"),
+    hidden: ranges(words.get("x")),
+    pair: pairOf(words.get("p")),
+    shapes: SHAPE_KINDS.find((kind) => kind === words.get("k")) ?? null,
     layers: Object.keys(layers).length > 0 ? layers : null,
     overlays: overlays === null ? null : OVERLAYS.filter((kind) => overlays.split(",").includes(kind)),
     camera: numbers(words.get("c")),
@@ -53,6 +100,10 @@ export function write(shared: Shared): string {
   add("r", shared.robot);
   add("t", shared.tab);
   add("s", shared.selected);
+  add("j", shared.joint);
+  add("k", shared.shapes);
+  add("p", shared.pair?.map((place) => place.join(".")).join(",") ?? null);
+  add("x", shared.hidden ? inRanges(shared.hidden) : null);
   const layers = Object.entries(shared.layers ?? {}).filter(([, layer]) => layer.on);
   add("l", layers.map(([name, layer]) => (layer.opacity < 1 ? `${name}:${short(layer.opacity)}` : name)).join(","));
   add("o", shared.overlays?.join(",") ?? null);

@@ -1,6 +1,7 @@
 /** The pointer in the picture. */
 
 import type { App } from "./app";
+import type { Reached, Wish } from "./engine/protocol";
 import { Latest } from "./latest";
 import { dragJoint, pull } from "./scene/drag";
 import type { Drag } from "./scene/drag";
@@ -59,7 +60,7 @@ export class Hand {
   }
 
   private press(event: PointerEvent): void {
-    if (event.button !== 0) return;
+    if (event.button !== 0 || this.stage.gizmo.isHeld) return;
     const { robot, poses } = this.app.store.now;
     const { scene, view } = this.stage;
     if (!robot || !scene) return;
@@ -69,14 +70,14 @@ export class Hand {
     if (picked && poses && robot.moves) {
       const { link } = picked.of;
       const eye = view.camera.position;
-      const computed = (batch: number[]): Promise<Float64Array> => this.app.engine.ask("poses", { q: batch });
+      const reach = (wish: Wish): Promise<Reached> => this.app.engine.ask("reach", wish);
       const joint = robot.moving(link);
       const above = [...new Set(robot.path(link).flatMap((joint) => robot.dofsOf(joint)))];
-      if (event.shiftKey) this.drag = pull(robot, computed, poses, link, above, picked.point, eye);
+      if (event.shiftKey) this.drag = pull(poses, link, above, picked.point, eye, reach);
       else if (joint !== null) {
         this.drag =
           dragJoint(robot, poses, joint, picked.point, eye) ??
-          pull(robot, computed, poses, link, robot.dofsOf(joint), picked.point, eye);
+          pull(poses, link, robot.dofsOf(joint), picked.point, eye, reach);
       }
     }
     if (this.drag) {

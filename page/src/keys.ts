@@ -25,6 +25,7 @@ export function keys(app: App, stage: Stage | null): void {
       dispatchEvent(new Event("urdd-play"));
     } else if (event.key === "r") dispatchEvent(new Event("urdd-random"));
     else if (event.key === "f") stage?.look("fit");
+    else if (event.key === "g") stage?.gizmo.next();
     else if (event.key === "z") {
       const zero = app.store.now.robot?.about.zero;
       if (zero) app.move(zero);

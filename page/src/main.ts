@@ -8,6 +8,8 @@ import * as fragment from "./fragment";
 import * as inline from "./inline";
 import { keys } from "./keys";
 import { follow } from "./live";
+import { saveDialog, untilMade } from "./making";
+import { unknown } from "./model";
 import type { Entry } from "./model";
 import { findings } from "./panels/findings";
 import { gallery } from "./panels/gallery";
@@ -17,12 +19,12 @@ import { joints } from "./panels/joints";
 import { proximity } from "./panels/proximity";
 import { shapes } from "./panels/shapes";
 import { skips } from "./panels/skips";
-import { status } from "./panels/status";
+import { said, status } from "./panels/status";
 import { tree } from "./panels/tree";
 import { Site } from "./site";
 import type { Mode } from "./site";
 import { Stage } from "./stage";
-import { LAYERS, OVERLAYS } from "./state";
+import { initial, LAYERS, OVERLAYS } from "./state";
 import { byId, fill, h } from "./ui/dom";
 import { offer } from "./ui/offer";
 import { startTheme } from "./ui/theme";
@@ -71,17 +73,7 @@ function start(): void {
     app.store.set({ loading: { what: "files", done: 0, of: 0 } });
     try {
       const source = await files();
-      const entry: Entry = {
-        id: source.name,
-        name: source.name,
-        writable: false,
-        links: null,
-        dofs: null,
-        verdict: null,
-        findings: null,
-        notes: [],
-        picture: null,
-      };
+      const entry = unknown(source.name);
       await opened(app, stage, entry, source, null);
     } catch (error) {
       app.store.set({ loading: null, failure: message(error) });
@@ -106,6 +98,14 @@ function start(): void {
       ),
     );
   });
+  const waiting = h("div", { class: "waiting", role: "status" });
+  app.store.on(["robot", "loading"], ({ robot, loading }) => {
+    waiting.hidden = robot !== null || loading === null;
+    if (!loading) return;
+    const progress = h("progress", { "aria-label": loading.what, max: Math.max(loading.of, 1) });
+    if (loading.of > 0) progress.value = loading.done;
+    fill(waiting, h("p", {}, said(loading)), progress);
+  });
   const middle = h(
     "main",
     {},
@@ -129,6 +129,7 @@ function start(): void {
         }
       },
     ),
+    waiting,
     failure,
   );
   const panels = {
@@ -139,7 +140,9 @@ function start(): void {
     Findings: findings(app),
     Info: info(app),
   };
+  const saving = saveDialog(app);
   const actions = {
+    save: saving.open,
     share: () => void share(app),
     picture: () => void save(app, stage),
     gallery: () => {
@@ -151,6 +154,7 @@ function start(): void {
     header(app, actions),
     h("div", { class: "columns" }, tree(app), middle, tabs(app, panels)),
     status(app),
+    saving.element,
   );
   keys(app, stage);
   app.store.on(["robot"], ({ robot }) => {
@@ -182,7 +186,10 @@ async function begin(
     const asked = entries.find((entry) => entry.id === shared.robot);
     const one = asked ?? (entries.length === 1 ? entries[0] : undefined);
     if (shared.robot !== null && !asked && !one) app.note(`There is no robot ${shared.robot} here.`);
-    if (one) await open(one, shared);
+    if (entries.some(({ making, failure }) => making !== null || failure !== null)) {
+      const made = await untilMade(app, one?.id ?? null);
+      if (made) await open(made, shared);
+    } else if (one) await open(one, shared);
   } catch (error) {
     app.store.set({ failure: message(error) });
   }
@@ -224,17 +231,22 @@ async function opened(
   const robot = await app.open(entry, source);
   if (!robot) return;
   if (from?.q?.length === robot.dofs.length) app.move(from.q);
-  if (from?.selected) {
-    const index = robot.link(from.selected);
-    if (index >= 0) app.select({ kind: "link", index });
-  }
+  const link = from?.selected ? robot.link(from.selected) : -1;
+  const joint = from?.joint ? robot.joints.findIndex(({ name }) => name === from.joint) : -1;
+  if (link >= 0) app.select({ kind: "link", index: link });
+  else if (joint >= 0) app.select({ kind: "joint", index: joint });
+  const known = (link: number): boolean => link < robot.links.length;
+  if (from?.hidden) app.hide(from.hidden.filter(known), true);
+  if (from?.shapes) app.store.set({ shapes: from.shapes });
+  if (from?.pair?.every(([link]) => known(link))) app.store.set({ pair: from.pair });
   if (app.store.now.tab === "Proximity") app.measure(true);
   if (app.store.now.tab === "Findings") void app.loadReport();
 }
 
 function current(app: App, stage: Stage | null): string {
-  const { robot, q, tab, selected, layers, overlays } = app.store.now;
+  const { robot, q, tab, selected, layers, overlays, hidden, pair, shapes } = app.store.now;
   const link = robot && selected?.kind === "link" ? robot.links[selected.index] : undefined;
+  const joint = robot && selected?.kind === "joint" ? robot.joints[selected.index] : undefined;
   const zero = robot?.about.zero?.every((value, dof) => value === q[dof]) ?? true;
   const onlyOriginal = LAYERS.every((layer) => layers[layer].on === (layer === "original"));
   const over = OVERLAYS.filter((kind) => overlays[kind]);
@@ -243,6 +255,10 @@ function current(app: App, stage: Stage | null): string {
     q: zero ? null : q,
     tab: tab === "Joints" ? null : tab,
     selected: link?.name ?? null,
+    joint: joint?.name ?? null,
+    hidden: hidden.size > 0 ? [...hidden] : null,
+    pair,
+    shapes: shapes === initial().shapes ? null : shapes,
     layers: onlyOriginal ? null : layers,
     overlays: over.join() === "grid" ? null : over,
     camera: stage && robot ? [...stage.view.camera.position.toArray(), ...stage.view.controls.target.toArray()] : null,
@@ -260,7 +276,7 @@ function remember(app: App, stage: Stage | null): void {
       if (robot && !loading) history.replaceState(null, "", `#${current(app, stage)}`);
     }, 400);
   };
-  app.store.on(["robot", "q", "tab", "selected", "layers", "overlays"], later);
+  app.store.on(["robot", "q", "tab", "selected", "layers", "overlays", "hidden", "pair", "shapes"], later);
   stage?.view.moved.push(later);
 }
 

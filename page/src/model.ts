@@ -8,6 +8,12 @@ export interface Entry {
   name: string;
   /** Whether skips can be saved: a folder on disk, of version 1. */
   writable: boolean;
+  /** Whether it goes when `urdd view` ends, unless it is saved. */
+  temporary: boolean;
+  /** How far its generation is, while that goes on. */
+  making: { what: string; done: number; of: number } | null;
+  /** Why it could not be generated. */
+  failure: string | null;
   links: number | null;
   dofs: number | null;
   verdict: string | null;
@@ -15,6 +21,24 @@ export interface Entry {
   /** What was assumed when it was generated for this view. */
   notes: string[];
   picture: string | null;
+}
+
+/** A robot of which nobody has said anything yet. */
+export function unknown(name: string): Entry {
+  return {
+    id: name,
+    name,
+    writable: false,
+    temporary: false,
+    making: null,
+    failure: null,
+    links: null,
+    dofs: null,
+    verdict: null,
+    findings: null,
+    notes: [],
+    picture: null,
+  };
 }
 
 export type Part = { kind: "link"; index: number } | { kind: "joint"; index: number };

@@ -2,6 +2,7 @@
 
 import type { FileEntry, Report, RobotSource } from "./engine/protocol";
 import * as inline from "./inline";
+import { unknown } from "./model";
 import type { Entry } from "./model";
 
 export type Mode = "live" | "static" | "inline";
@@ -13,7 +14,8 @@ export class Site {
   ) {}
 
   async robots(): Promise<Entry[]> {
-    return this.mode === "inline" ? inline.robots() : ((await this.json("robots.json")) as Entry[]);
+    const robots = this.mode === "inline" ? inline.robots() : ((await this.json("robots.json")) as Entry[]);
+    return robots.map((entry) => ({ ...unknown(entry.name), ...entry }));
   }
 
   async source(entry: Entry): Promise<RobotSource> {
@@ -34,6 +36,18 @@ export class Site {
   async report(entry: Entry): Promise<Report> {
     if (this.mode === "inline") return inline.report();
     return (await this.json(`robots/${encodeURIComponent(entry.id)}/report.json`)) as Report;
+  }
+
+  /** What a gallery says of a robot. */
+  async summary(entry: Entry): Promise<Entry> {
+    return (await this.json(`robots/${encodeURIComponent(entry.id)}/summary.json`)) as Entry;
+  }
+
+  /** The address of a small picture of a robot; null where it has none. */
+  async picture(entry: Entry): Promise<string | null> {
+    const path = `robots/${encodeURIComponent(entry.id)}/picture.png`;
+    const response = await fetch(path, { headers: this.headers() });
+    return response.status === 200 ? URL.createObjectURL(await response.blob()) : null;
   }
 
   /** A word that changes when the robot's files do; `gone` where there are none any more. */

@@ -3,6 +3,7 @@
 import { strToU8, zipSync } from "fflate";
 import type { App } from "./app";
 import { message } from "./app";
+import { count } from "./ui/format";
 import { offer } from "./ui/offer";
 import type { PairDistance, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
 
@@ -23,13 +24,22 @@ export async function load(app: App, shapes: ShapeKind): Promise<void> {
 }
 
 /** Adds decisions to those that there are. */
-export function decide(app: App, more: SkipEdit[]): Promise<void> {
-  const edits = app.store.now.skips.answer?.edits ?? [];
+export async function decide(app: App, more: SkipEdit[]): Promise<void> {
+  if (!app.store.now.skips.answer) await load(app, "hulls");
+  const { answer, error } = app.store.now.skips;
+  const edits = answer?.edits;
+  if (!edits) {
+    app.note(error ?? "A legacy URDD has no edits: generate a new one to decide on skips.");
+    return;
+  }
   const same = (a: SkipEdit, b: SkipEdit): boolean =>
     (a.link_a === b.link_a && a.link_b === b.link_b) || (a.link_a === b.link_b && a.link_b === b.link_a);
   // The last decision on a pair counts: those before it say nothing any more.
   const kept = edits.filter((edit) => !more.some((other) => same(edit, other)));
-  return change(app, [...kept, ...more], [...app.store.now.skips.before, edits]);
+  await change(app, [...kept, ...more], [...app.store.now.skips.before, edits]);
+  if (app.store.now.tab !== "Skips") {
+    app.note(`${count(more.length, "pair")} of links decided. Save or take it back in Skips.`);
+  }
 }
 
 async function change(app: App, edits: SkipEdit[], before: SkipEdit[][]): Promise<void> {
@@ -118,7 +128,8 @@ export async function nearer(
 }
 
 export function isSkipped(answer: SkipsAnswer, i: number, j: number): boolean {
-  return answer.skipped[i]?.[j] === "1";
+  // Legacy matrices say it above the diagonal alone.
+  return answer.skipped[Math.min(i, j)]?.[Math.max(i, j)] === "1";
 }
 
 export function letterAt(answer: SkipsAnswer, i: number, j: number): string {

@@ -6,6 +6,7 @@ import { message } from "./app";
 import { worstOfLinks } from "./findings";
 import type { RobotModel } from "./model";
 import { pairOf, same as samePair } from "./panels/proximity";
+import { Gizmo, GIZMOS } from "./scene/gizmo";
 import { Ground } from "./scene/ground";
 import { load } from "./scene/layers";
 import { Overlays } from "./scene/overlays";
@@ -15,7 +16,7 @@ import type { Look } from "./scene/robot";
 import { View } from "./scene/view";
 import { Witness } from "./scene/witness";
 import { Hand } from "./hand";
-import { LAYERS } from "./state";
+import { drawnLayers, LAYERS } from "./state";
 import type { LayerKind, State } from "./state";
 import { h } from "./ui/dom";
 import { color } from "./ui/theme";
@@ -27,13 +28,19 @@ export const DIRECTIONS = {
   top: new Vector3(0, -0.001, 1),
 } as const;
 
+const HANDLES = {
+  translate: { text: "Move", title: "Move the chosen link by handles; the joints above it give way (G)" },
+  rotate: { text: "Turn", title: "Turn the chosen link by handles; the joints above it give way (G)" },
+};
+
 const START = new Vector3(1, -0.75, 0.45);
 /** What is not looked at. */
-const FADED = 0.1;
+const FADED = 0.18;
 
 export class Stage {
   readonly element: HTMLElement;
   readonly view: View;
+  readonly gizmo: Gizmo;
   scene: RobotScene | null = null;
   private readonly ground = new Ground();
   private readonly overlays = new Overlays();
@@ -69,6 +76,27 @@ export class Stage {
     this.element = h("div", { class: "stage" }, canvas, this.label, views, this.progress);
     this.view = new View(canvas);
     this.witness = new Witness(this.view, this.label);
+    this.gizmo = new Gizmo(app, this.view);
+    const handles = GIZMOS.map((kind) => {
+      const button = h(
+        "button",
+        { type: "button", "aria-pressed": "false", title: HANDLES[kind].title },
+        HANDLES[kind].text,
+      );
+      button.addEventListener("click", () => {
+        this.gizmo.use(this.gizmo.kind === kind ? null : kind);
+        if (this.gizmo.kind && !app.store.now.selected) app.note("Choose a link to move it by handles.");
+      });
+      return [kind, button] as const;
+    });
+    this.gizmo.changed = () => {
+      for (const [kind, button] of handles) button.setAttribute("aria-pressed", String(this.gizmo.kind === kind));
+    };
+    views.append(h("span", { class: "gap" }), ...handles.map(([, button]) => button));
+    app.store.on(["robot"], ({ robot }) => {
+      views.hidden = !robot;
+      for (const [, button] of handles) button.hidden = !robot?.moves;
+    });
     this.view.scene.add(this.ground.group, this.overlays.group, this.witness.group);
     new Hand(app, this);
     this.listen();
@@ -99,7 +127,7 @@ export class Stage {
       this.overlays.pose(poses);
       this.view.invalidate();
     });
-    store.on(["layers"], () => {
+    store.on(["layers", "pair", "shapes"], () => {
       void this.fill();
     });
     store.on(
@@ -131,6 +159,7 @@ export class Stage {
     this.view.invalidate();
     if (!robot) return;
     this.scene = new RobotScene(robot.links.length);
+    this.busy = new Set();
     this.view.scene.add(this.scene.root);
     const { poses } = this.app.store.now;
     if (poses) this.scene.pose(poses);
@@ -139,21 +168,22 @@ export class Stage {
 
   /** Loads the layers that are on. */
   private async fill(look = false): Promise<void> {
-    const { scene, model } = this;
-    const { layers } = this.app.store.now;
+    const { scene, model, busy } = this;
+    const layers = drawnLayers(this.app.store.now);
     if (!scene || !model) return;
     for (const layer of LAYERS) {
-      if (!layers[layer].on || scene.has(layer) || this.busy.has(layer)) continue;
-      this.busy.add(layer);
+      if (!layers[layer].on || scene.has(layer) || busy.has(layer)) continue;
+      busy.add(layer);
       await this.one(layer, scene, model);
-      this.busy.delete(layer);
+      busy.delete(layer);
       if (scene !== this.scene) return;
     }
     if (look) this.settle(scene);
     this.settledOn = model;
   }
 
-  private readonly busy = new Set<LayerKind>();
+  /** The layers of the present scene that are being loaded. */
+  private busy = new Set<LayerKind>();
 
   private async one(layer: LayerKind, scene: RobotScene, model: RobotModel): Promise<void> {
     const { store, engine } = this.app;
@@ -200,7 +230,8 @@ export class Stage {
 
   /** Colours and opacities. */
   private dress(state: State): void {
-    const { robot, layers, hidden, overlays, selected, hovered, pair, painted, report } = state;
+    const { robot, hidden, overlays, selected, hovered, pair, painted, report } = state;
+    const layers = drawnLayers(state);
     if (!robot || !this.scene) return;
     const tints = new Map<number, Color>();
     const tint = (link: number | null | undefined, name: string): void => {
@@ -232,8 +263,8 @@ export class Stage {
       if (pair) {
         const of = pair.find(([other]) => other === link);
         const isPiece = layer === "pieces" || layer.startsWith("piece-");
-        const exact = pair.some(([other, k]) => other === link && (k === piece || !isPiece));
-        fade = exact ? 1 : of ? 0.35 : FADED;
+        const exact = layer === state.shapes && pair.some(([other, k]) => other === link && (k === piece || !isPiece));
+        fade = exact ? 1 : of ? 0.3 : FADED;
         if (exact && touching) own = new Color(color("--error"));
       }
       return { tint: own, fade, paint: paint(link) };

@@ -1,22 +1,16 @@
 /** The state of the page, and who wants to hear of its changes. */
 
+import { SHAPE_KINDS } from "./engine/protocol";
 import type { ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
 import type { Entry, Part, RobotModel } from "./model";
 
-export const LAYERS = [
-  "original",
-  "plain",
-  "hulls",
-  "pieces",
-  "boxes",
-  "spheres",
-  "piece-boxes",
-  "piece-spheres",
-] as const;
+/** What the URDF itself has, the plain meshes, and what stands for links in checks. */
+export const LAYERS = ["original", "collision", "plain", ...SHAPE_KINDS] as const;
 export type LayerKind = (typeof LAYERS)[number];
 
 export const LAYER_NAMES: Record<LayerKind, string> = {
   original: "Original",
+  collision: "Collision",
   plain: "Plain",
   hulls: "Hulls",
   pieces: "Pieces",
@@ -30,6 +24,13 @@ export interface Layer {
   on: boolean;
   opacity: number;
 }
+
+/** What a layer shows, for those to whom its name says too little. */
+export const LAYER_HINTS: Partial<Record<LayerKind, string>> = {
+  original: "The URDF's visual geometry, with its colours and textures",
+  collision: "The URDF's collision geometry",
+  plain: "The meshes that all other shapes are made of",
+};
 
 export const OVERLAYS = ["wireframe", "frames", "axes", "com", "inertia", "path", "grid"] as const;
 export type OverlayKind = (typeof OVERLAYS)[number];
@@ -54,7 +55,7 @@ export interface State {
   entries: Entry[];
   robot: RobotModel | null;
   /** What is being loaded, with its progress. */
-  loading: { what: string; done: number; of: number } | null;
+  loading: { title?: string; what: string; done: number; of: number } | null;
   /** Why there is no robot. */
   failure: string | null;
   /** What could not be loaded of the picture, by layer. */
@@ -92,8 +93,12 @@ export interface State {
 
 export const NO_SKIPS: State["skips"] = { answer: null, error: null, before: [], dirty: false, saved: 0 };
 
+/** The layers that are drawn: a chosen pair is seen in its own shapes, whatever else is on. */
+export function drawnLayers({ layers, pair, shapes }: Readonly<State>): State["layers"] {
+  return pair && !layers[shapes].on ? { ...layers, [shapes]: { on: true, opacity: 1 } } : layers;
+}
+
 export function initial(): State {
-  const layer = (on: boolean): Layer => ({ on, opacity: 1 });
   return {
     entries: [],
     robot: null,
@@ -104,16 +109,10 @@ export function initial(): State {
     poses: null,
     selected: null,
     hovered: null,
-    layers: {
-      original: layer(true),
-      plain: layer(false),
-      hulls: layer(false),
-      pieces: layer(false),
-      boxes: layer(false),
-      spheres: layer(false),
-      "piece-boxes": layer(false),
-      "piece-spheres": layer(false),
-    },
+    layers: Object.fromEntries(LAYERS.map((layer) => [layer, { on: layer === "original", opacity: 1 }])) as Record<
+      LayerKind,
+      Layer
+    >,
     overlays: { wireframe: false, frames: false, axes: false, com: false, inertia: false, path: false, grid: true },
     hidden: new Set(),
     tab: "Joints",

@@ -3,29 +3,15 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { after, before, test } from "node:test";
-import { browser, open, robots, state, tab, view } from "./world.mjs";
+import { test } from "node:test";
+import { open, setting, state, tab } from "./world.mjs";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-let chrome;
-let made;
-let server;
-
-before(async () => {
-  made = robots(["welding_arm", "gripper"]);
-  server = await view(made.robots);
-  chrome = await browser();
-});
-
-after(async () => {
-  await chrome?.close();
-  server?.end();
-  made?.remove();
-});
+const set = setting(["welding_arm", "gripper"]);
 
 for (const colorScheme of ["dark", "light"]) {
   test(`no serious finding of axe-core, ${colorScheme}`, { timeout: 300_000 }, async () => {
-    const { page, close } = await tab(chrome, server.address, { colorScheme, bypassCSP: true });
+    const { page, close } = await tab(set.chrome, set.server.address, { colorScheme, bypassCSP: true });
     await page.waitForSelector(".card");
     await page.evaluate(axe);
     const bad = [];

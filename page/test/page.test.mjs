@@ -3,54 +3,26 @@
 import assert from "node:assert/strict";
 import { cpSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, describe, test } from "node:test";
-import { allNames, browser, drawn, open, program, read, robots, run, state, tab, view } from "./world.mjs";
+import { describe } from "node:test";
+import { allNames, drawn, inPage, open, read, run, setting, state } from "./world.mjs";
 
-assert.ok(program);
-let chrome;
-let made;
-let server;
-
-before(async () => {
-  made = robots(allNames());
-  server = await view(made.robots);
-  chrome = await browser();
-});
-
-after(async () => {
-  await chrome?.close();
-  server?.end();
-  made?.remove();
-});
-
-/** A test with a page of its own, which ends without any console error, and without a request elsewhere. */
-function inPage(name, act, options = {}) {
-  test(name, { timeout: 300_000 }, async () => {
-    const { page, faults, close } = await tab(chrome, options.address?.() ?? server.address, options);
-    try {
-      await act(page);
-      assert.deepEqual(faults, options.faults ?? []);
-    } finally {
-      await close();
-    }
-  });
-}
+const set = setting(allNames());
 
 describe("the page", { concurrency: false }, () => {
-  inPage("the token leaves the address, and a reload still works", async (page) => {
+  inPage(set, "the token leaves the address, and a reload still works", async (page) => {
     await page.waitForSelector(".card");
     assert.ok(!page.url().includes("token"), page.url());
     await page.reload();
     await page.waitForSelector(".card");
     assert.equal(await page.locator(".card").count(), 9);
     await page.getByRole("searchbox", { name: "Find a robot" }).fill("weld");
-    assert.equal(await page.locator(".card").count(), 1);
+    assert.equal(await page.locator(".card:visible").count(), 1);
   });
 
-  inPage("links are drawn where the kinematics samples have them, on all nine robots", async (page) => {
+  inPage(set, "links are drawn where the kinematics samples have them, on all nine robots", async (page) => {
     for (const name of allNames()) {
       await open(page, name);
-      const { samples } = read(join(made.robots, name, "kinematics_samples_module/module.json"));
+      const { samples } = read(join(set.made.robots, name, "kinematics_samples_module/module.json"));
       const worst = await page.evaluate(async (samples) => {
         const { app, stage } = globalThis.urdd;
         let worst = 0;
@@ -81,7 +53,7 @@ describe("the page", { concurrency: false }, () => {
     }
   });
 
-  inPage("joints: slider, number, copy, paste, keys, samples", async (page) => {
+  inPage(set, "joints: slider, number, copy, paste, keys, samples", async (page) => {
     await open(page, "welding_arm");
     const zero = await state(page, "q");
     const entry = page.locator(".joint").first().getByRole("spinbutton");
@@ -92,7 +64,7 @@ describe("the page", { concurrency: false }, () => {
     assert.match(await page.locator(".row").nth(1).textContent(), /30°/);
     await page.locator(".joint").first().getByRole("slider").focus();
     await page.keyboard.press("End");
-    const { bounds } = read(join(made.robots, "welding_arm/bounds_module/module.json"));
+    const { bounds } = read(join(set.made.robots, "welding_arm/bounds_module/module.json"));
     assert.equal((await state(page, "q"))[0], bounds[0][1]);
     await page.getByRole("button", { name: "Copy", exact: true }).click();
     await page.getByRole("button", { name: "Zero", exact: true }).click();
@@ -108,7 +80,7 @@ describe("the page", { concurrency: false }, () => {
     await page.getByRole("button", { name: "Stop" }).click();
   });
 
-  inPage("a joint follows the pointer in the picture, and a link is selected by a click", async (page) => {
+  inPage(set, "a joint follows the pointer in the picture, and a link is selected by a click", async (page) => {
     await open(page, "welding_arm");
     const at = await page.evaluate(() => {
       const { stage } = globalThis.urdd;
@@ -133,23 +105,95 @@ describe("the page", { concurrency: false }, () => {
     const q = await state(page, "q");
     assert.equal(q.filter((value, dof) => value !== before[dof]).length, 1, `${before} ${q}`);
     await page.keyboard.down("Shift");
-    await page.mouse.move(at.x, at.y);
+    // The part is where it was dragged to.
+    const there = { x: at.x + 40, y: at.y - 40 };
+    await page.mouse.move(there.x, there.y);
     await page.mouse.down();
-    for (let step = 1; step <= 8; step++) await page.mouse.move(at.x - 4 * step, at.y - 4 * step);
+    for (let step = 1; step <= 8; step++) await page.mouse.move(there.x - 4 * step, there.y + 4 * step);
     await page.mouse.up();
     await page.keyboard.up("Shift");
     await page.waitForTimeout(300);
     const pulled = await state(page, "q");
     assert.ok(pulled.every(Number.isFinite));
+    // What was pulled is under the pointer: the same point of the link, by the library's inverse kinematics.
+    assert.notDeepEqual(pulled, q);
   });
 
-  inPage("distances are those of the library, and a pair shows its points", async (page) => {
+  inPage(set, "handles move a link: its frame is where they are, and turned as before", async (page) => {
+    await open(page, "welding_arm");
+    await page.keyboard.press("Escape");
+    await page.evaluate(() => {
+      const { app } = globalThis.urdd;
+      app.move(app.store.now.robot.about.middle);
+      app.select({ kind: "link", index: app.store.now.robot.link("torch") });
+    });
+    await page.getByRole("button", { name: "Move", exact: true }).click();
+    const found = await page.evaluate(async () => {
+      const { app, stage } = globalThis.urdd;
+      const link = app.store.now.selected.index;
+      const wait = () => new Promise((resolve) => setTimeout(resolve, 300));
+      await wait();
+      const pose = () => [...app.store.now.poses.slice(7 * link, 7 * link + 7)];
+      const before = pose();
+      const { target, controls } = stage.gizmo;
+      const start = target.position.toArray();
+      target.position.z -= 0.02;
+      target.position.x -= 0.01;
+      controls.dispatchEvent({ type: "objectChange" });
+      await wait();
+      return { before, start, after: pose() };
+    });
+    found.start.forEach((x, k) => assert.ok(Math.abs(x - found.before[k]) < 1e-6));
+    const expected = found.before.slice();
+    expected[0] -= 0.01;
+    expected[2] -= 0.02;
+    const turned = found.after.slice(3).reduce((sum, x, k) => sum + x * expected[3 + k], 0);
+    found.after.slice(0, 3).forEach((x, k) => assert.ok(Math.abs(x - expected[k]) < 1e-5, JSON.stringify(found)));
+    assert.ok(Math.abs(turned) > 1 - 1e-9, JSON.stringify(found));
+    await page.getByRole("button", { name: "Move", exact: true }).click();
+  });
+
+  inPage(set, "skips from the nearest pairs: this one, all nearer, all relatively nearer, and back", async (page) => {
+    await open(page, "welding_arm");
+    await page.click("#tab-Proximity");
+    await state(page, "proximity", (value) => value.answer !== null);
+    await page.getByLabel("Shapes that distances are between").selectOption("hulls");
+    const { answer } = await state(page, "proximity", (value) => value.answer !== null);
+    const edits = async (count) =>
+      (await state(page, "skips", ({ answer }) => answer?.edits.length === count)).answer.edits;
+    await page.locator(".pair").nth(2).click();
+    await page.getByRole("button", { name: "Skip this pair" }).click();
+    const [third] = await edits(1);
+    assert.deepEqual([third.link_a, third.link_b, third.skip], [...answer.nearest[2].links, true]);
+    await page.getByRole("button", { name: "Skip all nearer" }).click();
+    const nearer = (await edits(3)).slice(1).map(({ link_a, link_b }) => [link_a, link_b].sort());
+    assert.deepEqual(
+      nearer.sort(),
+      answer.nearest
+        .slice(0, 2)
+        .map(({ links }) => links.toSorted())
+        .sort(),
+    );
+    await page.click("#tab-Skips");
+    await page.getByRole("button", { name: "Undo" }).click();
+    await edits(1);
+    await page.click("#tab-Proximity");
+    await page.getByRole("button", { name: "Skip all relatively nearer" }).click();
+    const relative = answer.nearest.filter((pair) => pair.relative < answer.nearest[2].relative).length;
+    await edits(1 + relative);
+    await page.click("#tab-Skips");
+    await page.getByRole("button", { name: "Undo" }).click();
+    await page.getByRole("button", { name: "Undo" }).click();
+    await edits(0);
+  });
+
+  inPage(set, "distances are those of the library, and a pair shows its points", async (page) => {
     await open(page, "welding_arm");
     await page.click("#tab-Proximity");
     const { answer } = await state(page, "proximity", (value) => value.answer !== null);
     const text = run(
       "check-collisions",
-      join(made.robots, "welding_arm"),
+      join(set.made.robots, "welding_arm"),
       "--format",
       "json",
       "--nearest",
@@ -171,10 +215,10 @@ describe("the page", { concurrency: false }, () => {
     assert.equal(await state(page, "shapes"), "boxes");
   });
 
-  inPage("shapes: layers, opacity, overlays, single links", async (page) => {
+  inPage(set, "shapes: layers, opacity, overlays, single links", async (page) => {
     await open(page, "welding_arm");
     await page.click("#tab-Shapes");
-    for (const layer of ["plain", "hulls", "pieces", "boxes", "spheres", "piece-boxes", "piece-spheres"]) {
+    for (const layer of ["collision", "plain", "hulls", "pieces", "boxes", "spheres", "piece-boxes", "piece-spheres"]) {
       await page.check(`#layer-${layer}`);
       await page.waitForFunction((layer) => globalThis.urdd.stage.scene.has(layer), layer);
     }
@@ -189,9 +233,9 @@ describe("the page", { concurrency: false }, () => {
     assert.ok((await page.evaluate(() => globalThis.urdd.stage.scene.meshes().length)) > 20);
   });
 
-  inPage("skips: decided, saved, validated, undone", async (page) => {
+  inPage(set, "skips: decided, saved, validated, undone", async (page) => {
     await open(page, "welding_arm");
-    const target = join(made.robots, "welding_arm");
+    const target = join(set.made.robots, "welding_arm");
     const file = join(target, "link_shapes_modules/link_shapes_skips_module/module.json");
     const before = readFileSync(file, "utf8");
     await page.click("#tab-Skips");
@@ -223,9 +267,9 @@ describe("the page", { concurrency: false }, () => {
     assert.equal(readFileSync(file, "utf8"), before);
   });
 
-  inPage("the page follows the files, and findings are those of the program", async (page) => {
-    const target = join(made.robots, "gripper");
-    const copy = join(made.folder, "gripper");
+  inPage(set, "the page follows the files, and findings are those of the program", async (page) => {
+    const target = join(set.made.robots, "gripper");
+    const copy = join(set.made.folder, "gripper");
     cpSync(target, copy, { recursive: true });
     await open(page, "gripper");
     await page.click("#tab-Findings");
@@ -246,8 +290,8 @@ describe("the page", { concurrency: false }, () => {
     await state(page, "report", (value) => value.report !== null && value.report.urdds[0].verdict === "pass");
   });
 
-  inPage("a folder that is chosen is validated in the browser, with the program's findings", async (page) => {
-    const target = join(made.robots, "planar_base_arm");
+  inPage(set, "a folder that is chosen is validated in the browser, with the program's findings", async (page) => {
+    const target = join(set.made.robots, "planar_base_arm");
     await page.waitForSelector(".card");
     await page.locator('input[type="file"]').first().setInputFiles(target);
     await drawn(page, "planar_base_arm");
@@ -257,7 +301,7 @@ describe("the page", { concurrency: false }, () => {
     assert.deepEqual(report, native);
   });
 
-  inPage("what is no URDD is told so", async (page) => {
+  inPage(set, "what is no URDD is told so", async (page) => {
     await page.waitForSelector(".card");
     const file = page.locator('input[type="file"]').nth(1);
     await file.setInputFiles({ name: "arm.urdf", mimeType: "text/xml", buffer: Buffer.from("<robot/>") });
@@ -267,19 +311,35 @@ describe("the page", { concurrency: false }, () => {
     await page.waitForSelector(".failure:not([hidden])");
   });
 
-  inPage("a link opens the same view again", async (page) => {
+  inPage(set, "a link opens the same view again", async (page) => {
     await open(page, "welding_arm");
+    await page.click("#tab-Shapes");
+    await page.locator(".links input").nth(1).uncheck();
+    await page.locator(".links input").nth(2).uncheck();
+    await page.locator(".joint .heading").first().dispatchEvent("click");
     await page.click("#tab-Proximity");
+    await page.getByLabel("Shapes that distances are between").selectOption("hulls");
+    await state(page, "proximity", (value) => value.answer !== null);
     await page.keyboard.press("r");
+    await page.locator(".pair").nth(2).click();
+    const seen = async () => {
+      const { selected, pair, shapes, tab } = await page.evaluate(() => globalThis.urdd.app.store.now);
+      const hidden = await page.evaluate(() => [...globalThis.urdd.app.store.now.hidden]);
+      return { selected, pair, shapes, tab, hidden };
+    };
+    const before = await seen();
+    assert.deepEqual(before.hidden, [1, 2]);
+    assert.equal(before.selected.kind, "joint");
+    assert.notEqual(before.pair, null);
     await page.waitForTimeout(900);
     const q = await state(page, "q");
     const url = page.url();
-    assert.match(url, /r=welding_arm.*t=Proximity/);
+    assert.match(url, /r=welding_arm.*t=Proximity.*j=.*k=hulls.*p=.*x=1-2/);
     await page.goto("about:blank");
     await page.goto(url);
     await drawn(page, "welding_arm");
     const again = await state(page, "q");
     again.forEach((value, dof) => assert.ok(Math.abs(value - q[dof]) < 1e-4));
-    assert.equal(await state(page, "tab"), "Proximity");
+    assert.deepEqual(await seen(), before);
   });
 });

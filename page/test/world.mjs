@@ -6,17 +6,49 @@ import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
+import { after, before, test } from "node:test";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { brotliDecompressSync } from "node:zlib";
 import { chromium } from "playwright-core";
 
-const repository = join(dirname(fileURLToPath(import.meta.url)), "../..");
+export const repository = join(dirname(fileURLToPath(import.meta.url)), "../..");
 export const program = process.env.URDD ?? join(repository, "target/debug/urdd");
 
 export function run(...words) {
   const done = spawnSync(program, words, { encoding: "utf8", maxBuffer: 1 << 28 });
   if (done.error) throw done.error;
   return done;
+}
+
+/** What a file of tests stands in: URDDs of these robots, who serves them, and a browser; ended after its tests. */
+export function setting(names, serve = (made) => view(made.robots)) {
+  const set = {};
+  before(async () => {
+    set.made = robots(names);
+    set.server = await serve(set.made);
+    set.chrome = await browser();
+  });
+  after(async () => {
+    await set.chrome?.close();
+    set.server?.end();
+    set.made?.remove();
+  });
+  return set;
+}
+
+/** A test with a page of its own, which ends without any console error, and without a request elsewhere. */
+export function inPage(set, name, act, { faults: expected = [], address, ...options } = {}) {
+  test(name, { timeout: 300_000 }, async () => {
+    const { page, faults, close } = await tab(set.chrome, address?.() ?? set.server.address, options);
+    try {
+      await act(page);
+      // Where nothing is expected, anything may be: the browser itself tells of answers that are no success.
+      if (expected) assert.deepEqual(faults, expected);
+    } finally {
+      await close();
+    }
+  });
 }
 
 /** A folder with a URDD for each of these of our robots, by name. */
@@ -43,19 +75,32 @@ export function read(path) {
   return JSON.parse(readFileSync(path, "utf8"));
 }
 
-/** `urdd view`: its address, and how to end it. */
+/** `urdd view`: its address, its exit status once it ended, what it says besides, and how to end it. */
 export async function view(...words) {
-  const child = spawn(program, ["view", "--no-open", ...words], { stdio: ["ignore", "pipe", "inherit"] });
+  const { cwd, env, opens = false } = typeof words.at(-1) === "object" ? words.pop() : {};
+  const child = spawn(program, ["view", ...(opens ? [] : ["--no-open"]), ...words], { cwd, env });
+  let [text, errors] = ["", ""];
+  child.stderr.on("data", (data) => {
+    errors += data;
+  });
+  const status = new Promise((resolve) => child.on("exit", resolve));
+  // A test that fails may not come to end it.
+  process.on("exit", () => child.kill());
   const address = await new Promise((resolve, reject) => {
-    let text = "";
     child.stdout.on("data", (data) => {
       text += data;
       const found = /http:\/\/\S+/.exec(text);
       if (found) resolve(found[0]);
     });
-    child.on("exit", (code) => reject(new Error(`urdd view ended: ${code}`)));
+    child.on("exit", (code) => reject(new Error(`urdd view ended: ${code} ${errors}`)));
   });
-  return { address, end: () => child.kill("SIGINT") };
+  const said = async (pattern) => {
+    for (const end = Date.now() + 30_000; !pattern.test(errors);) {
+      if (Date.now() > end) throw new Error(`it said: ${errors}`);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+  };
+  return { address, status, said, end: () => child.kill("SIGINT") };
 }
 
 export async function browser() {
@@ -71,13 +116,28 @@ export async function browser() {
   return chromium.launch({ executablePath, args });
 }
 
+/** The page as it was built last, where URDD_DIST names its folder: the program need not be built again for it. */
+async function fromDist(page) {
+  const dist = process.env.URDD_DIST;
+  if (!dist) return;
+  const types = { js: "text/javascript", css: "text/css", wasm: "application/wasm" };
+  await page.route(/\/(?:app\.js|worker\.js|style\.css|urdd\.wasm)$/, (route) => {
+    const name = new URL(route.request().url()).pathname.slice(1);
+    const body = brotliDecompressSync(readFileSync(join(dist, `${name}.br`)));
+    return route.fulfill({ body, contentType: types[name.split(".").pop()] });
+  });
+}
+
 /** A page of which every console error, failure and request elsewhere is kept. */
-export async function tab(chrome, address, options = {}) {
+export async function tab(chrome, address, { first, routes, ...options } = {}) {
   const context = await chrome.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: "dark", ...options });
   await context.grantPermissions(["clipboard-read", "clipboard-write"]);
   const page = await context.newPage();
   const faults = [];
   const { host } = new URL(address);
+  await fromDist(page);
+  for (const script of first ?? []) await page.addInitScript(script);
+  for (const [pattern, answer] of routes ?? []) await page.route(pattern, answer);
   page.on("console", (message) => {
     if (["error", "warning"].includes(message.type()) && !/GPU stall|WebGL|swiftshader/i.test(message.text()))
       faults.push(message.text());
@@ -89,6 +149,14 @@ export async function tab(chrome, address, options = {}) {
   });
   await page.goto(address);
   return { page, faults, close: () => context.close() };
+}
+
+/** Drags files or folders of this machine onto the page, as a person does. */
+export async function dropOn(page, ...files) {
+  const session = await page.context().newCDPSession(page);
+  const data = { items: [], files, dragOperationsMask: 1 };
+  for (const type of ["dragEnter", "dragOver", "drop"])
+    await session.send("Input.dispatchDragEvent", { type, x: 640, y: 360, data });
 }
 
 /** Opens a robot of the gallery, and waits until it is drawn. */

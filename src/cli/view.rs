@@ -3,6 +3,8 @@
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Duration;
 
 use clap::Args;
 
@@ -11,9 +13,10 @@ use super::output;
 use super::signals::Signals;
 use crate::directory::discover::DiscoverError;
 use crate::format::escape;
+use crate::format::registry::ModuleKind;
 use crate::generate::batch::{Job, Observer, caught};
-use crate::generate::{self, Packages, Settings};
-use crate::view::{Collection, Server, export, may_hold_page, page_with};
+use crate::generate::{self, Packages, Progress, Settings};
+use crate::view::{Collection, Making, Server, Shown, export, may_hold_page, page_with};
 
 /// Arguments of `urdd view`.
 #[derive(Args)]
@@ -79,24 +82,24 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         .tempdir()
         .map_err(usage)?;
     let mut collection = Collection::default();
+    let mut wanted = Vec::new();
     for path in &arguments.paths {
         match urdf_at(path)? {
-            Some(urdf) => {
-                made(
-                    &urdf,
-                    arguments,
-                    &signals,
-                    temporary.path(),
-                    &mut collection,
-                )?;
-            }
+            Some(urdf) => wanted.push(want(urdf, temporary.path(), &mut collection)),
             None => collection.add(path).map_err(usage)?,
         }
-        if let Some(status) = signals.status() {
-            return Ok(status);
-        }
     }
+    let settings = settings(arguments, &signals)?;
     if let Some(folder) = &arguments.export {
+        for robot in &wanted {
+            let is_made = make(robot, &settings);
+            if let Some(status) = signals.status() {
+                return Ok(status);
+            }
+            if !is_made {
+                return Err((FAILED, "there is nothing to show".to_owned()));
+            }
+        }
         return written(&collection, folder, &signals);
     }
     let count = collection.robots().len();
@@ -113,9 +116,30 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
             "no browser could be opened ({error}); open the address above yourself"
         ));
     }
-    server.run(&signals.cancellation());
-    Ok(0)
+    // The page shows how far the generation is, and what came of it.
+    let failed = std::thread::scope(|scope| {
+        let making = scope.spawn(|| {
+            let failed = wanted
+                .iter()
+                .filter(|robot| !make(robot, &settings))
+                .count();
+            if failed == count && !signals.cancellation().is_cancelled() {
+                std::thread::sleep(LAST_WORD);
+                signals.cancellation().cancel();
+            }
+            failed
+        });
+        server.run(&signals.cancellation());
+        making.join().unwrap_or(0)
+    });
+    match failed == count {
+        true => Err((FAILED, "there is nothing to show".to_owned())),
+        false => Ok(0),
+    }
 }
+
+/// How long the page may ask what happened, where there is no robot to show.
+const LAST_WORD: Duration = Duration::from_secs(2);
 
 /// The URDF that a path stands for: itself, or the only one in a folder in which there is no URDD.
 fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
@@ -162,14 +186,15 @@ fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
     }
 }
 
-/// Makes a URDD of a URDF, into a temporary folder.
-fn made(
-    urdf: &Path,
-    arguments: &ViewArguments,
-    signals: &Signals,
-    folder: &Path,
-    collection: &mut Collection,
-) -> Result<(), Failure> {
+/// A robot that is to be made of a URDF.
+struct Wanted {
+    job: Job,
+    target: PathBuf,
+    shown: Arc<Shown>,
+}
+
+/// Puts a robot that is to be made into the collection.
+fn want(urdf: PathBuf, folder: &Path, collection: &mut Collection) -> Wanted {
     let stem = urdf.file_stem().unwrap_or_default();
     let mut name = stem.to_string_lossy().into_owned();
     if name == "robot"
@@ -181,40 +206,68 @@ fn made(
     }
     let number = collection.robots().len();
     let target = folder.join(number.to_string()).join(&name);
+    let shown = collection.add_making(name.clone(), target.clone());
+    let source = urdf;
+    Wanted {
+        job: Job { source, name },
+        target,
+        shown,
+    }
+}
+
+fn settings(arguments: &ViewArguments, signals: &Signals) -> Result<Settings, Failure> {
     let mut packages = Packages::from_environment(|name| std::env::var_os(name));
     for argument in &arguments.packages {
         let added = packages.add(argument);
         added.map_err(|error| usage(format!("--package: {error}")))?;
     }
-    let settings = Settings {
+    Ok(Settings {
         packages,
         allowed_folders: arguments.allowed_folders.clone(),
         cancellation: signals.cancellation(),
         ..Settings::default()
-    };
+    })
+}
+
+/// Tells the terminal and the page how far a robot is.
+struct Told<'a> {
+    terminal: Box<dyn Progress>,
+    page: &'a Shown,
+}
+
+impl Progress for Told<'_> {
+    fn module(&self, kind: ModuleKind, done: usize, total: usize) {
+        self.terminal.module(kind, done, total);
+        self.page.set_making(Making::Running {
+            what: kind.name().to_owned(),
+            done,
+            of: total,
+        });
+    }
+}
+
+/// Makes a URDD of a URDF, into a temporary folder. Whether there is one.
+fn make(wanted: &Wanted, settings: &Settings) -> bool {
+    let Wanted { job, target, shown } = wanted;
     let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
     let printer = Printer::new(Format::Human, false, is_terminal);
-    let job = Job {
-        source: urdf.to_owned(),
-        name: name.clone(),
+    let progress = Told {
+        terminal: printer.begin_robot(job),
+        page: shown,
     };
-    let progress = printer.begin_robot(&job);
     // A crash is caught and reported; the default hook would print besides.
     std::panic::set_hook(Box::new(|_| {}));
-    let outcome = caught(urdf, || {
-        generate::generate(urdf, &target, &settings, &*progress)
+    let outcome = caught(&job.source, || {
+        generate::generate(&job.source, target, settings, &progress)
     });
     let _ = std::panic::take_hook();
     drop(progress);
-    printer.done(&job, &outcome);
-    match outcome {
-        Ok(generated) => {
-            let notes = generated.notes.iter().map(ToString::to_string).collect();
-            collection.add_generated(name, target, notes);
-            Ok(())
-        }
-        Err(_) => Err((FAILED, "there is nothing to show".to_owned())),
+    printer.done(job, &outcome);
+    match &outcome {
+        Ok(generated) => shown.made(generated.notes.iter().map(ToString::to_string).collect()),
+        Err(error) => shown.set_making(Making::Failed(error.to_string())),
     }
+    outcome.is_ok()
 }
 
 /// Writes the site.

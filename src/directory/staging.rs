@@ -12,6 +12,9 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+#[path = "staging_inside.rs"]
+mod inside;
+
 use super::target_lock::{LockError, TargetLock, beside};
 use crate::cancellation::Cancellation;
 
@@ -79,6 +82,8 @@ pub struct Staging {
     workplace: PathBuf,
     /// The new content, in it.
     content: PathBuf,
+    /// Whether the folder itself stays, and what is in it is replaced.
+    is_inside: bool,
     /// Let go last. There is none where the file system cannot lock.
     _lock: Option<TargetLock>,
 }
@@ -95,6 +100,33 @@ impl Staging {
     /// and where the wait was cancelled.
     pub fn begin(target: &Path, cancellation: &Cancellation) -> Result<Self, StagingError> {
         let target = place(target)?;
+        if holds_current(&target) {
+            let reason = "it is the current folder, or above it; run the command from elsewhere";
+            return Err(StagingError::Place {
+                path: target,
+                reason: reason.to_owned(),
+            });
+        }
+        Self::at(target, false, cancellation)
+    }
+
+    /// As [`Staging::begin`], for a folder that may be the current one, or above it: whoever is at work in such a folder
+    /// would stand in one that is gone if another took its place. Then [`Staging::commit`] replaces what is in it, entry
+    /// by entry: each at once, and all or none of them as long as the program runs.
+    ///
+    /// # Errors
+    /// As [`Staging::begin`].
+    pub fn begin_inside(target: &Path, cancellation: &Cancellation) -> Result<Self, StagingError> {
+        let target = place(target)?;
+        let is_inside = holds_current(&target);
+        Self::at(target, is_inside, cancellation)
+    }
+
+    fn at(
+        target: PathBuf,
+        is_inside: bool,
+        cancellation: &Cancellation,
+    ) -> Result<Self, StagingError> {
         let lock = match TargetLock::acquire(&target, cancellation) {
             Ok(lock) => Some(lock),
             Err(LockError::Cancelled) => return Err(StagingError::Cancelled),
@@ -119,6 +151,7 @@ impl Staging {
             target,
             workplace,
             content,
+            is_inside,
             _lock: lock,
         };
         match made {
@@ -148,7 +181,13 @@ impl Staging {
     /// Where it cannot be renamed; then the old content is in its place.
     pub fn commit(self) -> Result<(), StagingError> {
         keep_modes(&self.target, &self.content)
-            .and_then(|()| put(&self.content, &self.target, &self.workplace.join(OLD)))
+            .and_then(|()| {
+                let old = self.workplace.join(OLD);
+                match self.is_inside {
+                    true => inside::put(&self.content, &self.target, &old),
+                    false => put(&self.content, &self.target, &old),
+                }
+            })
             .map_err(|error| StagingError::Write {
                 path: self.target.clone(),
                 error,
@@ -182,9 +221,6 @@ fn place(target: &Path) -> Result<PathBuf, StagingError> {
             return refuse("there is a file of that name");
         }
         let canonical = target.canonicalize().map_err(write)?;
-        if std::env::current_dir().is_ok_and(|current| current.starts_with(&canonical)) {
-            return refuse("it is the current folder, or above it; run the command from elsewhere");
-        }
         if canonical.parent().is_none() {
             return refuse("it is the root of the file system");
         }
@@ -196,6 +232,10 @@ fn place(target: &Path) -> Result<PathBuf, StagingError> {
     let parent = parent(target);
     fs::create_dir_all(&parent).map_err(write)?;
     Ok(parent.canonicalize().map_err(write)?.join(name))
+}
+
+fn holds_current(target: &Path) -> bool {
+    std::env::current_dir().is_ok_and(|current| current.starts_with(target))
 }
 
 fn parent(target: &Path) -> PathBuf {
@@ -210,7 +250,10 @@ fn parent(target: &Path) -> PathBuf {
 fn rescue(workplace: &Path, target: &Path) -> bool {
     let old = workplace.join(OLD);
     let is_gone = fs::symlink_metadata(target).is_err();
-    !(is_gone && old.is_dir()) || fs::rename(&old, target).is_ok()
+    match is_gone && old.is_dir() {
+        true => fs::rename(&old, target).is_ok(),
+        false => inside::put_back(&old, target).is_ok(),
+    }
 }
 
 /// Takes a folder away, read-only folders in it too.

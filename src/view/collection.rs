@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::save::Files;
 use crate::directory::discover::{DiscoverError, ROOT_METADATA, discover};
@@ -15,16 +15,51 @@ pub struct Shown {
     pub id: String,
     /// What people call it: its path from the folder that was given.
     pub name: String,
-    /// Its folder or archive.
-    pub path: PathBuf,
-    /// What was assumed when it was generated to be shown.
-    pub notes: Vec<String>,
-    /// Whether its skips may be saved.
-    pub writable: bool,
+    standing: Mutex<Standing>,
     /// The report, and the revision that it is of.
     pub(super) report: Mutex<Option<(String, String)>>,
+    /// The picture, and the revision that it is of.
+    pub(super) picture: Mutex<Option<(String, Option<Vec<u8>>)>>,
     /// The saves that can be undone: the revision that each led to, and the files as they were before.
     pub(super) undo: Mutex<Vec<(String, Files)>>,
+}
+
+/// What may change of a robot that is shown.
+#[derive(Debug)]
+struct Standing {
+    path: PathBuf,
+    notes: Vec<String>,
+    kind: Kind,
+    making: Making,
+}
+
+/// What may be done with a robot's files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// An archive, or from before version 1: it is not written to.
+    ReadOnly,
+    /// A folder of version 1: skips are saved.
+    Writable,
+    /// Generated to be shown: it can be saved as a whole, into a folder.
+    Temporary,
+}
+
+/// How far the generation of a robot is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Making {
+    /// It is there.
+    Done,
+    /// A module is being made, after so many of so many.
+    Running {
+        /// The module.
+        what: String,
+        /// Modules that are done.
+        done: usize,
+        /// Modules in all.
+        of: usize,
+    },
+    /// There will be none.
+    Failed(String),
 }
 
 impl Shown {
@@ -33,14 +68,62 @@ impl Shown {
     /// # Errors
     /// Where it is not there any more, or cannot be read.
     pub fn open(&self) -> Result<Root, ReadError> {
-        Root::open(&self.path)
+        Root::open(&self.path())
+    }
+
+    /// Its folder or archive.
+    pub fn path(&self) -> PathBuf {
+        self.standing().path.clone()
+    }
+
+    /// What was assumed when it was generated to be shown.
+    pub fn notes(&self) -> Vec<String> {
+        self.standing().notes.clone()
+    }
+
+    /// Whether its skips may be saved.
+    pub fn is_writable(&self) -> bool {
+        self.standing().kind == Kind::Writable
+    }
+
+    /// Whether it goes when the program ends, unless it is saved.
+    pub fn is_temporary(&self) -> bool {
+        self.standing().kind == Kind::Temporary
+    }
+
+    /// How far its generation is.
+    pub fn making(&self) -> Making {
+        self.standing().making.clone()
+    }
+
+    /// Tells how far its generation is.
+    pub fn set_making(&self, making: Making) {
+        self.standing().making = making;
+    }
+
+    /// It was generated, with these assumptions.
+    pub fn made(&self, notes: Vec<String>) {
+        let mut standing = self.standing();
+        standing.notes = notes;
+        standing.making = Making::Done;
+    }
+
+    /// It lies in a folder of a person's now.
+    pub(super) fn keep_at(&self, path: PathBuf) {
+        let mut standing = self.standing();
+        standing.path = path;
+        standing.kind = Kind::Writable;
+    }
+
+    fn standing(&self) -> MutexGuard<'_, Standing> {
+        self.standing.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 /// The robots of a page, in order.
 #[derive(Debug, Default)]
 pub struct Collection {
-    robots: Vec<Shown>,
+    robots: Vec<Arc<Shown>>,
     ids: BTreeSet<String>,
 }
 
@@ -53,18 +136,29 @@ impl Collection {
         for found in discover(path)? {
             // Not archives; and URDDs of before version 1 have no edits.
             let has_metadata = found.path.join(ROOT_METADATA).is_file();
-            let writable = found.closed.is_none() && has_metadata;
-            self.put(found.name, found.path, writable, Vec::new());
+            let kind = match found.closed.is_none() && has_metadata {
+                true => Kind::Writable,
+                false => Kind::ReadOnly,
+            };
+            // As it is now: the program may run elsewhere later, and `.` has no name to write beside.
+            let path = found.path.canonicalize().unwrap_or(found.path);
+            self.put(found.name, path, kind, Making::Done);
         }
         Ok(())
     }
 
-    /// Adds a URDD that was generated for this page, with what was assumed.
-    pub fn add_generated(&mut self, name: String, path: PathBuf, notes: Vec<String>) {
-        self.put(name, path, false, notes);
+    /// Adds a URDD that is being generated to be shown, at a place that goes with the program. What this gives is told
+    /// how far that is, and when it is done.
+    pub fn add_making(&mut self, name: String, path: PathBuf) -> Arc<Shown> {
+        let making = Making::Running {
+            what: "the URDF".to_owned(),
+            done: 0,
+            of: 0,
+        };
+        self.put(name, path, Kind::Temporary, making)
     }
 
-    fn put(&mut self, name: String, path: PathBuf, writable: bool, notes: Vec<String>) {
+    fn put(&mut self, name: String, path: PathBuf, kind: Kind, making: Making) -> Arc<Shown> {
         let plain = |c: char| match c {
             'a'..='z' | 'A'..='Z' | '0'..='9' | '-' | '_' => c,
             _ => '_',
@@ -77,25 +171,32 @@ impl Collection {
             id = format!("{word}.{number}");
             number += 1;
         }
-        self.robots.push(Shown {
+        let shown = Arc::new(Shown {
             id,
             name,
-            path,
-            notes,
-            writable,
+            standing: Mutex::new(Standing {
+                path,
+                notes: Vec::new(),
+                kind,
+                making,
+            }),
             report: Mutex::default(),
+            picture: Mutex::default(),
             undo: Mutex::default(),
         });
+        self.robots.push(Arc::clone(&shown));
+        shown
     }
 
     /// The robots.
-    pub fn robots(&self) -> &[Shown] {
+    pub fn robots(&self) -> &[Arc<Shown>] {
         &self.robots
     }
 
     /// The robot of this id.
     pub fn find(&self, id: &str) -> Option<&Shown> {
-        self.robots.iter().find(|robot| robot.id == id)
+        let mut robots = self.robots.iter();
+        robots.find(|robot| robot.id == id).map(Arc::as_ref)
     }
 }
 
@@ -107,7 +208,7 @@ mod tests {
     fn ids_are_plain_and_unique() {
         let mut collection = Collection::default();
         for name in ["arms/a b", "arms/a_b", "<b>", ""] {
-            collection.add_generated(name.to_owned(), PathBuf::new(), Vec::new());
+            collection.add_making(name.to_owned(), PathBuf::new());
         }
         let ids: Vec<&str> = collection.robots().iter().map(|robot| &*robot.id).collect();
         assert_eq!(ids, ["arms_a_b", "arms_a_b.2", "_b_", "robot"]);

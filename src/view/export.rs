@@ -108,20 +108,13 @@ fn one(robot: &Shown, writer: &Writer) -> Result<Value, ExportError> {
     writer.file(&format!("{base}/files.json"), files.to_string().as_bytes())?;
     let report = route::report_of(robot);
     writer.file(&format!("{base}/report.json"), report.as_bytes())?;
-    Ok(entry_with(robot, &report))
-}
-
-/// A line of `robots.json` with what the report says.
-pub(super) fn entry_with(robot: &Shown, report: &str) -> Value {
-    let mut entry = route::entry(robot);
-    let report: Value = serde_json::from_str(report).unwrap_or_default();
-    let found = &report["urdds"][0];
+    let mut entry = route::entry_with(robot, &report);
+    // Nobody writes to a site.
     entry["writable"] = json!(false);
-    entry["links"] = found["size"]["links"].clone();
-    entry["dofs"] = found["size"]["dofs"].clone();
-    entry["verdict"] = found["verdict"].clone();
-    let total = |key: &str| report["totals"][key].clone();
-    entry["findings"] =
-        json!({ "error": total("error"), "warning": total("warning"), "info": total("info") });
-    entry
+    entry["temporary"] = json!(false);
+    if let Some(picture) = route::picture_of(robot) {
+        writer.file(&format!("{base}/picture.png"), &picture)?;
+        entry["picture"] = json!(format!("{base}/picture.png"));
+    }
+    Ok(entry)
 }

@@ -131,6 +131,7 @@ fn write(stream: &mut impl Write, reply: &Reply, head_only: bool) -> io::Result<
 fn word(status: u16) -> &'static str {
     match status {
         200 => "OK",
+        204 => "No Content",
         400 => "Bad Request",
         403 => "Forbidden",
         404 => "Not Found",

@@ -6,14 +6,16 @@ pub mod collection;
 pub mod export;
 mod guard;
 mod http;
+mod keep;
 mod one_file;
+mod picture;
 mod reply;
 mod revision;
 mod route;
 mod save;
 pub mod server;
 
-pub use collection::{Collection, Shown};
+pub use collection::{Collection, Making, Shown};
 pub use export::{ExportError, export};
 pub use one_file::{may_hold_page, page_with};
 pub use server::{Server, ServerError};

@@ -56,7 +56,10 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
         hash(&style),
     );
     let report = route::report_of(robot);
-    let entry = super::export::entry_with(robot, &report);
+    let mut entry = route::entry_with(robot, &report);
+    // Nobody writes to a file that is opened from the disk.
+    entry["writable"] = Value::from(false);
+    entry["temporary"] = Value::from(false);
     let mut carried = String::new();
     for (id, bytes) in [
         (

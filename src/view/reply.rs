@@ -42,6 +42,11 @@ impl Reply {
         }
     }
 
+    /// There is nothing, and nothing is wrong.
+    pub fn nothing() -> Self {
+        Self::failure(204, "")
+    }
+
     /// JSON.
     pub fn json(value: &Value) -> Self {
         Self::json_text(value.to_string())
@@ -54,6 +59,16 @@ impl Reply {
             media_type: "application/json",
             brotli: false,
             body: text.into_bytes(),
+        }
+    }
+
+    /// A picture.
+    pub fn picture(body: Vec<u8>) -> Self {
+        Self {
+            status: 200,
+            media_type: "image/png",
+            brotli: false,
+            body,
         }
     }
 

@@ -4,7 +4,8 @@ use percent_encoding::percent_decode_str;
 use serde_json::{Value, json};
 
 use super::assets;
-use super::collection::{Collection, Shown};
+use super::collection::{Collection, Making, Shown};
+use super::picture;
 use super::reply::Reply;
 use super::revision;
 use crate::directory::root::{EntryKind, ReadError};
@@ -31,8 +32,14 @@ pub enum Route {
     Report(String),
     /// A file of a robot.
     File(String, String),
+    /// What a gallery says of a robot.
+    Summary(String),
+    /// A small picture of a robot.
+    Picture(String),
     /// The skips of a robot, to be saved.
     Skips(String),
+    /// A generated robot, to be saved.
+    Keep(String),
     /// Nothing.
     Unknown,
 }
@@ -63,6 +70,9 @@ impl Route {
             ["robots", id, "revision.json"] => Route::Revision((*id).to_owned()),
             ["robots", id, "files.json"] => Route::Files((*id).to_owned()),
             ["robots", id, "report.json"] => Route::Report((*id).to_owned()),
+            ["robots", id, "summary.json"] => Route::Summary((*id).to_owned()),
+            ["robots", id, "picture.png"] => Route::Picture((*id).to_owned()),
+            ["robots", id, "keep"] => Route::Keep((*id).to_owned()),
             ["robots", id, "skips"] => Route::Skips((*id).to_owned()),
             ["robots", id, "files", rest @ ..] if !rest.is_empty() => {
                 Route::File((*id).to_owned(), rest.join("/"))
@@ -88,14 +98,17 @@ pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
     };
     match route {
         Route::Asset(name) => asset(name, brotli),
-        Route::Robots => Reply::json(&collection.robots().iter().map(entry).collect()),
+        Route::Robots => {
+            let robots = collection.robots().iter();
+            Reply::json(&robots.map(|robot| entry(robot)).collect())
+        }
         Route::Revision(id) => with(id, &|robot| {
-            let revision = revision::of(&robot.path);
+            let revision = revision::of(&robot.path());
             Ok(Reply::json(&json!({ "revision": revision })))
         }),
         Route::Files(id) => with(id, &|robot| {
             // Before the files are listed: what changes afterwards is noticed.
-            let revision = revision::of(&robot.path);
+            let revision = revision::of(&robot.path());
             let mut files = files(robot)?;
             files["revision"] = json!(revision);
             Ok(Reply::json(&files))
@@ -104,7 +117,18 @@ pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
         Route::File(id, path) => with(id, &|robot| {
             Ok(Reply::file(robot.open()?.read(path, MAX_FILE_BYTES)?))
         }),
-        Route::Skips(_) | Route::Unknown => Reply::failure(404, "there is no such page\n"),
+        Route::Summary(id) => with(id, &|robot| {
+            Ok(Reply::json(&entry_with(robot, &report_of(robot))))
+        }),
+        Route::Picture(id) => with(id, &|robot| {
+            Ok(match picture_of(robot) {
+                Some(bytes) => Reply::picture(bytes),
+                None => Reply::nothing(),
+            })
+        }),
+        Route::Skips(_) | Route::Keep(_) | Route::Unknown => {
+            Reply::failure(404, "there is no such page\n")
+        }
     }
 }
 
@@ -139,17 +163,60 @@ fn asset(name: &str, brotli: bool) -> Reply {
 
 /// A line of `robots.json`.
 pub fn entry(robot: &Shown) -> Value {
+    let (making, failure) = match robot.making() {
+        Making::Done => (Value::Null, Value::Null),
+        Making::Running { what, done, of } => {
+            (json!({ "what": what, "done": done, "of": of }), Value::Null)
+        }
+        Making::Failed(why) => (Value::Null, json!(why)),
+    };
     json!({
         "id": robot.id,
         "name": robot.name,
-        "writable": robot.writable,
-        "notes": robot.notes,
+        "writable": robot.is_writable(),
+        "temporary": robot.is_temporary(),
+        "making": making,
+        "failure": failure,
+        "notes": robot.notes(),
         "links": null,
         "dofs": null,
         "verdict": null,
         "findings": null,
         "picture": null,
     })
+}
+
+/// A line of `robots.json` with what the report says.
+pub fn entry_with(robot: &Shown, report: &str) -> Value {
+    let mut entry = entry(robot);
+    let report: Value = serde_json::from_str(report).unwrap_or_default();
+    let found = &report["urdds"][0];
+    entry["links"] = found["size"]["links"].clone();
+    entry["dofs"] = found["size"]["dofs"].clone();
+    entry["verdict"] = found["verdict"].clone();
+    let total = |key: &str| report["totals"][key].clone();
+    entry["findings"] =
+        json!({ "error": total("error"), "warning": total("warning"), "info": total("info") });
+    entry
+}
+
+/// The picture of a robot, where it has one. It is drawn once for each revision.
+pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
+    let revision = revision::of(&robot.path());
+    let mut known = robot
+        .picture
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    if let Some((of, picture)) = known.as_ref()
+        && *of == revision
+    {
+        return picture.clone();
+    }
+    // A robot that cannot be drawn has no picture: the page says what is wrong with it.
+    let opened = crate::robot::Robot::open(robot.path()).ok();
+    let drawn = opened.and_then(|opened| picture::png(&opened).ok().flatten());
+    *known = Some((revision, drawn.clone()));
+    drawn
 }
 
 /// The list of a robot's files.
@@ -173,7 +240,8 @@ pub fn files(robot: &Shown) -> Result<Value, ReadError> {
 
 /// The report of a robot, as `urdd validate --format json` prints it. It is made once for each revision.
 pub fn report_of(robot: &Shown) -> String {
-    let revision = revision::of(&robot.path);
+    let path = robot.path();
+    let revision = revision::of(&path);
     let mut known = robot
         .report
         .lock()
@@ -183,7 +251,7 @@ pub fn report_of(robot: &Shown) -> String {
     {
         return report.clone();
     }
-    let made = validate(&[&robot.path], &Settings::default())
+    let made = validate(&[&path], &Settings::default())
         .map_err(|error| error.to_string())
         .and_then(|run| {
             report::json(&Report::new(&run, Severity::Error)).map_err(|error| error.to_string())

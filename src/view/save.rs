@@ -49,7 +49,7 @@ pub fn skips(robot: &Shown, body: &[u8]) -> Reply {
         Ok(wish) => wish,
         Err(error) => return Reply::failure(400, format!("this is no list of edits: {error}\n")),
     };
-    if !robot.writable {
+    if !robot.is_writable() {
         let why = "this URDD cannot be written: it is an archive, or was made for this view\n";
         return Reply::failure(403, why);
     }
@@ -59,14 +59,16 @@ pub fn skips(robot: &Shown, body: &[u8]) -> Reply {
     }
 }
 
-type Failure = (u16, String);
+/// A status of HTTP, and why.
+pub(super) type Failure = (u16, String);
 
 fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
     let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
+    let path = robot.path();
     // From here on no other run of this program writes there.
     let staging =
-        Staging::begin(&robot.path, &Cancellation::default()).map_err(|error| failed(&error))?;
-    let unchanged = || match revision::of(&robot.path) == wish.revision {
+        Staging::begin_inside(&path, &Cancellation::default()).map_err(|error| failed(&error))?;
+    let unchanged = || match revision::of(&path) == wish.revision {
         true => Ok(()),
         false => Err((
             409,
@@ -88,7 +90,7 @@ fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
         }
         false => made(robot, wish.edits.unwrap_or_default(), wish.skipped_reasons)?,
     };
-    let root = Root::open_folder(&robot.path).map_err(|error| failed(&error))?;
+    let root = Root::open_folder(&path).map_err(|error| failed(&error))?;
     let before: Result<Files, Failure> = files
         .keys()
         .map(|path| {
@@ -99,16 +101,14 @@ fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
     let before = before?;
     let writer = Writer::new(staging.content());
     let instead: BTreeSet<&Path> = files.keys().map(Path::new).collect();
-    take_content(&robot.path, staging.content(), &|path| {
-        instead.contains(path)
-    })
-    .map_err(|error| failed(&error))?;
+    take_content(&path, staging.content(), &|path| instead.contains(path))
+        .map_err(|error| failed(&error))?;
     for (path, bytes) in &files {
         writer.file(path, bytes).map_err(|error| failed(&error))?;
     }
     unchanged()?;
     staging.commit().map_err(|error| failed(&error))?;
-    let now = revision::of(&robot.path);
+    let now = revision::of(&path);
     match wish.undo {
         true => {
             undo.pop();
@@ -142,7 +142,7 @@ fn made(
     {
         return Err((400, "a reason is too long".to_owned()));
     }
-    let opened = Robot::open(&robot.path).map_err(|error| (500, error.to_string()))?;
+    let opened = Robot::open(robot.path()).map_err(|error| (500, error.to_string()))?;
     let edited = opened.with_skip_edits(edits, reasons);
     Ok(edited.map_err(|error| (400, error.to_string()))?.files)
 }

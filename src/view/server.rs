@@ -11,6 +11,7 @@ use thiserror::Error;
 use super::collection::Collection;
 use super::guard::{Caller, Guard};
 use super::http::{Asked, converse};
+use super::keep;
 use super::reply::Reply;
 use super::route::{Route, answer};
 use super::save;
@@ -129,6 +130,10 @@ impl Server {
             ("GET" | "HEAD", _) => answer(&self.collection, &route, takes_brotli(asked)),
             ("POST", Route::Skips(id)) => match self.collection.find(id) {
                 Some(robot) => save::skips(robot, &asked.body),
+                None => Reply::failure(404, "there is no such robot\n"),
+            },
+            ("POST", Route::Keep(id)) => match self.collection.find(id) {
+                Some(robot) => keep::keep(robot, &asked.body),
                 None => Reply::failure(404, "there is no such robot\n"),
             },
             _ => Reply::failure(405, "this cannot be done here\n"),

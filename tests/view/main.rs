@@ -2,5 +2,6 @@
 
 mod asking;
 mod exporting;
+mod keeping;
 mod saving;
 mod served;

@@ -125,7 +125,8 @@ fn inertial_of(inertial: &Inertial) -> Value {
     })
 }
 
-fn quaternion(origin: &Origin) -> [f64; 4] {
+/// The rotation of an origin: w, x, y, z.
+pub fn quaternion(origin: &Origin) -> [f64; 4] {
     let turn =
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(origin.rotation()));
     [turn.w, turn.i, turn.j, turn.k]

@@ -13,5 +13,7 @@ mod mesh;
 mod pairs;
 #[cfg(target_arch = "wasm32")]
 mod random;
+mod reach;
 mod robot;
+mod sources;
 mod validate;

@@ -6,6 +6,8 @@ use urdd::robot::{PairDistance, Proximity, Robot, RobotError, ShapeKind, Solid};
 use crate::about::about;
 use crate::files::Files;
 use crate::pairs::Pairs;
+use crate::reach::reach;
+use crate::sources::sources;
 use crate::{answer, memory};
 
 /// A robot, and what was prepared for it.
@@ -74,6 +76,10 @@ pub unsafe extern "C" fn urdd_robot_poses(
 /// - `{"ask": "poses", "q": [...]}`: a list with `position` (m) and `quaternion_wxyz` of each link.
 /// - `{"ask": "random", "k": 7}`: number `k` of the random configurations that SPEC 9.2 defines.
 /// - `{"ask": "clamp", "q": [...]}`: the nearest configuration within the bounds.
+/// - `{"ask": "reach", "q": [...], "link": 5, "point": [x, y, z], "position": [x, y, z], "quaternion_wxyz": [...], "dofs":
+///   [...], "restarts": 0}`: a configuration in which a point of the link (in its frame) is at a place (in the root's),
+///   and the link turned so, where that is given; `position_error`, `rotation_error`, `reached`.
+/// - `{"ask": "sources"}`: the visual and collision elements of the URDF, with the files of meshes.
 /// - `{"ask": "volumes", "shapes": "boxes"}`: a list with `link`, `piece`, and a box or a sphere.
 /// - `{"ask": "distances", "q": [...], "shapes": "pieces"}`: each pair that is not skipped.
 /// - `{"ask": "nearest", "q": [...], "shapes": "pieces", "k": 3}`: the nearest pairs.
@@ -133,6 +139,8 @@ fn ask(handle: &mut Handle, question: &[u8]) -> Result<Value, String> {
             configurations.clamp(&mut q);
             Ok(json!(q))
         }
+        "reach" => reach(&handle.robot, &values()?, &question),
+        "sources" => sources(&handle.files, &handle.robot),
         "volumes" => volumes(&handle.robot, kind(&question)?).map_err(said),
         "distances" => {
             let q = values()?;

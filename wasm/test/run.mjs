@@ -8,7 +8,7 @@ import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "n
 import { tmpdir } from "node:os";
 import { join, relative } from "node:path";
 import { brotliCompressSync, gzipSync } from "node:zlib";
-import { Urdd } from "./urdd.mjs";
+import { Urdd } from "../npm/module.mjs";
 
 const [program, wasm] = process.argv.slice(2);
 const bytes = readFileSync(wasm);

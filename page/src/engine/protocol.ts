@@ -92,16 +92,9 @@ export interface About {
 /** `urdd.json`, as far as the page looks at it; it may hold anything. */
 export type Metadata = Record<string, unknown>;
 
-export type ShapeKind = "hulls" | "pieces" | "boxes" | "spheres" | "piece-boxes" | "piece-spheres";
-
-export const SHAPE_KINDS: readonly ShapeKind[] = [
-  "hulls",
-  "pieces",
-  "boxes",
-  "spheres",
-  "piece-boxes",
-  "piece-spheres",
-];
+/** What stands for links and their pieces in checks: the names that the library knows. */
+export const SHAPE_KINDS = ["hulls", "pieces", "boxes", "spheres", "piece-boxes", "piece-spheres"] as const;
+export type ShapeKind = (typeof SHAPE_KINDS)[number];
 
 export interface Statistics {
   min: number;
@@ -158,6 +151,44 @@ export interface Volume {
   link: number;
   piece: number;
   solid: { position: Vector; quaternion_wxyz?: Quaternion; half_extents?: Vector; radius?: number };
+}
+
+/** A visual or collision element of the URDF: see `wasm/src/sources.rs`. */
+export interface SourceShape extends Pose {
+  link: number;
+  geometry: "Visual" | "Collision";
+  element: number;
+  shape: {
+    Mesh?: { filename: string; scale: Vector | null };
+    Box?: { size: Vector };
+    Cylinder?: { radius: number; length: number };
+    Capsule?: { radius: number; length: number };
+    Sphere?: { radius: number };
+  } | null;
+  path: string | null;
+  side_files: string[];
+  rgba: [number, number, number, number] | null;
+}
+
+/** Where a link should be, and which DOFs may change for it. */
+export interface Wish {
+  q: number[];
+  link: number;
+  /** In the link's frame, metres; its origin unless it is said. */
+  point?: Vector;
+  /** Where that point should be, in the root link's frame. */
+  position: Vector;
+  /** How the link should be turned; it does not matter unless it is said. */
+  quaternion_wxyz?: Quaternion;
+  /** All unless they are said. */
+  dofs?: number[];
+}
+
+export interface Reached {
+  configuration: number[];
+  position_error: number;
+  rotation_error: number;
+  reached: boolean;
 }
 
 /** Triangles of a mesh, or why there are none. */
@@ -226,6 +257,10 @@ export interface Calls {
   random: [{ k: number }, number[]];
   file: [{ path: string }, ArrayBuffer];
   meshes: [{ kind: "plain" | "hulls" | "pieces" }, LinkMesh[]];
+  /** Of files: `link` is the number of the file in the question. */
+  triangles: [{ paths: string[] }, LinkMesh[]];
+  sources: [Record<string, never>, SourceShape[]];
+  reach: [Wish, Reached];
   volumes: [{ shapes: ShapeKind }, Volume[]];
   proximity: [{ q: number[]; shapes: ShapeKind; k: number }, ProximityAnswer];
   skips: [{ shapes: ShapeKind }, SkipsAnswer];
@@ -233,6 +268,8 @@ export interface Calls {
   samples: [Record<string, never>, { samples: Sample[] }];
   explain: [{ code: string }, Explanation];
   validate: [{ name: string }, Report];
+  /** How much memory the module has, bytes. */
+  memory: [Record<string, never>, number];
 }
 
 export type CallName = keyof Calls;

@@ -24,6 +24,12 @@ function opened(): { store: Store; about: About } {
   return { store, about };
 }
 
+/** The robot's handle. */
+function open(): number {
+  if (robot === 0) throw new Error("no robot is open");
+  return robot;
+}
+
 type Tell = (done: number, of: number, what: string) => void;
 type Question<K extends CallName> = Calls[K][0];
 type Result<K extends CallName> = Calls[K][1] | Promise<Calls[K][1]>;
@@ -49,11 +55,11 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
   },
 
   poses({ q }) {
-    return engine().poses(robot, q);
+    return engine().poses(open(), q);
   },
 
   random({ k }) {
-    return engine().ask(robot, { ask: "random", k }) as number[];
+    return engine().ask(open(), { ask: "random", k }) as number[];
   },
 
   async file({ path }) {
@@ -70,33 +76,53 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     return lists.flatMap((meshes, link) => meshes.map((mesh, piece) => triangles(store, link, piece, mesh.read)));
   },
 
+  async triangles({ paths }, tell) {
+    const { store } = opened();
+    await store.ensure(paths, (done, of) => {
+      tell(done, of, "meshes");
+    });
+    return paths.map((path, k) => triangles(store, k, 0, path));
+  },
+
+  sources() {
+    return engine().ask(open(), { ask: "sources" }) as Calls["sources"][1];
+  },
+
+  reach(wish) {
+    return engine().ask(open(), { ask: "reach", ...wish }) as Calls["reach"][1];
+  },
+
   async volumes({ shapes }) {
     await opened().store.ensure(opened().store.needed("volumes"));
-    return engine().ask(robot, { ask: "volumes", shapes }) as Calls["volumes"][1];
+    return engine().ask(open(), { ask: "volumes", shapes }) as Calls["volumes"][1];
   },
 
   async proximity({ q, shapes, k }, tell) {
     await ensureShapes(shapes, tell);
-    engine().ask(robot, { ask: "prepare", shapes });
+    engine().ask(open(), { ask: "prepare", shapes });
     const begin = performance.now();
-    const answer = engine().ask(robot, { ask: "proximity", q, shapes, k }) as Calls["proximity"][1];
+    const answer = engine().ask(open(), { ask: "proximity", q, shapes, k }) as Calls["proximity"][1];
     return { ...answer, ms: performance.now() - begin };
   },
 
   async skips({ shapes }) {
     await opened().store.ensure(opened().store.needed("pairs"));
-    return engine().ask(robot, { ask: "skips", shapes }) as Calls["skips"][1];
+    return engine().ask(open(), { ask: "skips", shapes }) as Calls["skips"][1];
   },
 
   async editSkips({ shapes, edits, skipped_reasons }) {
     const { store } = opened();
     await store.ensure([...store.needed("pairs"), ...store.needed("about")]);
-    return engine().ask(robot, { ask: "edit_skips", shapes, edits, skipped_reasons }) as Calls["editSkips"][1];
+    return engine().ask(open(), { ask: "edit_skips", shapes, edits, skipped_reasons }) as Calls["editSkips"][1];
   },
 
   async samples() {
     await opened().store.ensure(opened().store.needed("samples"));
-    return engine().ask(robot, { ask: "samples" }) as Calls["samples"][1];
+    return engine().ask(open(), { ask: "samples" }) as Calls["samples"][1];
+  },
+
+  memory() {
+    return engine().memory;
   },
 
   explain({ code }) {
@@ -151,12 +177,18 @@ function transfers(value: unknown): Transferable[] {
   return [];
 }
 
+/** Until this is done nothing else is answered: the robot that is being opened, and the module before. */
+let opening: Promise<unknown> = Promise.resolve();
+
 async function answer({ id, call, question }: Request): Promise<void> {
   try {
     const handler = handlers[call] as (question: unknown, tell: Tell) => unknown;
-    const value = await handler(question, (done, of, what) => {
+    const tell: Tell = (done, of, what) => {
       scope.postMessage({ id, progress: { done, of, what } }, []);
-    });
+    };
+    const answered = opening.then(() => handler(question, tell));
+    if (call === "init" || call === "open") opening = answered.catch(() => undefined);
+    const value = await answered;
     scope.postMessage({ id, value }, transfers(value));
   } catch (error) {
     const trapped = error instanceof WebAssembly.RuntimeError;

@@ -5,7 +5,7 @@ import { message } from "../app";
 import type { Finding, Severity, UrddReport } from "../engine/protocol";
 import { linkOf, places } from "../findings";
 import type { Place } from "../findings";
-import { fill, h } from "../ui/dom";
+import { fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
 
 const SEVERITIES: readonly Severity[] = ["error", "warning", "info"];
@@ -35,19 +35,14 @@ export function findings(app: App): HTMLElement {
   });
   const verdict = h("p", { class: "verdict", "aria-live": "polite" });
   const list = h("div", { class: "findings" });
-  const panel = h(
+  const tools = h(
     "div",
-    { class: "panel" },
-    verdict,
-    h("div", { class: "actions" }, ...toggles.map(([, button]) => button), by),
-    h(
-      "div",
-      { class: "actions" },
-      search,
-      h("span", { class: "check" }, painted, h("label", { for: "painted" }, "Paint links")),
-    ),
-    list,
+    {},
+    h("div", { class: "actions" }, ...toggles.map(([, button]) => button)),
+    h("div", { class: "actions" }, search, by),
+    h("div", { class: "check" }, painted, h("label", { for: "painted" }, "Paint links by their worst finding")),
   );
+  const panel = h("div", { class: "panel" }, verdict, tools, list);
   const validate = h(
     "button",
     {
@@ -66,9 +61,11 @@ export function findings(app: App): HTMLElement {
       const n = urdd?.findings.filter((f) => f.severity === severity).reduce((sum, f) => sum + f.count, 0) ?? 0;
       button.textContent = count(n, severity === "info" ? "note" : severity);
       button.setAttribute("aria-pressed", String(!off.has(severity)));
-      button.hidden = !urdd;
+      button.hidden = n === 0;
     }
     verdict.className = `verdict ${urdd?.verdict ?? ""}`;
+    tools.hidden = !urdd;
+    search.hidden = by.hidden = (urdd?.findings.length ?? 0) < 2;
     if (!urdd) {
       fill(
         verdict,
@@ -80,10 +77,12 @@ export function findings(app: App): HTMLElement {
     }
     fill(verdict, words(urdd));
     const wanted = search.value.trim().toLowerCase();
-    const shown = urdd.findings.filter(
-      (finding) =>
-        !off.has(finding.severity) && (wanted === "" || JSON.stringify(finding).toLowerCase().includes(wanted)),
-    );
+    const shown = urdd.findings
+      .filter(
+        (finding) =>
+          !off.has(finding.severity) && (wanted === "" || JSON.stringify(finding).toLowerCase().includes(wanted)),
+      )
+      .sort((a, b) => SEVERITIES.indexOf(a.severity) - SEVERITIES.indexOf(b.severity));
     const groups = new Map<string, Finding[]>();
     for (const finding of shown) {
       const key = groupOf(app, finding, grouping);
@@ -162,18 +161,18 @@ function card(app: App, finding: Finding): HTMLElement {
       { class: "heading" },
       h("span", { class: `dot ${finding.severity}` }),
       h("strong", {}, finding.code),
-      h("span", { class: "name" }, finding.name),
+      h("span", { class: "name", title: finding.name }, finding.name),
       finding.count > 1 && h("span", { class: "kind" }, `× ${finding.count}`),
       h("span", { class: "spring" }),
       button,
     ),
-    h("p", {}, name(finding.message)),
+    h("p", {}, ...prose(name(finding.message))),
     list,
     more,
   );
 }
 
-function placeRow(app: App, place: Place): HTMLElement {
+function placeRow(app: App, place: Place): HTMLElement | null {
   const { robot } = app.store.now;
   const link = robot ? linkOf(robot, place) : null;
   const where = [
@@ -181,8 +180,10 @@ function placeRow(app: App, place: Place): HTMLElement {
     place.file ? `${place.file}${place.line ? `:${place.line}` : ""}` : null,
     place.pointer,
   ].filter((text): text is string => Boolean(text));
-  const text = name(where[0] ?? "here");
-  const go = h("button", { type: "button", class: "place", title: where.map(name).join("\n") }, text);
+  const [first] = where;
+  if (first === undefined && !place.message && place.expected === null && place.actual === null) return null;
+  const go = h("button", { type: "button", class: "place", title: where.map(name).join("\n") });
+  fill(go, ...prose(name(first ?? "the URDD as a whole")));
   go.addEventListener("click", () => {
     if (link !== null) app.select({ kind: "link", index: link });
   });
@@ -191,7 +192,7 @@ function placeRow(app: App, place: Place): HTMLElement {
     "li",
     {},
     go,
-    place.message && h("span", { class: "what" }, name(place.message)),
+    place.message && h("span", { class: "what" }, ...prose(name(place.message))),
     (place.expected ?? place.actual) !== null &&
       h(
         "dl",
@@ -214,14 +215,14 @@ async function explain(app: App, code: string, into: HTMLElement): Promise<void>
     fill(
       into,
       h("p", { class: "hint" }, `SPEC ${rule.clause}`),
-      ...rule.explanation.split("\n\n").map((text) => h("p", {}, text)),
+      ...rule.explanation.split("\n\n").map((text) => h("p", {}, ...prose(text))),
     );
   } catch (error) {
     fill(into, h("p", { class: "hint" }, message(error)));
   }
 }
 
-/** What nobody can say of this URDD: grey, not green. */
+/** What nobody can say of this URDD: grey, not green. Rules about modules that are not here come last. */
 function notVerified(urdd: UrddReport): Node[] {
   if (urdd.not_checked.length === 0) return [];
   return [
@@ -236,7 +237,7 @@ function notVerified(urdd: UrddReport): Node[] {
           h("span", { class: "dot unverified" }),
           h("strong", {}, codes.slice(0, 6).join(", ") + (codes.length > 6 ? ` and ${codes.length - 6} more` : "")),
         ),
-        h("p", {}, name(reason)),
+        h("p", {}, ...prose(name(reason))),
       ),
     ),
   ];

@@ -1,9 +1,19 @@
-/** All robots of the site, with search; and where a folder or a zip is dropped. */
+/** All robots of the site, with pictures and search; and where a folder or a zip is dropped. */
 
 import type { App } from "../app";
+import { message } from "../app";
 import type { Entry } from "../model";
 import { fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
+
+/** Robots that are asked about at once. */
+const AT_ONCE = 2;
+
+interface Card {
+  entry: Entry;
+  element: HTMLButtonElement;
+  show: (entry: Entry) => void;
+}
 
 export function gallery(
   app: App,
@@ -11,7 +21,62 @@ export function gallery(
   choose: (files: FileList | null, folder: boolean) => void,
 ): HTMLElement {
   const search = h("input", { type: "search", placeholder: "Find a robot", "aria-label": "Find a robot" });
+  const title = h("h2", {}, "Robots");
   const list = h("div", { class: "cards" });
+  const empty = h("p", { class: "empty" }, "No robot is like that.");
+  const panel = h(
+    "section",
+    { class: "gallery", "aria-label": "Robots" },
+    h("div", { class: "headline" }, title, h("span", { class: "spring" }), search),
+    list,
+    empty,
+    dropHere(choose),
+  );
+  const cards = new Map<string, Card>();
+  const asker = new Asker(app, (entry) => {
+    cards.get(entry.id)?.show(entry);
+    filter();
+  });
+  const filter = (): void => {
+    const words = search.value.trim().toLowerCase().split(/\s+/).filter(Boolean);
+    let shown = 0;
+    for (const { element, entry } of cards.values()) {
+      const text = `${entry.id} ${element.textContent}`.toLowerCase();
+      element.hidden = !words.every((word) => text.includes(word));
+      if (!element.hidden) shown++;
+    }
+    empty.hidden = shown > 0 || cards.size === 0;
+  };
+  search.addEventListener("input", filter);
+  app.store.on(["entries"], ({ entries }) => {
+    for (const entry of entries) {
+      const known = cards.get(entry.id);
+      if (known) known.show({ ...known.entry, ...told(entry) });
+      else {
+        const made = card(entry, open);
+        cards.set(entry.id, made);
+        list.append(made.element);
+        asker.watch(made);
+      }
+    }
+    title.textContent = entries.length > 0 ? count(entries.length, "robot") : "See and validate a URDD";
+    search.hidden = entries.length < 2;
+    filter();
+  });
+  app.store.on(["robot", "loading", "failure"], ({ robot, loading, failure }) => {
+    panel.hidden = robot !== null || loading !== null || failure !== null;
+  });
+  return panel;
+}
+
+/** What a line of `robots.json` says; what it leaves open may be known from elsewhere. */
+function told(entry: Entry): Partial<Entry> {
+  return Object.fromEntries(
+    Object.entries(entry).filter(([key, value]) => value !== null || key === "making" || key === "failure"),
+  );
+}
+
+function dropHere(choose: (files: FileList | null, folder: boolean) => void): HTMLElement {
   const picker = (folder: boolean, text: string): HTMLElement => {
     const input = h("input", {
       type: "file",
@@ -23,78 +88,121 @@ export function gallery(
       choose(input.files, folder);
       input.value = "";
     });
-    return h(
-      "span",
-      {},
-      h(
-        "button",
-        {
-          type: "button",
-          click: () => {
-            input.click();
-          },
-        },
-        text,
-      ),
-      input,
-    );
+    const click = (): void => {
+      input.click();
+    };
+    return h("span", {}, h("button", { type: "button", click }, text), input);
   };
-  const panel = h(
-    "section",
-    { class: "gallery", "aria-label": "Robots" },
-    h("h2", {}, "Robots"),
-    search,
-    list,
-    h(
-      "div",
-      { class: "drop" },
-      h("p", {}, "Drop the folder of a URDD here, or a .zip of it, to see and validate it."),
-      h("div", { class: "actions" }, picker(true, "Choose a folder"), picker(false, "Choose a .zip")),
-      h("p", { class: "hint" }, "It is read in this browser. Nothing is uploaded."),
-    ),
+  return h(
+    "div",
+    { class: "drop" },
+    h("p", {}, "Drop the folder of a URDD here, or a .zip of it, to see and validate it."),
+    h("div", { class: "actions" }, picker(true, "Choose a folder"), picker(false, "Choose a .zip")),
+    h("p", { class: "hint" }, "It is read in this browser. Nothing is uploaded."),
   );
-  const render = (): void => {
-    const words = search.value.trim().toLowerCase();
-    const { entries } = app.store.now;
-    const found = entries.filter(
-      (entry) => words === "" || entry.name.toLowerCase().includes(words) || entry.id.toLowerCase().includes(words),
-    );
-    search.hidden = entries.length < 2;
-    fill(
-      list,
-      ...found.map((entry) => card(entry, open)),
-      found.length === 0 && entries.length > 0 && h("p", { class: "empty" }, "No robot of this name."),
-    );
-  };
-  search.addEventListener("input", render);
-  app.store.on(["entries"], render);
-  app.store.on(["robot", "loading", "failure"], ({ robot, loading, failure }) => {
-    panel.hidden = robot !== null || loading !== null || failure !== null;
-  });
-  return panel;
 }
 
-function card(entry: Entry, open: (entry: Entry) => void): HTMLElement {
-  const size = [
-    entry.links === null ? null : count(entry.links, "link"),
-    entry.dofs === null ? null : count(entry.dofs, "DOF"),
-  ]
-    .filter(Boolean)
-    .join(" · ");
-  return h(
+function card(first: Entry, open: (entry: Entry) => void): Card {
+  const picture = h("span", { class: "no-picture", "aria-hidden": "true" });
+  const size = h("span", { class: "hint" });
+  const verdict = h("span", { class: "verdict" });
+  const element = h(
     "button",
-    {
-      type: "button",
-      class: "card",
-      click: () => {
-        open(entry);
-      },
-    },
-    entry.picture
-      ? h("img", { src: entry.picture, alt: "", loading: "lazy" })
-      : h("span", { class: "no-picture" }, name(entry.name).slice(0, 2)),
-    h("strong", {}, name(entry.name)),
-    h("span", { class: "hint" }, size || name(entry.id)),
-    entry.verdict && h("span", { class: `verdict ${entry.verdict}` }, entry.verdict),
+    { type: "button", class: "card" },
+    picture,
+    h("strong", { title: name(first.name) }, name(first.name)),
+    size,
+    verdict,
   );
+  const made: Card = {
+    entry: first,
+    element,
+    show(entry) {
+      if (entry.picture !== null && entry.picture !== picture.dataset["of"]) {
+        picture.dataset["of"] = entry.picture;
+        fill(picture, h("img", { src: entry.picture, alt: "", loading: "lazy" }));
+      }
+      made.entry = entry;
+      size.textContent = [
+        entry.links === null ? null : count(entry.links, "link"),
+        entry.dofs === null ? null : count(entry.dofs, "DOF"),
+      ]
+        .filter(Boolean)
+        .join(" · ");
+      verdict.className = `verdict ${entry.verdict ?? ""}`;
+      verdict.textContent = words(entry);
+      element.disabled = entry.making !== null;
+    },
+  };
+  element.addEventListener("click", () => {
+    open(made.entry);
+  });
+  made.show(first);
+  return made;
+}
+
+function words({ making, failure, verdict, findings }: Entry): string {
+  if (making) return making.of > 0 ? `being generated: ${making.done} of ${making.of}` : "being generated";
+  if (failure !== null) return "could not be generated";
+  if (verdict === null) return "";
+  const found = (["error", "warning"] as const)
+    .flatMap((severity) => (findings?.[severity] ? [count(findings[severity], severity)] : []))
+    .join(", ");
+  return { pass: found ? `passes, ${found}` : "passes", fail: `fails: ${found}` }[verdict] ?? verdict;
+}
+
+/** Asks for what the list does not say, of cards that are seen. */
+class Asker {
+  private readonly waiting: Card[] = [];
+  private busy = 0;
+  private readonly seen: IntersectionObserver;
+  private readonly cards = new Map<Element, Card>();
+
+  constructor(
+    private readonly app: App,
+    private readonly answered: (entry: Entry) => void,
+  ) {
+    this.seen = new IntersectionObserver((changes) => {
+      for (const { isIntersecting, target } of changes) {
+        const card = this.cards.get(target);
+        if (!isIntersecting || !card || card.entry.making) continue;
+        this.seen.unobserve(target);
+        this.waiting.push(card);
+      }
+      void this.work();
+    });
+    // A robot that was being generated can be asked about when it is there.
+    app.store.on(["entries"], () => {
+      for (const [element, { entry }] of this.cards) {
+        if (entry.making === null && entry.verdict === null) {
+          this.seen.unobserve(element);
+          this.seen.observe(element);
+        }
+      }
+    });
+  }
+
+  watch(card: Card): void {
+    if (this.app.site.mode !== "live") return;
+    this.cards.set(card.element, card);
+    this.seen.observe(card.element);
+  }
+
+  private async work(): Promise<void> {
+    while (this.busy < AT_ONCE) {
+      // An open robot is served first: nobody sees the gallery then.
+      const card = this.app.store.now.robot ? undefined : this.waiting.shift();
+      if (!card) return;
+      this.busy++;
+      try {
+        const picture = await this.app.site.picture(card.entry);
+        this.answered({ ...card.entry, picture });
+        const summary = await this.app.site.summary(card.entry);
+        this.answered({ ...card.entry, ...told(summary) });
+      } catch (error) {
+        console.info(message(error));
+      }
+      this.busy--;
+    }
+  }
 }

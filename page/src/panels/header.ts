@@ -3,19 +3,21 @@
 import type { App } from "../app";
 import { fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
-import { LAYERS, LAYER_NAMES } from "../state";
+import { LAYERS, LAYER_HINTS, LAYER_NAMES } from "../state";
 import { toggleTheme } from "../ui/theme";
 
-const SHORT = LAYERS.slice(0, 6);
+/** Those that the bar has room for; the panel has all. */
+const SHORT = LAYERS.slice(0, LAYERS.indexOf("spheres") + 1);
 
 export function header(
   app: App,
-  actions: { share: () => void; picture: () => void; gallery: () => void },
+  actions: { save: () => void; share: () => void; picture: () => void; gallery: () => void },
 ): HTMLElement {
   const title = h("div", { class: "title" });
   const chips = h("div", { class: "chips" });
   const buttons = SHORT.map((layer) => {
-    const button = h("button", { type: "button", "aria-pressed": "false" }, LAYER_NAMES[layer]);
+    const hint = [LAYER_HINTS[layer], "Shift-click for several"].filter(Boolean).join(". ");
+    const button = h("button", { type: "button", "aria-pressed": "false", title: hint }, LAYER_NAMES[layer]);
     button.addEventListener("click", (event) => {
       const { layers } = app.store.now;
       if (event.shiftKey) app.setLayer(layer, { on: !layers[layer].on });
@@ -33,6 +35,21 @@ export function header(
     const { overlays } = app.store.now;
     app.store.set({ overlays: { ...overlays, frames: !overlays.frames } });
   });
+  const save = h(
+    "button",
+    { type: "button", class: "main", click: actions.save, title: "Save the generated URDD into a folder" },
+    "Save…",
+  );
+  const share = h(
+    "button",
+    { type: "button", class: "quiet", click: actions.share, title: "Copy a link to this view" },
+    "Share",
+  );
+  const picture = h(
+    "button",
+    { type: "button", class: "quiet", click: actions.picture, title: "Save the picture as PNG" },
+    "Picture",
+  );
   const bar = h(
     "header",
     { class: "bar" },
@@ -41,12 +58,9 @@ export function header(
     h("span", { class: "spring" }),
     layers,
     frames,
-    h("button", { type: "button", class: "quiet", click: actions.share, title: "Copy a link to this view" }, "Share"),
-    h(
-      "button",
-      { type: "button", class: "quiet", click: actions.picture, title: "Save the picture as PNG" },
-      "Picture",
-    ),
+    save,
+    share,
+    picture,
     h(
       "button",
       {
@@ -64,6 +78,7 @@ export function header(
     fill(
       title,
       several &&
+        robot &&
         h("button", { type: "button", class: "quiet back", click: actions.gallery, "aria-label": "All robots" }, "☰"),
       h("h1", { title: robot ? name(robot.name) : "" }, robot ? name(robot.name) : "urdd"),
     );
@@ -92,19 +107,31 @@ export function header(
         h(
           "span",
           { class: "chip" },
-          [
-            count(robot.links.length, "link"),
-            robot.about.dofs ? count(robot.dofs.length, "DOF") : null,
-            version(robot.about.metadata, robot.about.profile),
-          ]
+          [count(robot.links.length, "link"), robot.about.dofs ? count(robot.dofs.length, "DOF") : null]
             .filter(Boolean)
             .join(" · "),
+          h("span", { class: "roomy" }, ` · ${version(robot.about.metadata, robot.about.profile)}`),
+        ),
+      robot?.entry.temporary && h("span", { class: "chip", title: "It goes when `urdd view` ends" }, "not saved"),
+      robot &&
+        robot.entry.notes.length > 0 &&
+        h(
+          "button",
+          {
+            type: "button",
+            class: "chip",
+            title: "What was assumed when it was generated",
+            click: () => {
+              app.store.set({ tab: "Info" });
+            },
+          },
+          count(robot.entry.notes.length, "assumption"),
         ),
       chip("error"),
       chip("warning"),
     );
-    layers.hidden = !robot;
-    frames.hidden = !robot;
+    for (const element of [layers, frames, share, picture]) element.hidden = !robot;
+    save.hidden = !robot?.entry.temporary;
   });
   app.store.on(["layers", "overlays"], ({ layers, overlays }) => {
     for (const [layer, button] of buttons) button.setAttribute("aria-pressed", String(layers[layer].on));

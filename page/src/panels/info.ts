@@ -164,10 +164,15 @@ function ofRobot(robot: RobotModel): Node[] {
         ]
       : []),
     h("h2", {}, "Modules"),
-    table(
-      ...[...modules].map(([folder, { size, files }]) =>
-        line(folder.split("/").pop() ?? folder, `${bytes(size)}, ${count(files, "file")}`),
-      ),
+    h(
+      "dl",
+      { class: "table modules" },
+      ...[...modules]
+        .sort(([a], [b]) => (a < b ? -1 : 1))
+        .flatMap(([folder, { size, files }]) => [
+          h("dt", { title: folder }, (folder.split("/").pop() ?? folder).replace(/_module$/, "")),
+          h("dd", {}, `${count(files, "file")} · ${bytes(size)}`),
+        ]),
     ),
   ];
 }

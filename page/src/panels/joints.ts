@@ -2,7 +2,7 @@
 
 import type { App } from "../app";
 import { message } from "../app";
-import { h, fill } from "../ui/dom";
+import { cut, fill, h } from "../ui/dom";
 import { count, fromShown, name, number, round, shownUnit, toShown } from "../ui/format";
 import type { RobotModel } from "../model";
 import { Player } from "../play";
@@ -78,7 +78,7 @@ export function joints(app: App): HTMLElement {
     const heading = h(
       "div",
       { class: "heading" },
-      h("span", { class: "name", title: name(found?.name ?? "") }, name(found?.name ?? "")),
+      h("span", { class: "name cut", title: name(found?.name ?? "") }, ...cut(name(found?.name ?? ""))),
       h("span", { class: "kind" }, (found?.type ?? "").toLowerCase()),
       sweep,
     );
@@ -159,6 +159,7 @@ export function joints(app: App): HTMLElement {
     const moving = robot?.joints.flatMap((joint, index) => ((joint.dofs?.length ?? 0) > 0 ? [index] : [])) ?? [];
     fill(list, ...(robot ? moving.map((joint) => group(robot, joint)) : []));
     actions.hidden = !robot?.moves;
+    play.hidden = !robot?.files.some(({ path }) => path === "kinematics_samples_module/module.json");
     empty.hidden = moving.length > 0;
     empty.textContent = !robot
       ? ""

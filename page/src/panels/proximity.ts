@@ -2,10 +2,11 @@
 
 import type { App } from "../app";
 import { SHAPE_KINDS } from "../engine/protocol";
-import type { PairDistance, ProximityAnswer, ShapeKind, Statistics } from "../engine/protocol";
-import { fill, h } from "../ui/dom";
+import type { PairDistance, ProximityAnswer, ShapeKind, SkipEdit, Statistics } from "../engine/protocol";
+import { decide, nearer } from "../skips";
+import { cut, fill, h } from "../ui/dom";
 import { length, name, percent } from "../ui/format";
-import type { LayerKind, Pair } from "../state";
+import type { Pair } from "../state";
 
 export const SHAPE_NAMES: Record<ShapeKind, string> = {
   hulls: "hulls",
@@ -46,7 +47,7 @@ export function proximity(app: App): HTMLElement {
   const panel = h(
     "div",
     { class: "panel" },
-    h("div", { class: "headline" }, h("h2", {}, "Nearest pairs"), h("span", { class: "spring" }), kind, order),
+    h("div", { class: "headline choices" }, kind, order),
     h(
       "div",
       { class: "headline" },
@@ -54,7 +55,6 @@ export function proximity(app: App): HTMLElement {
       h("span", { class: "spring" }),
       h("span", { class: "hint" }, "distance · of mean"),
     ),
-    state,
     empty,
     list,
     detail,
@@ -83,7 +83,7 @@ export function proximity(app: App): HTMLElement {
     empty.textContent = said(error, answer, robot !== null);
     selected(app, detail, found.find((at) => same(pair, pairOf(at))) ?? null, answer);
   };
-  app.store.on(["robot", "proximity", "pair", "shapes"], render);
+  app.store.on(["robot", "proximity", "pair", "shapes", "skips"], render);
   app.store.on(["tab"], ({ tab, proximity: { answer } }) => {
     if (tab === "Proximity" && !answer) app.measure(true);
   });
@@ -109,35 +109,38 @@ export function same(a: Pair | null, b: Pair | null): boolean {
 
 /** A row that is used again for another pair. */
 function row(app: App): Row {
-  const names = h("span", { class: "name" });
+  const sides = [h("span", { class: "name cut" }), h("span", { class: "name cut" })] as const;
   const distance = h("span", { class: "distance" });
   const relative = h("span", { class: "relative" });
-  const pieces = h("span", { class: "pieces" });
+  const said = h("span", { class: "said-of" });
   const range = h("span", { class: "range" });
   const mark = h("span", { class: "mark" });
   const bar = h("span", { class: "gauge" }, range, mark);
-  const element = h("button", { type: "button", class: "pair" }, names, distance, relative, pieces, bar);
+  const element = h("button", { type: "button", class: "pair" }, sides[0], distance, relative, sides[1], said, bar);
   let current: PairDistance | null = null;
   element.addEventListener("click", () => {
     if (!current) return;
     const pair = pairOf(current);
-    choose(app, same(app.store.now.pair, pair) ? null : pair);
+    app.store.set({ pair: same(app.store.now.pair, pair) ? null : pair });
   });
   return {
     element,
     show(pair, widest, chosen) {
       current = pair;
-      const text = pair.links.map(name).join(" · ");
-      if (names.textContent !== text) {
-        names.textContent = text;
-        names.title = text;
-      }
+      const ofPieces = app.store.now.shapes.startsWith("piece");
+      sides.forEach((side, k) => {
+        const link = name(pair.links[k] ?? "");
+        const text = ofPieces ? `${link} · ${pair.pieces[k] ?? 0}` : link;
+        if (side.textContent !== text) {
+          fill(side, ...cut(text));
+          side.title = ofPieces ? `piece ${pair.pieces[k] ?? 0} of ${link}` : link;
+        }
+      });
       distance.textContent = pair.distance <= 0 ? "0 mm" : length(pair.distance);
       relative.textContent = pair.relative === null ? "–" : percent(pair.relative);
-      const ofPieces = app.store.now.shapes.startsWith("piece");
-      pieces.textContent = [
-        ofPieces ? `piece ${pair.pieces[0]} · piece ${pair.pieces[1]}` : "",
+      said.textContent = [
         pair.distance <= 0 ? "contact" : "",
+        isDecided(app.store.now.skips.answer?.edits, pair.links) ? "to be skipped" : "",
       ]
         .filter(Boolean)
         .join(" · ");
@@ -164,12 +167,16 @@ function gauge(
   mark.style.left = `${share(now)}%`;
 }
 
-/** Selects a pair, and shows its shapes. */
-export function choose(app: App, pair: Pair | null): void {
-  const { layers, shapes } = app.store.now;
-  app.store.set({ pair });
-  const layer: LayerKind = shapes;
-  if (pair && !layers[layer].on) app.setLayer(layer, { on: true });
+function act(text: string, title: string, does: () => Promise<void>): Node {
+  return h("button", { type: "button", title, click: () => void does() }, text);
+}
+
+/** Whether a decision that is not saved yet skips these links. */
+function isDecided(edits: readonly SkipEdit[] | null | undefined, [a, b]: [string, string]): boolean {
+  const [last] = (edits ?? [])
+    .filter((edit) => (edit.link_a === a && edit.link_b === b) || (edit.link_a === b && edit.link_b === a))
+    .slice(-1);
+  return last?.skip ?? false;
 }
 
 function selected(app: App, detail: HTMLElement, pair: PairDistance | null, answer: ProximityAnswer | null): void {
@@ -193,6 +200,15 @@ function selected(app: App, detail: HTMLElement, pair: PairDistance | null, answ
     h(
       "div",
       { class: "actions" },
+      act("Skip this pair", "Collision checks leave these two links out, once it is saved in Skips", () =>
+        decide(app, [{ link_a: pair.links[0], link_b: pair.links[1], skip: true, reason: "" }]),
+      ),
+      act("Skip all nearer", "Every pair of links that is nearer than this one now", () =>
+        nearer(app, pair.link_idxs, "distance", ""),
+      ),
+      act("Skip all relatively nearer", "Every pair of links whose distance is a smaller share of its mean", () =>
+        nearer(app, pair.link_idxs, "relative", ""),
+      ),
       h(
         "button",
         {
@@ -220,7 +236,7 @@ function selected(app: App, detail: HTMLElement, pair: PairDistance | null, answ
         {
           type: "button",
           click: () => {
-            choose(app, null);
+            app.store.set({ pair: null });
             app.hide(app.store.now.robot?.links.keys() ?? [], false);
           },
         },

@@ -1,8 +1,8 @@
 /** What stands for the links: layers with their opacity, what is drawn over them, and which links are shown. */
 
 import type { App } from "../app";
-import { LAYERS, LAYER_NAMES, OVERLAYS, OVERLAY_NAMES } from "../state";
-import { fill, h } from "../ui/dom";
+import { LAYERS, LAYER_HINTS, LAYER_NAMES, OVERLAYS, OVERLAY_NAMES } from "../state";
+import { cut, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 
 export function shapes(app: App): HTMLElement {
@@ -22,7 +22,14 @@ export function shapes(app: App): HTMLElement {
     opacity.addEventListener("input", () => {
       app.setLayer(layer, { opacity: Number(opacity.value), on: true });
     });
-    const row = h("div", { class: "layer" }, box, h("label", { for: box.id }, LAYER_NAMES[layer]), opacity, faults);
+    const row = h(
+      "div",
+      { class: "layer" },
+      box,
+      h("label", { for: box.id, title: LAYER_HINTS[layer] }, LAYER_NAMES[layer]),
+      opacity,
+      faults,
+    );
     return { layer, box, opacity, faults, row };
   });
   const overlays = OVERLAYS.map((kind) => {
@@ -106,7 +113,7 @@ export function shapes(app: App): HTMLElement {
           "div",
           { class: "check wide" },
           box,
-          h("label", { for: box.id, title: name(link.name) }, name(link.name)),
+          h("label", { for: box.id, title: name(link.name), class: "cut" }, ...cut(name(link.name))),
           h("span", { class: "kind" }, what),
         );
       }),
@@ -115,8 +122,9 @@ export function shapes(app: App): HTMLElement {
   app.store.on(
     ["layers", "overlays", "hidden", "robot", "faults"],
     ({ layers: now, overlays: over, hidden, faults }) => {
-      for (const { layer, box, opacity, faults: line } of layers) {
+      for (const { layer, box, opacity, faults: line, row } of layers) {
         box.checked = now[layer].on;
+        row.classList.toggle("off", !now[layer].on);
         opacity.value = String(now[layer].opacity);
         const found = faults.get(layer) ?? [];
         line.textContent =

@@ -61,7 +61,7 @@ export function draw(
   const gap = Math.min(width, height) > 6 ? 1 : 0;
   rows.forEach((i, row) => {
     columns.forEach((j, column) => {
-      context.globalAlpha = isSkipped(answer, i, j) ? 1 : 0.3;
+      context.globalAlpha = isSkipped(answer, i, j) ? 1 : 0.4;
       context.fillStyle = colors.get(letterAt(answer, i, j)) ?? "#888";
       context.fillRect(column * width, row * height, Math.max(width - gap, 0.5), Math.max(height - gap, 0.5));
     });

@@ -6,10 +6,13 @@ import type { ShapeKind, SkipEdit, SkipsAnswer } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import { decide, download, isSkipped, letterAt, load, nearer, save, undo } from "../skips";
 import type { Pair } from "../state";
-import { fill, h } from "../ui/dom";
+import { cut, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { SHAPE_NAMES } from "./proximity";
 import { at, draw, REASONS, reasonClass, region } from "./skip_matrix";
+
+/** Rows whose names have room beside them. */
+const MOST_LABELS = 17;
 
 export function skips(app: App): HTMLElement {
   /** The two links whose pieces are shown, one level down. */
@@ -40,7 +43,9 @@ export function skips(app: App): HTMLElement {
     up,
     kind,
   );
-  const panel = h("div", { class: "panel" }, headline, canvas, said, legend, chosen, edits, empty);
+  const labels = h("div", { class: "labels", "aria-hidden": "true" });
+  const matrix = h("div", { class: "matrix-box" }, labels, canvas);
+  const panel = h("div", { class: "panel" }, headline, matrix, said, legend, chosen, edits, empty);
   const reload = (shapes: ShapeKind): void => {
     kind.value = shapes;
     void load(app, shapes);
@@ -57,7 +62,7 @@ export function skips(app: App): HTMLElement {
     const { skips: state, robot, pair } = app.store.now;
     const { answer, error } = state;
     const has = robot !== null && answer !== null && answer.places.length > 0;
-    for (const element of [canvas, legend, said]) element.hidden = !has;
+    for (const element of [matrix, legend, said]) element.hidden = !has;
     up.hidden = down === null;
     empty.hidden = has;
     empty.textContent = error
@@ -68,7 +73,11 @@ export function skips(app: App): HTMLElement {
     fill(chosen);
     fill(edits);
     if (!has) return;
-    draw(canvas, answer, region(answer, down), pair);
+    const shown = region(answer, down);
+    const named = shown.rows.length <= MOST_LABELS;
+    labels.hidden = !named;
+    fill(labels, ...(named ? shown.rows.map((shape) => label(robot, answer, shape, pair)) : []));
+    draw(canvas, answer, shown, pair);
     fill(
       legend,
       ...[...REASONS].flatMap(([letter, text]) => {
@@ -77,6 +86,7 @@ export function skips(app: App): HTMLElement {
           ? [h("span", { class: `key reason-${reasonClass(letter)}` }, `${text} (${n.toLocaleString("en")})`)]
           : [];
       }),
+      h("span", { class: "hint" }, "Strong: skipped. Pale: checked."),
     );
     said.textContent = summary(answer);
     if (pair)
@@ -147,6 +157,18 @@ export function skips(app: App): HTMLElement {
     if (tab === "Skips" && robot && !answer && !error) void load(app, kind.value as ShapeKind);
   });
   return panel;
+}
+
+/** The name beside a row. */
+function label(robot: RobotModel, answer: SkipsAnswer, shape: number, pair: Pair | null): HTMLElement {
+  const [link, piece] = answer.places[shape] ?? [0, 0];
+  const text = name(robot.links[link]?.name ?? "");
+  const chosen = pair?.some(([other, k]) => other === link && (k === piece || !answer.shapes.startsWith("piece")));
+  return h(
+    "span",
+    { class: chosen ? "cut chosen" : "cut", title: text },
+    ...cut(answer.shapes.startsWith("piece") ? `${text} ${piece}` : text),
+  );
 }
 
 function tally(answer: SkipsAnswer, counts: (i: number, j: number) => boolean): number {

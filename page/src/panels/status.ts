@@ -3,7 +3,13 @@
 import type { App } from "../app";
 import { fill, h } from "../ui/dom";
 import { number } from "../ui/format";
+import type { State } from "../state";
 import { SHAPE_NAMES } from "./proximity";
+
+/** What is being loaded, in words. */
+export function said({ title = "Loading", what, done, of }: NonNullable<State["loading"]>): string {
+  return `${title} ${what}${of > 0 ? `, ${done} of ${of}` : ""}`;
+}
 
 export function status(app: App): HTMLElement {
   const left = h("div", { class: "left" });
@@ -11,8 +17,7 @@ export function status(app: App): HTMLElement {
   const right = h("div", { class: "right" });
   app.store.on(["proximity", "robot", "loading", "shapes"], ({ proximity: { answer }, robot, loading, shapes }) => {
     if (loading) {
-      const share = loading.of > 0 ? ` ${loading.done} of ${loading.of}` : "";
-      fill(left, h("span", {}, `Loading ${loading.what}${share}`));
+      fill(left, h("span", {}, said(loading)));
     } else if (robot && answer) {
       const skipped = answer.of === null ? null : answer.of - answer.pairs;
       fill(
@@ -39,7 +44,7 @@ export function status(app: App): HTMLElement {
     const is = (key: "zero" | "middle"): boolean =>
       robot?.about[key]?.every((value, dof) => Math.abs(value - (q[dof] ?? 0)) < 1e-9) ?? false;
     const what = sample ? `sample ${sample.at + 1}` : is("zero") ? "q = zero" : is("middle") ? "q = middle" : "q";
-    fill(right, robot?.moves ? h("span", {}, what) : null, h("span", {}, "mm · deg"));
+    fill(right, robot?.moves ? h("span", {}, what) : null, robot && h("span", {}, "mm · deg"));
   });
   return h("footer", { class: "status" }, left, middle, h("span", { class: "spring" }), right);
 }

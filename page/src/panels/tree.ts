@@ -1,7 +1,7 @@
 /** The tree of links and joints, with where each joint stands. */
 
 import type { App } from "../app";
-import { fill, h } from "../ui/dom";
+import { cut, fill, h } from "../ui/dom";
 import { dofValue, name } from "../ui/format";
 import { same } from "../model";
 import type { RobotModel } from "../model";
@@ -16,7 +16,7 @@ interface Row {
 }
 
 /** Room for indents, pixels. */
-const WIDEST = 100;
+const WIDEST = 72;
 
 const TURNS = new Set(["Revolute", "Continuous"]);
 
@@ -52,7 +52,7 @@ export function tree(app: App): HTMLElement {
       { class: "row", role: "treeitem", "aria-level": depth + 1, "aria-selected": "false", title, id: `row-${link}` },
       indent,
       dot,
-      h("span", { class: "name" }, label),
+      h("span", { class: "name cut" }, ...cut(label)),
       value,
     );
     element.addEventListener("click", (event) => {
@@ -89,7 +89,7 @@ export function tree(app: App): HTMLElement {
     const found = robot ? order(robot) : [];
     const deepest = Math.max(1, ...found.map(({ depth }) => depth));
     // Deep trees are drawn closer, so that names have room.
-    const step = Math.min(14, WIDEST / deepest);
+    const step = Math.min(12, WIDEST / deepest);
     rows = robot ? found.map(({ link, depth }) => make(robot, link, depth, step)) : [];
     fill(list, ...rows.map((row) => row.element));
     filter();

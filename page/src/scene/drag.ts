@@ -2,11 +2,8 @@
 
 import { Matrix4, Plane, Quaternion, Vector3 } from "three";
 import type { Ray } from "three";
-import type { Pose } from "../engine/protocol";
+import type { Pose, Reached, Wish } from "../engine/protocol";
 import type { RobotModel } from "../model";
-
-/** Computes poses of configurations that follow each other. */
-export type Poses = (configurations: number[]) => Promise<Float64Array>;
 
 function matrix(pose: Pose): Matrix4 {
   const [w, x, y, z] = pose.quaternion_wxyz;
@@ -93,67 +90,27 @@ export function dragJoint(
   };
 }
 
-const STEPS = 12;
-const DIFFERENCE = 1e-6;
+/** Looks for a configuration. */
+export type Reach = (wish: Wish) => Promise<Reached>;
 
-/** A point of a link is pulled under the pointer: damped least squares over some DOFs, within the bounds. */
+/** A point of a link is pulled under the pointer; some DOFs give way, within their bounds. */
 export function pull(
-  model: RobotModel,
-  computed: Poses,
   poses: Float64Array,
   link: number,
   dofs: number[],
   at: Vector3,
   eye: Vector3,
+  reach: Reach,
 ): Drag | null {
   if (dofs.length === 0) return null;
   const local = at.clone().applyMatrix4(linkMatrix(poses, link).invert());
   const facing = new Plane().setFromNormalAndCoplanarPoint(at.clone().sub(eye).normalize(), at);
-  const stride = 7 * model.links.length;
-  const size = Math.max(at.length(), 0.1);
-  const point = (poses: Float64Array, k: number): Vector3 =>
-    local.clone().applyMatrix4(linkMatrix(poses.subarray(k * stride, (k + 1) * stride), link));
   return {
     async to(ray, q) {
       const target = ray.intersectPlane(facing, new Vector3());
       if (!target) return null;
-      let now = q.slice();
-      for (let step = 0; step < STEPS; step++) {
-        const batch = [now, ...dofs.map((dof) => now.map((value, k) => (k === dof ? value + DIFFERENCE : value)))];
-        const found = await computed(batch.flat());
-        const here = point(found, 0);
-        const error = target.clone().sub(here);
-        if (error.length() < 1e-5 * size) break;
-        const columns = dofs.map((_, k) =>
-          point(found, k + 1)
-            .sub(here)
-            .divideScalar(DIFFERENCE),
-        );
-        const change = damped(columns, error, size);
-        const before = now;
-        now = now.slice();
-        dofs.forEach((dof, k) => {
-          now[dof] = within(model, dof, (before[dof] ?? 0) + (change[k] ?? 0));
-        });
-      }
-      return now;
+      const wish = { q, link, point: local.toArray(), position: target.toArray(), dofs };
+      return (await reach(wish)).configuration;
     },
   };
-}
-
-/** J^T (J J^T + damping)^-1 error, at most half a radian at once. */
-function damped(columns: Vector3[], error: Vector3, size: number): number[] {
-  const damping = (0.02 * size) ** 2;
-  const sum = (a: 0 | 1 | 2, b: 0 | 1 | 2): number =>
-    columns.reduce((total, column) => total + column.getComponent(a) * column.getComponent(b), a === b ? damping : 0);
-  const m = new Matrix4().set(
-    sum(0, 0), sum(0, 1), sum(0, 2), 0,
-    sum(1, 0), sum(1, 1), sum(1, 2), 0,
-    sum(2, 0), sum(2, 1), sum(2, 2), 0,
-    0, 0, 0, 1,
-  ); // prettier-ignore
-  const solved = error.clone().applyMatrix4(m.invert());
-  const change = columns.map((column) => column.dot(solved));
-  const largest = Math.max(...change.map(Math.abs));
-  return largest > 0.5 ? change.map((value) => (value * 0.5) / largest) : change;
 }

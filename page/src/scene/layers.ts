@@ -5,6 +5,7 @@ import {
   BufferAttribute,
   BufferGeometry,
   Color,
+  FrontSide,
   Mesh,
   MeshLambertMaterial,
   SphereGeometry,
@@ -13,10 +14,12 @@ import {
 import type { Material, Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { Engine, Progress } from "../engine/client";
-import type { LinkMesh, ShapeKind, Volume } from "../engine/protocol";
+import type { LinkMesh, ShapeKind, SourceShape, Volume } from "../engine/protocol";
 import type { RobotModel } from "../model";
+import { LAYERS } from "../state";
 import type { LayerKind } from "../state";
 import type { MeshData, RobotScene } from "./robot";
+import { bare, dressed, isTextured } from "./sources";
 
 const PLAIN = new Color(0x9aa3b2);
 /** Pictures that are fetched at once. */
@@ -40,6 +43,8 @@ export async function load(
     case "original":
     case "plain":
       return pictures(layer, scene, model, engine, tell);
+    case "collision":
+      return collision(scene, engine);
     case "hulls":
     case "pieces": {
       if (!model.about.meshes[layer]) return [missing(layer)];
@@ -54,6 +59,22 @@ export async function load(
       return [];
     }
   }
+}
+
+/** The URDF's collision elements, each in a colour. */
+async function collision(scene: RobotScene, engine: Engine): Promise<string[]> {
+  const shapes = (await engine.ask("sources", {})).filter(({ geometry }) => geometry === "Collision");
+  const colors = new Map(shapes.map((shape) => [shape, pieceColor(shape.link, shape.element)]));
+  const found = await bare(shapes, engine, (shape) => colors.get(shape) ?? null);
+  scene.begin("collision");
+  if (shapes.length === 0) return ["the URDF has no collision geometry"];
+  return shapes.flatMap((shape, k) => {
+    const object = found[k];
+    if (!object || object instanceof Error) return object?.message ?? [];
+    dress(object, "collision", shape.link, shape.element);
+    scene.add("collision", shape.link, object);
+    return [];
+  });
 }
 
 function missing(layer: string): string {
@@ -78,6 +99,11 @@ function solid(layer: LayerKind, scene: RobotScene, mesh: LinkMesh): string | nu
 }
 
 function tagged(mesh: Mesh, layer: LayerKind, link: number, piece: number, color: Color, opacity = 1): Mesh {
+  // Where surfaces of two layers are one, the later layer is seen.
+  const paint = mesh.material as MeshLambertMaterial;
+  paint.polygonOffset = true;
+  paint.polygonOffsetFactor = -LAYERS.indexOf(layer);
+  paint.polygonOffsetUnits = -LAYERS.indexOf(layer);
   const of: MeshData = { link, piece, layer, color: color.clone(), opacity };
   mesh.userData = { of };
   return mesh;
@@ -111,15 +137,33 @@ async function pictures(
   const lists = model.about.meshes.plain;
   if (!lists) return [missing(layer)];
   const faults: string[] = [];
-  const jobs = lists.flatMap((meshes, link) => meshes.map((mesh, piece) => ({ link, piece, path: mesh.glb })));
+  const textured = layer === "original" ? await withTextures(engine) : new Map<number, SourceShape[]>();
+  const plain = lists.flatMap((meshes, link) =>
+    textured.has(link) ? [] : meshes.map((mesh, piece) => ({ link, piece, path: mesh.glb, source: null })),
+  );
+  const jobs = [
+    ...plain,
+    ...[...textured.values()].flatMap((shapes) =>
+      shapes.map((source) => ({ link: source.link, piece: source.element, path: source.path, source })),
+    ),
+  ];
   scene.begin(layer);
   const loader = new GLTFLoader();
   let done = 0;
   const waiting = jobs.slice();
   const work = async (): Promise<void> => {
     for (let job = waiting.shift(); job; job = waiting.shift()) {
-      const { link, piece, path } = job;
+      const { link, piece, path, source } = job;
       try {
+        if (source) {
+          const [object] = source.path === null || !isTextured(source) ? await bare([source], engine, () => null) : [];
+          if (object instanceof Error) throw object;
+          const picture = object ?? (await dressed(source, engine));
+          dress(picture, layer, link, piece);
+          scene.add(layer, link, picture);
+          tell({ done: ++done, of: jobs.length, what: "meshes" });
+          continue;
+        }
         if (path === null) throw new Error("there is no .glb of it in this URDD");
         const bytes = await engine.ask("file", { path });
         const { scene: picture } = await loader.parseAsync(bytes, "");
@@ -137,19 +181,58 @@ async function pictures(
   return faults;
 }
 
+/** The visual elements of each link that has a texture: a plain mesh has colours alone. */
+async function withTextures(engine: Engine): Promise<Map<number, SourceShape[]>> {
+  const found = new Map<number, SourceShape[]>();
+  // A legacy URDD, or one whose URDF cannot be read, has none that are known.
+  const sources = await engine.ask("sources", {}).catch(() => []);
+  const visual = sources.filter(({ geometry, shape }) => geometry === "Visual" && shape !== null);
+  const links = new Set(visual.filter(isTextured).map(({ link }) => link));
+  for (const link of links)
+    found.set(
+      link,
+      visual.filter((shape) => shape.link === link),
+    );
+  return found;
+}
+
 /** The materials of the page in the place of those of the file, with their colours. */
 function dress(picture: Object3D, layer: LayerKind, link: number, piece: number): void {
-  picture.traverse((object) => {
-    if (!(object instanceof Mesh)) return;
-    const mesh = object as Mesh;
-    const first: Material | undefined = Array.isArray(mesh.material) ? mesh.material[0] : mesh.material;
-    const known = first as Partial<MeshLambertMaterial> | undefined;
+  for (const mesh of simple(picture)) {
+    const known = mesh.material as Partial<MeshLambertMaterial> | undefined;
     const color = layer === "plain" ? PLAIN : (known?.color ?? PLAIN);
     const opacity = layer === "plain" ? 1 : (known?.opacity ?? 1);
     const paint = material(color, opacity);
     if (layer === "original" && known?.map) paint.map = known.map;
     paint.flatShading = !mesh.geometry.getAttribute("normal");
+    paint.side = known?.side ?? FrontSide;
     mesh.material = paint;
     tagged(mesh, layer, link, piece, color, opacity);
+  }
+}
+
+/** The meshes of a picture, each of one material; lines and points go. */
+function simple(picture: Object3D): Mesh[] {
+  const found: Mesh[] = [];
+  const gone: Object3D[] = [];
+  picture.traverse((object) => {
+    if (object instanceof Mesh) found.push(object as Mesh);
+    else if ("isLine" in object || "isPoints" in object) gone.push(object);
+  });
+  for (const object of gone) object.removeFromParent();
+  return found.flatMap((mesh) => {
+    const { material, geometry } = mesh;
+    if (!Array.isArray(material)) return [mesh];
+    const parts = geometry.groups.map(({ start, count, materialIndex }) => {
+      const part = new BufferGeometry();
+      for (const [name, attribute] of Object.entries(geometry.attributes)) part.setAttribute(name, attribute);
+      part.setIndex(geometry.index);
+      part.setDrawRange(start, count);
+      return new Mesh(part, material[materialIndex ?? 0] ?? material[0]);
+    });
+    mesh.geometry = new BufferGeometry();
+    mesh.material = material[0] as Material;
+    mesh.add(...parts);
+    return parts;
   });
 }

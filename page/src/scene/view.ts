@@ -96,7 +96,7 @@ export class View {
     const radius = Math.max(sphere.radius, 1e-4);
     const half = Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) * (Math.PI / 360);
     const away = from?.clone() ?? this.camera.position.clone().sub(this.controls.target);
-    away.normalize().multiplyScalar((radius * 1.05) / Math.sin(half));
+    away.normalize().multiplyScalar((radius * 1.1) / Math.sin(half));
     this.controls.target.copy(sphere.center);
     this.camera.position.copy(sphere.center).add(away);
     this.planes();
@@ -113,6 +113,11 @@ export class View {
     this.controls.minDistance = radius / 20;
     this.controls.maxDistance = radius * 50;
     this.camera.updateProjectionMatrix();
+  }
+
+  /** What the graphics card holds: numbers of geometries and textures. */
+  held(): { geometries: number; textures: number } {
+    return { ...this.renderer.info.memory };
   }
 
   /** The picture as a PNG. */

@@ -38,6 +38,26 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return element;
 }
 
+/** Text in which words between backticks are code, as nodes. */
+export function prose(text: string): Node[] {
+  return text
+    .split("`")
+    .map((part, k, all) => (k % 2 === 1 && k < all.length - 1 ? h("code", {}, part) : document.createTextNode(part)));
+}
+
+/** Characters at a name's end that are shown in any case. */
+const TAIL = 12;
+
+/** A name that is cut in its middle where there is no room: names of one robot differ at their ends. */
+export function cut(text: string): Node[] {
+  const chars = Array.from(text);
+  if (chars.length < 2 * TAIL) return [h("span", { class: "head" }, text)];
+  return [
+    h("span", { class: "head" }, chars.slice(0, -TAIL).join("")),
+    h("span", { class: "tail" }, chars.slice(-TAIL).join("")),
+  ];
+}
+
 /** Puts children in the place of those that are there. */
 export function fill(element: Element, ...children: Child[]): void {
   element.replaceChildren();

@@ -14,10 +14,17 @@ export class Urdd {
   zip(name, zip) {
     const nameBytes = encode(name);
     const files = this.#with([nameBytes, zip], (at) =>
-      this.exports.urdd_files_of_zip(at[0], nameBytes.length, at[1], zip.length),
+      this.exports.urdd_files_of_zip(
+        at[0],
+        nameBytes.length,
+        at[1],
+        zip.length,
+      ),
     );
     if (files === 0) {
-      this.#with([zip], (at) => this.#json(this.exports.urdd_zip_fault(at[0], zip.length)));
+      this.#with([zip], (at) =>
+        this.#json(this.exports.urdd_zip_fault(at[0], zip.length)),
+      );
     }
     return files;
   }
@@ -25,12 +32,16 @@ export class Urdd {
   /** Files by path: of each its bytes, or its size, where its bytes may come later by `give`. */
   files(name, files) {
     const bytes = encode(name);
-    const handle = this.#with([bytes], (at) => this.exports.urdd_files_new(at[0], bytes.length));
+    const handle = this.#with([bytes], (at) =>
+      this.exports.urdd_files_new(at[0], bytes.length),
+    );
     for (const [path, content] of Object.entries(files)) {
       if (typeof content !== "number") this.give(handle, path, content);
       else {
         const at = encode(path);
-        this.#with([at], ([place]) => this.exports.urdd_files_name(handle, place, at.length, content));
+        this.#with([at], ([place]) =>
+          this.exports.urdd_files_name(handle, place, at.length, content),
+        );
       }
     }
     return handle;
@@ -39,7 +50,13 @@ export class Urdd {
   give(files, path, content) {
     const name = encode(path);
     this.#with([name, content], (at) =>
-      this.exports.urdd_files_give(files, at[0], name.length, at[1], content.length),
+      this.exports.urdd_files_give(
+        files,
+        at[0],
+        name.length,
+        at[1],
+        content.length,
+      ),
     );
   }
 
@@ -49,13 +66,17 @@ export class Urdd {
 
   read(files, path) {
     const name = encode(path);
-    return this.#with([name], (at) => this.#bytes(this.exports.urdd_files_read(files, at[0], name.length)));
+    return this.#with([name], (at) =>
+      this.#bytes(this.exports.urdd_files_read(files, at[0], name.length)),
+    );
   }
 
   /** `positions` (x, y, z of each vertex) and `indices` (three of each triangle). */
   mesh(files, path) {
     const name = encode(path);
-    const bytes = this.#with([name], (at) => this.#bytes(this.exports.urdd_mesh(files, at[0], name.length)));
+    const bytes = this.#with([name], (at) =>
+      this.#bytes(this.exports.urdd_mesh(files, at[0], name.length)),
+    );
     const [vertices] = new Uint32Array(bytes.buffer, 0, 2);
     return {
       positions: new Float32Array(bytes.buffer, 8, 3 * vertices),
@@ -65,12 +86,16 @@ export class Urdd {
 
   validate(files, name) {
     const bytes = encode(name);
-    return this.#with([bytes], (at) => this.#json(this.exports.urdd_validate(files, at[0], bytes.length)));
+    return this.#with([bytes], (at) =>
+      this.#json(this.exports.urdd_validate(files, at[0], bytes.length)),
+    );
   }
 
   explain(code) {
     const bytes = encode(code);
-    return this.#with([bytes], (at) => this.#json(this.exports.urdd_explain(at[0], bytes.length)));
+    return this.#with([bytes], (at) =>
+      this.#json(this.exports.urdd_explain(at[0], bytes.length)),
+    );
   }
 
   closeFiles(files) {
@@ -96,7 +121,9 @@ export class Urdd {
 
   ask(handle, question) {
     const bytes = encode(JSON.stringify(question));
-    return this.#with([bytes], (at) => this.#json(this.exports.urdd_robot_ask(handle, at[0], bytes.length)));
+    return this.#with([bytes], (at) =>
+      this.#json(this.exports.urdd_robot_ask(handle, at[0], bytes.length)),
+    );
   }
 
   #with(inputs, call) {
@@ -125,13 +152,15 @@ export class Urdd {
 
   #json(pointer) {
     const answer = JSON.parse(new TextDecoder().decode(this.#answer(pointer)));
-    if (answer !== null && typeof answer === "object" && "error" in answer) throw new Error(answer.error);
+    if (answer !== null && typeof answer === "object" && "error" in answer)
+      throw new Error(answer.error);
     return answer;
   }
 
   #bytes(pointer) {
     const answer = this.#answer(pointer);
-    if (answer[0] !== 1) throw new Error(new TextDecoder().decode(answer.slice(1)));
+    if (answer[0] !== 1)
+      throw new Error(new TextDecoder().decode(answer.slice(1)));
     return answer.slice(1);
   }
 }

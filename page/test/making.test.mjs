@@ -1,0 +1,97 @@
+// A URDF that is generated while the page is open, and saved; a URDD in the current folder.
+
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { drawn, inPage, read, repository, run, setting, state, tab, view } from "./world.mjs";
+
+const folder = mkdtempSync(join(tmpdir(), "urdd-making-"));
+// A robot of which something has to be assumed, and a package of meshes that is not there.
+const urdf = join(folder, "odd.urdf");
+writeFileSync(
+  urdf,
+  `<robot name="odd"><link name="a"><visual><geometry><box size="1 1 1"/></geometry></visual>
+   <visual><geometry><mesh filename="package://nowhere/a.stl"/></geometry></visual></link>
+   <link name="b"><visual><origin xyz="0 0 2"/><geometry><sphere radius="0.3"/></geometry></visual></link>
+   <joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
+   <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>`,
+);
+const set = setting([], () => view(urdf));
+
+inPage(
+  set,
+  "it is shown when it is made, what was assumed is said, and it is saved where a person says",
+  async (page) => {
+    await drawn(page, "odd");
+    const { notes } = (await state(page, "robot")).entry;
+    assert.ok(notes.length > 0);
+    await page.getByRole("button", { name: /assumption/ }).click();
+    assert.equal(await page.locator("#panel-Info .notes li").count(), notes.length);
+    await page.getByText("not saved", { exact: true }).waitFor();
+    const mine = join(folder, "mine");
+    mkdirSync(mine);
+    writeFileSync(join(mine, "letter.txt"), "mine");
+    await page.getByRole("button", { name: "Save…" }).click();
+    const dialog = page.getByRole("dialog");
+    await dialog.getByLabel("Folder").fill(mine);
+    await dialog.getByRole("button", { name: "Save" }).click();
+    await dialog.getByText("this folder is not empty").waitFor();
+    assert.deepEqual(readdirSync(mine), ["letter.txt"]);
+    const target = join(folder, "saved/odd");
+    await dialog.getByLabel("Folder").fill(target);
+    await dialog.getByRole("button", { name: "Save" }).click();
+    await page.getByText("not saved", { exact: true }).waitFor({ state: "detached" });
+    await drawn(page, "odd");
+    assert.ok(existsSync(join(target, "urdd.json")));
+    assert.notEqual(run("validate", target).status, 2);
+    assert.equal((await state(page, "robot")).entry.writable, true);
+  },
+  { faults: ["Failed to load resource: the server responded with a status of 409 (Conflict)"] },
+);
+
+test("a URDF that makes no robot: the page says why, and the program ends with 1", { timeout: 300_000 }, async () => {
+  const bad = join(folder, "bad.urdf");
+  writeFileSync(bad, `<robot name="bad"><link name="a"/><link name="a"/></robot>`);
+  const server = await view(bad);
+  const { page, close } = await tab(set.chrome, server.address);
+  await page.getByText("There is no URDD of bad").waitFor();
+  assert.equal(await server.status, 1);
+  await close();
+});
+
+test("skips of a URDD in the current folder are saved, and the folder stays", { timeout: 300_000 }, async () => {
+  const here = join(folder, "gripper");
+  const made = run("generate", join(repository, "conformance/robots/gripper.urdf"), "-o", here);
+  assert.equal(made.status, 0, made.stderr);
+  const server = await view(".", { cwd: here });
+  const { page, close } = await tab(set.chrome, server.address);
+  await drawn(page);
+  await page.click("#tab-Skips");
+  await state(page, "skips", (value) => value.answer !== null);
+  const { links } = await state(page, "robot");
+  await page.evaluate(() => {
+    globalThis.urdd.app.store.set({
+      pair: [
+        [0, 0],
+        [2, 0],
+      ],
+    });
+  });
+  await page.getByRole("button", { name: "Skip", exact: true }).click();
+  await state(page, "skips", (value) => value.dirty);
+  await page.getByRole("button", { name: "Save", exact: true }).click();
+  await state(page, "skips", (value) => !value.dirty && value.saved === 1);
+  const module = join(here, "link_shapes_modules/link_shapes_skips_module/module.json");
+  assert.deepEqual(read(module).edits[0].link_a, links[0].name);
+  assert.equal(run("validate", "--fail-on", "info", here).status, 0);
+  const left = readdirSync(folder).filter((name) => name.startsWith(".urdd"));
+  assert.deepEqual(left, [], "nothing is left beside it");
+  await close();
+  server.end();
+});
+
+test.after(() => {
+  rmSync(folder, { recursive: true, force: true });
+});

@@ -1,0 +1,71 @@
+// The npm package of the module: packed, installed and used by somebody else.
+
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { read, repository, robots, run } from "./world.mjs";
+
+function does(cwd, command, ...words) {
+  const done = spawnSync(command, words, { cwd, encoding: "utf8" });
+  assert.equal(done.status, 0, `${command} ${words.join(" ")}: ${done.stdout}${done.stderr}`);
+  return done.stdout;
+}
+
+test("`npm pack` makes a package that validates a URDD and moves its robot, with types", { timeout: 300_000 }, () => {
+  const folder = mkdtempSync(join(tmpdir(), "urdd-npm-"));
+  const made = robots(["gripper"]);
+  try {
+    does(join(repository, "wasm/npm"), "npm", "pack", "--pack-destination", folder);
+    const [tarball] = readdirSync(folder);
+    const project = join(folder, "project");
+    mkdirSync(project);
+    writeFileSync(join(project, "package.json"), `{ "type": "module", "private": true }`);
+    does(project, "npm", "install", "--offline", "--no-audit", "--no-fund", join(folder, tarball));
+    const installed = readdirSync(join(project, "node_modules/urdd")).sort();
+    const files = ["LICENSE-APACHE", "LICENSE-MIT", "README.md", "index.d.ts", "index.mjs", "module.mjs"];
+    assert.deepEqual(installed, [...files, "package.json", "protocol.d.ts", "urdd.wasm"]);
+    // TypeScript, so that the types are held too; Node runs what is left without them.
+    const program = `
+      import { folder, load } from "urdd";
+      import type { Report } from "urdd";
+      const urdd = await load();
+      const source = await folder(process.argv[2] ?? "");
+      const report: Report = urdd.validate(source);
+      const robot = urdd.robot(source);
+      const q: number[] = robot.about.middle ?? [];
+      const link: number = robot.about.links.length - 1;
+      const there = robot.poses(q)[link];
+      if (!there) throw new Error("no pose");
+      const reached = robot.reach({ q: robot.random(3), link, position: there.position, restarts: 20 });
+      const [nearest] = robot.nearest(robot.about.zero ?? [], 1, "hulls");
+      console.log(JSON.stringify({ report, there, reached, nearest, code: urdd.explain("DOF003").code }));
+      robot.close();
+      try { robot.poses(q); throw new Error("open"); } catch (error) { if (!/closed/.test(String(error))) throw error; }
+    `;
+    writeFileSync(join(project, "main.ts"), program);
+    const tsc = createRequire(import.meta.url).resolve("typescript/bin/tsc");
+    const types = createRequire(import.meta.url)
+      .resolve("@types/node/package.json")
+      .replace(/\/node\/package\.json$/, "");
+    const strict = ["--strict", "--target", "es2022", "--module", "nodenext", "--lib", "es2022,dom"];
+    does(project, process.execPath, tsc, ...strict, "--typeRoots", types, "--types", "node", "main.ts");
+    const target = join(made.robots, "gripper");
+    const found = JSON.parse(does(project, process.execPath, "main.js", target));
+    assert.deepEqual(found.report, JSON.parse(run("validate", target, "--format", "json").stdout));
+    assert.equal(found.code, "DOF003");
+    const { samples } = read(join(target, "kinematics_samples_module/module.json"));
+    assert.equal(found.there.position.length, samples[0].link_poses[0].position.length);
+    assert.ok(found.reached.reached, JSON.stringify(found.reached));
+    const native = JSON.parse(
+      run("check-collisions", target, "--shapes", "hulls", "--format", "json", "--nearest", "1").stdout.split("\n")[0],
+    );
+    assert.deepEqual(found.nearest.links, native.nearest[0].links);
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+    made.remove();
+  }
+});

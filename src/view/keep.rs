@@ -1,0 +1,105 @@
+//! Saving a URDD that was generated to be shown: a folder of a person's choice gets it, and is what is shown from then on.
+
+use std::path::{Path, PathBuf, absolute};
+
+use serde::Deserialize;
+use serde_json::json;
+
+use super::collection::Shown;
+use super::reply::Reply;
+use super::revision;
+use super::save::Failure;
+use crate::cancellation::Cancellation;
+use crate::directory::discover::ROOT_METADATA;
+use crate::directory::staging::Staging;
+use crate::directory::take::take_content;
+
+/// What the page sends.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Wish {
+    /// The folder: absolute, from the home folder by `~/`, or from the folder in which the program runs.
+    folder: String,
+}
+
+/// Puts a generated URDD into a folder that is not there yet, or empty.
+pub fn keep(robot: &Shown, body: &[u8]) -> Reply {
+    let wish: Wish = match serde_json::from_slice(body) {
+        Ok(wish) => wish,
+        Err(error) => return Reply::failure(400, format!("this names no folder: {error}\n")),
+    };
+    match kept(robot, &wish.folder) {
+        Ok(folder) => Reply::json(&json!({
+            "folder": folder.display().to_string(),
+            "revision": revision::of(&folder),
+        })),
+        Err((status, message)) => Reply::failure(status, format!("{message}\n")),
+    }
+}
+
+fn kept(robot: &Shown, folder: &str) -> Result<PathBuf, Failure> {
+    if !robot.is_temporary() {
+        return Err((403, "this URDD lies in a folder already".to_owned()));
+    }
+    let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
+    let target = resolved(folder)?;
+    free(&target)?;
+    let staging = Staging::begin(&target, &Cancellation::default())
+        .map_err(|error| (403, error.to_string()))?;
+    // Another run may have been first while this one waited.
+    free(&target)?;
+    take_content(&robot.path(), staging.content(), &|_| false).map_err(|error| failed(&error))?;
+    let place = staging.target().to_owned();
+    staging.commit().map_err(|error| failed(&error))?;
+    robot.keep_at(place.clone());
+    Ok(place)
+}
+
+/// The folder that a person means.
+fn resolved(folder: &str) -> Result<PathBuf, Failure> {
+    let said = folder.trim();
+    if said.is_empty() || said.contains('\0') {
+        return Err((400, "give a folder".to_owned()));
+    }
+    let path = match said.strip_prefix("~/") {
+        Some(rest) => match std::env::home_dir() {
+            Some(home) => home.join(rest),
+            None => {
+                return Err((
+                    400,
+                    "there is no home folder: write the path out".to_owned(),
+                ));
+            }
+        },
+        None => PathBuf::from(said),
+    };
+    absolute(&path).map_err(|error| (400, format!("{said}: {error}")))
+}
+
+/// Whether nothing stands there that would go.
+fn free(target: &Path) -> Result<(), Failure> {
+    let shown = target.display();
+    let metadata = match std::fs::symlink_metadata(target) {
+        Ok(metadata) => metadata,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err((403, format!("{shown}: {error}"))),
+    };
+    if !metadata.is_dir() {
+        return Err((
+            403,
+            format!("{shown}: there is a file of that name; nothing was saved"),
+        ));
+    }
+    let entries = std::fs::read_dir(target).map_err(|error| (403, format!("{shown}: {error}")))?;
+    if entries.count() == 0 {
+        return Ok(());
+    }
+    let what = match target.join(ROOT_METADATA).is_file() {
+        true => "there is a URDD already; `urdd generate` into it keeps what was decided there",
+        false => "this folder is not empty",
+    };
+    Err((
+        409,
+        format!("{shown}: {what}. Nothing was saved; give another folder"),
+    ))
+}

@@ -1,0 +1,60 @@
+// Brings into this folder what the package holds besides its own sources: the module as `.ci/page` built it, the types
+// that the page speaks to it in, and the licences. Needs `npm --prefix page ci`.
+
+import { spawnSync } from "node:child_process";
+import { copyFileSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { brotliDecompressSync } from "node:zlib";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const repository = join(here, "../..");
+
+writeFileSync(
+  join(here, "urdd.wasm"),
+  brotliDecompressSync(
+    readFileSync(join(repository, "page/dist/urdd.wasm.br")),
+  ),
+);
+for (const licence of ["LICENSE-MIT", "LICENSE-APACHE"])
+  copyFileSync(join(repository, licence), join(here, licence));
+
+const tsc = join(repository, "page/node_modules/typescript/bin/tsc");
+const source = join(repository, "page/src/engine/protocol.ts");
+const out = join(here, "types");
+const words = [
+  "--declaration",
+  "--emitDeclarationOnly",
+  "--strict",
+  "--target",
+  "es2022",
+  "--module",
+  "preserve",
+];
+const done = spawnSync(
+  process.execPath,
+  [
+    tsc,
+    ...words,
+    "--ignoreConfig",
+    "--outDir",
+    out,
+    "--rootDir",
+    join(repository, "page/src"),
+    source,
+  ],
+  {
+    encoding: "utf8",
+  },
+);
+if (done.status !== 0) throw new Error(done.stdout + done.stderr);
+const text = readFileSync(join(out, "engine/protocol.d.ts"), "utf8");
+// The one type that lies elsewhere.
+const unit = /^import type \{ Unit \} from .*;$/m;
+if (!unit.test(text))
+  throw new Error("protocol.ts imports something else than Unit");
+writeFileSync(
+  join(here, "protocol.d.ts"),
+  text.replace(unit, 'export type Unit = "rad" | "m";'),
+);
+rmSync(out, { recursive: true });

@@ -1,0 +1,141 @@
+// What a program of others calls: URDDs are validated, and robots opened, from files in memory or a zip archive.
+
+import { Urdd as Module } from "./module.mjs";
+
+/** Loads the module: from the package itself, or from these bytes. */
+export async function load(bytes) {
+  return new Urdd(await Module.of(bytes ?? (await own())));
+}
+
+async function own() {
+  const url = new URL("./urdd.wasm", import.meta.url);
+  if (url.protocol === "file:")
+    return (await import("node:fs/promises")).readFile(url);
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`${url}: status ${response.status}`);
+  return response.arrayBuffer();
+}
+
+/** The files of a folder on disk, for Node. */
+export async function folder(path) {
+  const { readFile, readdir } = await import("node:fs/promises");
+  const { basename, join, relative, resolve, sep } = await import("node:path");
+  const files = {};
+  for (const entry of await readdir(path, {
+    recursive: true,
+    withFileTypes: true,
+  })) {
+    if (!entry.isFile()) continue;
+    const file = join(entry.parentPath ?? entry.path, entry.name);
+    files[relative(path, file).replaceAll(sep, "/")] = await readFile(file);
+  }
+  return { name: basename(resolve(path)), files };
+}
+
+export class Urdd {
+  #module;
+
+  constructor(module) {
+    this.#module = module;
+  }
+
+  validate(source) {
+    const files = this.#files(source);
+    try {
+      return this.#module.validate(files, source.name);
+    } finally {
+      this.#module.closeFiles(files);
+    }
+  }
+
+  explain(code) {
+    return this.#module.explain(code);
+  }
+
+  robot(source) {
+    return new Robot(this.#module, this.#files(source));
+  }
+
+  #files(source) {
+    return source.zip
+      ? this.#module.zip(source.name, source.zip)
+      : this.#module.files(source.name, source.files);
+  }
+}
+
+export class Robot {
+  #module;
+  #files;
+  #handle;
+
+  constructor(module, files) {
+    this.#module = module;
+    this.#files = files;
+    this.#handle = module.open(files);
+  }
+
+  get about() {
+    return this.#ask({ ask: "about" });
+  }
+
+  poses(q) {
+    return this.#ask({ ask: "poses", q: [...q] });
+  }
+
+  posesOfMany(values) {
+    return this.#module.poses(this.#open(), values);
+  }
+
+  random(k) {
+    return this.#ask({ ask: "random", k });
+  }
+
+  clamp(q) {
+    return this.#ask({ ask: "clamp", q: [...q] });
+  }
+
+  reach(wish) {
+    return this.#ask({ ask: "reach", ...wish });
+  }
+
+  distances(q, shapes = "pieces") {
+    return this.#ask({ ask: "distances", q: [...q], shapes });
+  }
+
+  nearest(q, k = 1, shapes = "pieces") {
+    return this.#ask({ ask: "nearest", q: [...q], k, shapes });
+  }
+
+  inCollision(q, shapes = "pieces") {
+    return this.#ask({ ask: "in_collision", q: [...q], shapes });
+  }
+
+  skips(shapes = "pieces") {
+    return this.#ask({ ask: "skips", shapes });
+  }
+
+  volumes(shapes) {
+    return this.#ask({ ask: "volumes", shapes });
+  }
+
+  mesh(path) {
+    this.#open();
+    return this.#module.mesh(this.#files, path);
+  }
+
+  close() {
+    if (this.#handle === 0) return;
+    this.#module.close(this.#handle);
+    this.#module.closeFiles(this.#files);
+    this.#handle = 0;
+  }
+
+  #open() {
+    if (this.#handle === 0) throw new Error("this robot is closed");
+    return this.#handle;
+  }
+
+  #ask(question) {
+    return this.#module.ask(this.#open(), question);
+  }
+}

@@ -1,0 +1,94 @@
+//! The shapes as the URDF has them: its visual and collision elements, with their files.
+
+use serde_json::{Value, json};
+use urdd::directory::root::Root;
+use urdd::document::load::Loaded;
+use urdd::document::robot::Element;
+use urdd::document::urdd::Urdd;
+use urdd::format::meshes::GeometryKind;
+use urdd::format::original_meshes::{MeshReference, OriginalMeshesModule};
+use urdd::format::registry::{ModuleDocument, ModuleKind};
+use urdd::format::urdf::{Geometry, Material, UrdfModule};
+use urdd::robot::Robot;
+
+use crate::about::quaternion;
+use crate::files::Files;
+
+/// The visual and collision elements, links ascending, visual first: `link`, `geometry` (`Visual` or `Collision`),
+/// `element`, `position` (m) and `quaternion_wxyz` in the link's frame, `shape` (an object of one key as `urdf_module` has
+/// it; null without one), `path` (of the mesh file in the URDD; null where it has none), `side_files` of it, and `rgba` of
+/// the URDF's material, or null.
+pub fn sources(files: &Files, robot: &Robot) -> Result<Value, String> {
+    let read = [ModuleKind::Urdf, ModuleKind::OriginalMeshes];
+    let loaded = Loaded::read_only(Root::of(files.clone()), &read);
+    let part = Urdd::new(loaded.map_err(|error| error.to_string())?.into());
+    let Some(known) = part.robot() else {
+        return Err("urdf_module is missing or cannot be read".to_owned());
+    };
+    let originals = match part.document(ModuleKind::OriginalMeshes) {
+        Some(ModuleDocument::OriginalMeshes(module)) => Some(&**module),
+        _ => None,
+    };
+    let description = robot.description().ok();
+    let mut found = Vec::new();
+    for (link, of) in known.links.iter().enumerate() {
+        let visual = of.visual.iter().enumerate();
+        for (k, element) in visual {
+            let mut value = one(link, GeometryKind::Visual, k, element, originals);
+            value["rgba"] = json!(description.as_ref().and_then(|urdf| rgba(urdf, link, k)));
+            found.push(value);
+        }
+        let collision = of.collision.iter().enumerate();
+        found.extend(collision.map(|(k, e)| one(link, GeometryKind::Collision, k, e, originals)));
+    }
+    Ok(Value::from(found))
+}
+
+fn one(
+    link: usize,
+    kind: GeometryKind,
+    index: usize,
+    element: &Element,
+    originals: Option<&OriginalMeshesModule>,
+) -> Value {
+    let is_own = |reference: &&MeshReference| {
+        reference.link_idx.get() == link
+            && reference.geometry == kind
+            && reference.element_idx.get() == index
+    };
+    let is_mesh = matches!(element.geometry, Some(Geometry::Mesh(_)));
+    let path = originals
+        .filter(|_| is_mesh)
+        .and_then(|module| module.references.iter().find(is_own)?.path.as_ref());
+    let file = originals
+        .zip(path)
+        .and_then(|(module, path)| module.files.iter().find(|file| file.path == *path));
+    json!({
+        "link": link,
+        "geometry": kind,
+        "element": index,
+        "position": element.origin.xyz,
+        "quaternion_wxyz": quaternion(&element.origin),
+        "shape": element.geometry,
+        "path": path,
+        "side_files": file.map_or(&[][..], |file| &file.side_files),
+        "rgba": null,
+    })
+}
+
+/// The colour of a visual element: its own, or that of the material of the robot that it names.
+fn rgba(urdf: &UrdfModule, link: usize, element: usize) -> Option<[f64; 4]> {
+    let own = urdf
+        .links
+        .get(link)?
+        .visual
+        .get(element)?
+        .material
+        .as_ref()?;
+    let of = |material: &Material| material.color.as_ref().map(|color| color.rgba);
+    of(own).or_else(|| {
+        let name = own.name.as_ref()?;
+        let mut named = urdf.materials.iter();
+        of(named.find(|material| material.name.as_ref() == Some(name))?)
+    })
+}
