@@ -65,6 +65,35 @@ def test_control_c_stops_it(number: signal.Signals, status: int, tmp_path: Path)
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals")
+def test_control_c_stops_the_page(urdds: Path) -> None:
+    words: list[str | Path] = ["view", urdds / "gripper", "--no-open"]
+    with subprocess.Popen([PROGRAM, *words], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        assert "http://127.0.0.1:" in process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+        try:
+            process.communicate(timeout=60)
+        finally:
+            process.kill()
+    assert process.returncode == 0
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals")
+def test_control_c_stops_what_listens_to_no_signals() -> None:
+    """Python's own handler would only take note of it."""
+    words: list[str | Path] = ["conformance", "validator", "--", "sh", "-c", "sleep 9", "{dir}"]
+    with subprocess.Popen([PROGRAM, *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        time.sleep(2)
+        assert process.poll() is None
+        process.send_signal(signal.SIGINT)
+        try:
+            process.communicate(timeout=60)
+        finally:
+            process.kill()
+    assert process.returncode in (-signal.SIGINT, 130)
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no /dev/full")
 def test_output_that_cannot_be_written(urdds: Path) -> None:
     command = f'"{PROGRAM}" validate "{urdds / "gripper"}"'

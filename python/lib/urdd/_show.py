@@ -71,11 +71,11 @@ class Frame:
         self._height = height
 
     def _repr_html_(self) -> str:
-        # Scripts alone: the page asks for nothing else.
-        return (
-            f'<iframe sandbox="allow-scripts" style="width: 100%; height: {self._height}px; border: 0" '
-            f'srcdoc="{html.escape(self.text)}"></iframe>'
-        )
+        # The page keeps its theme in the browser's storage, which is of an origin. Its policy allows its own scripts
+        # alone.
+        style = f"width: 100%; height: {self._height}px; border: 0"
+        page = html.escape(self.text)
+        return f'<iframe sandbox="allow-scripts allow-same-origin" style="{style}" srcdoc="{page}"></iframe>'
 
 
 def show(
