@@ -5,8 +5,8 @@
 For each URDF a URDD is made in a temporary folder. Then, one thread each, processor time:
 
 - load: a fresh process imports the package, loads the robot, and has the pose of every link in one configuration;
-- poses of all links, Jacobians of the last link, and whether the robot collides with itself, in 10,000 random
-  configurations: microseconds a configuration. Ours as a batch; Pinocchio, yourdfpy, MuJoCo and PyBullet as a loop in
+- poses of all links, Jacobians of the link that most DOFs move, and whether the robot collides with itself, in 10,000
+  random configurations: microseconds each. Ours as a batch; Pinocchio, yourdfpy, MuJoCo and PyBullet as a loop in
   Python, which is how they are used there. Collisions on the same convex pieces and pairs for all: Pinocchio by coal,
   each pair until the first that collides, and by its broad phase; PyBullet and MuJoCo by their own broad phases.
 
@@ -81,6 +81,20 @@ def clock(work: Callable[[], object], rounds: int = ROUNDS) -> float:
     return statistics.median(times)
 
 
+def quiet(work: Callable[[], dict[str, float]]) -> dict[str, float]:
+    """What work gives, without what C prints."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    nothing = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nothing, 1)
+        return work()
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+        os.close(nothing)
+
+
 def loading(code: str) -> tuple[float, float] | None:
     """The wall time and the processor time of a fresh process, seconds: medians. None where it fails."""
     walls, processors = [], []
@@ -96,9 +110,15 @@ def loading(code: str) -> tuple[float, float] | None:
     return statistics.median(walls), statistics.median(processors)
 
 
+def farthest(robot: urdd.Robot) -> int:
+    """The link that the most DOFs move."""
+    moves = (robot.jacobian(robot.sample(), link).any(axis=0).sum() for link in range(robot.num_links))
+    return int(np.argmax(list(moves)))
+
+
 def of_us(robot: urdd.Robot, q: Any) -> dict[str, float]:
     """Seconds for all configurations."""
-    last = robot.num_links - 1
+    last = farthest(robot)
     proximity = robot.proximity()
     found = {
         "poses": clock(lambda: robot.fk(q)),
@@ -119,7 +139,7 @@ def of_pinocchio(robot: urdd.Robot, q: Any) -> dict[str, float]:
     pin: Any = import_module("pinocchio")
     peer = robot.to_pinocchio()
     model, data, own = peer.model, peer.model.createData(), list(peer.q(q))
-    frame = model.getFrameId(robot.link_names[-1], pin.FrameType.BODY)
+    frame = model.getFrameId(robot.link_names[farthest(robot)], pin.FrameType.BODY)
     geometry, places = peer.collision_model, pin.GeometryData(peer.collision_model)
     broad = pin.BroadPhaseManager_DynamicAABBTreeCollisionManager(model, geometry, places)
 
@@ -167,7 +187,7 @@ def of_mujoco(robot: urdd.Robot, q: Any) -> dict[str, float]:
     mujoco: Any = import_module("mujoco")
     peer = robot.to_mujoco(visuals=False)
     model, data, own = peer.model, mujoco.MjData(peer.model), peer.qpos(q)
-    body = model.body(robot.link_names[-1]).id
+    body = model.body(robot.link_names[farthest(robot)]).id
     linear, angular = np.zeros((3, model.nv)), np.zeros((3, model.nv))
 
     def poses() -> None:
@@ -202,7 +222,7 @@ def of_pybullet(robot: urdd.Robot, q: Any) -> dict[str, float]:
     client = bullet.connect(bullet.DIRECT)
     peer = robot.to_pybullet(client)
     count = bullet.getNumJoints(peer.body)
-    last = peer.links[robot.link_names[-1]]
+    last = peer.links[robot.link_names[farthest(robot)]]
     moving = [k for k in range(count) if bullet.getJointInfo(peer.body, k)[2] != bullet.JOINT_FIXED]
     still = [0.0] * len(moving)
 
@@ -252,7 +272,7 @@ def compare(urdf: Path, folder: Path) -> None:
         found["MuJoCo"] = of_mujoco(robot, q)
     if "PyBullet" not in missing:
         try:
-            found["PyBullet"] = of_pybullet(robot, q)
+            found["PyBullet"] = quiet(lambda: of_pybullet(robot, q))
         except urdd.ExportError as error:
             print(f"PyBullet: {error}\n")
     print("| | load, wall ms | load, CPU ms | poses, µs | Jacobian, µs | collides, µs |")

@@ -14,13 +14,16 @@ Lengths are metres, angles radians, poses matrices (4, 4) in the frame of the ro
 
 from __future__ import annotations
 
-from . import errors, modules, report
+from typing import TYPE_CHECKING, Any
+
+from . import errors
 from ._answers import (
     SKIP_REASONS,
     Box,
     ConvexMesh,
     InverseSolution,
     InverseSolutions,
+    MeshKind,
     Pair,
     PairDistance,
     ShapeKind,
@@ -31,13 +34,8 @@ from ._answers import (
 )
 from ._export import Export, export
 from ._generate import Generated, Job, Note, find_urdfs, generate, generate_text
-from ._mujoco import MujocoRobot
-from ._pinocchio import PinocchioRobot
 from ._proximity import Proximity
-from ._pybullet import PybulletRobot
 from ._robot import Robot, load
-from ._show import Frame, Shown, ShownByViser
-from ._trimesh import MeshKind
 from ._urdd import __version__, num_threads, set_num_threads
 from ._validate import Rule, explain, validate
 from .errors import (
@@ -51,6 +49,13 @@ from .errors import (
     UnknownNameError,
     UrddError,
 )
+
+if TYPE_CHECKING:
+    from . import modules, report
+    from ._mujoco import MujocoRobot
+    from ._pinocchio import PinocchioRobot
+    from ._pybullet import PybulletRobot
+    from ._show import Frame, Shown, ShownByViser
 
 __all__ = [
     "SKIP_REASONS",
@@ -102,3 +107,25 @@ __all__ = [
     "set_num_threads",
     "validate",
 ]
+
+
+#: What is imported when it is first asked for: together that takes as long as numpy.
+_LATER = {
+    "Frame": "_show",
+    "MujocoRobot": "_mujoco",
+    "PinocchioRobot": "_pinocchio",
+    "PybulletRobot": "_pybullet",
+    "Shown": "_show",
+    "ShownByViser": "_show",
+    "modules": "modules",
+    "report": "report",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATER:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    module = import_module(f".{_LATER[name]}", __name__)
+    return module if _LATER[name] == name else getattr(module, name)

@@ -11,6 +11,9 @@ ShapeKind: TypeAlias = Literal["hulls", "boxes", "spheres", "pieces", "piece-box
 """A kind of shapes that stand for links: the convex hull of each link and its convex pieces, and the boxes and spheres
 about these."""
 
+MeshKind: TypeAlias = Literal["plain", "hulls", "pieces"]
+"""A kind of meshes: what a link looks like, its convex hull, its convex pieces."""
+
 SkipReason: TypeAlias = Literal["same-link", "always", "adjacent", "default", "never", "none"]
 """Why a pair of shapes is skipped, or not: both are on one link, always in contact, on links that a joint connects, in
 contact in the default configuration, in contact in no sampled configuration, or none of these."""

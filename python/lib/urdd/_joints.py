@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ._arrays import Floats
-from .modules import JointType, Modules
+
+if TYPE_CHECKING:
+    from .modules import JointType, Modules
 
 
 @dataclass(frozen=True)

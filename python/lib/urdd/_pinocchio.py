@@ -20,10 +20,10 @@ from ._joints import (
 )
 from ._need import need
 from .errors import ConfigurationError
-from .modules import Origin
 
 if TYPE_CHECKING:
     from ._robot import Robot
+    from .modules import Origin
 
 
 @dataclass(frozen=True)

@@ -17,23 +17,24 @@ from ._answers import (
     ConvexMesh,
     InverseSolution,
     InverseSolutions,
+    MeshKind,
     ShapeKind,
     Skips,
     Spheres,
     Visual,
 )
 from ._arrays import Bools, Floats, Indices, configurations, numbers, points, scalar
-from ._mujoco import MujocoRobot, to_mujoco
-from ._pinocchio import PinocchioRobot, to_pinocchio
 from ._proximity import Proximity
-from ._pybullet import PybulletRobot, to_pybullet
-from ._show import Frame, Shown, ShownByViser, frame, show
-from ._trimesh import MeshKind, link_mesh, to_trimesh
 from .errors import ConfigurationError, OpenError, UrddError
-from .modules import Modules, RootMetadata, read_root_metadata
 
 if TYPE_CHECKING:
+    # Each takes time to import, and few programs need it.
     from ._answers import PairDistance
+    from ._mujoco import MujocoRobot
+    from ._pinocchio import PinocchioRobot
+    from ._pybullet import PybulletRobot
+    from ._show import Frame, Shown, ShownByViser
+    from .modules import Modules, RootMetadata
 
 #: The sequence of configurations repeats itself after so many (SPEC 9.3).
 _CONFIGURATIONS = 2**32
@@ -95,12 +96,16 @@ class Robot:
     @cached_property
     def metadata(self) -> RootMetadata | None:
         """What ``urdd.json`` says; None in a URDD of before version 1."""
+        from .modules import read_root_metadata
+
         text = self._core.metadata()
         return None if text is None else read_root_metadata(text)
 
     @cached_property
     def modules(self) -> Modules:
         """The modules, as typed objects: ``robot.modules.dof.dofs[0].name``."""
+        from .modules import Modules
+
         return Modules(self._core)
 
     @cached_property
@@ -475,19 +480,27 @@ class Robot:
         Raises:
             MeshError: where the link has no geometry.
         """
+        from ._trimesh import link_mesh
+
         return link_mesh(self, link, kind)
 
     def to_trimesh(self, q: ArrayLike | None = None, kind: MeshKind = "plain") -> Any:
         """A ``trimesh.Scene`` of the robot in one configuration, :attr:`zero` unless you say otherwise. Each mesh is a
         node ``link/number``."""
+        from ._trimesh import to_trimesh
+
         return to_trimesh(self, q, kind)
 
     def to_pinocchio(self, shapes: ShapeKind | None = "pieces") -> PinocchioRobot:
         """Pinocchio's model, with shapes of this kind as its collision geometry, and the pairs that are not skipped."""
+        from ._pinocchio import to_pinocchio
+
         return to_pinocchio(self, shapes)
 
     def to_mujoco(self, shapes: ShapeKind = "pieces", *, visuals: bool = True) -> MujocoRobot:
         """MuJoCo's model, with shapes of this kind as its geoms, and the skips as excluded pairs of bodies."""
+        from ._mujoco import to_mujoco
+
         return to_mujoco(self, shapes, visuals=visuals)
 
     def to_pybullet(self, client: int = 0, shapes: ShapeKind = "pieces", *, visuals: bool = False) -> PybulletRobot:
@@ -497,6 +510,8 @@ class Robot:
         Raises:
             ExportError: for planar, floating and spherical joints, which PyBullet does not read.
         """
+        from ._pybullet import to_pybullet
+
         return to_pybullet(self, client, shapes, visuals=visuals)
 
     @overload
@@ -530,10 +545,14 @@ class Robot:
         It is served to this machine alone, until what this gives is closed, or Python ends. In a notebook :meth:`frame`
         shows the page in a cell.
         """
+        from ._show import show
+
         return show(self, q, backend=backend, open_browser=open_browser, port=port)
 
     def frame(self, height: int = 600) -> Frame:
         """The page with this robot, as the output of a notebook's cell; nothing is served."""
+        from ._show import frame
+
         return frame(self, height)
 
     # Habits of Python.

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import html
-import webbrowser
 from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import ArrayLike
@@ -74,6 +72,8 @@ class Frame:
         # The page keeps its theme in the browser's storage, which is of an origin. Its policy allows its own scripts
         # alone.
         style = f"width: 100%; height: {self._height}px; border: 0"
+        import html
+
         page = html.escape(self.text)
         return f'<iframe sandbox="allow-scripts allow-same-origin" style="{style}" srcdoc="{page}"></iframe>'
 
@@ -94,7 +94,7 @@ def show(
         if row is not None:
             address += "&q=" + ",".join(repr(value) for value in row.tolist())
         if open_browser:
-            webbrowser.open(address)
+            _open(address)
         return Shown(page, address)
     if backend != "viser":
         raise ValueError(f"there is no backend {backend!r}; there are: page, viser")
@@ -109,8 +109,14 @@ def show(
     shown = ShownByViser(robot, server, frames)
     shown.set(robot.zero if row is None else row)
     if open_browser:
-        webbrowser.open(f"http://127.0.0.1:{server.get_port()}")
+        _open(f"http://127.0.0.1:{server.get_port()}")
     return shown
+
+
+def _open(address: str) -> None:
+    import webbrowser
+
+    webbrowser.open(address)
 
 
 def frame(robot: Robot, height: int) -> Frame:

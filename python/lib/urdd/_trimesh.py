@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._answers import MeshKind
 from ._arrays import one_configuration
 from ._need import need
 from .errors import MeshError
 
 if TYPE_CHECKING:
     from ._robot import Robot
-
-MeshKind: TypeAlias = Literal["plain", "hulls", "pieces"]
-"""A kind of meshes: what a link looks like, its convex hull, its convex pieces."""
 
 
 def link_mesh(robot: Robot, link: str, kind: MeshKind = "plain") -> Any:

@@ -6,12 +6,14 @@ import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from . import _urdd
 from ._generate import words
 from .errors import OpenError
-from .report import Report, read_report
+
+if TYPE_CHECKING:
+    from .report import Report
 
 __all__ = ["Rule", "ValidateOptions", "explain", "validate"]
 
@@ -94,6 +96,8 @@ def validate(
         ignore=words(ignore, "ignore"),
         exclude=words(exclude, "exclude"),
     )
+    from .report import read_report
+
     return read_report(_urdd.validate([Path(path) for path in paths], options))
 
 
