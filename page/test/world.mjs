@@ -163,7 +163,10 @@ export async function dropOn(page, ...files) {
 export async function open(page, name) {
   const back = page.getByRole("button", { name: "All robots" });
   if (await back.isVisible()) await back.click();
-  await page.locator(".card", { has: page.locator(`strong:text-is("${name}")`) }).click();
+  await page
+    .locator(".card", { has: page.locator(`strong:text-is("${name}")`) })
+    .first()
+    .click();
   await drawn(page, name);
 }
 

@@ -83,6 +83,13 @@ try {
     assert.throws(() => urdd.ask(handle, { ask: "sing" }), /nothing is known of `sing`/);
     compareAbout(urdd.ask(handle, { ask: "about" }), target);
     compareSkips(urdd.ask(handle, { ask: "skips", shapes: "hulls" }), target);
+    reaches(urdd, handle);
+    const sources = urdd.ask(handle, { ask: "sources" });
+    const { links } = read(target, "urdf_module");
+    const count = (link) => link.visual.length + link.collision.length;
+    assert.equal(sources.length, links.reduce((sum, link) => sum + count(link), 0));
+    for (const { link, geometry, element, shape } of sources)
+      assert.deepEqual(shape, links[link][geometry.toLowerCase()][element].geometry);
     urdd.close(handle);
     urdd.closeFiles(files);
 
@@ -149,6 +156,21 @@ function compareAbout(about, target) {
   about.dofs.forEach((dof, k) => assert.deepEqual(dof.bounds, bounds[k]));
   const plain = read(join(target, "mesh_modules"), "plain_meshes_module").link_meshes;
   plain.forEach((mesh, link) => assert.equal(about.meshes.plain[link][0]?.glb, mesh?.files.glb));
+}
+
+/** A link is put where it was in another configuration; DOFs that may not change stay. */
+function reaches(urdd, handle) {
+  const about = urdd.ask(handle, { ask: "about" });
+  const link = about.links.length - 1;
+  const there = urdd.ask(handle, { ask: "poses", q: urdd.ask(handle, { ask: "random", k: 3 }) })[link];
+  const wish = { ask: "reach", q: about.zero, link, position: there.position, restarts: 50 };
+  const found = urdd.ask(handle, wish);
+  assert.ok(found.reached, JSON.stringify(found));
+  const pose = urdd.ask(handle, { ask: "poses", q: found.configuration })[link];
+  pose.position.forEach((x, k) => near(x, there.position[k], 1e-5));
+  assert.deepEqual(urdd.ask(handle, { ...wish, dofs: [] }).configuration, about.zero);
+  assert.throws(() => urdd.ask(handle, { ...wish, position: [1, 2] }), /`position` is no list of 3 numbers/);
+  assert.throws(() => urdd.ask(handle, { ...wish, link: 1000 }), /./);
 }
 
 function compareSkips(skips, target) {
