@@ -12,7 +12,8 @@ use urdd::format::meshes::GeometryKind;
 use urdd::format::registry::ModuleKind;
 use urdd::generate::batch::caught;
 use urdd::generate::{
-    GenerateError, Generated, MeshFormats, Packages, Progress, Selection, Settings, XacroSettings,
+    GenerateError, Generated, MeshFormats, Packages, Pieces, Progress, Selection, Settings,
+    XacroSettings,
 };
 
 use crate::errors::of_generate;
@@ -26,6 +27,8 @@ pub struct Options {
     allowed_folders: Vec<PathBuf>,
     geometry: String,
     mesh_formats: Vec<String>,
+    pieces: i64,
+    piece_tolerance: Option<f64>,
     samples: u32,
     skip: Option<Vec<String>>,
     strict: bool,
@@ -53,6 +56,14 @@ impl Options {
                 let folder = folder.display();
                 return Err(format!("allow_folders: {folder} is not a folder"));
             }
+        }
+        let most = u8::try_from(self.pieces).ok();
+        let Some(most) = most.filter(|most| (1..=64).contains(most)) else {
+            return Err("pieces must be from 1 to 64".to_owned());
+        };
+        let length = |metres: f64| metres > 0.0 && metres.is_finite();
+        if !self.piece_tolerance.is_none_or(length) {
+            return Err("piece_tolerance must be a number of metres above 0".to_owned());
         }
         if !(1..=100_000).contains(&self.samples) {
             return Err("samples must be from 1 to 100,000".to_owned());
@@ -91,6 +102,10 @@ impl Options {
                 obj: has("obj"),
             },
             allowed_folders: self.allowed_folders,
+            pieces: Pieces {
+                most,
+                tolerance: self.piece_tolerance,
+            },
             num_samples: self.samples,
             skipped_reasons: skip.transpose()?,
             xacro: XacroSettings {

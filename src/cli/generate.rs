@@ -15,7 +15,8 @@ use crate::format::link_shapes_skips::SkippedReason;
 use crate::format::meshes::GeometryKind;
 use crate::generate::batch::{self, Job, Shard};
 use crate::generate::{
-    MAX_SOURCE_BYTES, MeshFormats, Packages, Selection, Settings, XacroSettings, generate_text,
+    MAX_SOURCE_BYTES, MeshFormats, Packages, Pieces, Selection, Settings, XacroSettings,
+    generate_text,
 };
 
 /// Exit status: a robot could not be made.
@@ -74,6 +75,15 @@ pub struct GenerateArguments {
         default_value = "glb,stl,obj"
     )]
     mesh_formats: Vec<MeshFormat>,
+
+    /// Most convex pieces of a link.
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u8).range(1..=64))]
+    pieces: u8,
+
+    /// A link gets no more pieces than are needed for this mean distance from their outside to its surface, metres.
+    /// Without it, as many as save enough, of small links and large ones alike.
+    #[arg(long, value_name = "METRES", value_parser = length)]
+    piece_tolerance: Option<f64>,
 
     /// Sampled configurations of the distance statistics, 100,000 at most.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -158,6 +168,14 @@ impl From<Skip> for SkippedReason {
             Skip::Default => SkippedReason::Default,
             Skip::Never => SkippedReason::Never,
         }
+    }
+}
+
+/// A length in metres, above 0.
+fn length(word: &str) -> Result<f64, String> {
+    match word.parse() {
+        Ok(length) if length > 0.0 && f64::is_finite(length) => Ok(length),
+        _ => Err("it is to be a number above 0, in metres".to_owned()),
     }
 }
 
@@ -344,6 +362,10 @@ fn settings(
         mesh_formats: MeshFormats {
             stl: arguments.mesh_formats.contains(&MeshFormat::Stl),
             obj: arguments.mesh_formats.contains(&MeshFormat::Obj),
+        },
+        pieces: Pieces {
+            most: arguments.pieces,
+            tolerance: arguments.piece_tolerance,
         },
         num_samples: arguments.samples,
         xacro: XacroSettings {

@@ -141,16 +141,25 @@ pub(super) fn hulls(work: &mut Work) -> Result<Made, GenerateError> {
 }
 
 /// The name of our way to decompose; another one where it comes out differently.
-const DECOMPOSITION: &str = "urdd cut and merge 1";
+const DECOMPOSITION: &str = "urdd cut and merge 2";
+
+fn decomposition(work: &Work) -> decompose::Settings {
+    let asked = work.settings.pieces;
+    decompose::Settings {
+        max_pieces: usize::from(asked.most.clamp(1, 64)),
+        standoff_tolerance: asked.tolerance.unwrap_or(0.0),
+        ..decompose::Settings::default()
+    }
+}
 
 pub(super) fn decomposition_settings(work: &Work) -> String {
-    let settings = decompose::Settings::default();
+    let settings = decomposition(work);
     format!("{DECOMPOSITION} {settings:?}{}", formats_settings(work))
 }
 
 pub(super) fn pieces(work: &mut Work) -> Result<Made, GenerateError> {
     let plain = work.artifacts.plain()?;
-    let settings = decompose::Settings::default();
+    let settings = decomposition(work);
     let decompose = |mesh: &Mesh| decompose::decompose(mesh, &settings);
     let mut made_of =
         for_each_content(&meshes_of(&plain), &work.settings.cancellation, decompose)?.into_iter();

@@ -41,6 +41,6 @@ pub use kinematics_samples::NUM_SAMPLED;
 pub use meshes::{MeshCount, PackagePathError, Packages};
 pub use robot::{Generated, MadeModule, Progress, generate, generate_text};
 pub use selection::{Selection, UnknownModule};
-pub use settings::{MeshFormats, Settings};
+pub use settings::{MeshFormats, Pieces, Settings};
 pub use size::{MOST_ELEMENTS, MOST_LINKS};
 pub use source::{SourceRobot, XacroSettings, read_urdf};

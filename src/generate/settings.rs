@@ -22,6 +22,8 @@ pub struct Settings {
     pub preferred_geometry: GeometryKind,
     /// The files of each derived mesh.
     pub mesh_formats: MeshFormats,
+    /// How finely links are divided into convex pieces.
+    pub pieces: Pieces,
     /// Sampled configurations of the distance statistics.
     pub num_samples: u32,
     /// For which reasons pairs of shapes are skipped; `None` for those of the URDD that is replaced,
@@ -61,8 +63,28 @@ impl Default for MeshFormats {
     }
 }
 
+/// How finely links are divided into convex pieces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pieces {
+    /// Most pieces of a link, 1 to 64; what is outside of that counts as the nearer end.
+    pub most: u8,
+    /// The mean distance from the pieces' outside to the link's surface, metres, for which no more pieces are made
+    /// than it needs (as the search estimates it); `None` for as many as save enough, in proportion to the link.
+    pub tolerance: Option<f64>,
+}
+
+impl Default for Pieces {
+    /// At most 7.
+    fn default() -> Self {
+        Pieces {
+            most: 7,
+            tolerance: None,
+        }
+    }
+}
+
 impl Default for Settings {
-    /// Every module, from visual geometry, with 1,000 samples, and no packages but those around the
+    /// Every module, from visual geometry, with at most 7 pieces for a link, 1,000 samples, and no packages but those around the
     /// URDF.
     fn default() -> Self {
         Settings {
@@ -71,6 +93,7 @@ impl Default for Settings {
             allowed_folders: Vec::new(),
             preferred_geometry: GeometryKind::Visual,
             mesh_formats: MeshFormats::default(),
+            pieces: Pieces::default(),
             num_samples: 1000,
             skipped_reasons: None,
             xacro: XacroSettings::default(),

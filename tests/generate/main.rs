@@ -11,6 +11,7 @@ mod interrupted;
 mod mesh_formats;
 mod outside;
 mod packages;
+mod pieces;
 mod shapes;
 mod stage_versions;
 mod strict;

@@ -16,7 +16,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// Signed volume by the divergence theorem.
-fn volume(m: &Mesh) -> f64 {
+pub(crate) fn volume(m: &Mesh) -> f64 {
     m.triangles
         .iter()
         .map(|t| {
@@ -40,7 +40,7 @@ fn above(m: &Mesh, p: [f64; 3]) -> f64 {
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
-fn push_box(m: &mut Mesh, low: [f64; 3], high: [f64; 3]) {
+pub(crate) fn push_box(m: &mut Mesh, low: [f64; 3], high: [f64; 3]) {
     let base = m.vertices.len() as u32;
     for i in 0..8 {
         m.vertices
@@ -65,7 +65,7 @@ fn push_box(m: &mut Mesh, low: [f64; 3], high: [f64; 3]) {
 }
 
 /// A prism over a simple polygon, given with a triangulation of its own.
-fn prism(outline: &[[f64; 2]], ears: &[[u32; 3]], height: f64) -> Mesh {
+pub(crate) fn prism(outline: &[[f64; 2]], ears: &[[u32; 3]], height: f64) -> Mesh {
     let n = outline.len() as u32;
     let mut m = Mesh::default();
     for z in [0.0, height] {
@@ -84,7 +84,7 @@ fn prism(outline: &[[f64; 2]], ears: &[[u32; 3]], height: f64) -> Mesh {
 }
 
 /// A torus about z, or a tube's wall when `profile` is a rectangle: a closed profile turned.
-fn turned(profile: &[[f64; 2]], steps: u32) -> Mesh {
+pub(crate) fn turned(profile: &[[f64; 2]], steps: u32) -> Mesh {
     let n = profile.len() as u32;
     let mut m = Mesh::default();
     for k in 0..steps {
@@ -103,7 +103,7 @@ fn turned(profile: &[[f64; 2]], steps: u32) -> Mesh {
     m
 }
 
-fn ring(r: f64, tube: f64, steps: u32) -> Vec<[f64; 2]> {
+pub(crate) fn ring(r: f64, tube: f64, steps: u32) -> Vec<[f64; 2]> {
     (0..steps)
         .map(|k| {
             let a = -std::f64::consts::TAU * f64::from(k) / f64::from(steps);
@@ -132,7 +132,7 @@ fn surface_points(m: &Mesh) -> Vec<[f64; 3]> {
 }
 
 /// Every surface point is in a piece to within the promise; each piece is convex, closed and in the link's hull.
-fn check(m: &Mesh, settings: &Settings) -> Vec<Mesh> {
+pub(crate) fn check(m: &Mesh, settings: &Settings) -> Vec<Mesh> {
     let d = decompose(m, settings);
     assert!(
         d.pieces.len() <= settings.max_pieces.max(1),
@@ -179,7 +179,7 @@ fn check(m: &Mesh, settings: &Settings) -> Vec<Mesh> {
     d.pieces
 }
 
-fn exact() -> Settings {
+pub(crate) fn exact() -> Settings {
     Settings {
         surface_tolerance: 0.0,
         ..Settings::default()

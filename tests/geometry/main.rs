@@ -5,6 +5,7 @@ mod across;
 mod bounding_sphere;
 mod brute_force;
 mod decompose;
+mod decomposed_shapes;
 mod dice;
 mod distance;
 mod hull;

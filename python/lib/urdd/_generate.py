@@ -81,6 +81,8 @@ class GenerateOptions:
     allowed_folders: list[Path]
     geometry: str
     mesh_formats: list[str]
+    pieces: int
+    piece_tolerance: float | None
     samples: int
     skip: list[str] | None
     strict: bool
@@ -109,6 +111,8 @@ def generate(
     allowed_folders: Iterable[str | os.PathLike[str]] = (),
     geometry: Literal["visual", "collision"] = "visual",
     mesh_formats: Iterable[Literal["glb", "stl", "obj"]] = ("glb", "stl", "obj"),
+    pieces: int = 7,
+    piece_tolerance: float | None = None,
     samples: int = 1000,
     skip: Iterable[Literal["same-link", "always", "adjacent", "default", "never"]] | None = None,
     strict: bool = False,
@@ -131,6 +135,9 @@ def generate(
         allowed_folders: folders besides those of the robot and its packages from which mesh files may be taken.
         geometry: which geometry links are made from; a link that has none of it gets the other.
         mesh_formats: the files of each derived mesh. The .glb is always made.
+        pieces: most convex pieces of a link, 1 to 64.
+        piece_tolerance: a link gets no more pieces than are needed for this mean distance from their outside to its
+            surface, metres. Without it, as many as save enough.
         samples: sampled configurations of the distance statistics, 100,000 at most.
         skip: for which reasons pairs of shapes are skipped in collision checks. Without it, those of the URDD that is
             replaced; of a new one all but ``never``.
@@ -152,6 +159,8 @@ def generate(
         allowed_folders,
         geometry,
         mesh_formats,
+        pieces,
+        piece_tolerance,
         samples,
         skip,
         strict,
@@ -175,6 +184,8 @@ def generate_text(
     allowed_folders: Iterable[str | os.PathLike[str]] = (),
     geometry: Literal["visual", "collision"] = "visual",
     mesh_formats: Iterable[Literal["glb", "stl", "obj"]] = ("glb", "stl", "obj"),
+    pieces: int = 7,
+    piece_tolerance: float | None = None,
     samples: int = 1000,
     skip: Iterable[Literal["same-link", "always", "adjacent", "default", "never"]] | None = None,
     strict: bool = False,
@@ -189,6 +200,8 @@ def generate_text(
         allowed_folders,
         geometry,
         mesh_formats,
+        pieces,
+        piece_tolerance,
         samples,
         skip,
         strict,
@@ -228,6 +241,8 @@ def _options(
     allowed_folders: Iterable[str | os.PathLike[str]],
     geometry: str,
     mesh_formats: Iterable[str],
+    pieces: int,
+    piece_tolerance: float | None,
     samples: int,
     skip: Iterable[str] | None,
     strict: bool,
@@ -243,6 +258,8 @@ def _options(
         allowed_folders=[Path(folder) for folder in allowed_folders],
         geometry=geometry,
         mesh_formats=words(mesh_formats, "mesh_formats"),
+        pieces=int(pieces),
+        piece_tolerance=None if piece_tolerance is None else float(piece_tolerance),
         samples=int(samples),
         skip=None if skip is None else words(skip, "skip"),
         strict=bool(strict),

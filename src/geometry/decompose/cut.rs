@@ -1,18 +1,21 @@
 //! The best plane to divide a part by.
 //!
-//! A part's *cost* is the volume of its hull, thickened a little: V + t A / 2 for a small t, so that
-//! flat parts have a cost too. Planes are tried at many places across a few directions, and the one
+//! A part's *cost* is the standoff of its hull (`field`) and a little of the hull's bulk: its volume, thickened to
+//! V + t A / 2 for a small t, so that flat parts have a cost too. Planes are tried at many places across a few directions, and the one
 //! that lowers the summed cost of the two sides most is taken. Along one direction all planes are
 //! tried in two sweeps: the part is sliced once, and a hull that grows by slice after slice gives the
 //! cost of everything below each plane; the sweep back, of everything above.
 
-use super::grower::{Bounds, Frame, Grower, Places, SEED, cost};
+use super::grower::{Bounds, Frame, Grower, Places, SEED};
 use super::part::{Part, Plane};
 use super::slices::Slices;
 use super::vector::dot;
 
-/// Planes tried across a direction, evenly spaced; flat coordinates come on top.
-const EVEN: usize = 11;
+/// Planes tried across an axis, evenly spaced; flat coordinates come on top.
+const EVEN: usize = 9;
+
+/// Planes tried across a diagonal.
+const EVEN_DIAGONAL: usize = 5;
 
 /// Weight of a cut through the middle of the longest extent, as a part of the part's cost. It decides
 /// where no cut helps at once, as in a ring, where only the second one does.
@@ -26,36 +29,34 @@ pub(super) struct Cut {
     pub score: f64,
 }
 
-/// The part's hull, and the best cut: none where the part is too small to be cut.
-pub(super) fn best_cut(part: &Part, places: &Places) -> (Grower, Option<Cut>) {
-    let mut best: Option<Cut> = None;
+/// The part's hull, and the best cuts, best first: none where the part is too small to be cut.
+pub(super) fn best_cuts(part: &Part, places: &Places) -> (Grower, Vec<Cut>) {
+    let mut found: Vec<Cut> = Vec::new();
     let mut hull = None;
     let mut turned = Vec::new();
     for (frame, flats) in &places.frames {
         // Coordinates in which the planes lie across z.
         turned.clear();
         turned.extend(part.points.iter().map(|&p| frame.map(|axis| dot(axis, p))));
-        let Some((whole, cut)) = best_across(part, &turned, frame, flats, places) else {
+        let Some((whole, cuts)) = cuts_across(part, &turned, frame, flats, places) else {
             continue;
         };
         if frame[2] == [0.0, 0.0, 1.0] {
             if is_convex(part, &whole) {
-                return (whole, None);
+                return (whole, Vec::new());
             }
             hull = Some(whole);
         }
-        if let Some(cut) = cut
-            && best.as_ref().is_none_or(|b| cut.score > b.score)
-        {
-            best = Some(cut);
-        }
+        found.extend(cuts);
     }
     let hull = hull.unwrap_or_else(|| {
         let mut hull = Grower::new(Bounds::new(&part.points).extent());
         part.points.iter().for_each(|&p| hull.add(p));
         hull
     });
-    (hull, best)
+    // Stable, so the first of equal ones stays first.
+    found.sort_by(|a, b| b.score.total_cmp(&a.score));
+    (hull, found)
 }
 
 /// Whether no point of the surface lies deeper in the hull than what the search resolves.
@@ -89,9 +90,9 @@ pub(super) fn frames(flats: [Vec<f64>; 3]) -> Vec<Frame> {
     out
 }
 
-/// Offsets of the planes tried between `low` and `high`, ascending.
-fn offsets(low: f64, high: f64, flats: &[f64], eps: f64) -> Vec<f64> {
-    let step = (high - low) / (EVEN + 1) as f64;
+/// Offsets of the planes tried between `low` and `high`, ascending: `even` ones, and flats.
+fn offsets(low: f64, high: f64, flats: &[f64], eps: f64, even: usize) -> Vec<f64> {
+    let step = (high - low) / (even + 1) as f64;
     let near = (0.02 * (high - low)).max(2.0 * eps);
     let mut out: Vec<f64> = flats
         .iter()
@@ -101,7 +102,7 @@ fn offsets(low: f64, high: f64, flats: &[f64], eps: f64) -> Vec<f64> {
     out.dedup_by(|b, a| *b - *a < 2.0 * eps);
     out.truncate(MOST_OFFSETS - EVEN);
     let flat = out.len();
-    for k in 1..=EVEN {
+    for k in 1..=even {
         let x = low + step * k as f64;
         if out[..flat].iter().all(|f| (f - x).abs() > 0.3 * step) {
             out.push(x);
@@ -114,43 +115,60 @@ fn offsets(low: f64, high: f64, flats: &[f64], eps: f64) -> Vec<f64> {
 /// A slice mask has a bit for each slice.
 const MOST_OFFSETS: usize = 31;
 
-/// The part's hull (in turned coordinates) and its best cut across the last of `frame`,
-/// which is their z; none
-/// where the part is too thin to be sliced.
-fn best_across(
+/// The part's hull (in turned coordinates) and its cuts across the last of `frame`, which is their z:
+/// those that are better than the ones beside them. None where the part is too thin to be sliced.
+fn cuts_across(
     part: &Part,
     turned: &[[f64; 3]],
     frame: &[[f64; 3]; 3],
     flats: &[f64],
     places: &Places,
-) -> Option<(Grower, Option<Cut>)> {
+) -> Option<(Grower, Vec<Cut>)> {
     let (eps, normal) = (places.eps, frame[2]);
     let bounds = Bounds::new(turned);
     let (low, high) = (bounds.low[2], bounds.high[2]);
     if high - low <= (8.0 * eps).max(10.0 * SEED) {
         return None;
     }
-    let planes = offsets(low, high, flats, eps);
+    let even = match normal.contains(&1.0) {
+        true => EVEN,
+        false => EVEN_DIAGONAL,
+    };
+    let planes = offsets(low, high, flats, eps, even);
     let slices = Slices::new(part, turned, frame, &planes, places);
-    let (below, whole) = slices.sweep(true, bounds.extent());
-    let (above, _) = slices.sweep(false, bounds.extent());
-    let all = cost(&whole.hull);
-    let mut best: Option<Cut> = None;
-    for (k, &offset) in planes.iter().enumerate() {
-        let (b, a) = (below[k], above[planes.len() - 1 - k]);
-        if b <= 0.0 || a <= 0.0 {
-            continue; // one side is empty
-        }
-        let gain = all - b - a;
-        let middle = 1.0 - (2.0 * (offset - low) / (high - low) - 1.0).abs();
-        let score = gain + MIDDLE * all * middle * (high - low) / bounds.extent();
-        if best.as_ref().is_none_or(|c| score > c.score) {
-            best = Some(Cut {
-                plane: Plane { normal, offset },
-                gain,
-                score,
-            });
-        }
-    }
-    Some((whole, best))
+    let cost = |hull: &mut Grower, k: usize| {
+        let mut cuts = part.cuts.clone();
+        cuts.push(Plane {
+            normal,
+            offset: planes[k],
+        });
+        places.cost(hull, frame, &cuts)
+    };
+    let (below, mut whole) = slices.sweep(true, bounds.extent(), cost);
+    let (above, _) = slices.sweep(false, bounds.extent(), cost);
+    let all = places.cost(&mut whole, frame, &part.cuts);
+    let scored: Vec<Option<Cut>> = (0..planes.len())
+        .map(|k| {
+            let (offset, b, a) = (planes[k], below[k], above[planes.len() - 1 - k]);
+            // Zero: that side is empty.
+            (b > 0.0 && a > 0.0).then(|| {
+                let gain = all - b - a;
+                let middle = 1.0 - (2.0 * (offset - low) / (high - low) - 1.0).abs();
+                let score = gain + MIDDLE * all * middle * (high - low) / bounds.extent();
+                Cut {
+                    plane: Plane { normal, offset },
+                    gain,
+                    score,
+                }
+            })
+        })
+        .collect();
+    let score = |k: usize| {
+        let cut = scored.get(k).and_then(Option::as_ref);
+        cut.map_or(f64::NEG_INFINITY, |c| c.score)
+    };
+    let peaks = (0..planes.len())
+        .filter(|&k| score(k) > score(k.wrapping_sub(1)) && score(k) >= score(k + 1))
+        .filter_map(|k| scored[k].clone());
+    Some((whole, peaks.collect()))
 }

@@ -1,8 +1,13 @@
 //! What the search for a cut works with: where planes are tried, and hulls that grow.
 
+use super::field::Field;
 use super::growing_hull::GrowingHull;
+use super::part::Plane;
 
-/// Thickness t of the cost, in units (half the link's largest extent).
+/// Weight of a hull's bulk beside its standoff. Deep narrow hollows have little standoff, and still are to be cut.
+const BULK: f64 = 0.1;
+
+/// Thickness t of the bulk, in units (half the link's largest extent).
 const THICKNESS: f64 = 1e-3;
 
 /// Radius of the octahedron that hulls of the search start from.
@@ -22,11 +27,29 @@ pub(super) struct Places {
     pub reach: f64,
     /// Points this near to a plane count as lying in it.
     pub eps: f64,
+    /// Distances to the surface.
+    pub field: Field,
 }
 
-/// V + t A / 2 of a hull.
-pub(super) fn cost(hull: &GrowingHull) -> f64 {
-    hull.volume() + THICKNESS * hull.area() / 2.0
+/// The frame of unit coordinates.
+pub(super) const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+impl Places {
+    /// The standoff of a hull whose coordinates are along `frame`; faces in one of the planes have none.
+    pub fn standoff(&self, hull: &mut Grower, frame: &[[f64; 3]; 3], planes: &[Plane]) -> f64 {
+        self.field
+            .standoff(&hull.hull, frame, planes, &mut hull.known)
+    }
+
+    /// Standoff and bulk.
+    pub fn cost(&self, hull: &mut Grower, frame: &[[f64; 3]; 3], planes: &[Plane]) -> f64 {
+        self.standoff(hull, frame, planes) + bulk(&hull.hull)
+    }
+}
+
+/// What a hull costs wherever it stands: a part of V + t A / 2.
+pub(super) fn bulk(hull: &GrowingHull) -> f64 {
+    BULK * (hull.volume() + THICKNESS * hull.area() / 2.0)
 }
 
 /// A hull that points are put into, for the search.
@@ -34,6 +57,8 @@ pub(super) fn cost(hull: &GrowingHull) -> f64 {
 pub(super) struct Grower {
     pub hull: GrowingHull,
     pub step: f64,
+    /// What is known of its faces.
+    known: Vec<([u16; 3], f64)>,
 }
 
 impl Grower {
@@ -42,6 +67,7 @@ impl Grower {
         Grower {
             hull: GrowingHull::default(),
             step: (STEP * extent).max(4.0 * SEED),
+            known: Vec::new(),
         }
     }
 

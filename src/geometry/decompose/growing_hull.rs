@@ -147,6 +147,13 @@ impl GrowingHull {
         self.corners[slot as usize]
     }
 
+    /// The slot, the corners and the area of each face.
+    pub fn faces(&self) -> impl Iterator<Item = (usize, [u16; 3], f64)> {
+        (0..self.corners.len())
+            .filter(|&i| !self.planes.is_empty(i))
+            .map(|i| (i, self.corners[i], self.area[i] / 2.0))
+    }
+
     /// The places of points that are corners of a face, ascending.
     pub fn used(&self) -> Vec<usize> {
         let mut used = vec![false; self.points.len()];

@@ -21,66 +21,87 @@ const MOST_ALONG: f64 = 64.0;
 /// needs more is taken to have no inside.
 const MOST_SAMPLES: usize = 100_000_000;
 
-/// Centres of the cells inside, in the part's coordinates, and half the cells' side: so far around each
-/// centre all is inside.
-pub(super) fn inside(part: &Part) -> (Vec<[f64; 3]>, f64) {
-    let bounds = Bounds::new(&part.points);
-    let size = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
-    let cell = (size.iter().product::<f64>() / CELLS)
-        .cbrt()
-        .max(bounds.extent() / MOST_ALONG);
-    if cell <= 0.0 {
-        return (Vec::new(), 0.0);
-    }
-    // A border of empty cells all around.
-    let count = size.map(|s| (s / cell).ceil() as usize + 2);
-    let at = |p: [f64; 3]| {
-        let i = [0, 1, 2].map(|a| (((p[a] - bounds.low[a]) / cell) as usize + 1).min(count[a] - 2));
-        (i[2] * count[1] + i[1]) * count[0] + i[0]
-    };
-    // Into how many parts the sides of a triangle are divided.
-    let parts = |[a, b, c]: [[f64; 3]; 3]| {
-        let longest = norm(sub(b, a)).max(norm(sub(c, a))).max(norm(sub(c, b)));
-        (longest / cell * 3.0).ceil().max(1.0) as usize
-    };
-    let samples = part.triangles.iter().map(|t| {
-        let n = parts(t.map(|i| part.points[i as usize]));
-        (n + 1) * (n + 2) / 2
-    });
-    if samples.sum::<usize>() > MOST_SAMPLES {
-        return (Vec::new(), cell / 2.0);
-    }
-    let mut state = vec![State::Inside; count.iter().product()];
-    for t in &part.triangles {
-        let corners = t.map(|i| part.points[i as usize]);
-        let n = parts(corners);
-        let [a, b, c] = corners;
-        for i in 0..=n {
-            for j in 0..=n - i {
-                let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
-                state[at([0, 1, 2].map(|k| a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k])))] =
-                    State::Surface;
-            }
+/// Cells of a grid about the surface, and which of them are inside.
+pub(super) struct Flood {
+    low: [f64; 3],
+    /// Side of a cell.
+    pub cell: f64,
+    count: [usize; 3],
+    state: Vec<State>,
+}
+
+/// Into how many parts the sides of a triangle are divided, for samples `fine` times a cell apart at most.
+pub(super) fn parts([a, b, c]: [[f64; 3]; 3], cell: f64, fine: f64) -> usize {
+    let longest = norm(sub(b, a)).max(norm(sub(c, a))).max(norm(sub(c, b)));
+    (longest / cell * fine).ceil().max(1.0) as usize
+}
+
+impl Flood {
+    /// None where the part has no extent, or needs too many samples.
+    pub fn new(part: &Part) -> Option<Flood> {
+        let bounds = Bounds::new(&part.points);
+        let size = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
+        let cell = (size.iter().product::<f64>() / CELLS)
+            .cbrt()
+            .max(bounds.extent() / MOST_ALONG);
+        if cell <= 0.0 {
+            return None;
         }
-    }
-    flood(&mut state, count);
-    let mut out = Vec::new();
-    for z in 1..count[2] - 1 {
-        for y in 1..count[1] - 1 {
-            for x in 1..count[0] - 1 {
-                if matches!(state[(z * count[1] + y) * count[0] + x], State::Inside) {
-                    out.push([x, y, z].map(|i| i as f64 - 0.5).map(|i| i * cell));
+        let samples = part.triangles.iter().map(|t| {
+            let n = parts(t.map(|i| part.points[i as usize]), cell, 3.0);
+            (n + 1) * (n + 2) / 2
+        });
+        if samples.sum::<usize>() > MOST_SAMPLES {
+            return None;
+        }
+        // A border of empty cells all around.
+        let count = size.map(|s| (s / cell).ceil() as usize + 2);
+        let mut out = Flood {
+            low: bounds.low,
+            cell,
+            count,
+            state: vec![State::Inside; count.iter().product()],
+        };
+        for t in &part.triangles {
+            let corners = t.map(|i| part.points[i as usize]);
+            let n = parts(corners, cell, 3.0);
+            let [a, b, c] = corners;
+            for i in 0..=n {
+                for j in 0..=n - i {
+                    let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
+                    let at =
+                        out.at([0, 1, 2].map(|k| a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k])));
+                    out.state[at] = State::Surface;
                 }
             }
         }
+        flood(&mut out.state, count);
+        Some(out)
     }
-    out.iter_mut()
-        .for_each(|p| (0..3).for_each(|a| p[a] += bounds.low[a]));
-    (out, cell / 2.0)
+
+    /// The cell of a place within the bounds, or the nearest one.
+    fn at(&self, p: [f64; 3]) -> usize {
+        let i = [0, 1, 2]
+            .map(|a| (((p[a] - self.low[a]) / self.cell) as usize + 1).min(self.count[a] - 2));
+        (i[2] * self.count[1] + i[1]) * self.count[0] + i[0]
+    }
+
+    /// Centres of the cells inside, in the part's coordinates. So far around each as half a cell's side, all
+    /// is inside.
+    pub fn centres(&self) -> Vec<[f64; 3]> {
+        let [nx, ny, _] = self.count;
+        let inside = (0..self.state.len()).filter(|&k| self.state[k] == State::Inside);
+        inside
+            .map(|k| {
+                let i = [k % nx, k / nx % ny, k / (nx * ny)];
+                [0, 1, 2].map(|a| self.low[a] + (i[a] as f64 - 0.5) * self.cell)
+            })
+            .collect()
+    }
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum State {
+pub(super) enum State {
     /// Not reached (yet).
     Inside,
     Surface,
@@ -88,7 +109,7 @@ enum State {
 }
 
 /// Marks what can be reached from the first cell, which lies in the border.
-fn flood(state: &mut [State], count: [usize; 3]) {
+pub(super) fn flood(state: &mut [State], count: [usize; 3]) {
     let mut stack = vec![0];
     state[0] = State::Outside;
     let steps = [1, count[0], count[0] * count[1]];
@@ -138,14 +159,15 @@ mod tests {
         Part {
             points,
             triangles,
-            inner: Vec::new(),
+            ..Part::default()
         }
     }
 
     #[test]
     fn a_closed_box_has_an_inside_and_an_open_one_none() {
         // 20 cells along each side, of which the outer ones hold the surface.
-        assert_eq!(inside(&cube(true)).0.len(), 18 * 18 * 18);
-        assert_eq!(inside(&cube(false)).0.len(), 0);
+        let inside = |top| Flood::new(&cube(top)).map_or(0, |flood| flood.centres().len());
+        assert_eq!(inside(true), 18 * 18 * 18);
+        assert_eq!(inside(false), 0);
     }
 }

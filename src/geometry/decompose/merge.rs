@@ -1,114 +1,160 @@
-//! Joining blocks again where their common hull adds little air.
+//! Joining blocks again where their common hull stands off little more.
 //!
 //! Greedy pairwise merging, as in Mamou and Ghorbel, "A simple and efficient approach for 3D mesh
-//! approximate convex decomposition" (ICIP 2009). A join's price is what the common hull has beyond
-//! the union of the two: V(hull) - V(a) - V(b) + V(a and b). The last term is counted on fixed sample
-//! points: without it, blocks that overlap would seem to gain by being joined.
+//! approximate convex decomposition" (ICIP 2009). A join's price is what the common hull costs beyond
+//! the two. Of these counts only what is not inside the other: else blocks that overlap would seem to
+//! gain by being joined.
 
 use rayon::prelude::*;
 
-use super::grower::{Bounds, cost};
+use super::field::in_cut;
+use super::grower::{AXES, Places, bulk};
 use super::search::Block;
+use super::vector::{cross, norm, sub};
 
-/// Sample points for overlaps, in words of 64.
-const WORDS: usize = 32;
-
-/// A block or several joined, with the sample points inside.
+/// A block or several joined.
 #[derive(Clone)]
 struct Group {
     block: Block,
     points: Vec<[f64; 3]>,
-    inside: [u64; WORDS],
+    /// Points on its faces that stand off, with the integral that each is for.
+    standing: Vec<([f64; 3], f64)>,
 }
 
-/// Points of a low-discrepancy sequence (R3: Roberts, "The unreasonable effectiveness of quasirandom
-/// sequences", 2018) in a box, and the volume that each stands for.
-struct Samples {
-    points: Vec<[f64; 3]>,
-    weight: f64,
-}
+/// So far a point of a face is lifted before it is asked whether another hull holds it.
+const LIFT: f64 = 1e-3;
 
-impl Samples {
-    fn new(bounds: &Bounds) -> Self {
-        // Powers of 1/g, with g the root of g^4 = g + 1.
-        const STEPS: [f64; 3] = [
-            0.819_172_513_396_164_4,
-            0.671_043_606_703_789_2,
-            0.549_700_477_901_970_3,
-        ];
-        let size = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
-        let count = WORDS * 64;
-        let points = (1..=count)
-            .map(|k| {
-                [0, 1, 2].map(|a| bounds.low[a] + size[a] * (0.5 + k as f64 * STEPS[a]).fract())
-            })
-            .collect();
-        Samples {
-            points,
-            weight: size.iter().product::<f64>() / count as f64,
-        }
-    }
-
-    fn group(&self, block: Block) -> Group {
+impl Group {
+    fn new(block: Block, places: &Places) -> Group {
         let hull = &block.hull.hull;
-        let points: Vec<[f64; 3]> = hull.used().iter().map(|&i| hull.points[i]).collect();
-        let bounds = Bounds::new(&points);
-        let mut inside = [0; WORDS];
-        for (k, &p) in self.points.iter().enumerate() {
-            let near = (0..3).all(|a| p[a] > bounds.low[a] && p[a] < bounds.high[a]);
-            if near && hull.farthest_face(p).1 < 0.0 {
-                inside[k / 64] |= 1 << (k % 64);
+        let points = hull.used().iter().map(|&i| hull.points[i]).collect();
+        let mut standing = Vec::new();
+        for (_, corners, area) in hull.faces() {
+            let corners = corners.map(|i| hull.points[i as usize]);
+            if in_cut(corners, &block.cuts) {
+                continue;
             }
+            let [a, b, c] = corners;
+            let normal = cross(sub(b, a), sub(c, a));
+            let lift = LIFT / norm(normal).max(f64::MIN_POSITIVE);
+            let from = standing.len();
+            let n = places.field.spread(corners, |p| {
+                let far = places.field.at(p);
+                if far > 0.0 {
+                    standing.push(([0, 1, 2].map(|k| p[k] + lift * normal[k]), far * area));
+                }
+            });
+            standing[from..].iter_mut().for_each(|s| s.1 /= n as f64);
         }
         Group {
             block,
             points,
-            inside,
+            standing,
         }
     }
 
-    /// What the common hull holds beyond the two, and that hull.
-    fn price(&self, a: &Group, b: &Group) -> (f64, Block) {
-        let (large, small) = if a.block.cost >= b.block.cost {
-            (a, b)
-        } else {
-            (b, a)
+    fn holds(&self, p: [f64; 3]) -> bool {
+        self.block.hull.hull.farthest_face(p).1 <= 0.0
+    }
+
+    /// How much of it stands off outside of the other.
+    fn outside(&self, other: &Group) -> f64 {
+        let outside = self.standing.iter().filter(|(p, _)| !other.holds(*p));
+        outside.map(|(_, weight)| weight).sum()
+    }
+
+    /// What the common hull stands off beyond the two.
+    fn join(&self, other: &Group, places: &Places) -> Join {
+        let volume = |g: &Group| g.block.hull.hull.volume();
+        let (large, small) = match volume(self) >= volume(other) {
+            true => (self, other),
+            false => (other, self),
         };
         let mut hull = large.block.hull.clone();
         for &p in &small.points {
             hull.hull.insert(p, small.block.hull.step);
         }
-        let both: u32 = a
-            .inside
-            .iter()
-            .zip(&b.inside)
-            .map(|(x, y)| (x & y).count_ones())
-            .sum();
-        let cost = cost(&hull.hull);
-        (
-            cost - a.block.cost - b.block.cost + f64::from(both) * self.weight,
-            Block { hull, cost },
-        )
+        let mut cuts = large.block.cuts.clone();
+        let more = small.block.cuts.iter();
+        cuts.extend(more.filter(|c| !large.block.cuts.contains(c)));
+        let standoff = places.standoff(&mut hull, &AXES, &cuts);
+        let more = standoff - large.outside(small) - small.outside(large);
+        let [whole, parts] = [
+            bulk(&hull.hull),
+            bulk(&large.block.hull.hull) + bulk(&small.block.hull.hull),
+        ];
+        Join {
+            standoff: more,
+            price: more + whole - parts,
+            filled: hull.hull.volume() - volume(large) - volume(small),
+            block: Block {
+                hull,
+                standoff,
+                cuts,
+            },
+        }
     }
 }
 
-/// For each block its group, 0, 1, …, numbered in the order of their first blocks. Merges go on
-/// while there are more than `most` groups or the cheapest costs at most `free`.
-pub(super) fn merge(blocks: Vec<Block>, most: usize, free: f64) -> Vec<usize> {
+/// Two groups joined.
+struct Join {
+    block: Block,
+    /// What it stands off beyond the two.
+    standoff: f64,
+    /// What it costs beyond them.
+    price: f64,
+    /// Its volume beyond theirs.
+    filled: f64,
+}
+
+/// The integral of distances from the surface over the groups' outside.
+fn standoff(groups: &[Option<Group>]) -> f64 {
+    let groups: Vec<&Group> = groups.iter().flatten().collect();
+    let mut sum = 0.0;
+    for (i, group) in groups.iter().enumerate() {
+        for (p, weight) in &group.standing {
+            let mut others = groups.iter().enumerate().filter(|&(j, _)| j != i);
+            if others.all(|(_, other)| !other.holds(*p)) {
+                sum += weight;
+            }
+        }
+    }
+    sum
+}
+
+/// A join that adds more than this many times the volume that it may cost is not free.
+const FILLED: f64 = 10.0;
+
+/// When merging ends.
+pub(super) struct Limits {
+    /// Most groups.
+    pub most: usize,
+    /// A join that costs no more is made in any case.
+    pub free: f64,
+    /// One after which all together stand off no more than this is made too.
+    pub enough: f64,
+}
+
+/// Blocks in groups.
+pub(super) struct Groups {
+    /// For each block its group, 0, 1, …, numbered in the order of their first blocks.
+    pub of: Vec<usize>,
+    /// The integral of distances from the surface over the groups' outside.
+    pub standoff: f64,
+    /// That, and the bulk of the groups' hulls.
+    pub cost: f64,
+}
+
+/// Joins blocks, the cheapest pair first.
+pub(super) fn merge(blocks: Vec<Block>, places: &Places, limits: &Limits) -> Groups {
     let n = blocks.len();
-    let hulls = blocks
-        .iter()
-        .flat_map(|b| &b.hull.hull.points)
-        .copied()
-        .collect::<Vec<_>>();
-    let samples = Samples::new(&Bounds::new(&hulls));
     let mut group: Vec<usize> = (0..n).collect();
     let mut alive: Vec<Option<Group>> = blocks
         .into_par_iter()
-        .map(|b| Some(samples.group(b)))
+        .map(|b| Some(Group::new(b, places)))
         .collect();
     let price = |a: &Option<Group>, b: &Option<Group>| match (a, b) {
-        (Some(a), Some(b)) => samples.price(a, b).0,
+        (Some(a), Some(b)) => a.join(b, places).price,
         _ => f64::INFINITY,
     };
     let mut prices = vec![f64::INFINITY; n * n];
@@ -122,6 +168,10 @@ pub(super) fn merge(blocks: Vec<Block>, most: usize, free: f64) -> Vec<usize> {
     for (&(i, j), p) in pairs.iter().zip(first) {
         prices[i * n + j] = p;
     }
+    let mut total = match limits.enough > 0.0 {
+        true => standoff(&alive),
+        false => f64::INFINITY,
+    };
     let mut left = n;
     while left > 1 {
         let mut best = (f64::INFINITY, 0, 0);
@@ -133,13 +183,18 @@ pub(super) fn merge(blocks: Vec<Block>, most: usize, free: f64) -> Vec<usize> {
             }
         }
         let (p, i, j) = best;
-        if !p.is_finite() || (left <= most && p > free) {
-            break;
-        }
-        let (Some(a), Some(b)) = (alive[i].take(), alive[j].take()) else {
+        let (Some(a), Some(b)) = (&alive[i], &alive[j]) else {
             break;
         };
-        let joined = Some(samples.group(samples.price(&a, &b).1));
+        let join = a.join(b, places);
+        total += join.standoff;
+        // Blocks about a hollow seem to gain by being joined where they stand off into it. A lid stays dear.
+        let free = p <= limits.free && join.filled <= FILLED * limits.free;
+        if left <= limits.most && !free && total > limits.enough {
+            break;
+        }
+        (alive[i], alive[j]) = (None, None);
+        let joined = Some(Group::new(join.block, places));
         group.iter_mut().filter(|g| **g == j).for_each(|g| *g = i);
         for k in 0..n {
             prices[k.min(j) * n + k.max(j)] = f64::INFINITY;
@@ -156,7 +211,7 @@ pub(super) fn merge(blocks: Vec<Block>, most: usize, free: f64) -> Vec<usize> {
     }
     let mut names = vec![usize::MAX; n];
     let mut next = 0;
-    group
+    let of = group
         .iter()
         .map(|&g| {
             if names[g] == usize::MAX {
@@ -165,5 +220,12 @@ pub(super) fn merge(blocks: Vec<Block>, most: usize, free: f64) -> Vec<usize> {
             }
             names[g]
         })
-        .collect()
+        .collect();
+    let standoff = standoff(&alive);
+    let hulls = alive.iter().flatten().map(|g| bulk(&g.block.hull.hull));
+    Groups {
+        of,
+        standoff,
+        cost: standoff + hulls.sum::<f64>(),
+    }
 }

@@ -7,18 +7,22 @@
 //!
 //! 1. `clean`: equal vertices become one, what is no triangle is left out.
 //! 2. `proxy`: a stand-in with some 1,500 points, for the search only.
-//! 3. `inside`: points inside the body, where it has an inside, so that parts count with what they enclose.
-//! 4. `search`: the stand-in is cut by planes, always there where a cut lowers the summed volume of the
-//!    hulls most (`cut`), into some times more blocks than wanted.
+//! 3. `inside`: points inside the body, where it has an inside, so that parts count with what they enclose;
+//!    `field`: distances from the surface.
+//! 4. `search`: the stand-in is cut by planes, always there where a cut lowers the summed standoff of the
+//!    hulls most (`cut`), into half as many blocks again as wanted. Where the first cuts save little, two are followed.
+//!    Where all that lies deep in the hull is flat, as in boxes without lids, a second tree is cut along those faces
+//!    first (`faces`): the one of which the joined blocks cost less is kept.
 //! 5. `merge`: blocks are joined again, the cheapest pair first, while there are too many or a join
 //!    costs nearly nothing. Cutting far and joining back finds what one greedy pass does not.
 //! 6. `assign`: the surface itself is clipped by the same planes and handed out to the groups.
 //! 7. `choose`: few points of each group whose hull holds the rest; `ConvexHull` makes the piece.
 //!
-//! The summed volume of hulls is what a decomposition is to be judged by: volume beyond the solid's,
-//! over the area, is how far pieces stand off the surface on average. It needs no solid to be known,
-//! falls with each good cut, and has its least value at the best division. Top-down cuts with hulls for
-//! parts are those of Wei et al., "Approximate convex decomposition for 3D meshes with
+//! What a decomposition is judged by is how far its outside stands off the surface on average: the integral over
+//! the pieces' faces of the distance to the surface, but for faces inside and in cuts, where another piece goes on.
+//! That is what a collision check gets wrong. Volume alone counts deep narrow hollows, which hardly matter, for more
+//! than wide ones; a little of it is kept, since it tells of gains that only the cuts after the next will bring.
+//! Top-down cuts with hulls for parts are those of Wei et al., "Approximate convex decomposition for 3D meshes with
 //! collision-aware concavity and tree search" (CoACD, 2022); the measure and the sweep are our own.
 //!
 //! The same input gives the same bytes for any number of threads: parallel parts are independent, and
@@ -28,6 +32,8 @@ mod assign;
 mod choose;
 mod clean;
 mod cut;
+mod faces;
+mod field;
 mod grower;
 mod growing_hull;
 mod inside;
@@ -50,10 +56,12 @@ use super::hull::ConvexHull;
 pub struct Settings {
     /// Most pieces for one mesh; at least 1.
     pub max_pieces: usize,
-    /// How much fat a piece must save to be worth having: volume over the area of the mesh's hull, so
-    /// the mean distance by which pieces stand off the surface, as a part of half the mesh's largest
-    /// extent. 0 uses all pieces.
+    /// How much standoff a piece must save to be worth having: the mean distance from the pieces' outside to the
+    /// surface, as a part of half the mesh's largest extent. 0 uses all pieces.
     pub fat_tolerance: f64,
+    /// So small a mean distance from the pieces' outside to the surface is enough, metres: no piece is made beyond
+    /// those needed for that, as the search estimates it. 0 goes on.
+    pub standoff_tolerance: f64,
     /// How far a point of the surface may lie outside the pieces, metres, if
     /// [`Settings::relative_surface_tolerance`] is not stricter.
     pub surface_tolerance: f64,
@@ -65,7 +73,8 @@ impl Default for Settings {
     fn default() -> Self {
         Settings {
             max_pieces: 7,
-            fat_tolerance: 3e-4,
+            fat_tolerance: 1e-4,
+            standoff_tolerance: 0.0,
             surface_tolerance: 2e-4,
             relative_surface_tolerance: 4e-3,
         }
@@ -84,17 +93,17 @@ pub struct Decomposition {
     pub ignored_triangles: usize,
 }
 
-/// Blocks that the search makes for each piece allowed.
-const BLOCKS_PER_PIECE: usize = 2;
-
 /// Most flat coordinates kept along an axis.
 const MOST_FLATS: usize = 20;
 
-/// Points this near to a plane lie in it, in units: some roundings of f32.
-const ON_PLANE: f64 = 2e-6;
+/// Points this near to a plane lie in it, in units: flat faces of CAD are no flatter than some roundings of f32.
+const ON_PLANE: f64 = 2e-5;
 
 /// The same for the stand-in, as a part of its cells.
 const ON_PLANE_PROXY: f64 = 0.15;
+
+/// Pieces cut along faces first are to cost less than this part of the others, to be taken for them.
+const BETTER: f64 = 0.9;
 
 /// Divides a mesh into convex pieces that hold its whole surface.
 ///
@@ -108,22 +117,44 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
     };
     let most = settings.max_pieces.max(1);
     let (mut part, cell) = proxy::proxy(&surface);
-    let (inner, reach) = inside::inside(&part);
+    let flood = inside::Flood::new(&part);
+    let (inner, reach) = flood.as_ref().map_or((Vec::new(), 0.0), |flood| {
+        (flood.centres(), flood.cell / 2.0)
+    });
     let body = part.points.clone();
     part.inner = inner.clone();
     let places = grower::Places {
         frames: cut::frames(proxy::flat_coordinates(&surface, MOST_FLATS)),
         reach,
         eps: (ON_PLANE_PROXY * cell).max(ON_PLANE),
+        field: field::Field::new(&part),
     };
-    let found = search::search(
-        part,
-        &places,
-        most.saturating_mul(BLOCKS_PER_PIECE),
-        settings.fat_tolerance,
-    );
-    let groups = merge::merge(found.leaves, most, settings.fat_tolerance * found.area);
-    let count = groups.iter().max().map_or(1, |g| g + 1);
+    let enough = settings.standoff_tolerance / surface.scale;
+    let limits = search::Limits {
+        most: most.saturating_add(most / 2),
+        fat: settings.fat_tolerance,
+        enough,
+    };
+    let joined = |found: search::Search| {
+        let limits = merge::Limits {
+            most,
+            free: settings.fat_tolerance * found.area,
+            enough: enough * found.area,
+        };
+        (merge::merge(found.leaves, &places, &limits), found.nodes)
+    };
+    let first = search::search(part.clone(), &places, &limits);
+    let area = first.area;
+    let (mut groups, mut nodes) = joined(first);
+    if groups.standoff > settings.fat_tolerance.max(enough) * area
+        && let Some(found) = search::along_faces(part, area, &places, &limits)
+    {
+        let other = joined(found);
+        if other.0.cost < BETTER * groups.cost {
+            (groups, nodes) = other;
+        }
+    }
+    let count = groups.of.iter().max().map_or(1, |g| g + 1);
     let tolerance = settings
         .surface_tolerance
         .min(settings.relative_surface_tolerance * surface.scale)
@@ -131,8 +162,8 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
     let parts = assign::assign(
         &surface,
         &assign::Inside::new(&inner, reach, &body),
-        &found.nodes,
-        &groups,
+        &nodes,
+        &groups.of,
         count,
         ON_PLANE,
     );

@@ -32,6 +32,8 @@ pub(super) struct Part {
     pub triangles: Vec<[u32; 3]>,
     /// Points inside. They are not corners of the part's hull; their images in a cut may be.
     pub inner: Vec<[f64; 3]>,
+    /// The planes that cut it out of the whole.
+    pub cuts: Vec<Plane>,
 }
 
 impl Part {
@@ -108,7 +110,12 @@ impl Part {
             }
             halves[usize::from(height > 0.0)].part.inner.push(p);
         }
-        halves.map(|h| h.part)
+        halves.map(|h| {
+            let mut part = h.part;
+            part.cuts.clone_from(&self.cuts);
+            part.cuts.push(*plane);
+            part
+        })
     }
 }
 
@@ -179,7 +186,7 @@ mod tests {
         let part = Part {
             points: vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]],
             triangles: vec![[0, 1, 2]],
-            inner: Vec::new(),
+            ..Part::default()
         };
         let [low, high] = part.split(
             &Plane {
@@ -206,7 +213,7 @@ mod tests {
         let part = Part {
             points: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
             triangles: vec![[0, 1, 2]],
-            inner: Vec::new(),
+            ..Part::default()
         };
         let plane = Plane {
             normal: [0.0, 0.0, 1.0],

@@ -114,7 +114,7 @@ fn stand_in(
     Part {
         points,
         triangles,
-        inner: Vec::new(),
+        ..Part::default()
     }
 }
 

@@ -1,9 +1,11 @@
 //! The search for cuts: a tree of planes, grown by the best cut anywhere.
 
 use rayon::join;
+use rayon::prelude::*;
 
-use super::cut::{Cut, best_cut};
-use super::grower::{Grower, Places, cost};
+use super::cut::{Cut, best_cuts};
+use super::faces;
+use super::grower::{AXES, Grower, Places, bulk};
 use super::part::{Part, Plane};
 
 /// A tree of cuts. Leaves are numbered in the order in which they stand in `Search::leaves`.
@@ -18,29 +20,56 @@ pub(super) enum Node {
 #[derive(Clone)]
 pub(super) struct Block {
     pub hull: Grower,
-    pub cost: f64,
+    pub standoff: f64,
+    /// The planes that cut it out.
+    pub cuts: Vec<Plane>,
+}
+
+impl Block {
+    /// Standoff and bulk.
+    pub fn cost(&self) -> f64 {
+        self.standoff + bulk(&self.hull.hull)
+    }
 }
 
 struct Leaf {
     part: Part,
     block: Block,
-    cut: Option<Cut>,
+    /// Best first.
+    cuts: Vec<Cut>,
     node: usize,
 }
 
 impl Leaf {
-    fn new(part: Part, places: &Places, node: usize) -> Self {
-        let (hull, cut) = best_cut(&part, places);
+    fn new(part: Part, places: &Places) -> Self {
+        let (mut hull, cuts) = best_cuts(&part, places);
         let block = Block {
-            cost: cost(&hull.hull),
+            standoff: places.standoff(&mut hull, &AXES, &part.cuts),
             hull,
+            cuts: part.cuts.clone(),
         };
         Leaf {
             part,
             block,
-            cut,
-            node,
+            cuts,
+            node: 0,
         }
+    }
+
+    /// What is left of its cost after its best cut.
+    fn promise(&self) -> f64 {
+        let gain = self.cuts.iter().map(|c| c.gain).fold(0.0, f64::max);
+        self.block.cost() - gain
+    }
+
+    /// The two leaves that a cut makes; none where one has no surface.
+    fn split(&self, cut: &Cut, places: &Places) -> Option<[Leaf; 2]> {
+        let [below, above] = self.part.split(&cut.plane, places.eps, places.reach);
+        if below.triangles.is_empty() || above.triangles.is_empty() {
+            return None;
+        }
+        let (below, above) = join(|| Leaf::new(below, places), || Leaf::new(above, places));
+        Some([below, above])
     }
 }
 
@@ -51,40 +80,84 @@ pub(super) struct Search {
     pub leaves: Vec<Block>,
 }
 
-/// Cuts the part into at most `most` blocks; stops early where no cut promises to save `fat` times the
-/// area of the part's hull.
-pub(super) fn search(part: Part, places: &Places, most: usize, fat: f64) -> Search {
-    let mut nodes = vec![Node::Leaf(0)];
-    let mut leaves = vec![Leaf::new(part, places, 0)];
-    let area = leaves[0].block.hull.hull.area();
-    while leaves.len() < most {
+/// When the search ends.
+pub(super) struct Limits {
+    /// Most blocks.
+    pub most: usize,
+    /// A cut is to promise more than this, over the area of the whole hull.
+    pub fat: f64,
+    /// So little standoff of all blocks together is enough, over that area.
+    pub enough: f64,
+}
+
+/// Cuts the part into blocks.
+pub(super) fn search(part: Part, places: &Places, limits: &Limits) -> Search {
+    let leaf = Leaf::new(part, places);
+    let area = leaf.block.hull.hull.area();
+    grow(vec![Node::Leaf(0)], vec![leaf], area, places, limits)
+}
+
+/// Cuts the part along its deep flat faces, and on from there as [`search`] does, where all that lies deep is
+/// flat. `area` is that of the whole hull.
+pub(super) fn along_faces(
+    part: Part,
+    area: f64,
+    places: &Places,
+    limits: &Limits,
+) -> Option<Search> {
+    let faces::Cuts { nodes, parts } = faces::cut(part, places, limits.most)?;
+    let leaves = parts.into_par_iter().map(|(part, node)| Leaf {
+        node,
+        ..Leaf::new(part, places)
+    });
+    Some(grow(nodes, leaves.collect(), area, places, limits))
+}
+
+/// Cuts leaves of a tree on, the one that promises most first.
+fn grow(
+    mut nodes: Vec<Node>,
+    mut leaves: Vec<Leaf>,
+    area: f64,
+    places: &Places,
+    limits: &Limits,
+) -> Search {
+    let standoff = |leaves: &[Leaf]| leaves.iter().map(|l| l.block.standoff).sum::<f64>();
+    while leaves.len() < limits.most && standoff(&leaves) > limits.enough * area {
         let worth = |l: &Leaf| {
-            l.cut.as_ref().map_or(f64::NEG_INFINITY, |c| {
-                c.gain.max(0.0) + POTENTIAL * l.block.cost
-            })
+            let promise = |c: &Cut| c.gain.max(0.0) + POTENTIAL * l.block.cost();
+            l.cuts.first().map_or(f64::NEG_INFINITY, promise)
         };
         let Some((k, _)) = leaves
             .iter()
             .enumerate()
             .map(|(k, l)| (k, worth(l)))
             .reduce(|a, b| if b.1 > a.1 { b } else { a })
-            .filter(|&(_, w)| w > fat * area)
+            .filter(|&(_, w)| w > limits.fat * area)
         else {
             break;
         };
-        let Some(cut) = leaves[k].cut.take() else {
-            break;
+        let cuts = std::mem::take(&mut leaves[k].cuts);
+        let leaf = &leaves[k];
+        let poor = cuts[0].gain < POOR * leaf.block.cost();
+        let tried = if poor && leaves.len() <= EARLY {
+            WIDE
+        } else {
+            1
         };
-        let [below, above] = leaves[k].part.split(&cut.plane, places.eps, places.reach);
-        if below.triangles.is_empty() || above.triangles.is_empty() {
+        let made: Vec<(Plane, [Leaf; 2])> = cuts
+            .par_iter()
+            .take(tried)
+            .filter_map(|cut| Some((cut.plane, leaf.split(cut, places)?)))
+            .collect();
+        let rest = |leaves: &[Leaf; 2]| leaves[0].promise() + leaves[1].promise();
+        let Some((plane, [mut below, mut above])) = made
+            .into_iter()
+            .reduce(|a, b| if rest(&b.1) < rest(&a.1) { b } else { a })
+        else {
             continue;
-        }
-        let (first, second) = (nodes.len(), nodes.len() + 1);
-        nodes[leaves[k].node] = Node::Cut(cut.plane, [first, second]);
-        let (below, above) = join(
-            || Leaf::new(below, places, first),
-            || Leaf::new(above, places, second),
-        );
+        };
+        (below.node, above.node) = (nodes.len(), nodes.len() + 1);
+        nodes[leaves[k].node] = Node::Cut(plane, [below.node, above.node]);
         nodes.push(Node::Leaf(k));
         nodes.push(Node::Leaf(leaves.len()));
         leaves[k] = below;
@@ -100,3 +173,9 @@ pub(super) fn search(part: Part, places: &Places, most: usize, fat: f64) -> Sear
 /// What a block without a good cut still promises, as a part of its cost: cuts that help only
 /// together (a ring's) are found by going on.
 const POTENTIAL: f64 = 0.05;
+
+/// A cut that saves less than this part of the cost is poor. Of poor ones among the first `EARLY`, as many as `WIDE`
+/// are made, and the one stays after which the next cuts leave least.
+const POOR: f64 = 0.5;
+const EARLY: usize = 3;
+const WIDE: usize = 2;

@@ -1,6 +1,6 @@
 //! A part sliced by parallel planes, and hulls that grow slice by slice.
 
-use super::grower::{Bounds, Grower, Places, cost};
+use super::grower::{Bounds, Grower, Places};
 use super::part::Part;
 use super::support::{Candidate, support};
 use super::vector::{dot, lerp};
@@ -109,8 +109,13 @@ impl Slices {
     }
 
     /// Grows a hull over the slices, upwards or downwards: the cost at each plane in that order (zero
-    /// where there is nothing yet), and the whole hull.
-    pub fn sweep(&self, upwards: bool, extent: f64) -> (Vec<f64>, Grower) {
+    /// where there is nothing yet), and the whole hull. `cost` is of a hull that ends at the plane with this index.
+    pub fn sweep(
+        &self,
+        upwards: bool,
+        extent: f64,
+        cost: impl Fn(&mut Grower, usize) -> f64,
+    ) -> (Vec<f64>, Grower) {
         let planes = self.sections.len();
         let mut hull = Grower::new(extent);
         let take = |points: &[[f64; 3]], hull: &mut Grower| {
@@ -128,7 +133,12 @@ impl Slices {
             if !hull.hull.points.is_empty() {
                 take(&self.sections[section], &mut hull);
             }
-            costs.push(cost(&hull.hull));
+            let nothing = hull.hull.points.is_empty();
+            costs.push(if nothing {
+                0.0
+            } else {
+                cost(&mut hull, section)
+            });
         }
         take(&self.slices[if upwards { planes } else { 0 }], &mut hull);
         (costs, hull)

@@ -106,8 +106,8 @@ def seen(pieces, points, rng):
     return ~blocked.all(1)
 
 
-def measure(plain, pieces, samples, rng):
-    """(outside, fat mean, fat p95, share of the pieces' volume inside the link); lengths in metres."""
+def distances(plain, pieces, samples, rng):
+    """How far the link's surface lies outside of the pieces at most; how far points of their outer surface stand off it. Metres."""
     bodies = [planes(p) for p in pieces]
     surfaces = [Surface(p) for p in pieces]
     probes = np.concatenate([plain[:: len(plain) // 20000 + 1, 0], sample(plain, 4 * samples, rng)[0]])
@@ -122,8 +122,13 @@ def measure(plain, pieces, samples, rng):
     outer = ~link.inside(points + TOUCH * normals)
     points, lifted = points[outer], lifted[outer]
     points = points[seen(bodies, lifted, rng)]
-    fat = np.array([points_of.distance(p) for p in points]) if len(points) else np.zeros(1)
+    return outside, np.array([points_of.distance(p) for p in points]) if len(points) else np.zeros(1)
 
+
+def measure(plain, pieces, samples, rng):
+    """(outside, fat mean, fat p95, share of the pieces' volume inside the link); lengths in metres."""
+    outside, fat = distances(plain, pieces, samples, rng)
+    link, bodies = Link(plain), [planes(p) for p in pieces]
     within = solid = 0
     for triangles, body in zip(pieces, bodies):
         low, high = triangles.reshape(-1, 3).min(0), triangles.reshape(-1, 3).max(0)

@@ -1,0 +1,246 @@
+//! How far from the surface the search's hulls stand.
+//!
+//! What a piece adds to the mean standoff is the integral, over those of its faces that are on the
+//! outside, of the distance to the surface. So distances are kept at the nodes of a grid, negative
+//! inside, and interpolated between them. Each node's nearest triangle is found by sweeps that hand
+//! triangles on from node to node (Danielsson, "Euclidean distance mapping", 1980).
+
+use super::grower::Bounds;
+use super::growing_hull::GrowingHull;
+use super::inside::{State, flood, parts};
+use super::part::{Part, Plane};
+use super::vector::{cross, dot, nearest_on_triangle, norm, sub};
+
+/// Nodes along the largest extent.
+const ALONG: f64 = 40.0;
+
+/// Most nodes.
+const MOST_NODES: f64 = 20_000.0;
+
+/// About so many samples of the surface, at most; links need a tenth of it.
+const MOST_SAMPLES: usize = 500_000;
+
+/// Nodes nearer to the surface than this are next to it, in cells.
+const NEXT_TO: f64 = 0.6;
+
+/// Cells between the samples of a face, and most samples along one side.
+const SPREAD: f64 = 4.0;
+const MOST_SIDE: usize = 3;
+
+/// Signed distances on a grid about the surface, in unit coordinates.
+pub(super) struct Field {
+    low: [f64; 3],
+    cell: f64,
+    count: [usize; 3],
+    value: Vec<f32>,
+}
+
+impl Field {
+    /// Inside is what a flood from the border does not reach, as in `inside`; next to the surface, the front of
+    /// triangles decides.
+    pub fn new(part: &Part) -> Field {
+        let bounds = Bounds::new(&part.points);
+        let size = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
+        let extent = bounds.extent();
+        let thick = size.map(|s| s.max(extent / ALONG));
+        let cell = (extent / ALONG)
+            .max((thick.iter().product::<f64>() / MOST_NODES).cbrt())
+            .max(f64::MIN_POSITIVE);
+        let count = size.map(|s| (s / cell).ceil() as usize + 3);
+        let mut out = Field {
+            low: [0, 1, 2].map(|a| bounds.low[a] - cell),
+            cell,
+            count,
+            value: Vec::new(),
+        };
+        let nearest = out.nearest(part);
+        let away: Vec<([f64; 3], f64)> = (0..nearest.len())
+            .map(|k| {
+                let Some(t) = part.triangles.get(nearest[k] as usize) else {
+                    return ([0.0; 3], 0.0);
+                };
+                let p = out.node(k);
+                let away = sub(
+                    p,
+                    nearest_on_triangle(p, t.map(|i| part.points[i as usize])),
+                );
+                (away, norm(away))
+            })
+            .collect();
+        // No two neighbours on either side of a surface are both farther from it than half their distance.
+        let near = NEXT_TO * cell;
+        let mut state: Vec<State> = away
+            .iter()
+            .map(|(_, far)| match *far <= near {
+                true => State::Surface,
+                false => State::Inside,
+            })
+            .collect();
+        flood(&mut state, count);
+        out.value = (0..nearest.len())
+            .map(|k| {
+                let (away, far) = away[k];
+                let behind = |t: &[u32; 3]| {
+                    let [a, b, c] = t.map(|i| part.points[i as usize]);
+                    dot(cross(sub(b, a), sub(c, a)), away) < 0.0
+                };
+                let inside = match state[k] {
+                    State::Inside => true,
+                    State::Outside => false,
+                    State::Surface => part.triangles.get(nearest[k] as usize).is_some_and(behind),
+                };
+                (if inside { -far } else { far }) as f32
+            })
+            .collect();
+        out
+    }
+
+    fn node(&self, k: usize) -> [f64; 3] {
+        let [nx, ny, _] = self.count;
+        let i = [k % nx, k / nx % ny, k / (nx * ny)];
+        [0, 1, 2].map(|a| self.low[a] + self.cell * i[a] as f64)
+    }
+
+    /// The nearest triangle of each node.
+    fn nearest(&self, part: &Part) -> Vec<u32> {
+        let [nx, ny, nz] = self.count;
+        let mut best = vec![(f64::INFINITY, u32::MAX); nx * ny * nz];
+        let try_at = |best: &mut [(f64, u32)], k: usize, t: u32| {
+            if best[k].1 != t {
+                let p = self.node(k);
+                let corners = part.triangles[t as usize].map(|i| part.points[i as usize]);
+                let e = sub(p, nearest_on_triangle(p, corners));
+                if dot(e, e) < best[k].0 {
+                    best[k] = (dot(e, e), t);
+                }
+            }
+        };
+        let sides = |t: &[u32; 3]| parts(t.map(|i| part.points[i as usize]), self.cell, 1.0);
+        let samples = part.triangles.iter().map(|t| sides(t) * sides(t));
+        let coarser = 1 + samples.sum::<usize>() / MOST_SAMPLES;
+        for (t, triangle) in part.triangles.iter().enumerate() {
+            let [a, b, c] = triangle.map(|i| part.points[i as usize]);
+            let n = (sides(triangle) / coarser).max(1);
+            let mut last = usize::MAX;
+            for i in 0..=n {
+                for j in 0..=n - i {
+                    let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
+                    let p = [0, 1, 2].map(|k| a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]));
+                    let at = [0, 1, 2].map(|k| ((p[k] - self.low[k]) / self.cell) as usize);
+                    let k = (at[2] * ny + at[1]) * nx + at[0];
+                    if k == last {
+                        continue;
+                    }
+                    last = k;
+                    for corner in 0..8 {
+                        let step = (corner & 1) + (corner >> 1 & 1) * nx + (corner >> 2) * nx * ny;
+                        try_at(&mut best, k + step, t as u32);
+                    }
+                }
+            }
+        }
+        let strides = [1, nx, nx * ny];
+        for backwards in [false, true] {
+            for at in 0..best.len() {
+                let k = if backwards { best.len() - 1 - at } else { at };
+                for (a, stride) in strides.into_iter().enumerate() {
+                    let place = k / stride % self.count[a];
+                    let from = match backwards {
+                        false if place > 0 => k - stride,
+                        true if place + 1 < self.count[a] => k + stride,
+                        _ => continue,
+                    };
+                    let triangle = best[from].1;
+                    if triangle != u32::MAX {
+                        try_at(&mut best, k, triangle);
+                    }
+                }
+            }
+        }
+        best.into_iter().map(|b| b.1).collect()
+    }
+
+    /// How far outside of the surface; 0 inside.
+    #[inline]
+    pub fn at(&self, p: [f64; 3]) -> f64 {
+        let [nx, ny, _] = self.count;
+        let mut base = [0_usize; 3];
+        let mut f = [0.0_f64; 3];
+        for a in 0..3 {
+            let x = ((p[a] - self.low[a]) / self.cell).clamp(0.0, (self.count[a] - 1) as f64);
+            base[a] = (x as usize).min(self.count[a] - 2);
+            f[a] = x - base[a] as f64;
+        }
+        let k = (base[2] * ny + base[1]) * nx + base[0];
+        let v = |step: usize| f64::from(self.value[k + step]);
+        let row = |step: usize| v(step) + f[0] * (v(step + 1) - v(step));
+        let plane = |step: usize| row(step) + f[1] * (row(step + nx) - row(step));
+        let low = plane(0);
+        (low + f[2] * (plane(nx * ny) - low)).max(0.0)
+    }
+
+    /// Points spread over a face's triangle, each for the same part of its area.
+    pub fn spread(&self, [a, b, c]: [[f64; 3]; 3], mut take: impl FnMut([f64; 3])) -> usize {
+        let (ab, ac) = (sub(b, a), sub(c, a));
+        let bc = sub(c, b);
+        let longest = dot(ab, ab).max(dot(ac, ac)).max(dot(bc, bc)).sqrt();
+        // Rounded up without `ceil`, which is a call.
+        let n = ((longest / (SPREAD * self.cell)) as usize)
+            .saturating_add(1)
+            .min(MOST_SIDE);
+        // Centroids of the n^2 triangles that parallels to the sides make.
+        let side = 1.0 / (3 * n) as f64;
+        for i in 0..n {
+            for j in 0..n - i {
+                let mut at = |u: usize, v: usize| {
+                    let (u, v) = (u as f64 * side, v as f64 * side);
+                    take([0, 1, 2].map(|k| a[k] + u * ab[k] + v * ac[k]));
+                };
+                at(3 * i + 1, 3 * j + 1);
+                if i + j + 1 < n {
+                    at(3 * i + 2, 3 * j + 2);
+                }
+            }
+        }
+        n * n
+    }
+
+    /// The integral of distances over the faces of a hull whose coordinates are along `frame`, but for
+    /// those that lie in one of the planes: there another piece begins. `known` are the integrals over faces seen
+    /// before, by slot.
+    pub fn standoff(
+        &self,
+        hull: &GrowingHull,
+        frame: &[[f64; 3]; 3],
+        planes: &[Plane],
+        known: &mut Vec<([u16; 3], f64)>,
+    ) -> f64 {
+        let mut sum = 0.0;
+        let turn = |p: [f64; 3]| {
+            [0, 1, 2].map(|a| p[0] * frame[0][a] + p[1] * frame[1][a] + p[2] * frame[2][a])
+        };
+        known.resize(hull.slots(), ([0; 3], 0.0));
+        for (slot, face, area) in hull.faces() {
+            let corners = || face.map(|i| turn(hull.points[i as usize]));
+            if known[slot].0 != face {
+                let mut of_face = 0.0;
+                let n = self.spread(corners(), |p| of_face += self.at(p));
+                known[slot] = (face, of_face / n as f64 * area);
+            }
+            let of_face = known[slot].1;
+            if of_face > 0.0 && !in_cut(corners(), planes) {
+                sum += of_face;
+            }
+        }
+        sum
+    }
+}
+
+/// Whether a face lies in one of the planes: there another piece begins.
+pub(super) fn in_cut(corners: [[f64; 3]; 3], planes: &[Plane]) -> bool {
+    let lies = |plane: &Plane| corners.iter().all(|&p| plane.height(p).abs() <= IN_CUT);
+    planes.iter().any(lies)
+}
+
+/// A face that is nowhere farther from a cut than this lies in it.
+const IN_CUT: f64 = 1e-3;
