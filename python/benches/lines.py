@@ -24,7 +24,10 @@ LOAD = {
     "Pinocchio": ("import pinocchio as pin\nmodel = pin.buildModelFromUrdf(urdf_path)\ndata = model.createData()"),
     "yourdfpy": "import yourdfpy\nrobot = yourdfpy.URDF.load(urdf_path)",
     "MuJoCo": ("import mujoco\nmodel = mujoco.MjModel.from_xml_path(urdf_path)\ndata = mujoco.MjData(model)"),
-    "PyBullet": "import pybullet as p\np.connect(p.DIRECT)\nbody = p.loadURDF(urdf_path, useFixedBase=True)",
+    "PyBullet": (
+        "import pybullet as p\np.connect(p.DIRECT)\n"
+        "body = p.loadURDF(urdf_path, useFixedBase=True, flags=p.URDF_USE_SELF_COLLISION)"
+    ),
 }
 
 POSES = {
@@ -88,6 +91,19 @@ for k in reversed(range(len(geometry.collisionPairs))):
         geometry.removeCollisionPair(pair)
 places = pin.GeometryData(geometry)
 colliding = pin.computeCollisions(model, data, geometry, places, q, True)""",
+    "MuJoCo": """mujoco.mj_forward(model, data)
+resting = {frozenset(model.geom_bodyid[contact.geom].tolist()) for contact in data.contact}
+data.qpos[:] = q
+mujoco.mj_forward(model, data)
+colliding = any(frozenset(model.geom_bodyid[c.geom].tolist()) not in resting for c in data.contact)""",
+    "PyBullet": """p.performCollisionDetection()
+for contact in p.getContactPoints(body, body):
+    p.setCollisionFilterPair(body, body, contact[3], contact[4], 0)
+joints = [k for k in range(p.getNumJoints(body)) if p.getJointInfo(body, k)[2] != p.JOINT_FIXED]
+for joint, value in zip(joints, q):
+    p.resetJointState(body, joint, value)
+p.performCollisionDetection()
+colliding = bool(p.getContactPoints(body, body))""",
 }
 
 
@@ -97,7 +113,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         robot = urdd.generate(urdf, Path(folder) / "robot").load()
         free: Any = next(row for row in robot.sample(1000, 1) if not robot.in_collision(row))
-        tool = robot.link_names[-1]
+        moves = [int(robot.jacobian(free, link).any(axis=0).sum()) for link in range(robot.num_links)]
+        tool = robot.link_names[int(np.argmax(moves))]
         given = {
             "np": np,
             "urdd_path": str(robot.path),
