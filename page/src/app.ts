@@ -53,7 +53,8 @@ export class App {
       loading: { what: "modules", done: 0, of: 0 },
       ...(keep ? {} : { selected: null, hovered: null, hidden: new Set<number>(), pair: null }),
       proximity: { answer: null, error: null },
-      skips: NO_SKIPS,
+      // Decisions that are not saved outlive another reading of the same robot.
+      skips: keep && before.skips.dirty ? before.skips : NO_SKIPS,
       report: { report: null, error: null, busy: null },
       sample: null,
     });

@@ -39,6 +39,21 @@ inPage(
     await dialog.getByRole("button", { name: "Save" }).click();
     await dialog.getByText("this folder is not empty").waitFor();
     assert.deepEqual(readdirSync(mine), ["letter.txt"]);
+    // A decision that was not saved yet stays, and is saved there.
+    await dialog.getByRole("button", { name: "Cancel" }).click();
+    await page.click("#tab-Skips");
+    await state(page, "skips", (value) => value.answer !== null);
+    await page.evaluate(() => {
+      const pair = [
+        [0, 0],
+        [1, 0],
+      ];
+      globalThis.urdd.app.store.set({ pair });
+    });
+    await page.getByRole("button", { name: "Skip", exact: true }).click();
+    await state(page, "skips", (value) => value.dirty);
+    await page.getByText("This URDD is temporary").waitFor();
+    await page.getByRole("button", { name: "Save…" }).click();
     const target = join(folder, "saved/odd");
     await dialog.getByLabel("Folder").fill(target);
     await dialog.getByRole("button", { name: "Save" }).click();
@@ -47,6 +62,13 @@ inPage(
     assert.ok(existsSync(join(target, "urdd.json")));
     assert.notEqual(run("validate", target).status, 2);
     assert.equal((await state(page, "robot")).entry.writable, true);
+    await page.getByRole("button", { name: "Save", exact: true }).click();
+    await state(page, "skips", (value) => !value.dirty);
+    const module = join(target, "link_shapes_modules/link_shapes_skips_module/module.json");
+    assert.deepEqual(
+      read(module).edits.map(({ link_a, link_b, skip }) => [link_a, link_b, skip]),
+      [["a", "b", true]],
+    );
   },
   { faults: ["Failed to load resource: the server responded with a status of 409 (Conflict)"] },
 );

@@ -331,7 +331,9 @@ function listed(app: App, answer: SkipsAnswer): Node[] {
       h(
         "p",
         { class: "hint" },
-        "This page cannot write the URDD: it is shown from a site, an archive, or was made for this view.",
+        robot.entry.temporary
+          ? "This URDD is temporary. Save it with Save… at the top: then decisions can be saved in its folder."
+          : "This page cannot write the URDD: it is shown from a site or an archive.",
       ),
   ].filter((node) => node !== false);
 }
