@@ -41,6 +41,14 @@ def test_no_configurations(q: Any, words: str, arm: urdd.Robot) -> None:
         arm.jacobian(q, "torch")
 
 
+def test_huge_values_are_finite(arm: urdd.Robot) -> None:
+    q = np.full((2, arm.num_dofs), 1.7e308)
+    np.testing.assert_array_equal(arm.clamp(q), np.stack([arm.upper, arm.upper]))
+    q[1, 2] = -np.inf
+    with pytest.raises(urdd.ConfigurationError, match=r"configuration 1: DOF `.+` is -inf"):
+        arm.clamp(q)
+
+
 def test_every_kind_of_array(arm: urdd.Robot) -> None:
     q = arm.sample(40)
     expected = arm.fk(q)

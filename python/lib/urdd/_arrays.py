@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import prod
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -47,7 +48,7 @@ def configurations(q: ArrayLike, dof_names: tuple[str, ...]) -> tuple[Floats, tu
 
 def flat(given: Floats) -> Floats:
     """(n, last): all axes but the last as one, also where the last has no values."""
-    return given.reshape(int(np.prod(given.shape[:-1], dtype=np.intp)), given.shape[-1])
+    return given.reshape(prod(given.shape[:-1]), given.shape[-1])
 
 
 def one_configuration(q: ArrayLike, dof_names: tuple[str, ...]) -> Floats:
