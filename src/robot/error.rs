@@ -76,6 +76,14 @@ pub enum RobotError {
     /// A target of inverse kinematics that is none.
     #[error("inverse kinematics: {0}")]
     Target(&'static str),
+    /// An obstacle that is none.
+    #[error("obstacle `{}`: {reason}", .name.escape_debug())]
+    Obstacle {
+        /// Its name.
+        name: String,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// It was asked to stop: [`Proximity::until`](super::Proximity::until).
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -43,6 +43,7 @@ mod skip_edits;
 mod skips;
 mod space;
 mod statistics;
+pub mod world;
 
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -62,6 +63,7 @@ pub use skip_edits::EditedSkips;
 pub use skips::Skips;
 pub use space::Configurations;
 pub use statistics::PairStatistics;
+pub use world::{Among, Obstacle, ObstacleDistance, World};
 
 /// A robot, as its URDD describes it.
 ///

@@ -13,5 +13,6 @@ mod inverse;
 mod motion;
 mod nearness;
 mod opening;
+mod world;
 
 use robots::{made, made_of, our_robots};

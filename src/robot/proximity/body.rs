@@ -6,7 +6,7 @@ use crate::robot::shapes::Solid;
 
 /// A shape, prepared.
 #[derive(Debug)]
-pub(super) enum Body {
+pub(in crate::robot) enum Body {
     /// A hull, a piece, or a box by its corners.
     Convex(ConvexShape),
     /// A sphere: it is all in the sphere about it.
@@ -15,7 +15,7 @@ pub(super) enum Body {
 
 /// A sphere in a link's frame, metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sphere {
+pub(in crate::robot) struct Sphere {
     pub centre: [f64; 3],
     pub radius: f64,
 }

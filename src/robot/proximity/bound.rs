@@ -4,7 +4,7 @@ use super::{Placed, Proximity, dot, to_root};
 
 impl Proximity {
     /// Places the centre of the sphere about each shape.
-    pub(super) fn place_centres(&self, placed: &mut Placed) {
+    pub(in crate::robot) fn place_centres(&self, placed: &mut Placed) {
         placed.centres.clear();
         let centre = |shape: &super::Shape| to_root(&placed.links[shape.link], shape.sphere.centre);
         placed.centres.extend(self.shapes.iter().map(centre));

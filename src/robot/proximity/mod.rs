@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 use nalgebra::Isometry3;
 
-use self::body::{Body, Sphere, body};
+use self::body::{Sphere, body};
 use super::Robot;
 use super::error::RobotError;
 use super::kinematics::Motion;
@@ -29,6 +29,7 @@ use super::statistics::AllStatistics;
 use crate::geometry::convex::Level;
 
 pub use batch::Until;
+pub(super) use body::Body;
 
 /// What is nearest in a pair of shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,22 +54,22 @@ pub struct PairDistance {
 #[derive(Debug)]
 pub struct Proximity {
     motion: Arc<Motion>,
-    kind: ShapeKind,
-    names: Vec<Arc<str>>,
-    shapes: Vec<Shape>,
+    pub(super) kind: ShapeKind,
+    pub(super) names: Vec<Arc<str>>,
+    pub(super) shapes: Vec<Shape>,
     /// For each link the sphere about all its shapes.
     spheres: Vec<Option<Sphere>>,
     pairs: Vec<Pair>,
     groups: Vec<Group>,
-    level: Level,
+    pub(super) level: Level,
 }
 
 #[derive(Debug)]
-struct Shape {
-    link: usize,
-    piece: usize,
-    body: Body,
-    sphere: Sphere,
+pub(super) struct Shape {
+    pub link: usize,
+    pub piece: usize,
+    pub body: Body,
+    pub sphere: Sphere,
 }
 
 /// Two shapes that are not skipped.
@@ -204,16 +205,20 @@ impl Proximity {
 
 /// Where everything is in one configuration. It is used again for the next one.
 #[derive(Default)]
-struct Placed {
+pub(super) struct Placed {
     poses: Vec<Isometry3<f64>>,
     /// Of each link the columns of the rotation, then the shift.
-    links: Vec<[[f64; 3]; 4]>,
+    pub links: Vec<[[f64; 3]; 4]>,
     /// The centre of the sphere about each shape.
-    centres: Vec<[f64; 3]>,
+    pub centres: Vec<[f64; 3]>,
 }
 
 impl Proximity {
-    fn place(&self, configuration: &[f64], placed: &mut Placed) -> Result<(), RobotError> {
+    pub(super) fn place(
+        &self,
+        configuration: &[f64],
+        placed: &mut Placed,
+    ) -> Result<(), RobotError> {
         let kinematics = &self.motion.kinematics;
         kinematics.link_poses_into(configuration, &mut placed.poses)?;
         placed.links.clear();
@@ -235,11 +240,11 @@ impl Proximity {
     }
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// A point of a link's frame in the root link's frame.
-fn to_root(link: &[[f64; 3]; 4], p: [f64; 3]) -> [f64; 3] {
+pub(super) fn to_root(link: &[[f64; 3]; 4], p: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| link[0][k] * p[0] + link[1][k] * p[1] + link[2][k] * p[2] + link[3][k])
 }
