@@ -3,7 +3,7 @@
 //! parry's GJK stops within some 1e-7 of the size of its shapes, ours within 1e-9 m, so that the two agree to 1e-6. Its
 //! hull takes what is thinner than about 1e-4 of its length for flat, so that only round bodies are compared here.
 
-use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+use nalgebra::Isometry3;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query;
 use parry3d_f64::shape::ConvexPolyhedron;

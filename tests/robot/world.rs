@@ -206,7 +206,9 @@ fn as_parry_has_it() {
                 .iter()
                 .find(|(name, _)| **name == *one.obstacle)
                 .unwrap();
-            let distance = query::distance(&Pose::identity(), &hull, &theirs, *body).unwrap();
+            let distance = query::distance(&Pose::identity(), &hull, &theirs, *body)
+                .unwrap()
+                .distance;
             assert!((distance - one.distance).abs() < 2e-6, "{distance} {one:?}");
             match one.distance > 0.0 {
                 true => apart += 1,
