@@ -143,7 +143,8 @@ fn a_mesh_keeps_its_cavity_and_a_hull_fills_it() {
     let q = [0.0, 0.0];
     let world = World::new([pieces]);
     let all = proximity.among(&world).unwrap().distances(&q).unwrap();
-    assert!((of(&all, "block", "cup").distance - 0.3).abs() < 1e-6);
+    let inside = of(&all, "block", "cup");
+    assert!((inside.distance - 0.3).abs() < 2e-4, "{inside:?}");
     let world = World::new([hull]);
     assert!(proximity.among(&world).unwrap().in_collision(&q).unwrap());
 }
@@ -156,22 +157,22 @@ fn as_parry_has_it() {
     let robot = Robot::open(path).unwrap();
     let proximity = robot.proximity(ShapeKind::Hulls).unwrap();
     let turned = UnitQuaternion::from_euler_angles(0.4, -0.7, 1.1);
-    let pose = Isometry3::from_parts(Translation3::new(0.5, 0.3, 0.4), turned);
+    let pose = Isometry3::from_parts(Translation3::new(0.4, 0.2, 0.4), turned);
     let axis = turned.scaled_axis();
     let theirs = Pose::new(
-        Vector::new(0.5, 0.3, 0.4),
+        Vector::new(0.4, 0.2, 0.4),
         Vector::new(axis.x, axis.y, axis.z),
     );
     let world = World::new([
-        Obstacle::cuboid("box", pose, [0.1, 0.2, 0.05]).unwrap(),
-        Obstacle::capsule("rod", pose, 0.03, 0.2).unwrap(),
+        Obstacle::cuboid("box", pose, [0.2, 0.3, 0.1]).unwrap(),
+        Obstacle::capsule("rod", pose, 0.1, 0.3).unwrap(),
     ]);
     let rod = Capsule::new(
-        Vector::new(0.0, 0.0, -0.2),
-        Vector::new(0.0, 0.0, 0.2),
-        0.03,
+        Vector::new(0.0, 0.0, -0.3),
+        Vector::new(0.0, 0.0, 0.3),
+        0.1,
     );
-    let block = Cuboid::new(Vector::new(0.1, 0.2, 0.05));
+    let block = Cuboid::new(Vector::new(0.2, 0.3, 0.1));
     let bodies: [(&str, &dyn Shape); 2] = [("box", &block), ("rod", &rod)];
     let among = proximity.among(&world).unwrap();
     let (mut apart, mut together) = (0, 0);
