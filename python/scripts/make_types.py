@@ -19,7 +19,7 @@ PACKAGE = HERE.parent / "lib" / "urdd"
 VERSION = "1.0.0"
 WIDTH = 116
 
-#: In the order of the specification's table of modules.
+#: In the order of the specification's table of modules; others come after them.
 MODULES = [
     "urdf_module",
     "dof_module",
@@ -284,12 +284,13 @@ def read_schema(name: str) -> dict[str, Any]:
 
 def modules_file() -> str:
     there = {path.parent.name for path in SCHEMAS.glob(f"*/{VERSION}.json")} - NOT_MODULES
-    if there != set(MODULES):
-        raise SystemExit(f"modules differ from those that this script knows: {sorted(there ^ set(MODULES))}")
+    missing = set(MODULES) - there
+    if missing:
+        raise SystemExit(f"there is no schema of {', '.join(sorted(missing))}")
     types = Types()
     root = types.add(read_schema("root_metadata"))
     properties: list[str] = []
-    for module in MODULES:
+    for module in [*MODULES, *sorted(there - set(MODULES))]:
         schema = read_schema(module)
         name = types.add(schema)
         short = module.removesuffix("_module")

@@ -7,12 +7,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, overload
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _urdd
 from ._answers import (
-    SKIP_REASONS,
     Box,
     ConvexMesh,
     InverseSolution,
@@ -23,9 +21,11 @@ from ._answers import (
     Spheres,
     Visual,
 )
-from ._arrays import Bools, Floats, Indices, configurations, numbers, points, scalar
+from ._arrays import Bools, Floats, configurations, scalar
+from ._inverse import as_targets, solve, three
 from ._proximity import Proximity
-from .errors import ConfigurationError, OpenError, UrddError
+from ._shapes import boxes, convex, skips, spheres, visuals
+from .errors import OpenError, UrddError
 
 if TYPE_CHECKING:
     # Each takes time to import, and few programs need it.
@@ -154,6 +154,15 @@ class Robot:
         """
         return self._core.dof(name)
 
+    def index(self, link: str | int) -> int:
+        """The index of a link by its name, or by its index, which may count from the end."""
+        if isinstance(link, str):
+            return self.link(link)
+        index = int(link)
+        if not -self.num_links <= index < self.num_links:
+            raise IndexError(f"there is no link {index}: their number is {self.num_links}")
+        return index % self.num_links
+
     @cached_property
     def folder(self) -> Path | None:
         """The folder on disk; None for an archive."""
@@ -256,7 +265,7 @@ class Robot:
         rows, batch = configurations(q, self.dof_names)
         if link is None:
             return self._core.poses(rows).reshape(*batch, self.num_links, 4, 4)
-        return self._core.poses(rows, self._link(link)).reshape(*batch, 4, 4)
+        return self._core.poses(rows, self.index(link)).reshape(*batch, 4, 4)
 
     def link_poses(self, q: ArrayLike) -> dict[str, Floats]:
         """Forward kinematics by name: for each link its pose, (..., 4, 4)."""
@@ -271,8 +280,8 @@ class Robot:
         column of the DOF that they follow.
         """
         rows, batch = configurations(q, self.dof_names)
-        at = None if point is None else _three(point, "a point")
-        return self._core.jacobians(rows, self._link(link), at).reshape(*batch, 6, self.num_dofs)
+        at = None if point is None else three(point, "a point")
+        return self._core.jacobians(rows, self.index(link), at).reshape(*batch, 6, self.num_dofs)
 
     def ik(
         self,
@@ -305,9 +314,19 @@ class Robot:
             seed: which random configurations.
             bounds: (dofs, 2), in place of :attr:`bounds`.
         """
-        goal = _target(target, (3,), (4, 4))
-        found = self._inverse(
-            link, goal[None], start, point, position_tolerance, rotation_tolerance, iterations, restarts, seed, bounds
+        goal = as_targets(target, (3,), (4, 4))
+        found = solve(
+            self,
+            link,
+            goal[None],
+            start,
+            point,
+            position_tolerance,
+            rotation_tolerance,
+            iterations,
+            restarts,
+            seed,
+            bounds,
         )
         return InverseSolution(
             q=found.q[0],
@@ -334,58 +353,9 @@ class Robot:
     ) -> InverseSolutions:
         """As :meth:`ik`, for many targets, on all threads: poses (n, 4, 4) or places (n, 3). ``start`` is one
         configuration, or one for each target (n, dofs)."""
-        goals = _target(targets, (None, 3), (None, 4, 4))
-        return self._inverse(
-            link, goals, start, point, position_tolerance, rotation_tolerance, iterations, restarts, seed, bounds
-        )
-
-    def _inverse(
-        self,
-        link: str | int,
-        goals: Floats,
-        start: ArrayLike | None,
-        point: ArrayLike,
-        position_tolerance: float,
-        rotation_tolerance: float,
-        iterations: int,
-        restarts: int,
-        seed: int,
-        bounds: ArrayLike | None,
-    ) -> InverseSolutions:
-        count = len(goals)
-        starts, batch = configurations(self.zero if start is None else start, self.dof_names)
-        if batch not in ((), (1,), (count,)):
-            raise ConfigurationError(
-                f"start must be one configuration, or one for each of the {count} targets: its shape is "
-                f"{(*batch, self.num_dofs)}"
-            )
-        limits = None
-        if bounds is not None:
-            limits = numbers(bounds, "bounds")
-            if limits.shape != (self.num_dofs, 2):
-                raise ConfigurationError(f"bounds must have the shape ({self.num_dofs}, 2), and have {limits.shape}")
-        if not (position_tolerance >= 0 and rotation_tolerance >= 0):
-            raise ConfigurationError("tolerances must be numbers, and not negative")
-        q, reached, errors, effort = self._core.inverse(
-            self._link(link),
-            goals if goals.ndim == 3 else goals[:, None, :],
-            starts,
-            _three(point, "a point"),
-            (float(position_tolerance), float(rotation_tolerance)),
-            int(iterations),
-            int(restarts),
-            int(seed),
-            limits,
-        )
-        both = np.array(errors, dtype=np.float64).reshape(count, 2)
-        counts = np.array(effort, dtype=np.uintp).reshape(count, 2)
-        return InverseSolutions(
-            q=q,
-            reached=np.array(reached, dtype=np.bool_),
-            position_error=both[:, 0],
-            rotation_error=both[:, 1],
-            restarts=counts[:, 0],
-            iterations=counts[:, 1],
+        goals = as_targets(targets, (None, 3), (None, 4, 4))
+        return solve(
+            self, link, goals, start, point, position_tolerance, rotation_tolerance, iterations, restarts, seed, bounds
         )
 
     # Collisions.
@@ -423,53 +393,27 @@ class Robot:
 
     def hulls(self) -> list[ConvexMesh]:
         """The convex hull of each link that has geometry."""
-        return self._convex("hulls")
+        return convex(self, "hulls")
 
     def pieces(self) -> list[ConvexMesh]:
         """The convex pieces of each link that has geometry."""
-        return self._convex("pieces")
+        return convex(self, "pieces")
 
     def boxes(self, about: str = "pieces") -> list[Box]:
         """The box about each of the ``hulls`` or ``pieces``."""
-        found: list[Any] = self._core.shapes(_about(about, "boxes", "piece-boxes"))
-        return [Box(self.link_names[one["link"]], one["piece"], one["pose"], one["half_extents"]) for one in found]
+        return boxes(self, about)
 
     def spheres(self, about: str = "pieces") -> Spheres:
         """The sphere about each of the ``hulls`` or ``pieces``."""
-        found: list[Any] = self._core.shapes(_about(about, "spheres", "piece-spheres"))
-        return Spheres(
-            [self.link_names[one["link"]] for one in found],
-            np.array([one["piece"] for one in found], dtype=np.uintp),
-            np.array([one["centre"] for one in found], dtype=np.float64).reshape(len(found), 3),
-            np.array([one["radius"] for one in found], dtype=np.float64),
-        )
+        return spheres(self, about)
 
     def visuals(self) -> list[Visual]:
         """What links look like: the plain mesh of each link, by colour."""
-        found: list[Any] = self._core.visuals()
-        return [
-            Visual(
-                self.link_names[one["link"]],
-                None if one["color"] is None else tuple(one["color"]),
-                one["vertices"],
-                one["faces"],
-            )
-            for one in found
-        ]
-
-    def _convex(self, kind: ShapeKind) -> list[ConvexMesh]:
-        found: list[Any] = self._core.shapes(kind)
-        return [
-            ConvexMesh(self.link_names[one["link"]], one["piece"], one["vertices"], _faces(one["faces"]))
-            for one in found
-        ]
+        return visuals(self)
 
     def skips(self, kind: ShapeKind = "pieces") -> Skips:
         """Which pairs of shapes of a kind a check for collisions leaves out, and why."""
-        places, skipped, reasons = self._core.skips(kind)
-        words = None if reasons is None else [[SKIP_REASONS[number] for number in row] for row in reasons.tolist()]
-        links = tuple(self.link_names[link] for link in places[:, 0].tolist())
-        return Skips(kind, links, places[:, 1], skipped, words)
+        return skips(self, kind)
 
     # Other programs.
 
@@ -557,14 +501,6 @@ class Robot:
 
     # Habits of Python.
 
-    def _link(self, link: str | int) -> int:
-        if isinstance(link, str):
-            return self.link(link)
-        index = int(link)
-        if not -self.num_links <= index < self.num_links:
-            raise IndexError(f"there is no link {index}: their number is {self.num_links}")
-        return index % self.num_links
-
     def __reduce__(self) -> tuple[type[Robot], tuple[str]]:
         return (type(self), (str(self._path.absolute()),))
 
@@ -583,43 +519,6 @@ class Robot:
 
 def _count(number: int, what: str) -> str:
     return f"{number} {what}" if number == 1 else f"{number} {what}s"
-
-
-def _faces(faces: Any) -> Indices:
-    return np.asarray(faces, dtype=np.uintp)
-
-
-def _about(about: str, hulls: ShapeKind, pieces: ShapeKind) -> ShapeKind:
-    if about not in ("hulls", "pieces"):
-        raise ValueError(f"about must be 'hulls' or 'pieces', and is {about!r}")
-    return hulls if about == "hulls" else pieces
-
-
-def _three(point: ArrayLike, what: str) -> tuple[float, float, float]:
-    x, y, z = points(point, what, 3).tolist()
-    return (x, y, z)
-
-
-def _target(target: ArrayLike, place: tuple[int | None, ...], pose: tuple[int | None, ...]) -> Floats:
-    """Places or poses, which are rotations and translations."""
-    given = numbers(target, "a target")
-
-    def fits(shape: tuple[int | None, ...]) -> bool:
-        pairs = zip(given.shape, shape, strict=False)
-        return given.ndim == len(shape) and all(want is None or have == want for have, want in pairs)
-
-    if not fits(place) and not fits(pose):
-        words = [str(shape).replace("None", "n") for shape in (pose, place)]
-        raise ConfigurationError(f"a target is of shape {words[0]} or {words[1]}, and this of {given.shape}")
-    if not np.isfinite(given).all():
-        raise ConfigurationError("the target is not finite")
-    if fits(pose):
-        rotation = given[..., :3, :3]
-        unit = np.abs(rotation @ np.swapaxes(rotation, -1, -2) - np.eye(3)).max(initial=0.0) < 1e-6
-        last = np.abs(given[..., 3, :] - np.array([0.0, 0.0, 0.0, 1.0])).max(initial=0.0) < 1e-9
-        if not (unit and last and bool((np.linalg.det(rotation) > 0).all())):
-            raise ConfigurationError("the target is no pose: a rotation, a translation, and the last row 0, 0, 0, 1")
-    return given
 
 
 def _check_is_no_urdf(path: Path) -> None:
