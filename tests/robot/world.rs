@@ -167,11 +167,7 @@ fn as_parry_has_it() {
         Obstacle::cuboid("box", pose, [0.2, 0.3, 0.1]).unwrap(),
         Obstacle::capsule("rod", pose, 0.1, 0.3).unwrap(),
     ]);
-    let rod = Capsule::new(
-        Vector::new(0.0, 0.0, -0.3),
-        Vector::new(0.0, 0.0, 0.3),
-        0.1,
-    );
+    let rod = Capsule::new(Vector::new(0.0, 0.0, -0.3), Vector::new(0.0, 0.0, 0.3), 0.1);
     let block = Cuboid::new(Vector::new(0.2, 0.3, 0.1));
     let bodies: [(&str, &dyn Shape); 2] = [("box", &block), ("rod", &rod)];
     let among = proximity.among(&world).unwrap();

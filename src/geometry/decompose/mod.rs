@@ -16,7 +16,8 @@
 //! 5. `merge`: blocks are joined again, the cheapest pair first, while there are too many or a join
 //!    costs nearly nothing. Cutting far and joining back finds what one greedy pass does not.
 //! 6. `assign`: the surface itself is clipped by the same planes and handed out to the groups.
-//! 7. `choose`: few points of each group whose hull holds the rest; `ConvexHull` makes the piece.
+//! 7. `choose`: few points of each group whose hull holds the rest; `ConvexHull` makes the piece. Flat ones that another
+//!    piece holds are left out (`held`).
 //!
 //! What a decomposition is judged by is how far its outside stands off the surface on average: the integral over
 //! the pieces' faces of the distance to the surface, but for faces inside and in cuts, where another piece goes on.
@@ -36,6 +37,7 @@ mod faces;
 mod field;
 mod grower;
 mod growing_hull;
+mod held;
 mod inside;
 mod merge;
 mod part;
@@ -102,6 +104,9 @@ const ON_PLANE: f64 = 2e-5;
 /// The same for the stand-in, as a part of its cells.
 const ON_PLANE_PROXY: f64 = 0.15;
 
+/// A flat piece that reaches so little out of another, as a part of the surface's tolerance, is held by it.
+const HELD: f64 = 0.01;
+
 /// Pieces cut along faces first are to cost less than this part of the others, to be taken for them.
 const BETTER: f64 = 0.9;
 
@@ -167,15 +172,14 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
         count,
         ON_PLANE,
     );
-    let pieces = parts
+    let pieces: Vec<ConvexHull> = parts
         .par_iter()
         .filter(|points| !points.is_empty())
         // A group of nothing but collinear points has no hull: its triangles have no area.
         .filter_map(|points| ConvexHull::new(&choose::choose(points, tolerance)).ok())
-        .map(ConvexHull::into_mesh)
         .collect();
     Decomposition {
-        pieces,
+        pieces: held::without_held(pieces, HELD * tolerance),
         surface_tolerance: tolerance,
         ignored_triangles: surface.ignored,
     }
