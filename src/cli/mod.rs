@@ -1,6 +1,7 @@
 //! The command line: arguments in, text out. Everything else is in the library.
 
 mod check_collisions;
+mod combine;
 mod configurations;
 mod conformance;
 mod explain;
@@ -9,11 +10,13 @@ mod foreign;
 mod generate;
 mod generate_output;
 mod info;
+mod making;
 mod output;
 mod rehash;
 mod schema;
 mod shapes;
 mod signals;
+mod skips;
 mod validate;
 mod view;
 mod words;
@@ -44,6 +47,8 @@ struct Arguments {
 enum Command {
     /// Make URDDs of URDFs.
     Generate(generate::GenerateArguments),
+    /// Put robots together: a gripper on an arm, arms on a base.
+    Combine(combine::CombineArguments),
     /// Check URDDs against the specification.
     Validate(validate::ValidateArguments),
     /// Ask a robot whether it collides with itself, and which of its parts are nearest.
@@ -52,6 +57,8 @@ enum Command {
     View(view::ViewArguments),
     /// Hand a robot on: SRDF, URDF, MJCF, spheres.
     Export(export::ExportArguments),
+    /// A person's edits of the skips: read them from an SRDF.
+    Skips(skips::SkipsArguments),
     /// Tell about a rule, or list them all.
     Explain(explain::ExplainArguments),
     /// Tell what a URDD holds, without judging it.
@@ -82,10 +89,12 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
     let color = arguments.color;
     match arguments.command {
         Command::Generate(arguments) => generate::run(&arguments),
+        Command::Combine(arguments) => combine::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments, color),
         Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
         Command::View(arguments) => view::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Skips(arguments) => skips::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Rehash(arguments) => rehash::run(&arguments),
