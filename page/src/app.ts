@@ -5,6 +5,7 @@ import type { Engine } from "./engine/client";
 import type { Report, RobotSource, ShapeKind } from "./engine/protocol";
 import { Latest } from "./latest";
 import { RobotModel } from "./model";
+import { partsOf } from "./parts";
 import type { Entry, Part } from "./model";
 import type { Site } from "./site";
 import { LAYERS, NO_SKIPS, StateStore } from "./state";
@@ -64,7 +65,7 @@ export class App {
       });
       if (turn !== this.opening) return null;
       this.revision = source.kind === "url" ? source.revision : null;
-      const robot = new RobotModel(entry, source, about, files);
+      const robot = new RobotModel(entry, source, about, files, await partsOf(this.engine, files));
       if (robot.links.length === 0) throw new Error(why(robot));
       const q = keep && before.q.length === robot.dofs.length ? before.q : (about.zero ?? robot.dofs.map(() => 0));
       const poses = about.dofs ? await this.engine.ask("poses", { q }) : null;

@@ -1,6 +1,7 @@
 /** A robot that is open: what the engine says of it, and what follows for the page. */
 
 import type { About, Dof, FileEntry, Joint, Link, RobotSource } from "./engine/protocol";
+import type { RobotPart } from "./parts";
 
 /** A line of `robots.json`. */
 export interface Entry {
@@ -60,6 +61,8 @@ export class RobotModel {
     readonly source: RobotSource,
     readonly about: About,
     readonly files: FileEntry[],
+    /** What it was put together from. */
+    readonly parts: RobotPart[] = [],
   ) {
     this.links = about.links;
     this.joints = about.joints;

@@ -5,6 +5,7 @@ import type { App } from "./app";
 import { message } from "./app";
 import { worstOfLinks } from "./findings";
 import type { RobotModel } from "./model";
+import { partColor } from "./parts";
 import { pairOf, same as samePair } from "./panels/proximity";
 import { Gizmo, GIZMOS } from "./scene/gizmo";
 import { Ground } from "./scene/ground";
@@ -131,7 +132,19 @@ export class Stage {
       void this.fill();
     });
     store.on(
-      ["layers", "hidden", "overlays", "selected", "hovered", "pair", "report", "painted", "faults", "proximity"],
+      [
+        "layers",
+        "hidden",
+        "overlays",
+        "selected",
+        "hovered",
+        "pair",
+        "report",
+        "painted",
+        "byPart",
+        "faults",
+        "proximity",
+      ],
       (state) => {
         this.dress(state);
       },
@@ -230,7 +243,7 @@ export class Stage {
 
   /** Colours and opacities. */
   private dress(state: State): void {
-    const { robot, hidden, overlays, selected, hovered, pair, painted, report } = state;
+    const { robot, hidden, overlays, selected, hovered, pair, painted, byPart, report } = state;
     const layers = drawnLayers(state);
     if (!robot || !this.scene) return;
     const tints = new Map<number, Color>();
@@ -248,8 +261,13 @@ export class Stage {
       }
     }
     const worst = painted ? worstOfLinks(robot, report.report) : null;
+    const parts = new Map<number, Color>();
+    if (byPart)
+      robot.parts.forEach(({ links }, part) => {
+        for (const link of links) parts.set(link, new Color(partColor(part)));
+      });
     const paint = (link: number): Color | null => {
-      if (!worst) return null;
+      if (!worst) return parts.get(link) ?? null;
       const name = { error: "--error", warning: "--warning", info: "--info", unverified: "--open" }[
         worst.get(link) ?? "info"
       ];

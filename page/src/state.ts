@@ -85,6 +85,8 @@ export interface State {
   report: { report: Report | null; error: string | null; busy: string | null };
   /** Colours of links by their worst finding. */
   painted: boolean;
+  /** Colours of links by the part that they are of, where the robot was put together. */
+  byPart: boolean;
   /** The pose error of the sample that is shown. */
   sample: { at: number; of: number; position: number; angle: number } | null;
   /** A line for the status bar, for a moment. */
@@ -122,6 +124,7 @@ export function initial(): State {
     skips: NO_SKIPS,
     report: { report: null, error: null, busy: null },
     painted: false,
+    byPart: true,
     sample: null,
     note: null,
   };

@@ -1,6 +1,8 @@
 /** What stands for the links: layers with their opacity, what is drawn over them, and which links are shown. */
 
 import type { App } from "../app";
+import { partColor } from "../parts";
+import type { RobotPart } from "../parts";
 import { LAYERS, LAYER_HINTS, LAYER_NAMES, OVERLAYS, OVERLAY_NAMES } from "../state";
 import { cut, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
@@ -39,6 +41,18 @@ export function shapes(app: App): HTMLElement {
     });
     return { kind, box, row: h("div", { class: "check" }, box, h("label", { for: box.id }, OVERLAY_NAMES[kind])) };
   });
+  const byPart = h("input", { type: "checkbox", id: "by-part" });
+  byPart.addEventListener("change", () => {
+    app.store.set({ byPart: byPart.checked });
+  });
+  const partList = h("div", { class: "links" });
+  const parts = h(
+    "div",
+    { hidden: true },
+    h("h2", {}, "Parts"),
+    h("div", { class: "check" }, byPart, h("label", { for: "by-part" }, "Colour links by the part that they are of")),
+    partList,
+  );
   const links = h("div", { class: "links" });
   const all = (hide: boolean): void => {
     app.hide(app.store.now.robot?.links.keys() ?? [], hide);
@@ -49,6 +63,7 @@ export function shapes(app: App): HTMLElement {
     h("h2", {}, "Shapes"),
     h("p", { class: "hint" }, "Several at once, each with its opacity."),
     ...layers.map(({ row }) => row),
+    parts,
     h("h2", {}, "Drawn over them"),
     h("div", { class: "checks" }, ...overlays.map(({ row }) => row)),
     h(
@@ -96,8 +111,13 @@ export function shapes(app: App): HTMLElement {
     links,
   );
   let boxes: HTMLInputElement[] = [];
+  app.store.on(["byPart"], ({ byPart: on }) => {
+    byPart.checked = on;
+  });
   app.store.on(["robot"], ({ robot }) => {
     boxes = [];
+    parts.hidden = (robot?.parts.length ?? 0) === 0;
+    fill(partList, ...(robot?.parts ?? []).map(partRow));
     fill(
       links,
       ...(robot?.links ?? []).map((link, index) => {
@@ -142,4 +162,16 @@ export function shapes(app: App): HTMLElement {
     },
   );
   return panel;
+}
+
+function partRow(part: RobotPart, index: number): HTMLElement {
+  const swatch = h("span", { class: "swatch" });
+  swatch.style.background = partColor(index);
+  return h(
+    "div",
+    { class: "check wide part" },
+    swatch,
+    h("span", { class: "cut", title: name(part.name) }, ...cut(name(part.id))),
+    h("span", { class: "kind" }, count(part.links.length, "link")),
+  );
 }
