@@ -34,6 +34,8 @@ pub mod cancellation;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+#[cfg(feature = "generate")]
+pub mod combine;
 #[cfg(feature = "conformance")]
 pub mod conformance;
 pub mod directory;

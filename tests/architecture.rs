@@ -31,6 +31,17 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "combine",
+        &[
+            "cancellation",
+            "format",
+            "directory",
+            "kinematics",
+            "generate",
+            "xml",
+        ],
+    ),
+    (
         "validate",
         &[
             "cancellation",
@@ -95,6 +106,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "kinematics",
             "skips",
             "generate",
+            "combine",
             "validate",
             "report",
             "robot",

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
-use super::generate::Skip;
+use super::making::Skip;
 use super::output;
 use super::shapes::{self, Shapes};
 use crate::export::{Export, Format, Options, SphereBudget, export, merge_srdf};

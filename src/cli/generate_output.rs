@@ -8,6 +8,7 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
 use super::output;
+use crate::combine::{CombineError, Combined};
 use crate::format::escape;
 use crate::format::registry::ModuleKind;
 use crate::generate::batch::{Job, Observer};
@@ -104,6 +105,30 @@ impl Printer {
             bar
         });
         Box::new(RobotBar(bar))
+    }
+
+    /// Tells what was put together, or why nothing was.
+    pub(super) fn combined(&self, job: &Job, outcome: &Result<Combined, CombineError>) {
+        match (self.format, outcome) {
+            (Format::Json, Ok(made)) => self.print(&line(&combined_as_json(job, made))),
+            (Format::Json, Err(error)) => self.print(&line(&json!({
+                "source": job.source.display().to_string(),
+                "output": job.name,
+                "status": "failed",
+                "error": { "code": error.code(), "message": error.to_string() },
+            }))),
+            (Format::Human, Ok(made)) => {
+                self.print(&summary(job, &made.generated));
+                let notes = made.notes.iter().map(|note| format!("note: {note}"));
+                for text in notes.chain(notes_told(&made.generated.notes, false)) {
+                    self.error(&text);
+                }
+            }
+            (Format::Human, Err(CombineError::Generate { id: None, error })) => {
+                self.error(&message(error));
+            }
+            (Format::Human, Err(error)) => self.error(&error.to_string()),
+        }
     }
 
     /// Prints to standard output, the bars out of the way.
@@ -293,6 +318,19 @@ fn as_json(job: &Job, outcome: &Result<Generated, GenerateError>) -> Value {
     if let (Some(object), Value::Object(more)) = (object.as_object_mut(), more) {
         object.extend(more);
     }
+    object
+}
+
+fn combined_as_json(job: &Job, made: &Combined) -> Value {
+    let mut object = as_json(job, &Ok(made.generated.clone()));
+    let parts = made.composition.parts.iter();
+    object["parts"] = parts
+        .map(|part| json!({ "id": part.id, "name": part.name, "links": part.links.len() }))
+        .collect();
+    let notes = made.notes.iter();
+    object["combine_notes"] = notes
+        .map(|note| json!({ "kind": note.kind(), "message": note.to_string() }))
+        .collect();
     object
 }
 

@@ -1,6 +1,7 @@
 //! The command line: arguments in, text out. Everything else is in the library.
 
 mod check_collisions;
+mod combine;
 mod configurations;
 mod conformance;
 mod explain;
@@ -9,6 +10,7 @@ mod foreign;
 mod generate;
 mod generate_output;
 mod info;
+mod making;
 mod output;
 mod rehash;
 mod schema;
@@ -44,6 +46,8 @@ struct Arguments {
 enum Command {
     /// Make URDDs of URDFs.
     Generate(generate::GenerateArguments),
+    /// Put robots together: a gripper on an arm, arms on a base.
+    Combine(combine::CombineArguments),
     /// Check URDDs against the specification.
     Validate(validate::ValidateArguments),
     /// Ask a robot whether it collides with itself, and which of its parts are nearest.
@@ -82,6 +86,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
     let color = arguments.color;
     match arguments.command {
         Command::Generate(arguments) => generate::run(&arguments),
+        Command::Combine(arguments) => combine::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments, color),
         Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
         Command::View(arguments) => view::run(&arguments),

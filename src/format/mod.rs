@@ -7,6 +7,7 @@
 pub mod bounds;
 pub mod bundle;
 pub mod chain;
+pub mod composition;
 pub mod conformance;
 pub mod connections;
 pub mod convex_decomposition_meshes;

@@ -78,6 +78,8 @@ kinds! {
     Bounds = "bounds_module" in "", Some(Core), needs [Urdf, Dof];
     /// Golden values for forward kinematics. Recommended.
     KinematicsSamples = "kinematics_samples_module" in "", None, needs [Dof, Chain, Bounds];
+    /// How the robot was put together from others. For robots that were.
+    Composition = "composition_module" in "", None, needs [Urdf];
     /// Mesh files as the URDF names them.
     OriginalMeshes = "original_meshes_module" in "mesh_modules/", Some(Geometry), needs [Urdf];
     /// One mesh per link.
@@ -148,6 +150,7 @@ modules! {
     Connections(connections::ConnectionsModule): Connections @ "1.0.0", V1;
     Bounds(bounds::BoundsModule): Bounds @ "1.0.0", V1;
     KinematicsSamples(kinematics_samples::KinematicsSamplesModule): KinematicsSamples @ "1.0.0", V1;
+    Composition(composition::CompositionModule): Composition @ "1.0.0", V1;
     OriginalMeshes(original_meshes::OriginalMeshesModule): OriginalMeshes @ "1.0.0", V1;
     PlainMeshes(plain_meshes::PlainMeshesModule): PlainMeshes @ "1.0.0", V1;
     ConvexHullMeshes(convex_hull_meshes::ConvexHullMeshesModule): ConvexHullMeshes @ "1.0.0", V1;

@@ -17,6 +17,7 @@ use super::shapes::approximations::approximations;
 use super::shapes::max_distances::max_distances;
 use super::shapes::simple_skips::simple_skips;
 use super::shapes::statistics::{at_default_configuration, statistics};
+use super::taken::{Solid, known_shapes, meshes_of, taken_of, taken_plain};
 use super::work::Work;
 use crate::format::convex_decomposition_meshes::{
     ConvexDecompositionMeshesModule, DecompositionMethod,
@@ -29,7 +30,6 @@ use crate::format::registry::ModuleKind;
 use crate::geometry::Mesh;
 use crate::geometry::decompose;
 use crate::geometry::hull::{ConvexHull, HullError};
-use crate::geometry::read::Part;
 use crate::skips::skips_module;
 
 pub(super) fn plain_settings(work: &Work) -> String {
@@ -56,9 +56,14 @@ pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
     let formats = work.settings.mesh_formats;
     let robot = &work.source.reading.robot;
     let preferred = work.settings.preferred_geometry;
+    let taken = taken_plain(work);
+    let have = |link: usize| taken.get(link).is_some_and(Option::is_some);
     let geometries = match &work.original {
-        Some(original) => link_geometries(robot, &original.module, &original.scenes, preferred)
-            .map_err(|fault| work.source.refused(fault))?,
+        Some(original) => {
+            let (module, scenes) = (&original.module, &original.scenes);
+            link_geometries(robot, module, scenes, preferred, &have)
+                .map_err(|fault| work.source.refused(fault))?
+        }
         None => Vec::new(),
     };
     let name = |link: usize| robot.links[link].name.as_str();
@@ -66,10 +71,18 @@ pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
         .into_par_iter()
         .enumerate()
         .map(|(link, geometry)| {
+            let files = mesh_files(kind, link, name(link), None, formats);
+            if let Some((geometry, taken)) = taken.get(link).and_then(Option::as_ref) {
+                let contents = taken.files.named(&files);
+                let plain = PlainMesh {
+                    geometry: *geometry,
+                    files,
+                };
+                return Ok(Some((plain, contents, taken.mesh.clone())));
+            }
             let Some(geometry) = geometry else {
                 return Ok(None);
             };
-            let files = mesh_files(kind, link, name(link), None, formats);
             let contents = files_of(&geometry.parts, &files, Shading::Smooth)?;
             let mesh = WrittenMesh::of(&geometry.parts);
             let geometry = geometry.geometry;
@@ -96,47 +109,55 @@ pub(super) fn plain(work: &mut Work) -> Result<Made, GenerateError> {
     )
 }
 
-/// The meshes that are there, in order.
-fn meshes_of(plain: &[Option<WrittenMesh>]) -> Vec<&Mesh> {
-    plain.iter().flatten().map(|plain| &plain.mesh).collect()
-}
-
 pub(super) fn hulls_settings(work: &Work) -> String {
     formats_settings(work).to_owned()
 }
 
 pub(super) fn hulls(work: &mut Work) -> Result<Made, GenerateError> {
     let plain = work.artifacts.plain()?;
+    let kind = ModuleKind::ConvexHullMeshes;
+    let taken = taken_of(work, kind, &plain, |plain, wanted| {
+        Some(vec![work.reusable.hull(plain, wanted)?])
+    });
     // A plain mesh has a triangle with an area, and so a hull.
     let hull = |mesh: &Mesh| {
         ConvexHull::new(&mesh.vertices)
             .ok()
             .map(ConvexHull::into_mesh)
     };
-    let mut made_of =
-        for_each_content(&meshes_of(&plain), &work.settings.cancellation, hull)?.into_iter();
-    let hulls: Vec<Option<WrittenMesh>> = plain
-        .iter()
-        .map(|plain| {
-            let plain = plain.as_ref()?;
-            Some(WrittenMesh {
-                mesh: made_of.next()??,
-                color: plain.color,
-            })
+    let meshes = meshes_of(&plain, &taken);
+    let mut made_of = for_each_content(&meshes, &work.settings.cancellation, hull)?.into_iter();
+    let solids = plain.iter().zip(taken).map(|(plain, taken)| {
+        let Some(plain) = plain else {
+            return Vec::new();
+        };
+        taken.unwrap_or_else(|| {
+            let made = made_of.next().flatten();
+            let solid = |mesh| Solid {
+                mesh: WrittenMesh {
+                    mesh,
+                    color: plain.color,
+                },
+                files: None,
+            };
+            made.into_iter().map(solid).collect()
         })
-        .collect();
-    let links = hulls.iter().enumerate().map(|(link, hull)| {
-        let hull = hull.as_ref().into_iter();
-        hull.map(|hull| (link, None, hull)).collect::<Vec<_>>()
     });
-    let (link_hulls, files) = write(work, ModuleKind::ConvexHullMeshes, links)?;
+    let solids: Vec<Vec<Solid>> = solids.collect();
+    let links = solids
+        .iter()
+        .map(|of_link| of_link.iter().map(|hull| (None, hull)).collect());
+    let (link_hulls, files) = write(work, kind, links)?;
     let module = ConvexHullMeshesModule {
         link_hulls: link_hulls
             .into_iter()
             .map(|hull| hull.into_iter().next())
             .collect(),
     };
-    work.artifacts.hulls = Some(Arc::new(hulls));
+    let hulls = solids
+        .into_iter()
+        .map(|of_link| Some(of_link.into_iter().next()?.mesh));
+    work.artifacts.hulls = Some(Arc::new(hulls.collect()));
     made(&module, files)
 }
 
@@ -159,34 +180,41 @@ pub(super) fn decomposition_settings(work: &Work) -> String {
 
 pub(super) fn pieces(work: &mut Work) -> Result<Made, GenerateError> {
     let plain = work.artifacts.plain()?;
+    let kind = ModuleKind::ConvexDecompositionMeshes;
     let settings = decomposition(work);
+    let taken = taken_of(work, kind, &plain, |plain, wanted| {
+        work.reusable.pieces(plain, wanted)
+    });
     let decompose = |mesh: &Mesh| decompose::decompose(mesh, &settings);
-    let mut made_of =
-        for_each_content(&meshes_of(&plain), &work.settings.cancellation, decompose)?.into_iter();
-    let decomposed: Vec<(Vec<WrittenMesh>, f64)> = plain
-        .iter()
-        .map(|plain| {
-            let Some(plain) = plain else {
-                return (Vec::new(), 0.0);
-            };
-            let made = made_of.next().unwrap_or_default();
-            let piece = |mesh| WrittenMesh {
+    let meshes = meshes_of(&plain, &taken);
+    let made_of = for_each_content(&meshes, &work.settings.cancellation, decompose)?;
+    let mut made_of = made_of.into_iter();
+    let mut tolerance: f64 = 0.0;
+    let solids = plain.iter().zip(taken).map(|(plain, taken)| {
+        let Some(plain) = plain else {
+            return Vec::new();
+        };
+        if let Some(taken) = taken {
+            tolerance = tolerance.max(settings.surface_tolerance_of(&plain.mesh));
+            return taken;
+        }
+        let made = made_of.next().unwrap_or_default();
+        tolerance = tolerance.max(made.surface_tolerance);
+        let piece = |mesh| Solid {
+            mesh: WrittenMesh {
                 mesh,
                 color: plain.color,
-            };
-            let pieces = made.pieces.into_iter().map(piece).collect();
-            (pieces, made.surface_tolerance)
-        })
-        .collect();
-    let tolerance = decomposed.iter().map(|(_, t)| *t).fold(0.0, f64::max);
-    let pieces: Vec<Vec<WrittenMesh>> = decomposed.into_iter().map(|(pieces, _)| pieces).collect();
-    let links = pieces.iter().enumerate().map(|(link, pieces)| {
-        let pieces = pieces.iter().enumerate();
-        pieces
-            .map(|(idx, piece)| (link, Some(idx), piece))
-            .collect()
+            },
+            files: None,
+        };
+        made.pieces.into_iter().map(piece).collect()
     });
-    let (link_pieces, files) = write(work, ModuleKind::ConvexDecompositionMeshes, links)?;
+    let solids: Vec<Vec<Solid>> = solids.collect();
+    let links = solids.iter().map(|pieces| {
+        let pieces = pieces.iter().enumerate();
+        pieces.map(|(idx, piece)| (Some(idx), piece)).collect()
+    });
+    let (link_pieces, files) = write(work, kind, links)?;
     let module = ConvexDecompositionMeshesModule {
         method: DecompositionMethod {
             name: DECOMPOSITION.to_owned(),
@@ -194,7 +222,11 @@ pub(super) fn pieces(work: &mut Work) -> Result<Made, GenerateError> {
         },
         link_pieces,
     };
-    work.artifacts.pieces = Some(Arc::new(pieces));
+    let pieces = solids.into_iter().map(|pieces| {
+        let pieces = pieces.into_iter().map(|piece| piece.mesh);
+        pieces.collect()
+    });
+    work.artifacts.pieces = Some(Arc::new(pieces.collect()));
     made(&module, files)
 }
 
@@ -204,7 +236,8 @@ pub(super) fn boxes_and_spheres(work: &mut Work) -> Result<Made, GenerateError> 
         file: work.source.shown.clone(),
         reason: error.to_string(),
     };
-    let module = approximations(&solids, &work.settings.cancellation)?.map_err(internal)?;
+    let known = known_shapes(work, &solids);
+    let module = approximations(&solids, known, &work.settings.cancellation)?.map_err(internal)?;
     let document = document(&module)?;
     work.artifacts.approximations = Some(Arc::new(module));
     Ok(document)
@@ -293,8 +326,8 @@ fn skipped_reasons(work: &Work) -> Vec<SkippedReason> {
     reasons
 }
 
-/// A link, the index of a piece, and the mesh.
-type Named<'a> = (usize, Option<usize>, &'a WrittenMesh);
+/// The index of a piece, and the mesh.
+type Named<'a> = (Option<usize>, &'a Solid);
 
 /// Writes the meshes of each link.
 fn write<'a>(
@@ -305,12 +338,14 @@ fn write<'a>(
     let links: Vec<Vec<Named>> = links.collect();
     let written: Vec<Vec<(MeshFiles, Vec<MadeFile>)>> = links
         .into_par_iter()
-        .map(|meshes| {
-            let meshes = meshes.into_iter().map(|(link, piece, mesh)| {
-                let name = &work.chain.links_in_chain[link].name;
-                let files = mesh_files(kind, link, name, piece, work.settings.mesh_formats);
-                let part: Part = mesh.part();
-                let contents = files_of(&[part], &files, Shading::Flat)?;
+        .enumerate()
+        .map(|(link, meshes)| {
+            let meshes = meshes.into_iter().map(|(piece, solid)| {
+                let files = work.mesh_files(kind, link, piece);
+                let contents = match &solid.files {
+                    Some(taken) => taken.named(&files),
+                    None => files_of(&[solid.mesh.part()], &files, Shading::Flat)?,
+                };
                 Ok((files, contents))
             });
             meshes.collect()

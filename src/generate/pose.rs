@@ -7,7 +7,7 @@ use crate::kinematics::rotation::from_rpy;
 
 /// Whether `quat_xyzw` counts in a URDF of this version: from 1.1 on. Absent, or no two numbers with
 /// a dot between them, is 1.0.
-pub(super) fn has_quaternions(version: Option<&str>) -> bool {
+pub fn has_quaternions(version: Option<&str>) -> bool {
     let number = |text: &str| -> Option<u64> {
         let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
         // What is beyond 64 bits is later than any version.
@@ -20,7 +20,7 @@ pub(super) fn has_quaternions(version: Option<&str>) -> bool {
 }
 
 /// The pose of an origin; what is absent is zero. `quaternions` says whether `quat_xyzw` counts.
-pub(super) fn of(origin: Option<&Origin>, quaternions: bool) -> Isometry3<f64> {
+pub fn of(origin: Option<&Origin>, quaternions: bool) -> Isometry3<f64> {
     let xyz = origin.and_then(|origin| origin.xyz).unwrap_or_default();
     let quaternion = origin
         .and_then(|origin| origin.quat_xyzw)

@@ -1,9 +1,11 @@
 //! One robot: from its file to its URDD.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
 use super::carry_over::{carry_over, extensions};
+use super::composed::Composed;
 use super::edits::{self, Decisions};
 use super::error::GenerateError;
 use super::made::{Content, Made};
@@ -11,6 +13,7 @@ use super::meshes::MeshCount;
 use super::metadata::{self, Entry};
 use super::note::Note;
 use super::old::Old;
+use super::reuse::Reusable;
 use super::settings::Settings;
 use super::size;
 use super::source::{self, Source};
@@ -82,7 +85,7 @@ pub fn generate(
 ) -> Result<Generated, GenerateError> {
     let path = source;
     let source = source::load(path, &settings.xacro, &settings.packages)?;
-    make(Some(path), &source, target, settings, progress)
+    make(Some(path), &source, None, target, settings, progress)
 }
 
 /// Makes a URDD of a URDF from memory, as it came through a pipe. Relative names of meshes begin in
@@ -99,12 +102,13 @@ pub fn generate_text(
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
     let source = source::load_text(urdf, shown, folder)?;
-    make(None, &source, target, settings, progress)
+    make(None, &source, None, target, settings, progress)
 }
 
-fn make(
+pub(super) fn make(
     path: Option<&Path>,
     source: &Source,
+    composed: Option<&Composed>,
     target: &Path,
     settings: &Settings,
     progress: &dyn Progress,
@@ -119,17 +123,28 @@ fn make(
         true => Decisions::default(),
         false => edits::read(target, &settings.selection, old.as_ref())?,
     };
+    let edits = match composed {
+        Some(composed) => composed.decisions(old.as_ref(), edits),
+        None => edits,
+    };
     check_target(target, old.as_ref(), settings)?;
     let writer = Writer::new(staging.content());
 
     let mut work = Work::new(source, settings, staging.content(), edits)?;
-    let stages: Vec<&Stage> = settings.selection.kinds().filter_map(stages::of).collect();
+    work.reusable = Reusable::of(&settings.reuse, &stages::settings_texts(&work));
+    work.composition = composed.map(|composed| &composed.composition);
+    let of_parts = composed.map(|_| ModuleKind::Composition);
+    let kinds: BTreeSet<ModuleKind> = settings.selection.kinds().chain(of_parts).collect();
+    let stages: Vec<&Stage> = kinds.into_iter().filter_map(stages::of).collect();
     let (mut entries, mut modules) = (Vec::new(), Vec::new());
     for (done, stage) in stages.iter().enumerate() {
         settings.cancellation.check()?;
         progress.module(stage.kind, done, stages.len());
         let (entry, kept) = run(stage, &mut work, &writer, old.as_ref(), &entries)?;
         check_assumptions(&work.notes, settings)?;
+        let files = entry.module.files.iter();
+        work.digests
+            .extend(files.map(|file| (file.path.clone(), file.sha256.as_str().to_owned())));
         entries.push(entry);
         modules.push(MadeModule {
             kind: stage.kind,

@@ -21,10 +21,14 @@ fn known() -> String {
     names.chain(classes).collect::<Vec<_>>().join(", ")
 }
 
-/// The modules of version 1, in the order of the specification: what this program makes.
+/// The modules of version 1, in the order of the specification: what this program makes of every
+/// robot. What is made of a robot that is put together from others, nobody needs to ask for.
 fn kinds() -> Vec<ModuleKind> {
     let current = MODULES.iter().filter(|spec| spec.profile == Profile::V1);
-    current.map(|spec| spec.kind).collect()
+    let kinds = current.map(|spec| spec.kind);
+    kinds
+        .filter(|kind| *kind != ModuleKind::Composition)
+        .collect()
 }
 
 /// A module's name without `_module`.

@@ -6,6 +6,7 @@ use super::meshes::package::Packages;
 use super::selection::Selection;
 use super::source::xacro::XacroSettings;
 use crate::cancellation::Cancellation;
+use crate::directory::root::Root;
 use crate::format::link_shapes_skips::SkippedReason;
 use crate::format::meshes::GeometryKind;
 
@@ -37,6 +38,11 @@ pub struct Settings {
     pub drop_edits: bool,
     /// Whether to write into a folder that holds something else.
     pub force: bool,
+    /// URDDs of this program from which the meshes, hulls, pieces, boxes and spheres of links are taken over, where
+    /// the link's geometry is the same to the byte, and so are the settings. The URDD that is made is the same as
+    /// without them, but for the last digits of distances, in less time. They are believed: give none that a validator
+    /// refuses.
+    pub reuse: Vec<Root>,
     /// Where it is asked to stop: before the next module or mesh, with [`GenerateError::Cancelled`], and nothing is
     /// changed.
     ///
@@ -100,6 +106,7 @@ impl Default for Settings {
             strict: false,
             drop_edits: false,
             force: false,
+            reuse: Vec::new(),
             cancellation: Cancellation::default(),
         }
     }

@@ -9,6 +9,7 @@ use super::error::GenerateError;
 use super::geometry_stages as geometry;
 use super::made::{Content, Made, MadeFile, document};
 use super::meshes::original::original_meshes;
+use super::reuse::SettingsTexts;
 use super::work::Work;
 use crate::directory::document::{Document, Member, Rows};
 use crate::format::registry::ModuleKind;
@@ -78,6 +79,11 @@ const STAGES: &[Stage] = &[
         make: |work| document(&work.samples),
     },
     Stage {
+        kind: ModuleKind::Composition,
+        reuse: Reuse::Never,
+        make: |work| document(&work.composition),
+    },
+    Stage {
         kind: ModuleKind::OriginalMeshes,
         reuse: Reuse::Never,
         make: meshes,
@@ -127,6 +133,14 @@ const STAGES: &[Stage] = &[
 /// The stage of a module.
 pub(super) fn of(kind: ModuleKind) -> Option<&'static Stage> {
     STAGES.iter().find(|stage| stage.kind == kind)
+}
+
+/// What each module depends on besides other modules.
+pub(super) fn settings_texts(work: &Work) -> SettingsTexts {
+    let texts = STAGES
+        .iter()
+        .filter_map(|stage| Some((stage.kind, stage.reuse.inputs(work)?)));
+    texts.collect()
 }
 
 /// With 180 links in a line these are 5 million numbers.

@@ -1,20 +1,26 @@
 //! What stages work with.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use super::artifacts::Artifacts;
 use super::edits::{Decisions, Edits};
 use super::error::GenerateError;
 use super::fault::Fault;
+use super::meshes::names::mesh_files;
 use super::meshes::original::OriginalMeshes;
 use super::note::{Note, NoteKind};
+use super::reuse::Reusable;
 use super::settings::Settings;
 use super::source::Source;
 use super::{bounds, chain, dof, kinematics_samples};
 use crate::format::bounds::BoundsModule;
 use crate::format::chain::ChainModule;
+use crate::format::composition::CompositionModule;
 use crate::format::dof::DofModule;
 use crate::format::kinematics_samples::KinematicsSamplesModule;
+use crate::format::meshes::MeshFiles;
+use crate::format::registry::ModuleKind;
 
 /// What stages work with.
 pub(super) struct Work<'a> {
@@ -30,6 +36,12 @@ pub(super) struct Work<'a> {
     /// A person's edits of the skips.
     pub edits: Edits,
     pub notes: Vec<Note>,
+    /// How the robot was put together from others.
+    pub composition: Option<&'a CompositionModule>,
+    /// The SHA-256 of each file that was written or kept, by its path.
+    pub digests: HashMap<String, String>,
+    /// What other URDDs hold of links of the same content.
+    pub reusable: Reusable,
 }
 
 impl<'a> Work<'a> {
@@ -61,7 +73,16 @@ impl<'a> Work<'a> {
             artifacts: Artifacts::new(root),
             original: None,
             notes: Vec::new(),
+            composition: None,
+            digests: HashMap::new(),
+            reusable: Reusable::default(),
         })
+    }
+
+    /// The files of a link's mesh, or of one of its pieces.
+    pub fn mesh_files(&self, kind: ModuleKind, link: usize, piece: Option<usize>) -> MeshFiles {
+        let name = &self.chain.links_in_chain[link].name;
+        mesh_files(kind, link, name, piece, self.settings.mesh_formats)
     }
 
     /// Notes that something is not made of this robot.

@@ -16,7 +16,7 @@ use crate::format::escape::line as safe;
 const COLUMNS: &[(&str, &[&str])] = &[
     ("DIR", &["DIR"]),
     ("TXT", &["JSN", "YML", "SCH", "EXT"]),
-    ("URD", &["URD"]),
+    ("URD", &["URD", "CMP"]),
     ("SRC", &["SRC"]),
     ("DOF", &["DOF"]),
     ("CHN", &["CHN"]),

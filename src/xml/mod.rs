@@ -7,6 +7,7 @@
 
 mod count;
 mod declaration;
+pub mod element;
 
 pub use declaration::wrong_version;
 use roxmltree::{Document, ParsingOptions, TextPos};

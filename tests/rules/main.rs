@@ -10,6 +10,7 @@ mod support;
 mod as_data;
 mod bounds;
 mod chain;
+mod composition;
 mod connections;
 mod directory;
 mod dof;
@@ -144,6 +145,7 @@ fn cases() -> Vec<Case> {
         chain::cases(),
         connections::cases(),
         bounds::cases(),
+        composition::cases(),
         meshes::cases(),
         mesh_files::cases(),
         shapes::cases(),

@@ -56,6 +56,11 @@ impl Fixture {
         Fixture::build(robot, Vec::new(), BTreeMap::new(), "Core")
     }
 
+    /// A URDD of class Core with a module of no class besides.
+    pub fn core_with(robot: &Robot, kind: ModuleKind, document: Value) -> Fixture {
+        Fixture::build(robot, vec![(kind, document)], BTreeMap::new(), "Core")
+    }
+
     /// A URDD of class Shapes: all modules. The first and the last link with a shape are skipped by
     /// an edit.
     ///

@@ -33,7 +33,7 @@ struct Element<'a> {
 }
 
 /// The geometry of every link; `None` for a link without any. `scenes` are the meshes by their paths
-/// in the URDD.
+/// in the URDD. `have` says which links need none made.
 ///
 /// # Errors
 /// Where a link has too many triangles, or too small a shape too far away.
@@ -42,6 +42,7 @@ pub(crate) fn link_geometries(
     original: &OriginalMeshesModule,
     scenes: &BTreeMap<String, Arc<Scene>>,
     preferred: GeometryKind,
+    have: &(dyn Fn(usize) -> bool + Sync),
 ) -> Result<Vec<Option<LinkGeometry>>, Fault> {
     let named: BTreeMap<(usize, GeometryKind, usize), &Scene> = original
         .references
@@ -66,6 +67,9 @@ pub(crate) fn link_geometries(
     let geometries: Vec<Result<Option<LinkGeometry>, Fault>> = links
         .into_par_iter()
         .map(|(link_idx, link)| {
+            if have(link_idx) {
+                return Ok(None);
+            }
             for kind in [preferred, other] {
                 let mut elements = elements(link, kind);
                 for (element_idx, element) in elements.iter_mut().enumerate() {

@@ -96,19 +96,25 @@ pub(crate) fn files_of(
 
 /// Takes up a mesh that was written before.
 pub(crate) fn take_up(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, GenerateError> {
-    let internal = |reason: String| GenerateError::Internal {
+    let bytes = root.read(&files.glb, MAX_DOCUMENT_BYTES);
+    let bytes = bytes.map_err(|error| GenerateError::Internal {
         file: files.glb.clone(),
-        reason,
-    };
-    let bytes = root
-        .read(&files.glb, MAX_DOCUMENT_BYTES)
-        .map_err(|error| internal(error.to_string()))?;
+        reason: error.to_string(),
+    })?;
+    take_up_bytes(&bytes, &files.glb)
+}
+
+/// Takes up a mesh from the bytes of its .glb.
+pub(crate) fn take_up_bytes(bytes: &[u8], path: &str) -> Result<WrittenMesh, GenerateError> {
     let options = Options {
         gltf_up: GltfUp::Keep,
         ..Options::default()
     };
-    let mut scene = read_with(&bytes, &files.glb, &mut |_| None, &options)
-        .map_err(|error| internal(error.to_string()))?;
+    let scene = read_with(bytes, path, &mut |_| None, &options);
+    let mut scene = scene.map_err(|error| GenerateError::Internal {
+        file: path.to_owned(),
+        reason: error.to_string(),
+    })?;
     for part in &mut scene.parts {
         // Vertices that have several normals.
         part.mesh.weld();

@@ -6,17 +6,20 @@ use crate::format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,
 };
 use crate::generate::distinct::for_each_content;
+use crate::generate::reuse::Shape;
 use crate::geometry::Mesh;
 use crate::geometry::bounding_sphere::BoundingSphere as Ball;
 use crate::geometry::hull::{ConvexHull, HullError};
 use crate::geometry::oriented_box::OrientedBox;
 
-/// Makes the module.
+/// Makes the module. `known` are the boxes and spheres that need not be computed: of the hulls, then of
+/// the pieces.
 ///
 /// # Errors
 /// Where it is asked to stop; and where a mesh has no hull: a fault of what made it.
 pub(crate) fn approximations(
     solids: &ConvexMeshes,
+    known: Vec<Option<Shape>>,
     cancellation: &Cancellation,
 ) -> Result<Result<LinkShapesApproximationsModule, HullError>, Cancelled> {
     let all = solids
@@ -24,17 +27,21 @@ pub(crate) fn approximations(
         .iter()
         .flatten()
         .chain(solids.pieces.iter().flatten());
-    let meshes: Vec<&Mesh> = all.map(|written| &written.mesh).collect();
-    let found = for_each_content(&meshes, cancellation, of_mesh)?.into_iter();
-    let found: Result<Vec<(Obb, BoundingSphere)>, HullError> = found.collect();
+    let meshes = all.map(|written| &written.mesh).zip(&known);
+    let meshes: Vec<&Mesh> = meshes
+        .filter_map(|(mesh, known)| known.is_none().then_some(mesh))
+        .collect();
+    let mut found = for_each_content(&meshes, cancellation, of_mesh)?.into_iter();
+    let found = known.into_iter().map(|known| match known {
+        Some(known) => Ok(known),
+        None => found.next().unwrap_or(Err(HullError::Empty)),
+    });
+    let found: Result<Vec<Shape>, HullError> = found.collect();
     Ok(found.map(|found| module(solids, &found)))
 }
 
 /// The module of the boxes and spheres about all hulls, then about all pieces.
-fn module(
-    solids: &ConvexMeshes,
-    found: &[(Obb, BoundingSphere)],
-) -> LinkShapesApproximationsModule {
+fn module(solids: &ConvexMeshes, found: &[Shape]) -> LinkShapesApproximationsModule {
     let (of_hulls, of_pieces) = found.split_at(solids.hulls.iter().flatten().count());
     let (mut of_hulls, mut of_pieces) = (of_hulls.iter().cloned(), of_pieces.iter().cloned());
     let hulls = solids.hulls.iter();
@@ -59,7 +66,7 @@ fn module(
     }
 }
 
-fn of_mesh(mesh: &Mesh) -> Result<(Obb, BoundingSphere), HullError> {
+fn of_mesh(mesh: &Mesh) -> Result<Shape, HullError> {
     let hull = ConvexHull::new(&mesh.vertices)?;
     let found = (OrientedBox::around(&hull), Ball::around(&hull));
     Ok((of_box(&found.0), of_ball(&found.1)))

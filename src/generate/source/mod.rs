@@ -16,7 +16,7 @@ use crate::directory::path::portable;
 use crate::directory::position::LineIndex;
 use crate::format::urdf::UrdfModule;
 
-pub(crate) use repair::apply;
+use crate::xml::element::apply;
 pub use xacro::XacroSettings;
 
 /// How often a text is repaired at most; once is enough, unless this program is wrong.

@@ -3,28 +3,10 @@
 use roxmltree::Error;
 
 use crate::generate::note::{NoteKind, Remark};
-use crate::generate::urdf::Edit;
 use crate::xml::{self, XmlError};
 
 /// Most prefixes that are declared for a file.
 const MOST_PREFIXES: usize = 32;
-
-/// The text with its edits. Of two edits, one within the other, the outer one counts.
-pub(crate) fn apply(text: &str, mut edits: Vec<Edit>) -> String {
-    edits.sort_by_key(|edit| (edit.range.start, std::cmp::Reverse(edit.range.end)));
-    let mut edited = String::with_capacity(text.len());
-    let mut done = 0;
-    for edit in edits {
-        if edit.range.start < done {
-            continue;
-        }
-        edited.push_str(&text[done..edit.range.start]);
-        edited.push_str(&edit.text);
-        done = edit.range.end;
-    }
-    edited.push_str(&text[done..]);
-    edited
-}
 
 /// Makes XML of what nearly is: white space before the declaration, a version in it that is not one of
 /// XML (Bullet writes `0.0`), NUL bytes after the end (of a C string), and prefixes that stand for nothing (in files for old versions of Gazebo). Gives the text, what was done, and how many

@@ -13,21 +13,13 @@ mod reader;
 mod tree;
 mod xml;
 
-use std::ops::Range;
-
 use super::fault::{Fault, PlacedFault};
 use super::note::Remark;
 use crate::directory::position;
 use crate::format::urdf::UrdfModule;
 
+pub(crate) use crate::xml::element::Edit;
 pub(crate) use tree::{Tree, has_axis, written_axis};
-
-/// A change of the text: the bytes of `range` become `text`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Edit {
-    pub range: Range<usize>,
-    pub text: String,
-}
 
 /// A robot as it was read.
 #[derive(Debug)]

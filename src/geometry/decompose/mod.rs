@@ -81,6 +81,19 @@ impl Default for Settings {
     }
 }
 
+impl Settings {
+    fn tolerance(&self, surface: &clean::Surface) -> f64 {
+        self.surface_tolerance
+            .min(self.relative_surface_tolerance * surface.scale)
+            .max(0.0)
+    }
+
+    /// What [`decompose`] would give as the mesh's `surface_tolerance`, without the work.
+    pub fn surface_tolerance_of(&self, mesh: &Mesh) -> f64 {
+        clean::Surface::new(mesh).map_or(0.0, |surface| self.tolerance(&surface))
+    }
+}
+
 /// What [`decompose`] returns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Decomposition {
@@ -155,10 +168,7 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
         }
     }
     let count = groups.of.iter().max().map_or(1, |g| g + 1);
-    let tolerance = settings
-        .surface_tolerance
-        .min(settings.relative_surface_tolerance * surface.scale)
-        .max(0.0);
+    let tolerance = settings.tolerance(&surface);
     let parts = assign::assign(
         &surface,
         &assign::Inside::new(&inner, reach, &body),

@@ -2,6 +2,7 @@
 
 pub mod bounds;
 pub mod chain;
+pub mod composition;
 pub mod connections;
 pub mod directory;
 pub mod dof;
@@ -33,6 +34,7 @@ pub fn all() -> Vec<&'static Rule> {
         chain::RULES,
         connections::RULES,
         bounds::RULES,
+        composition::RULES,
         meshes::RULES,
         shapes::RULES,
         kinematics::RULES,

@@ -1,0 +1,210 @@
+//! `urdd combine`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+
+use super::generate_output::Printer;
+use super::making::MakingArguments;
+use super::output;
+use super::signals::Signals;
+use crate::combine::{
+    CombineError, MAX_RECIPE_BYTES, PartFault, Recipe, SourceKind, combine, source_kind,
+};
+use crate::directory::regular;
+use crate::format::report::Severity;
+use crate::generate::batch::Job;
+use crate::validate::code::Code;
+use crate::validate::{self, rules, settings};
+
+/// Exit status: the robots could not be put together.
+const FAILED: u8 = 1;
+
+/// Arguments of `urdd combine`.
+#[derive(Args)]
+#[command(
+    after_help = "A recipe names the parts, and what each hangs on (docs/combine.md has all keys):\n\n  \
+    name = \"cell\"\n\n  [[part]]\n  id = \"arm\"\n  source = \"arm_urdd\"\n  prefix = \"\"\n\n  [[part]]\n  id = \"gripper\"\n  \
+    source = \"gripper.urdf\"\n  attach = { to = \"arm/tool0\", xyz = [0, 0, 0.1] }\n\n\
+    A part is a URDD (a folder or a zip archive), or a URDF or xacro file. URDDs are validated first, and one with errors is \
+    refused.\n\n\
+    Exit status: 0 made; 1 not made; 2 wrong usage, or results could not be written; 130 or 143 stopped by a signal."
+)]
+pub struct CombineArguments {
+    /// A recipe; or two robots, the second of which hangs on the link `--at` of the first.
+    #[arg(required = true, num_args = 1..=2, value_name = "RECIPE.toml|ROBOT")]
+    sources: Vec<PathBuf>,
+
+    /// The folder of the URDD.
+    #[arg(long, short, value_name = "DIR")]
+    output: PathBuf,
+
+    /// Of two robots: the link of the first one that the second hangs on.
+    #[arg(long, value_name = "LINK")]
+    at: Option<String>,
+
+    /// Of two robots: position of the second one's root in the frame of that link, metres.
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, requires = "at")]
+    xyz: Option<Vec<f64>>,
+
+    /// Of two robots: fixed-axis roll, pitch, yaw of the second one's root in that frame, radians.
+    #[arg(long, num_args = 3, value_names = ["ROLL", "PITCH", "YAW"], allow_negative_numbers = true, requires = "at")]
+    rpy: Option<Vec<f64>>,
+
+    /// Of two robots: the name of what is made; without it, the names of both.
+    #[arg(long, requires = "at")]
+    name: Option<String>,
+
+    #[command(flatten)]
+    making: MakingArguments,
+}
+
+/// Runs `urdd combine`.
+pub fn run(arguments: &CombineArguments) -> ExitCode {
+    match put_together(arguments) {
+        Ok(status) => ExitCode::from(status),
+        Err(message) => {
+            output::error(&message);
+            ExitCode::from(output::USAGE)
+        }
+    }
+}
+
+fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
+    let signals = Signals::listen().map_err(|error| error.to_string())?;
+    let mut settings = arguments.making.settings(Vec::new(), &signals)?;
+    let pool = arguments.making.pool()?;
+    let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
+    let printer = Printer::new(arguments.making.format, false, is_terminal);
+    let source = arguments.sources.first().cloned().unwrap_or_default();
+    let job = Job {
+        source,
+        name: arguments.output.display().to_string(),
+    };
+    let recipe = match (arguments.sources.as_slice(), &arguments.at) {
+        ([file], None) => recipe(file),
+        ([holder, held], Some(at)) => {
+            let three = |numbers: &Option<Vec<f64>>| {
+                let numbers = numbers.as_deref().unwrap_or_default();
+                <[f64; 3]>::try_from(numbers).unwrap_or_default()
+            };
+            let pose = [three(&arguments.xyz), three(&arguments.rpy)];
+            Recipe::of_two(holder, held, arguments.name.as_deref(), at, pose)
+        }
+        ([_], Some(_)) => return Err("--at is for two robots: give the second one too".to_owned()),
+        _ => {
+            return Err(
+                "of two robots, --at names the link of the first one that the second hangs on"
+                    .to_owned(),
+            );
+        }
+    };
+    // A crash of a rule is caught and reported; the default hook would print besides.
+    std::panic::set_hook(Box::new(|_| {}));
+    let outcome = recipe.and_then(|recipe| {
+        let progress = printer.begin_robot(&job);
+        pool.install(|| {
+            let distrusted = check_parts(&recipe, settings.force)?;
+            settings.cancellation = signals.cancellation();
+            combine(
+                &recipe,
+                &arguments.output,
+                &settings,
+                &distrusted,
+                &*progress,
+            )
+        })
+    });
+    let _ = std::panic::take_hook();
+    if let Some(status) = signals.status() {
+        output::error("stopped by a signal; nothing was changed");
+        return Ok(status);
+    }
+    printer.combined(&job, &outcome);
+    match printer.unprinted() {
+        Some(message) => Err(message),
+        None if outcome.is_err() => Ok(FAILED),
+        None => Ok(0),
+    }
+}
+
+fn recipe(file: &Path) -> Result<Recipe, CombineError> {
+    let shown = file.display().to_string();
+    let unreadable = |reason: String| CombineError::Unreadable {
+        file: shown.clone(),
+        reason,
+    };
+    if file.is_dir() || !file.extension().is_some_and(|ending| ending == "toml") {
+        let words =
+            "a recipe is a .toml file; to put two robots together, give both, and `--at LINK`";
+        return Err(unreadable(words.to_owned()));
+    }
+    let bytes =
+        regular::read(file, MAX_RECIPE_BYTES).map_err(|error| unreadable(error.to_string()))?;
+    let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8".to_owned()))?;
+    let folder = match file.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => fs::canonicalize(folder),
+        _ => fs::canonicalize("."),
+    };
+    let folder = folder.map_err(|error| unreadable(error.to_string()))?;
+    Recipe::from_toml(&text, &shown, &folder)
+}
+
+/// Validates the parts that are URDDs. Gives those that do not pass, where they are taken all the same.
+fn check_parts(recipe: &Recipe, force: bool) -> Result<BTreeSet<String>, CombineError> {
+    let mut distrusted = BTreeSet::new();
+    let mut known: BTreeMap<PathBuf, Vec<String>> = BTreeMap::new();
+    for part in &recipe.parts {
+        let refused = |fault| CombineError::Part {
+            id: part.id.text.clone(),
+            source_path: part.source.display().to_string(),
+            fault,
+        };
+        if source_kind(&part.source).map_err(refused)? != SourceKind::Urdd {
+            continue;
+        }
+        let codes = match known.get(&part.source) {
+            Some(codes) => codes.clone(),
+            None => failing(&part.source),
+        };
+        known.insert(part.source.clone(), codes.clone());
+        if codes.is_empty() {
+            continue;
+        }
+        if !force {
+            return Err(refused(PartFault::Fails { codes }));
+        }
+        distrusted.insert(part.id.text.clone());
+    }
+    Ok(distrusted)
+}
+
+/// The rules that find errors in a URDD, and how many.
+fn failing(path: &Path) -> Vec<String> {
+    let usual = settings::Settings::default();
+    let run = match validate::validate_with(&[path], &usual, &rules::all()) {
+        Ok(run) => run,
+        Err(error) => return vec![error.to_string()],
+    };
+    let mut codes: BTreeMap<Code, usize> = BTreeMap::new();
+    for subject in &run.subjects {
+        let examined = match &subject.result {
+            Ok(examined) => examined,
+            Err(error) => return vec![error.to_string()],
+        };
+        let errors = examined.checks.iter();
+        let errors = errors.filter(|check| check.severity == Severity::Error);
+        for check in errors.filter(|check| !check.findings.is_empty()) {
+            *codes.entry(check.rule.code).or_default() += check.findings.len();
+        }
+    }
+    let told = codes.iter().map(|(code, count)| match count {
+        1 => format!("{code} (1 finding)"),
+        _ => format!("{code} ({count} findings)"),
+    });
+    told.collect()
+}

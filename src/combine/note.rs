@@ -1,0 +1,120 @@
+//! What there is to say of robots that were put together.
+
+use std::fmt;
+
+use crate::format::escape;
+use crate::generate::note as generated;
+
+/// What there is to say of robots that were put together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Note {
+    /// Something was odd in the URDF of a part.
+    Part {
+        /// The part.
+        part: String,
+        /// What.
+        note: generated::Note,
+    },
+    /// A link's or joint's name in an element that URDF does not define was left as it is: it is not known whether it
+    /// means the link or joint.
+    LeftAlone {
+        /// The part.
+        part: String,
+        /// `element`, or `element@attribute`.
+        place: String,
+        /// The name.
+        name: String,
+    },
+    /// An element went with the link or joint that it names.
+    Gone {
+        /// The part.
+        part: String,
+        /// The element, and the name, in words.
+        what: String,
+    },
+    /// A joint was frozen because the joint that it follows was.
+    Following {
+        /// The part.
+        part: String,
+        /// The joint.
+        joint: String,
+    },
+    /// An edit of skips names a link that was dropped.
+    EditLost {
+        /// The part.
+        part: String,
+        /// One link.
+        link_a: String,
+        /// The other.
+        link_b: String,
+    },
+    /// The parts skip pairs for different reasons.
+    ReasonsDiffer,
+    /// Parts do not hold the same modules.
+    UnequalModules {
+        /// The part.
+        part: String,
+        /// What it lacks, and others have.
+        lacks: Vec<String>,
+    },
+}
+
+impl Note {
+    /// Its word, for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Note::Part { note, .. } => note.kind.as_str(),
+            Note::LeftAlone { .. } => "left-alone",
+            Note::Gone { .. } => "gone",
+            Note::Following { .. } => "following",
+            Note::EditLost { .. } => "edit-lost",
+            Note::ReasonsDiffer => "reasons-differ",
+            Note::UnequalModules { .. } => "unequal-modules",
+        }
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let line = escape::line;
+        match self {
+            Note::Part { part, note } => write!(f, "part `{}`: {note}", line(part)),
+            Note::LeftAlone { part, place, name } => write!(
+                f,
+                "part `{}`: `{}` says `{}`, the name of a link or joint, and was left as it is; where it means that, write names = [\"{}\"]",
+                line(part),
+                line(place),
+                line(name),
+                line(place)
+            ),
+            Note::Gone { part, what } => write!(f, "part `{}`: left out {}", line(part), line(what)),
+            Note::Following { part, joint } => write!(
+                f,
+                "part `{}`: joint `{}` follows one that is frozen, and is frozen where it is then",
+                line(part),
+                line(joint)
+            ),
+            Note::EditLost {
+                part,
+                link_a,
+                link_b,
+            } => write!(
+                f,
+                "part `{}`: the edit of the skips between `{}` and `{}` is left out, since one of them is dropped",
+                line(part),
+                line(link_a),
+                line(link_b)
+            ),
+            Note::ReasonsDiffer => f.write_str(
+                "the parts skip pairs for different reasons; the usual ones are taken: same-link, always, adjacent, default (`--skip` says others)",
+            ),
+            Note::UnequalModules { part, lacks } => write!(
+                f,
+                "part `{}` has no {}, which other parts have; what it lacks is computed",
+                line(part),
+                lacks.join(", ")
+            ),
+        }
+    }
+}

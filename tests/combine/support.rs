@@ -1,0 +1,46 @@
+//! Putting robots together in a test.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use urdd::combine::{CombineError, Combined, Recipe, combine};
+use urdd::generate::{Selection, Settings};
+use urdd::validate::rule::Severity;
+
+/// The path of one of our robots.
+pub fn ours(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/robots");
+    folder.join(format!("{name}.urdf"))
+}
+
+/// Settings that make kinematics alone: no geometry, and so no time.
+pub fn core() -> Settings {
+    Settings {
+        selection: Selection::parse(["core", "kinematics_samples"]).expect("modules"),
+        ..Settings::default()
+    }
+}
+
+/// Reads a recipe and follows it, in a folder of its own.
+pub fn put_together(
+    recipe: &str,
+    folder: &Path,
+    settings: &Settings,
+) -> Result<(Combined, PathBuf), CombineError> {
+    let recipe = Recipe::from_toml(recipe, "cell.toml", folder)?;
+    let target = folder.join("cell");
+    let made = combine(&recipe, &target, settings, &BTreeSet::new(), &())?;
+    Ok((made, target))
+}
+
+/// What the validator finds, as `CODE message`; warnings of the source are of the parts.
+pub fn findings(urdd: &Path) -> Vec<String> {
+    let settings = urdd::validate::settings::Settings::default();
+    let run = urdd::validate::validate(&[urdd], &settings).expect("a URDD");
+    let report = urdd::report::Report::new(&run, Severity::Error);
+    let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
+    let told = findings
+        .filter(|finding| !finding.code.starts_with("SRC"))
+        .map(|finding| format!("{} {:?} {}", finding.code, finding.file, finding.message));
+    told.collect()
+}
