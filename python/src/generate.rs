@@ -116,6 +116,7 @@ impl Options {
             strict: self.strict,
             drop_edits: self.drop_edits,
             force: self.force,
+            reuse: Vec::new(),
             cancellation: Cancellation::default(),
         })
     }

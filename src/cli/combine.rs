@@ -36,12 +36,17 @@ const FAILED: u8 = 1;
 )]
 pub struct CombineArguments {
     /// A recipe; or two robots, the second of which hangs on the link `--at` of the first.
-    #[arg(required = true, num_args = 1..=2, value_name = "RECIPE.toml|ROBOT")]
+    #[arg(required_unless_present = "from", conflicts_with = "from", num_args = 1..=2, value_name = "RECIPE.toml|ROBOT")]
     sources: Vec<PathBuf>,
 
+    /// A published URDD of before version 1 that was combined, adjusted or created; its parts lie beside it. Without
+    /// --output, its recipe is printed.
+    #[arg(long, value_name = "LEGACY_DIR")]
+    from: Option<PathBuf>,
+
     /// The folder of the URDD.
-    #[arg(long, short, value_name = "DIR")]
-    output: PathBuf,
+    #[arg(long, short, value_name = "DIR", required_unless_present = "from")]
+    output: Option<PathBuf>,
 
     /// Of two robots: the link of the first one that the second hangs on.
     #[arg(long, value_name = "LINK")]
@@ -80,12 +85,21 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
     let pool = arguments.making.pool()?;
     let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
     let printer = Printer::new(arguments.making.format, false, is_terminal);
-    let source = arguments.sources.first().cloned().unwrap_or_default();
+    if let (Some(legacy), None) = (&arguments.from, &arguments.output) {
+        return print_recipe(legacy);
+    }
+    let target = arguments.output.clone().unwrap_or_default();
+    let source = arguments.from.as_ref().or(arguments.sources.first());
     let job = Job {
-        source,
-        name: arguments.output.display().to_string(),
+        source: source.cloned().unwrap_or_default(),
+        name: target.display().to_string(),
     };
+    let mut unsaid = Vec::new();
     let recipe = match (arguments.sources.as_slice(), &arguments.at) {
+        ([], _) => Recipe::of_legacy(&job.source).map(|(recipe, notes)| {
+            unsaid = notes;
+            recipe
+        }),
         ([file], None) => recipe(file),
         ([holder, held], Some(at)) => {
             let three = |numbers: &Option<Vec<f64>>| {
@@ -110,13 +124,9 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
         pool.install(|| {
             let distrusted = check_parts(&recipe, settings.force)?;
             settings.cancellation = signals.cancellation();
-            combine(
-                &recipe,
-                &arguments.output,
-                &settings,
-                &distrusted,
-                &*progress,
-            )
+            let mut made = combine(&recipe, &target, &settings, &distrusted, &*progress)?;
+            made.notes.splice(..0, unsaid);
+            Ok(made)
         })
     });
     let _ = std::panic::take_hook();
@@ -129,6 +139,23 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
         Some(message) => Err(message),
         None if outcome.is_err() => Ok(FAILED),
         None => Ok(0),
+    }
+}
+
+/// Prints the recipe of a legacy URDD, and what it does not say.
+fn print_recipe(legacy: &Path) -> Result<u8, String> {
+    match Recipe::of_legacy(legacy) {
+        Err(error) => {
+            output::error(&error.to_string());
+            Ok(FAILED)
+        }
+        Ok((recipe, notes)) => {
+            for note in notes {
+                output::error(&format!("note: {note}"));
+            }
+            let here = std::env::current_dir().unwrap_or_default();
+            output::print_raw(&recipe.to_toml(&here)).map(|()| 0)
+        }
     }
 }
 

@@ -16,6 +16,7 @@ mod rehash;
 mod schema;
 mod shapes;
 mod signals;
+mod skips;
 mod validate;
 mod view;
 mod words;
@@ -56,6 +57,8 @@ enum Command {
     View(view::ViewArguments),
     /// Hand a robot on: SRDF, URDF, MJCF, spheres.
     Export(export::ExportArguments),
+    /// A person's edits of the skips: read them from an SRDF.
+    Skips(skips::SkipsArguments),
     /// Tell about a rule, or list them all.
     Explain(explain::ExplainArguments),
     /// Tell what a URDD holds, without judging it.
@@ -91,6 +94,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
         Command::View(arguments) => view::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Skips(arguments) => skips::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Rehash(arguments) => rehash::run(&arguments),

@@ -223,7 +223,8 @@ pub(super) fn urdf(
         let attached = match (&taken.part.attach, &recipe.base) {
             (Some(attach), _) => {
                 let (holder, link) = recipe.target(&attach.to)?;
-                Some((parts[holder].renamed(link), &attach.joint))
+                let link = holder.map_or_else(|| link.to_owned(), |part| parts[part].renamed(link));
+                Some((link, &attach.joint))
             }
             (None, Some(base)) => Some((base.link.text.clone(), &base.joint)),
             (None, None) => None,

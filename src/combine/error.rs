@@ -33,7 +33,7 @@ pub enum CombineError {
         fault: RecipeFault,
     },
     /// A part cannot be taken up.
-    #[error("part `{}` ({}): {fault}", escape::line(id), escape::line(source_path))]
+    #[error("{}{}: {fault}", About(&(!id.is_empty()).then(|| id.clone())), escape::line(source_path))]
     Part {
         /// The part.
         id: String,
@@ -112,6 +112,14 @@ pub enum PartFault {
         "this URDD carries no URDF, and parts are put together as URDFs; give the URDF itself as the source"
     )]
     NoUrdf,
+    /// It is no URDD of before version 1 that was put together.
+    #[error(
+        "this URDD has no combined_robot_module, adjusted_robot_module or creator_module, which say how it was put together"
+    )]
+    NotComposed,
+    /// What it says of how it was put together is nothing that a recipe can say.
+    #[error("nothing of how it was put together can be said in a recipe: {}", .0.join("; "))]
+    SaysNothing(Vec<String>),
     /// It is not valid.
     #[error(
         "it does not pass `urdd validate`: {}; correct it, or take it as it is: --force", codes.join(", ")

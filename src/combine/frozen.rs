@@ -64,7 +64,7 @@ fn motion(joint: &Joint, position: &[f64]) -> Isometry3<f64> {
 
 /// Fixed-axis roll, pitch, yaw. Near a pitch of a right angle, where roll and yaw by themselves are
 /// hardly known, roll is what goes with the yaw that was found, so that the rotation keeps its digits.
-fn roll_pitch_yaw(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
+pub(super) fn roll_pitch_yaw(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
     let r: Rotation3<f64> = rotation.to_rotation_matrix();
     let yaw = r[(1, 0)].atan2(r[(0, 0)]);
     let pitch = (-r[(2, 0)]).atan2(r[(0, 0)].hypot(r[(1, 0)]));

@@ -6,6 +6,7 @@
 
 mod compose;
 mod error;
+mod from_legacy;
 mod frozen;
 mod keys;
 mod legacy;
@@ -15,10 +16,12 @@ mod nearest;
 mod note;
 mod part;
 mod recipe;
+mod recipe_file;
 mod record;
 mod rewrite;
 mod skips;
 mod toml_file;
+mod toml_text;
 mod trim;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -86,7 +89,9 @@ pub fn combine(
     for taken in &parts {
         if let Some(attach) = &taken.part.attach {
             let (holder, link) = recipe.target(&attach.to)?;
-            skips::existing(recipe, &parts[holder], link, &attach.to)?;
+            if let Some(holder) = holder {
+                skips::existing(recipe, &parts[holder], link, &attach.to)?;
+            }
         }
     }
     let repeated = compose::check_names(recipe, &parts)?;

@@ -49,6 +49,8 @@ pub enum Note {
         /// The other.
         link_b: String,
     },
+    /// A legacy module says something that a recipe cannot, or does not say what one must.
+    NotSaid(String),
     /// The parts skip pairs for different reasons.
     ReasonsDiffer,
     /// Parts do not hold the same modules.
@@ -69,6 +71,7 @@ impl Note {
             Note::Gone { .. } => "gone",
             Note::Following { .. } => "following",
             Note::EditLost { .. } => "edit-lost",
+            Note::NotSaid(_) => "not-said",
             Note::ReasonsDiffer => "reasons-differ",
             Note::UnequalModules { .. } => "unequal-modules",
         }
@@ -106,6 +109,7 @@ impl fmt::Display for Note {
                 line(link_a),
                 line(link_b)
             ),
+            Note::NotSaid(what) => f.write_str(&line(what)),
             Note::ReasonsDiffer => f.write_str(
                 "the parts skip pairs for different reasons; the usual ones are taken: same-link, always, adjacent, default (`--skip` says others)",
             ),

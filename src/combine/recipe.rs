@@ -3,15 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use super::error::{CombineError, RecipeFault};
-use super::keys;
 use super::nearest::nearest;
-use super::toml_file::{FreezeValue, JointFile, PartFile, RecipeFile};
 use crate::directory::path::portable;
-use crate::directory::position::{LineIndex, Position};
+use crate::directory::position::Position;
 use crate::format::urdf::{JointType, Limit};
 
 /// Longest recipe, bytes.
 pub const MAX_RECIPE_BYTES: u64 = 1 << 20;
+
+/// By what name parts hang on `[base]`: `base/link`.
+pub(super) const BASE: &str = "base";
 
 /// A word of a recipe, and where it stands in the file; nowhere, where it came from the command line.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -71,7 +72,7 @@ pub struct Part {
 /// What a part hangs on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attachment {
-    /// A link of another part: `part/link`, by its name in that part.
+    /// A link of another part: `part/link`, by its name in that part; or `base/link`, that of `[base]`.
     pub to: Word,
     /// The joint.
     pub joint: JointDescription,
@@ -104,50 +105,6 @@ pub struct JointDescription {
 }
 
 impl Recipe {
-    /// Reads a recipe from the text of a TOML file in a folder; sources are relative to that.
-    ///
-    /// # Errors
-    /// Where it is no recipe: what, where, and what to do.
-    pub fn from_toml(text: &str, shown: &str, folder: &Path) -> Result<Recipe, CombineError> {
-        let lines = LineIndex::new(text);
-        let refused = |offset: Option<usize>, fault: RecipeFault| CombineError::Recipe {
-            file: shown.to_owned(),
-            at: offset.map(|offset| lines.position(offset)),
-            fault,
-        };
-        keys::check(text).map_err(|(offset, fault)| refused(offset, fault))?;
-        let file: RecipeFile = toml::from_str(text).map_err(|error| {
-            let words = error.message().to_owned();
-            let start = error.span().map(|span| span.start);
-            refused(start, RecipeFault::Toml(words))
-        })?;
-        let stem = Path::new(shown).file_stem();
-        let stem = stem.map_or("robot".into(), |stem| stem.to_string_lossy());
-        let reader = Reader { lines: &lines };
-        let mut recipe = Recipe {
-            shown: shown.to_owned(),
-            name: file.name.unwrap_or_else(|| stem.into_owned()),
-            base: None,
-            parts: Vec::new(),
-        };
-        if let Some(base) = file.base {
-            let link = base.link.as_ref().map(|link| reader.word(link));
-            let joint = reader.joint(&base, "world_joint", JointType::Fixed);
-            recipe.base = Some(Base {
-                link: link.unwrap_or_else(|| Word::new("world")),
-                joint: joint.map_err(|(at, fault)| refused(at, fault))?,
-            });
-        }
-        for part in file.part {
-            let part = reader.part(part, folder);
-            recipe
-                .parts
-                .push(part.map_err(|(at, fault)| refused(at, fault))?);
-        }
-        recipe.check()?;
-        Ok(recipe)
-    }
-
     /// The usual case: one robot on a link of another, whose names stay as they are.
     ///
     /// # Errors
@@ -211,13 +168,30 @@ impl Recipe {
         self.parts.iter().position(|part| part.id.text == id)
     }
 
-    /// The part and the link that an attachment names, or why there is none such.
-    pub(super) fn target<'a>(&self, to: &'a Word) -> Result<(usize, &'a str), CombineError> {
+    /// The part and the link that an attachment names, or why there is none such; no part where it is the
+    /// base.
+    pub(super) fn target<'a>(
+        &self,
+        to: &'a Word,
+    ) -> Result<(Option<usize>, &'a str), CombineError> {
         let Some((id, link)) = to.text.split_once('/') else {
             let fault = RecipeFault::NoPartNamed(to.text.clone());
             return Err(self.refused(to, fault));
         };
-        let Some(part) = self.part(id) else {
+        let part = self.part(id);
+        if let (None, BASE, Some(base)) = (part, id, &self.base) {
+            if link == base.link.text {
+                return Ok((None, link));
+            }
+            let fault = RecipeFault::Unknown {
+                what: "link",
+                part: BASE.to_owned(),
+                name: link.to_owned(),
+                nearest: Some(base.link.text.clone()),
+            };
+            return Err(self.refused(to, fault));
+        }
+        let Some(part) = part else {
             let ids = self.parts.iter().map(|part| part.id.text.as_str());
             let fault = RecipeFault::UnknownPart {
                 name: id.to_owned(),
@@ -225,11 +199,11 @@ impl Recipe {
             };
             return Err(self.refused(to, fault));
         };
-        Ok((part, link))
+        Ok((Some(part), link))
     }
 
     /// What can be said before any part is read: names, and who hangs on whom.
-    fn check(&self) -> Result<(), CombineError> {
+    pub(super) fn check(&self) -> Result<(), CombineError> {
         if self.parts.is_empty() {
             return Err(self.refused(&Word::default(), RecipeFault::NoParts));
         }
@@ -267,7 +241,9 @@ impl Recipe {
     fn check_attachment(&self, part: &Part) -> Result<(), CombineError> {
         let (mut path, mut now) = (vec![part.id.text.as_str()], part);
         while let Some(attachment) = &now.attach {
-            let (next, _) = self.target(&attachment.to)?;
+            let (Some(next), _) = self.target(&attachment.to)? else {
+                break;
+            };
             now = &self.parts[next];
             if now.id == part.id {
                 let fault = match path.len() {
@@ -299,132 +275,7 @@ fn id_of(path: &Path) -> String {
     if id.is_empty() { "part".to_owned() } else { id }
 }
 
-/// What is wrong, and at which byte.
-type Placed<T> = Result<T, (Option<usize>, RecipeFault)>;
-
-struct Reader<'a> {
-    lines: &'a LineIndex<'a>,
-}
-
-impl Reader<'_> {
-    fn word(&self, spanned: &toml::Spanned<String>) -> Word {
-        Word {
-            text: spanned.get_ref().clone(),
-            at: Some(self.lines.position(spanned.span().start)),
-        }
-    }
-
-    fn part(&self, spanned: toml::Spanned<PartFile>, folder: &Path) -> Placed<Part> {
-        let start = spanned.span().start;
-        let file = spanned.into_inner();
-        let missing = |key: &'static str| (Some(start), RecipeFault::MissingKey(key));
-        let id = self.word(&file.id.ok_or_else(|| missing("id"))?);
-        let source = file.source.ok_or_else(|| missing("source"))?;
-        let words =
-            |list: &[toml::Spanned<String>]| list.iter().map(|word| self.word(word)).collect();
-        let mut freeze = Vec::new();
-        for (joint, value) in &file.freeze {
-            let values = match value {
-                FreezeValue::One(value) => vec![*value],
-                FreezeValue::Several(values) => values.clone(),
-            };
-            finite(&values, Some(joint.span().start), "freeze")?;
-            freeze.push((self.word(joint), values));
-        }
-        let attach = match &file.attach {
-            None => None,
-            Some(attach) => {
-                let to = attach.to.as_ref().ok_or_else(|| missing("attach.to"))?;
-                let name = format!("{}_attachment", id.text);
-                Some(Attachment {
-                    to: self.word(to),
-                    joint: self.joint(attach, &name, JointType::Fixed)?,
-                })
-            }
-        };
-        let skip = file.skip.iter().map(|[a, b]| [self.word(a), self.word(b)]);
-        Ok(Part {
-            source: folder.join(source.get_ref()),
-            prefix: file.prefix.unwrap_or_else(|| format!("{}_", id.text)),
-            drop: words(&file.drop),
-            freeze,
-            attach,
-            skip: skip.collect(),
-            names: words(&file.names),
-            id,
-        })
-    }
-
-    fn joint(&self, file: &JointFile, name: &str, usual: JointType) -> Placed<JointDescription> {
-        let at = file
-            .joint
-            .as_ref()
-            .or(file.to.as_ref())
-            .map(|word| word.span().start);
-        let joint_type = match &file.joint {
-            None => usual,
-            Some(word) => {
-                let known = JointType::ALL.iter().copied();
-                let words: Vec<String> = known.clone().map(word_of).collect();
-                let mut found = known.zip(&words).filter(|(_, of)| *of == word.get_ref());
-                let fault = || RecipeFault::UnknownJointType {
-                    found: word.get_ref().clone(),
-                    nearest: nearest(words.iter().map(String::as_str), word.get_ref()),
-                };
-                found.next().ok_or_else(|| (at, fault()))?.0
-            }
-        };
-        let limit = file.limit.as_ref();
-        let numbers = [file.xyz, file.rpy, file.axis]
-            .into_iter()
-            .flatten()
-            .flatten();
-        let of_limit = limit.map(|of| [of.lower, of.upper, of.effort, of.velocity]);
-        let numbers = numbers.chain(of_limit.into_iter().flatten().flatten());
-        finite(&numbers.collect::<Vec<_>>(), at, "attach")?;
-        let is_limited = matches!(joint_type, JointType::Revolute | JointType::Prismatic);
-        let has_all = limit.is_some_and(|of| of.lower.is_some() && of.upper.is_some());
-        if is_limited && !has_all {
-            return Err((at, RecipeFault::NoLimit(joint_type)));
-        }
-        if let Some((lower, upper)) = limit.and_then(|of| of.lower.zip(of.upper))
-            && lower > upper
-        {
-            return Err((at, RecipeFault::CrossedLimit { lower, upper }));
-        }
-        if file.axis == Some([0.0; 3]) {
-            return Err((at, RecipeFault::ZeroAxis));
-        }
-        Ok(JointDescription {
-            name: match &file.name {
-                Some(name) => self.word(name),
-                None => Word::new(name),
-            },
-            joint_type,
-            xyz: file.xyz.unwrap_or_default(),
-            rpy: file.rpy.unwrap_or_default(),
-            axis: file.axis,
-            limit: limit.map(|of| Limit {
-                lower: of.lower,
-                upper: of.upper,
-                effort: of.effort,
-                velocity: of.velocity,
-                acceleration: None,
-                deceleration: None,
-                jerk: None,
-            }),
-        })
-    }
-}
-
 /// The word of a joint type, as URDFs and recipes write it.
 pub(super) fn word_of(joint_type: JointType) -> String {
     joint_type.as_str().to_ascii_lowercase()
-}
-
-fn finite(numbers: &[f64], at: Option<usize>, what: &'static str) -> Placed<()> {
-    match numbers.iter().all(|number| number.is_finite()) {
-        true => Ok(()),
-        false => Err((at, RecipeFault::NotFinite(what))),
-    }
 }

@@ -35,8 +35,11 @@ pub(super) fn composition(
             (Some(attach), _) => {
                 let (holder, name) = recipe.target(&attach.to)?;
                 Some(PartAttachment {
-                    part_idx: Some(RobotIdx(holder as u32)),
-                    link_idx: link(&parts[holder].renamed(name)),
+                    part_idx: holder.map(|part| RobotIdx(part as u32)),
+                    link_idx: match holder {
+                        Some(part) => link(&parts[part].renamed(name)),
+                        None => link(name),
+                    },
                     joint_idx: joint(&attach.joint.name.text),
                 })
             }

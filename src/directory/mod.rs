@@ -21,6 +21,7 @@ pub mod read_error;
 pub mod regular;
 #[cfg(feature = "generate")]
 pub mod rehash;
+pub mod replacement;
 pub mod root;
 pub mod schema_files;
 pub mod source;

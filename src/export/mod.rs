@@ -36,6 +36,7 @@ mod numbers;
 mod pairs;
 mod spheres;
 mod srdf;
+mod srdf_import;
 mod srdf_merge;
 mod subject;
 mod urdf;
@@ -45,6 +46,7 @@ use crate::robot::{Robot, ShapeKind};
 
 pub use error::{ExportError, Note};
 pub use spheres::SphereBudget;
+pub use srdf_import::{ImportError, ImportedSkips, import_srdf};
 pub use srdf_merge::{SrdfError, merge_srdf};
 
 use subject::Subject;

@@ -81,7 +81,7 @@ pub fn merge_srdf(old: &str, new: &str) -> Result<String, SrdfError> {
     Ok(text)
 }
 
-fn parse(text: &str) -> Result<Document<'_>, SrdfError> {
+pub(super) fn parse(text: &str) -> Result<Document<'_>, SrdfError> {
     let document = Document::parse(text).map_err(|error| SrdfError::Xml(error.to_string()))?;
     match document.root_element().tag_name().name() {
         "robot" => Ok(document),

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::info_parts::{self, PartInfo};
 use crate::directory::root::ReadError;
 use crate::document::urdd::Urdd;
 use crate::format::dof::Quantity;
@@ -31,6 +32,10 @@ pub struct Info {
     pub joints: BTreeMap<String, usize>,
     /// The degrees of freedom.
     pub dofs: Vec<DofInfo>,
+    /// The link that carries the parts of a robot that was put together, and is of none.
+    pub base: Option<String>,
+    /// The parts of a robot that was put together, as a tree.
+    pub parts: Vec<PartInfo>,
     /// The modules.
     pub modules: Vec<ModuleInfo>,
 }
@@ -74,6 +79,10 @@ impl Info {
             *joints.entry(joint.joint_type.to_string()).or_insert(0) += 1;
         }
         let metadata = urdd.metadata();
+        let composition = match urdd.document(ModuleKind::Composition) {
+            Some(ModuleDocument::Composition(composition)) => Some(composition),
+            _ => None,
+        };
         Ok(Info {
             path: name.to_owned(),
             robot_name: robot
@@ -85,6 +94,8 @@ impl Info {
             links: robot.map(|robot| robot.links.len()),
             joints,
             dofs: dofs(&urdd),
+            base: composition.and_then(|of| info_parts::base(of.base.as_ref(), robot)),
+            parts: composition.map_or_else(Vec::new, |of| info_parts::tree(&of.parts, robot)),
             modules: urdd
                 .modules()
                 .iter()
@@ -204,6 +215,18 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
             .map(|[lower, upper]| format!("  [{lower}, {upper}]{unit}"))
             .unwrap_or_default();
         writeln!(out, "    {index:>3}  {:width$}{bounds}", safe(&dof.name))?;
+    }
+    if !info.parts.is_empty() {
+        let base = info
+            .base
+            .as_deref()
+            .map(|base| format!("on {}", safe(base)));
+        writeln!(
+            out,
+            "{}",
+            format!("  parts     {}", base.unwrap_or_default()).trim_end()
+        )?;
+        info_parts::write(&info.parts, "    ", out)?;
     }
     writeln!(out, "  modules   {}", info.modules.len())?;
     let width = info

@@ -4,6 +4,7 @@ mod causes;
 pub mod github;
 pub mod human;
 pub mod info;
+pub mod info_parts;
 pub mod junit;
 pub mod model;
 pub mod place;

@@ -1,21 +1,16 @@
 //! Saving the skips that a person decided: the edits and the matrices that follow, with their sizes and hashes, in one
 //! step; and undoing it.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
-
 use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::collection::Shown;
 use super::reply::Reply;
 use super::revision;
-use crate::cancellation::Cancellation;
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
+pub(super) use crate::directory::replacement::Files;
+use crate::directory::replacement::Replacement;
 use crate::directory::root::Root;
-use crate::directory::staging::Staging;
-use crate::directory::take::take_content;
-use crate::directory::writer::Writer;
 use crate::format::link_shapes_skips::{SkipEdit, SkippedReason};
 use crate::robot::Robot;
 
@@ -24,9 +19,6 @@ const MAX_EDITS: usize = 1_000_000;
 const MAX_REASON: usize = 10_000;
 /// Saves that can be undone.
 const MAX_UNDONE: usize = 100;
-
-/// Files by path, as they are to be written.
-pub(super) type Files = BTreeMap<String, Vec<u8>>;
 
 /// What the page sends.
 #[derive(Deserialize)]
@@ -66,8 +58,7 @@ fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
     let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
     let path = robot.path();
     // From here on no other run of this program writes there.
-    let staging =
-        Staging::begin_inside(&path, &Cancellation::default()).map_err(|error| failed(&error))?;
+    let replacement = Replacement::begin(&path).map_err(|error| failed(&error))?;
     let unchanged = || match revision::of(&path) == wish.revision {
         true => Ok(()),
         false => Err((
@@ -99,15 +90,9 @@ fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
         })
         .collect();
     let before = before?;
-    let writer = Writer::new(staging.content());
-    let instead: BTreeSet<&Path> = files.keys().map(Path::new).collect();
-    take_content(&path, staging.content(), &|path| instead.contains(path))
-        .map_err(|error| failed(&error))?;
-    for (path, bytes) in &files {
-        writer.file(path, bytes).map_err(|error| failed(&error))?;
-    }
+    replacement.stage(&files).map_err(|error| failed(&error))?;
     unchanged()?;
-    staging.commit().map_err(|error| failed(&error))?;
+    replacement.commit().map_err(|error| failed(&error))?;
     let now = revision::of(&path);
     match wish.undo {
         true => {

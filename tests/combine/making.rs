@@ -7,7 +7,7 @@ use nalgebra::Isometry3;
 use urdd::combine::Note;
 use urdd::format::link_shapes_skips::SkipEdit;
 use urdd::generate::{Settings, generate, generate_text};
-use urdd::robot::Robot;
+use urdd::robot::{Robot, ShapeKind};
 
 use crate::support::{core, findings, ours, put_together};
 
@@ -17,6 +17,13 @@ fn quick() -> Settings {
         num_samples: 20,
         ..Settings::default()
     }
+}
+
+/// The edits of the skips that a URDD has.
+fn edits_of(urdd: &Path) -> Vec<SkipEdit> {
+    let robot = Robot::open(urdd).expect("a robot");
+    let skips = robot.skips(ShapeKind::Hulls).expect("skips");
+    skips.edits().to_vec()
 }
 
 /// Every file below a folder, by its path.
@@ -154,16 +161,12 @@ fn edits_of_parts_come_along_by_name_and_a_persons_edits_stay() {
         edit("arm_base", "arm_flange", true, "seen"),
         edit("left_gripper_base", "trunk", true, "the recipe skips it"),
     ];
-    let open = || Robot::open(&target).expect("a robot");
-    assert_eq!(open().skip_edits().expect("edits"), of_parts);
+    assert_eq!(edits_of(&target), of_parts);
     // A person edits what was put together; another run keeps that, after those of the parts.
     let own = edit("odom", "trunk", false, "mine");
     write(&target, [of_parts.clone(), vec![own.clone()]].concat());
     put_together(DOG, folder, &quick()).expect("a robot");
-    assert_eq!(
-        open().skip_edits().expect("edits"),
-        [of_parts, vec![own]].concat()
-    );
+    assert_eq!(edits_of(&target), [of_parts, vec![own]].concat());
     assert_eq!(findings(&target), [] as [String; 0]);
 }
 
