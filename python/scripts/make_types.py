@@ -27,6 +27,7 @@ MODULES = [
     "connections_module",
     "bounds_module",
     "kinematics_samples_module",
+    "composition_module",
     "original_meshes_module",
     "plain_meshes_module",
     "convex_hull_meshes_module",

@@ -205,6 +205,8 @@ impl Reader<'_> {
         part.freeze = fixed
             .map(|(joint, values)| (Word::new(joint), values.clone()))
             .collect();
+        // As a file has them.
+        part.freeze.sort_by(|a, b| a.0.text.cmp(&b.0.text));
     }
 
     fn created(&mut self, module: &CreatorModule) {

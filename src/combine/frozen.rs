@@ -70,7 +70,8 @@ pub(super) fn roll_pitch_yaw(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
     let pitch = (-r[(2, 0)]).atan2(r[(0, 0)].hypot(r[(1, 0)]));
     let (sin, cos) = yaw.sin_cos();
     let roll = (sin * r[(0, 2)] - cos * r[(1, 2)]).atan2(cos * r[(1, 1)] - sin * r[(0, 1)]);
-    [roll, pitch, yaw]
+    // Not -0.
+    [roll, pitch, yaw].map(|angle| angle + 0.0)
 }
 
 #[cfg(test)]

@@ -33,6 +33,7 @@ use self::rewrite::{Rewrite, Rewritten};
 use crate::format::composition::{CompositionModule, PartSource};
 use crate::format::registry::ModuleKind;
 use crate::format::urdf::Geometry;
+use crate::generate::note::{self as generated, NoteKind};
 use crate::generate::{
     Composed, GenerateError, Generated, Progress, Settings, generate_composed, has_quaternions,
     read_urdf,
@@ -136,14 +137,17 @@ pub fn combine(
     });
     settings.reuse = trusted.map(|taken| taken.loaded.root.clone()).collect();
     let composed = Composed {
-        shown: recipe.name.clone(),
+        shown: format!("{}.urdf", recipe.name),
         folder,
         edits,
         skipped_reasons,
         composition: composition.clone(),
     };
-    let generated = generate_composed(urdf.into_bytes(), &composed, target, &settings, progress)
-        .map_err(|error| CombineError::Generate { id: None, error })?;
+    let generated = generate_composed(urdf.into_bytes(), &composed, target, &settings, progress);
+    let mut generated = generated.map_err(|error| CombineError::Generate { id: None, error })?;
+    // That was said of the parts.
+    let is_said = |note: &generated::Note| note.kind == NoteKind::MeshNotFound;
+    generated.notes.retain(|note| !is_said(note));
     Ok(Combined {
         generated,
         composition,
@@ -211,6 +215,12 @@ fn said(parts: &[Taken], notes: &mut Vec<Note>) {
         }
         if !is_urdd(&taken) {
             continue;
+        }
+        for name in used_meshes(taken) {
+            if !taken.loaded.meshes.contains_key(&name) {
+                let part = part.clone();
+                notes.push(Note::NoMesh { part, name });
+            }
         }
         let known = ModuleKind::ALL.iter().map(|kind| kind.name());
         let lacks = known.filter(|name| {

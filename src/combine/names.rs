@@ -155,7 +155,8 @@ impl Finder<'_> {
     }
 
     fn attribute<'a>(&mut self, element: Node<'a, 'a>, key: &str, named: Named) {
-        if let Some(found) = attribute(element, key) {
+        // An empty name is how some programs write that there is none.
+        if let Some(found) = attribute(element, key).filter(|found| !found.value().is_empty()) {
             self.push(found.value(), named, found.range_value(), element);
         }
     }

@@ -16,6 +16,13 @@ pub enum Note {
         /// What.
         note: generated::Note,
     },
+    /// The URDD of the part has no file for a mesh that its URDF names.
+    NoMesh {
+        /// The part.
+        part: String,
+        /// The mesh, as the URDF names it.
+        name: String,
+    },
     /// A link's or joint's name in an element that URDF does not define was left as it is: it is not known whether it
     /// means the link or joint.
     LeftAlone {
@@ -67,6 +74,7 @@ impl Note {
     pub fn kind(&self) -> &'static str {
         match self {
             Note::Part { note, .. } => note.kind.as_str(),
+            Note::NoMesh { .. } => "mesh-not-found",
             Note::LeftAlone { .. } => "left-alone",
             Note::Gone { .. } => "gone",
             Note::Following { .. } => "following",
@@ -83,6 +91,12 @@ impl fmt::Display for Note {
         let line = escape::line;
         match self {
             Note::Part { part, note } => write!(f, "part `{}`: {note}", line(part)),
+            Note::NoMesh { part, name } => write!(
+                f,
+                "part `{}`: its URDD has no file for mesh `{}`: not carried; the element has no surface",
+                line(part),
+                line(name)
+            ),
             Note::LeftAlone { part, place, name } => write!(
                 f,
                 "part `{}`: `{}` says `{}`, the name of a link or joint, and was left as it is; where it means that, write names = [\"{}\"]",

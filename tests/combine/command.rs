@@ -88,7 +88,7 @@ fn a_part_that_does_not_pass_is_refused_unless_asked() {
     let (status, _, said) = run(&[]);
     assert_eq!(status, 1, "{said}");
     assert!(
-        said.contains("part `g` (g): it does not pass `urdd validate`: ") && said.contains("BND"),
+        said.contains("part `g`: g: it does not pass `urdd validate`: ") && said.contains("BND"),
         "{said}"
     );
     let (_, text, _) = run(&["--format", "json"]);

@@ -9,4 +9,5 @@ mod mjcf;
 mod pairs;
 mod spheres;
 mod srdf;
+mod srdf_import;
 mod urdf;

@@ -22,6 +22,9 @@ __all__ = [
     "ChainModule",
     "Collision",
     "Color",
+    "CompositionBase",
+    "CompositionModule",
+    "CompositionPart",
     "ConfigurationKind",
     "ConformanceClass",
     "ConnectionsModule",
@@ -35,6 +38,7 @@ __all__ = [
     "DofModule",
     "Dynamics",
     "FileEntry",
+    "FrozenJoint",
     "Generator",
     "Geometry",
     "GeometryKind",
@@ -67,6 +71,11 @@ __all__ = [
     "Origin",
     "OriginalMesh",
     "OriginalMeshesModule",
+    "PartAttachment",
+    "PartComposition",
+    "PartJoint",
+    "PartLink",
+    "PartSource",
     "PieceShape",
     "PlainMesh",
     "PlainMeshesModule",
@@ -793,6 +802,123 @@ class KinematicsSamplesModule:
 
 
 @dataclass(frozen=True)
+class CompositionBase:
+    """A link that carries all parts and is of none."""
+
+    link_idx: int
+    """The link."""
+
+
+@dataclass(frozen=True)
+class CompositionPart:
+    """A robot that became a part of another."""
+
+    id: str
+    """By what name the recipe knows it; unique among the parts."""
+
+    name: str
+    """Name of the robot that the part was."""
+
+    source: PartSource
+    """What it was taken from, with a digest."""
+
+    prefix: str
+    """What stands before the part's names of links and joints in this robot; empty for nothing."""
+
+    links: list[PartLink]
+    """The part's links that are in this robot, in link order."""
+
+    joints: list[PartJoint]
+    """The part's joints that are in this robot, in joint order."""
+
+    dropped_links: list[str]
+    """Names of the part's links that were left out, in the part's order."""
+
+    dropped_joints: list[str]
+    """Names of the part's joints that were left out, in the part's order."""
+
+    frozen_joints: list[FrozenJoint]
+    """The part's joints that were made fixed, in joint order."""
+
+    attachment: PartAttachment | None
+    """What it hangs on; null for the part that is the root."""
+
+    composition: PartComposition | None
+    """How the part was put together itself; null where it was not, or that is not known."""
+
+
+@dataclass(frozen=True)
+class PartLink:
+    """A link of a part."""
+
+    name: str
+    """Its name in the part."""
+
+    link_idx: int
+    """The link of this robot."""
+
+
+@dataclass(frozen=True)
+class PartJoint:
+    """A joint of a part."""
+
+    name: str
+    """Its name in the part."""
+
+    joint_idx: int
+    """The joint of this robot."""
+
+
+@dataclass(frozen=True)
+class FrozenJoint:
+    """A joint that moved in the part, and is fixed in this robot."""
+
+    joint_idx: int
+    """The joint."""
+
+    position: list[float]
+    """Where it was made fixed: a value for each DOF that it had, rad or m."""
+
+
+@dataclass(frozen=True)
+class PartAttachment:
+    """What a part hangs on."""
+
+    part_idx: int | None
+    """The part that carries it; null for the base."""
+
+    link_idx: int
+    """The link that carries it."""
+
+    joint_idx: int
+    """The joint between that link and the part's root link."""
+
+
+@dataclass(frozen=True)
+class PartComposition:
+    """How a part was put together itself: as `composition_module` says it of the part. Indices in it are those of
+    the part's own modules."""
+
+    base: CompositionBase | None
+    """The link that carries all parts and is of none; null where a part is the root."""
+
+    parts: list[CompositionPart]
+    """The parts."""
+
+
+@dataclass(frozen=True)
+class CompositionModule:
+    """How this robot was put together from others, its parts. The robot itself is what the URDF says that the URDD
+    carries; this says which of its links and joints came from where."""
+
+    base: CompositionBase | None
+    """The link that carries all parts and is of none; null where a part is the root."""
+
+    parts: list[CompositionPart]
+    """The parts, in the order in which they stand in the URDF. The place in this list is the part's index."""
+
+
+@dataclass(frozen=True)
 class MeshReference:
     """A place in the URDF that names a mesh."""
 
@@ -1148,6 +1274,9 @@ Source: TypeAlias = FileEntry
 
 Geometry: TypeAlias = Mesh | Cuboid | Cylinder | Capsule | Sphere
 """A shape: in JSON an object of one key, here that key's value."""
+
+PartSource: TypeAlias = str | str
+"""What a part was taken from: in JSON an object of one key, here that key's value."""
 
 
 def _generator(v: Any) -> Generator:
@@ -1514,6 +1643,78 @@ def _kinematics_samples_module(v: Any) -> KinematicsSamplesModule:
     )
 
 
+def _composition_base(v: Any) -> CompositionBase:
+    return CompositionBase(
+        link_idx=int(v["link_idx"]),
+    )
+
+
+def _composition_part(v: Any) -> CompositionPart:
+    return CompositionPart(
+        id=v["id"],
+        name=v["name"],
+        source=_part_source(v["source"]),
+        prefix=v["prefix"],
+        links=[_part_link(x) for x in v["links"]],
+        joints=[_part_joint(x) for x in v["joints"]],
+        dropped_links=v["dropped_links"],
+        dropped_joints=v["dropped_joints"],
+        frozen_joints=[_frozen_joint(x) for x in v["frozen_joints"]],
+        attachment=None if v["attachment"] is None else _part_attachment(v["attachment"]),
+        composition=None if v["composition"] is None else _part_composition(v["composition"]),
+    )
+
+
+def _part_source(v: Any) -> PartSource:
+    ((kind, value),) = v.items()
+    if kind == "Urdd":
+        return value
+    return value
+
+
+def _part_link(v: Any) -> PartLink:
+    return PartLink(
+        name=v["name"],
+        link_idx=int(v["link_idx"]),
+    )
+
+
+def _part_joint(v: Any) -> PartJoint:
+    return PartJoint(
+        name=v["name"],
+        joint_idx=int(v["joint_idx"]),
+    )
+
+
+def _frozen_joint(v: Any) -> FrozenJoint:
+    return FrozenJoint(
+        joint_idx=int(v["joint_idx"]),
+        position=v["position"],
+    )
+
+
+def _part_attachment(v: Any) -> PartAttachment:
+    return PartAttachment(
+        part_idx=None if v["part_idx"] is None else int(v["part_idx"]),
+        link_idx=int(v["link_idx"]),
+        joint_idx=int(v["joint_idx"]),
+    )
+
+
+def _part_composition(v: Any) -> PartComposition:
+    return PartComposition(
+        base=None if v["base"] is None else _composition_base(v["base"]),
+        parts=[_composition_part(x) for x in v["parts"]],
+    )
+
+
+def _composition_module(v: Any) -> CompositionModule:
+    return CompositionModule(
+        base=None if v["base"] is None else _composition_base(v["base"]),
+        parts=[_composition_part(x) for x in v["parts"]],
+    )
+
+
 def _mesh_reference(v: Any) -> MeshReference:
     return MeshReference(
         link_idx=int(v["link_idx"]),
@@ -1776,6 +1977,12 @@ class Modules:
         """Configurations, and the pose of every link in each: values by which a consumer in any language proves its
         forward kinematics right."""
         return self._read("kinematics_samples_module", _kinematics_samples_module)
+
+    @property
+    def composition(self) -> CompositionModule:
+        """How this robot was put together from others, its parts. The robot itself is what the URDF says that the
+        URDD carries; this says which of its links and joints came from where."""
+        return self._read("composition_module", _composition_module)
 
     @property
     def original_meshes(self) -> OriginalMeshesModule:

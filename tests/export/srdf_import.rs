@@ -1,0 +1,155 @@
+//! SRDFs read into edits.
+
+use std::path::Path;
+use std::process::Command;
+
+use urdd::export::{ImportError, SrdfError, import_srdf};
+use urdd::robot::{Robot, ShapeKind};
+
+use crate::robots::made_of;
+
+/// Five boxes in a line, far from each other: adjacent ones are skipped, no other pair is.
+fn line() -> String {
+    let mut text = String::from("<robot name=\"line\">");
+    for i in 0..5 {
+        text += &format!(
+            "<link name=\"l{i}\"><visual><geometry><box size=\"0.1 0.1 0.1\"/></geometry></visual></link>"
+        );
+    }
+    for i in 0..4 {
+        text += &format!(
+            "<joint name=\"j{i}\" type=\"revolute\"><parent link=\"l{i}\"/><child link=\"l{}\"/><origin xyz=\"1 0 0\"/><axis xyz=\"0 0 1\"/><limit lower=\"-0.1\" upper=\"0.1\" effort=\"1\" velocity=\"1\"/></joint>",
+            i + 1
+        );
+    }
+    text + "</robot>"
+}
+
+fn pair(a: u32, b: u32) -> String {
+    format!("<disable_collisions link1=\"l{a}\" link2=\"l{b}\" reason=\"Never\"/>")
+}
+
+fn srdf(inner: &str) -> String {
+    format!("<robot name=\"line\">\n{inner}\n</robot>")
+}
+
+/// The pairs of links that are skipped, by the last digits of their names.
+fn skipped(urdd: &Path) -> Vec<(usize, usize)> {
+    let robot = Robot::open(urdd).expect("a robot");
+    let skips = robot.skips(ShapeKind::Pieces).expect("skips");
+    let mut found = Vec::new();
+    for i in 0..skips.len() {
+        for j in i + 1..skips.len() {
+            if skips.is_skipped(i, j) {
+                found.push((skips.places()[i].0, skips.places()[j].0));
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn pairs_become_edits_and_nothing_is_lost() {
+    let (folder, urdd) = made_of(&line());
+    let adjacent = [(0, 1), (1, 2), (2, 3), (3, 4)];
+    assert_eq!(skipped(&urdd), adjacent);
+    let run = |text: &str, more: &[&str]| {
+        let file = folder.path().join("x.srdf");
+        std::fs::write(&file, text).expect("a file");
+        let output = Command::new(env!("CARGO_BIN_EXE_urdd"))
+            .args(["skips", "import", "x.srdf", "robot"])
+            .args(more)
+            .current_dir(folder.path())
+            .output()
+            .expect("the program");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+        (
+            output.status.code(),
+            text(output.stdout),
+            text(output.stderr),
+        )
+    };
+    let told = run(
+        &srdf(&format!("{}{}{}", pair(0, 1), pair(4, 2), pair(0, 3))),
+        &[],
+    );
+    assert_eq!(
+        told,
+        (
+            Some(0),
+            "robot: 2 edits added; 1 pair of the SRDF as they were\n  3 pairs skipped that the SRDF does not disable\n".to_owned(),
+            String::new()
+        )
+    );
+    assert_eq!(
+        skipped(&urdd),
+        [(0, 1), (0, 3), (1, 2), (2, 3), (2, 4), (3, 4)]
+    );
+    // Whoever reads it finds hashes and matrices as they should be.
+    let run_of = urdd::validate::validate(&[&urdd], &Default::default()).expect("a URDD");
+    let report = urdd::report::Report::new(&run_of, urdd::validate::rule::Severity::Warning);
+    let found: Vec<_> = report.urdds[0]
+        .findings
+        .iter()
+        .map(|of| &of.code)
+        .filter(|code| !code.starts_with("SRC"))
+        .collect();
+    assert_eq!(found, [] as [&String; 0]);
+    // Another SRDF that says the contrary of what was decided.
+    let contrary = srdf("<enable_collisions link1=\"l3\" link2=\"l0\"/>");
+    let (status, _, said) = run(&contrary, &[]);
+    assert_eq!(status, Some(2));
+    assert!(
+        said.contains("has an edit that says of `l0` and `l3`") && said.contains("SRDF: Never"),
+        "{said}"
+    );
+    assert_eq!(skipped(&urdd).len(), 6);
+    assert_eq!(run(&contrary, &["--force"]).0, Some(0));
+    assert_eq!(skipped(&urdd), [(0, 1), (1, 2), (2, 3), (2, 4), (3, 4)]);
+    let edits = Robot::open(&urdd)
+        .expect("a robot")
+        .skips(ShapeKind::Hulls)
+        .expect("skips")
+        .edits()
+        .len();
+    assert_eq!(edits, 3);
+}
+
+#[test]
+fn disable_default_is_all_pairs_of_a_link_but_those_enabled() {
+    let (_folder, urdd) = made_of(&line());
+    let robot = Robot::open(&urdd).expect("a robot");
+    let text = srdf(
+        "<disable_default_collisions link=\"l0\"/><enable_collisions link1=\"l4\" link2=\"l0\"/>",
+    );
+    let imported = import_srdf(&robot, &text, false).expect("edits");
+    let pairs: Vec<_> = imported
+        .edits
+        .iter()
+        .map(|of| (of.link_a.as_str(), of.link_b.as_str(), of.skip))
+        .collect();
+    assert_eq!(pairs, [("l0", "l2", true), ("l0", "l3", true)]);
+    assert_eq!((imported.already, imported.unlisted), (2, 3));
+}
+
+#[test]
+fn what_is_no_srdf_of_the_robot_is_refused() {
+    let (_folder, urdd) = made_of(&line());
+    let robot = Robot::open(&urdd).expect("a robot");
+    let fault = |text: &str| import_srdf(&robot, text, false).expect_err("a fault");
+    assert!(matches!(
+        fault("<robot name=\"other\"/>"),
+        ImportError::Srdf(SrdfError::OtherRobot { .. })
+    ));
+    assert!(matches!(fault("no"), ImportError::Srdf(SrdfError::Xml(_))));
+    let error = fault(&srdf("<disable_collisions link1=\"l1\"/>"));
+    assert_eq!(
+        error.to_string(),
+        "line 2: `<disable_collisions>` has no `link2`"
+    );
+    let error = fault(&srdf("<disable_collisions link1=\"l1\" link2=\"l11\"/>"));
+    assert!(
+        error.to_string().starts_with("line 2: ") && error.to_string().contains("`l11`"),
+        "{error}"
+    );
+}
