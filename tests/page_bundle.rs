@@ -19,6 +19,7 @@ const FILES: &[&str] = &[
 ];
 const WITHOUT: &[&str] = &[
     "src/cli/",
+    "src/combine/",
     "src/conformance/",
     "src/generate/",
     "src/view/",
