@@ -89,7 +89,7 @@ mod tests {
             FRAC_PI_2 - 1e-9,
             FRAC_PI_2,
             -FRAC_PI_2,
-            -1.5707963,
+            -FRAC_PI_2 + 2.7e-8,
         ];
         for pitch in pitches {
             for (roll, yaw) in [(0.0, 0.0), (0.3, -2.0), (-3.0, 3.1), (1.5, 0.7)] {
