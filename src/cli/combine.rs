@@ -165,7 +165,7 @@ fn recipe(file: &Path) -> Result<Recipe, CombineError> {
         file: shown.clone(),
         reason,
     };
-    if file.is_dir() || !file.extension().is_some_and(|ending| ending == "toml") {
+    if file.is_dir() || file.extension().is_none_or(|ending| ending != "toml") {
         let words =
             "a recipe is a .toml file; to put two robots together, give both, and `--at LINK`";
         return Err(unreadable(words.to_owned()));

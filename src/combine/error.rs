@@ -30,7 +30,7 @@ pub enum CombineError {
         /// The place in it; `None` where the recipe came from the command line, or it is about the whole.
         at: Option<Position>,
         /// What is wrong.
-        fault: RecipeFault,
+        fault: Box<RecipeFault>,
     },
     /// A part cannot be taken up.
     #[error("{}{}: {fault}", About(&(!id.is_empty()).then(|| id.clone())), escape::line(source_path))]

@@ -159,7 +159,7 @@ impl Recipe {
         CombineError::Recipe {
             file: self.shown.clone(),
             at: at.at,
-            fault,
+            fault: Box::new(fault),
         }
     }
 

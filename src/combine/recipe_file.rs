@@ -20,7 +20,7 @@ impl Recipe {
         let refused = |offset: Option<usize>, fault: RecipeFault| CombineError::Recipe {
             file: shown.to_owned(),
             at: offset.map(|offset| lines.position(offset)),
-            fault,
+            fault: Box::new(fault),
         };
         keys::check(text).map_err(|(offset, fault)| refused(offset, fault))?;
         let file: RecipeFile = toml::from_str(text).map_err(|error| {

@@ -38,7 +38,9 @@ fn fault(changes: &[(&str, &str)]) -> (RecipeFault, Option<(u32, u32)>, String) 
     let error = made.expect_err("a recipe that cannot be followed");
     let words = error.to_string();
     match error {
-        CombineError::Recipe { fault, at, .. } => (fault, at.map(|at| (at.line, at.column)), words),
+        CombineError::Recipe { fault, at, .. } => {
+            (*fault, at.map(|at| (at.line, at.column)), words)
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -104,10 +106,7 @@ fn keys_that_must_be_there_are_named() {
     let error = put_together("name = \"x\"", folder.path(), &core()).expect_err("no part");
     assert!(matches!(
         error,
-        CombineError::Recipe {
-            fault: RecipeFault::NoParts,
-            ..
-        }
+        CombineError::Recipe { fault, .. } if *fault == RecipeFault::NoParts
     ));
 }
 

@@ -23,7 +23,7 @@ fn attached(robot: &str, point: Value, kind: &str) -> Value {
         "robot_name": robot, "attachment_point": point, "joint_type": kind,
         "origin": { "xyz": [0.1, 0.0, 0.0], "rpy": [0.0, 1.571, 0.0] },
         "axis": { "xyz": [0.0, 0.0, 0.0] },
-        "limit": { "lower": -3.14, "upper": 3.14, "effort": 0.0, "velocity": 2.0 },
+        "limit": { "lower": -3.1, "upper": 3.1, "effort": 0.0, "velocity": 2.0 },
         "dynamics": null, "safety_controller": null,
     })
 }
@@ -61,7 +61,7 @@ prefix = "robot_0_"
 id = "hand"
 source = "hand"
 prefix = "robot_1_"
-attach = { to = "arm/a/b", name = "connection_joint_robot_1", joint = "revolute", xyz = [0.1, 0.0, 0.0], rpy = [0.0, 1.571, 0.0], limit = { lower = -3.14, upper = 3.14, velocity = 2.0 } }
+attach = { to = "arm/a/b", name = "connection_joint_robot_1", joint = "revolute", xyz = [0.1, 0.0, 0.0], rpy = [0.0, 1.571, 0.0], limit = { lower = -3.1, upper = 3.1, velocity = 2.0 } }
 
 [[part]]
 id = "table"

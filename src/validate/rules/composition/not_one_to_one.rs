@@ -68,8 +68,8 @@ fn check(context: &Context, findings: &mut Findings) {
         ];
         for (key, kept, dropped) in names {
             let mut seen = BTreeSet::new();
-            let all = kept.into_iter().chain(dropped);
-            if let Some(name) = all.filter(|name| !seen.insert(*name)).next() {
+            let mut all = kept.into_iter().chain(dropped);
+            if let Some(name) = all.find(|name| !seen.insert(*name)) {
                 let pointer = format!("/parts/{place}/{key}");
                 report(
                     pointer,
