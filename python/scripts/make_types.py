@@ -225,9 +225,13 @@ def declaration(types: Types, name: str) -> str:
             line = f"{name}: TypeAlias = Literal[\n{words}]\n"
         return line + docstring(text, "")
     if "oneOf" in definition:
-        parts = [types.tagged(types.target(part["$ref"]))[1] for part in definition["oneOf"]]
-        union = " | ".join(types.annotation(part) for part in parts)
-        text = text.split(":")[0] + ": in JSON an object of one key, here that key's value."
+        tags = [types.tagged(types.target(part["$ref"])) for part in definition["oneOf"]]
+        values = [types.annotation(part) for _, part in tags]
+        union, here = " | ".join(values), "that key's value"
+        if is_ambiguous(types, definition):
+            words = ", ".join(f'"{key}"' for key, _ in tags)
+            union, here = f"tuple[Literal[{words}], {values[0]}]", "that key and its value"
+        text = text.split(":")[0] + f": in JSON an object of one key, here {here}."
         return f"{name}: TypeAlias = {union}\n" + docstring(text, "")
     lines = [f"@dataclass(frozen=True)\nclass {name}:\n", docstring(text, "    ")]
     for key, schema in fields(definition).items():
@@ -236,12 +240,20 @@ def declaration(types: Types, name: str) -> str:
     return "".join(lines)
 
 
+def is_ambiguous(types: Types, definition: dict[str, Any]) -> bool:
+    """Whether the value alone does not tell which of several it is."""
+    values = [types.annotation(types.tagged(types.target(part["$ref"]))[1]) for part in definition["oneOf"]]
+    return len(set(values)) < len(values)
+
+
 def reader(types: Types, name: str) -> str:
     definition = types.known[name]
     head = f"def _{snake(name)}(v: Any) -> {name}:\n"
     if "oneOf" in definition:
         lines = ["    ((kind, value),) = v.items()\n"]
         tags = [types.tagged(types.target(part["$ref"])) for part in definition["oneOf"]]
+        if is_ambiguous(types, definition):
+            return head + lines[0] + f"    return kind, {types.expression(tags[0][1], 'value')}\n"
         for key, schema in tags[:-1]:
             lines.append(f'    if kind == "{key}":\n        return {types.expression(schema, "value")}\n')
         lines.append(f"    return {types.expression(tags[-1][1], 'value')}\n")

@@ -1275,8 +1275,8 @@ Source: TypeAlias = FileEntry
 Geometry: TypeAlias = Mesh | Cuboid | Cylinder | Capsule | Sphere
 """A shape: in JSON an object of one key, here that key's value."""
 
-PartSource: TypeAlias = str | str
-"""What a part was taken from: in JSON an object of one key, here that key's value."""
+PartSource: TypeAlias = tuple[Literal["Urdd", "Urdf"], str]
+"""What a part was taken from: in JSON an object of one key, here that key and its value."""
 
 
 def _generator(v: Any) -> Generator:
@@ -1667,9 +1667,7 @@ def _composition_part(v: Any) -> CompositionPart:
 
 def _part_source(v: Any) -> PartSource:
     ((kind, value),) = v.items()
-    if kind == "Urdd":
-        return value
-    return value
+    return kind, value
 
 
 def _part_link(v: Any) -> PartLink:
