@@ -41,7 +41,7 @@ inPage(set, "the links of each part have one colour, and no part has another's",
   assert.equal(new Set(ofPart.flatMap((of) => [...of])).size, 2);
 
   await page.click("#tab-Shapes");
-  await page.getByText("gripper", { exact: true }).first().waitFor();
+  await page.locator(".part", { hasText: "gripper" }).waitFor();
   await page.click("#by-part");
   await state(page, "byPart", (on) => !on);
   const plain = await colours(page);
