@@ -46,6 +46,7 @@ pub mod format;
 pub mod generate;
 pub mod geometry;
 pub mod kinematics;
+pub mod learn;
 pub mod report;
 pub mod robot;
 pub mod skips;

@@ -19,6 +19,10 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("kinematics", &["format"]),
     ("skips", &["format"]),
     (
+        "learn",
+        &["cancellation", "format", "geometry", "kinematics"],
+    ),
+    (
         "generate",
         &[
             "cancellation",
@@ -26,6 +30,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "directory",
             "geometry",
             "kinematics",
+            "learn",
             "skips",
             "xml",
         ],
@@ -62,6 +67,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "document",
             "geometry",
             "kinematics",
+            "learn",
             "skips",
         ],
     ),
@@ -104,6 +110,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "document",
             "geometry",
             "kinematics",
+            "learn",
             "skips",
             "generate",
             "combine",

@@ -29,11 +29,29 @@ const TRIALS: u64 = 120;
 /// In the toy a few values are replaced by others of the schema, among them absurd ones.
 #[test]
 fn absurd_values_crash_no_rule() {
-    let broken = try_all(|urdd, dice| {
+    let broken = try_all(Fixture::toy, |urdd, dice| {
         for _ in 0..=dice.below(3) {
             put_nonsense(urdd, dice);
         }
     });
+    assert!(
+        broken > TRIALS as usize * 3 / 4,
+        "only {broken} were judged wrong"
+    );
+}
+
+/// The same of a robot with a self-collision model, which the toy has not.
+#[test]
+fn absurd_values_in_a_model_crash_no_rule() {
+    let model = support::model::fixture();
+    let broken = try_all(
+        || model.clone(),
+        |urdd, dice| {
+            for _ in 0..=dice.below(3) {
+                put_nonsense(urdd, dice);
+            }
+        },
+    );
     assert!(
         broken > TRIALS as usize * 3 / 4,
         "only {broken} were judged wrong"
@@ -48,7 +66,7 @@ fn arbitrary_documents_crash_no_rule() {
         .filter_map(|kind| Some((kind.name(), spec(kind.name())?)))
         .map(|(name, spec)| (name, Subject::Module(spec).schema(Variant::Strict)))
         .collect();
-    let broken = try_all(|urdd, dice| {
+    let broken = try_all(Fixture::toy, |urdd, dice| {
         for _ in 0..=dice.below(2) {
             let (name, schema) = &schemas[dice.below(schemas.len())];
             let choices: Vec<u16> = (0..dice.below(400)).map(|_| dice.word()).collect();
@@ -67,15 +85,18 @@ fn arbitrary_documents_crash_no_rule() {
     );
 }
 
-/// Changes the toy as often as wanted, each time otherwise, and has it examined. Returns how many of
+/// Changes a URDD as often as wanted, each time otherwise, and has it examined. Returns how many of
 /// these URDDs were found wrong.
-fn try_all(change: impl Fn(&mut Fixture, &mut Dice) + Sync) -> usize {
+fn try_all(
+    base: impl Fn() -> Fixture + Sync,
+    change: impl Fn(&mut Fixture, &mut Dice) + Sync,
+) -> usize {
     let wanted = std::env::var("URDD_TRIALS").ok();
     let trials = wanted.map_or(TRIALS, |number| number.parse().expect("a number"));
     let broken = (0..trials)
         .into_par_iter()
         .map_init(Folder::new, |folder, trial| {
-            let mut urdd = Fixture::toy();
+            let mut urdd = base();
             change(&mut urdd, &mut Dice(trial << 32));
             urdd.seal();
             examine(&urdd, folder, trial)

@@ -22,6 +22,7 @@ const WITHOUT: &[&str] = &[
     "src/combine/",
     "src/conformance/",
     "src/generate/",
+    "src/learn/train/",
     "src/view/",
     "src/main.rs",
 ];

@@ -22,12 +22,22 @@ fn toy_is_accepted() {
 }
 
 #[test]
+fn a_model_that_is_written_down_is_accepted() {
+    check(&support::model::fixture());
+}
+
+#[test]
 fn toy_holds_what_it_promises() {
     let toy = Fixture::toy();
     let kinds = ModuleKind::ALL
         .iter()
-        // It was not put together from others.
-        .filter(|kind| **kind != ModuleKind::Composition)
+        // It was not put together from others, and nobody asked for a model.
+        .filter(|kind| {
+            !matches!(
+                kind,
+                ModuleKind::Composition | ModuleKind::SelfCollisionModel
+            )
+        })
         .filter(|kind| find(**kind, SPEC_VERSION).is_some());
     // And `urdd.json`.
     assert_eq!(toy.documents.len(), kinds.count() + 1);

@@ -5,6 +5,8 @@
 mod conventions;
 #[path = "vectors/core_modules.rs"]
 mod core_modules;
+#[path = "vectors/learned.rs"]
+mod learned;
 #[path = "vectors/solids.rs"]
 mod solids;
 
@@ -25,6 +27,7 @@ const FILES: &[(&str, &str)] = &[
     ("mimics.json", "tests/vectors/core_modules.rs"),
     ("rotations.json", "tests/vectors/conventions.rs"),
     ("sampled_configurations.json", "tests/kinematics_figures.rs"),
+    ("self_collision_model.json", "tests/vectors/learned.rs"),
 ];
 
 fn folder() -> PathBuf {

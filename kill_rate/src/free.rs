@@ -30,6 +30,38 @@ pub const FREE_FIELDS: &[FreeField] = &[
         field: "/edits/*/reason",
         clause: "Annex A",
     },
+    // What the producer says of how it came about.
+    FreeField {
+        module: "self_collision_model_module",
+        field: "/clip_distance",
+        clause: "8.8.10",
+    },
+    FreeField {
+        module: "self_collision_model_module",
+        field: "/training",
+        clause: "8.8.10",
+    },
+    FreeField {
+        module: "self_collision_model_module",
+        field: "/calibration",
+        clause: "8.8.10",
+    },
+    // What the parts were by themselves: this URDD holds nothing of it.
+    FreeField {
+        module: "composition_module",
+        field: "/parts/*/name",
+        clause: "Annex A",
+    },
+    FreeField {
+        module: "composition_module",
+        field: "/parts/*/source",
+        clause: "6.6.7",
+    },
+    FreeField {
+        module: "composition_module",
+        field: "/parts/*/composition",
+        clause: "6.6.7",
+    },
 ];
 
 /// A change of a field to another value that SPEC.md lets it have.
@@ -96,7 +128,86 @@ pub const PERMITTED: &[Permitted] = &[
             _ => false,
         },
     },
+    Permitted {
+        module: "composition_module",
+        field: "/parts/*/id",
+        change: "to another id: the recipe is not here",
+        clause: "6.6.2",
+        permits: |_, to| {
+            let id = to.as_str();
+            id.is_some_and(|id| !id.is_empty() && !id.contains('/'))
+        },
+    },
+    Permitted {
+        module: "composition_module",
+        field: "/parts/*/dropped_links",
+        change: DROPPED,
+        clause: "6.6.3",
+        permits: |_, to| are_names(to),
+    },
+    Permitted {
+        module: "composition_module",
+        field: "/parts/*/dropped_links/*",
+        change: DROPPED,
+        clause: "6.6.3",
+        permits: |_, to| to.is_string(),
+    },
+    Permitted {
+        module: "composition_module",
+        field: "/parts/*/dropped_joints",
+        change: DROPPED,
+        clause: "6.6.3",
+        permits: |_, to| are_names(to),
+    },
+    Permitted {
+        module: "composition_module",
+        field: "/parts/*/dropped_joints/*",
+        change: DROPPED,
+        clause: "6.6.3",
+        permits: |_, to| to.is_string(),
+    },
+    Permitted {
+        module: "composition_module",
+        field: "/parts/*/frozen_joints",
+        change: "fewer: the others may have been fixed in the part",
+        clause: "6.6.6",
+        permits: |from, to| match (from.as_array(), to.as_array()) {
+            (Some(from), Some(to)) => {
+                let mut from = from.iter();
+                to.iter().all(|joint| from.any(|of| of == joint))
+            }
+            _ => false,
+        },
+    },
+    Permitted {
+        module: "composition_module",
+        field: "/parts/*/frozen_joints/*/position",
+        change: "to 1, 3 or 6 other values: where it was is not here",
+        clause: "6.6.6",
+        permits: |_, to| {
+            let values = to.as_array();
+            values
+                .is_some_and(|to| [1, 3, 6].contains(&to.len()) && to.iter().all(Value::is_number))
+        },
+    },
+    Permitted {
+        module: "composition_module",
+        field: "/parts/*/frozen_joints/*/position/*",
+        change: "to another value: where it was is not here",
+        clause: "6.6.6",
+        permits: |_, to| to.is_number(),
+    },
 ];
+
+const DROPPED: &str = "to other names, each once: the part's links and joints are not here";
+
+fn are_names(list: &Value) -> bool {
+    let Some(names) = list.as_array() else {
+        return false;
+    };
+    let is_first = |(place, name): (usize, &Value)| !names[..place].contains(name);
+    names.iter().all(Value::is_string) && names.iter().enumerate().all(is_first)
+}
 
 /// Whether a field may as well be something else.
 pub(crate) fn is_permitted(module: &str, field: &str, from: &Value, to: &Value) -> bool {

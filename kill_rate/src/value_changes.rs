@@ -57,8 +57,12 @@ pub(crate) fn changes(field: &Field, place: &str, dice: &mut Dice) -> Vec<ValueC
             edits: vec![set],
         });
     }
+    let is_permitted =
+        |from: &Value, to: &Value| free::is_permitted(ground.module, ground.field, from, to);
     if let Some((other_place, other)) = field.another(value, dice, |other| {
-        !other.is_array() && !other.is_object() && !value.is_array() && !value.is_object()
+        let is_one = |value: &Value| !value.is_array() && !value.is_object();
+        let is_right_too = is_permitted(value, other) && is_permitted(other, value);
+        is_one(value) && is_one(other) && !is_right_too
     }) {
         let edits = vec![
             Edit::Set(place.to_owned(), other.clone()),

@@ -34,11 +34,16 @@ const TOKEN = "urdd-token";
 
 /** The token moves from the address to this tab's memory. */
 function token(shared: fragment.Shared): string | null {
-  if (shared.token !== null) {
-    sessionStorage.setItem(TOKEN, shared.token);
-    history.replaceState(null, "", `#${fragment.write(shared)}`);
+  try {
+    if (shared.token !== null) {
+      sessionStorage.setItem(TOKEN, shared.token);
+      history.replaceState(null, "", `#${fragment.write(shared)}`);
+    }
+    return sessionStorage.getItem(TOKEN);
+  } catch {
+    // A frame that may keep nothing, as in a notebook: the token stays in the address.
+    return shared.token;
   }
-  return sessionStorage.getItem(TOKEN);
 }
 
 function start(): void {

@@ -42,6 +42,10 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
       if (!there) throw new Error("no pose");
       const reached = robot.reach({ q: robot.random(3), link, position: there.position, restarts: 20 });
       const [nearest] = robot.nearest(robot.about.zero ?? [], 1, "hulls");
+      const [model, clearances] = [robot.collisionModel, robot.clearances(q)];
+      const missed: number | undefined = model?.held_out.num_missed;
+      const least: number | undefined = clearances?.least?.clearance;
+      if (model !== null || clearances !== null) throw new Error("a model, where there is none: " + missed + least);
       console.log(JSON.stringify({ report, there, reached, nearest, code: urdd.explain("DOF003").code }));
       robot.close();
       try { robot.poses(q); throw new Error("open"); } catch (error) { if (!/closed/.test(String(error))) throw error; }

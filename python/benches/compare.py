@@ -1,6 +1,11 @@
 """Measures this package beside others, on the same robots, in one run.
 
-    python python/benches/compare.py URDF...
+    pip install ./python pin mujoco pybullet yourdfpy
+    python python/benches/compare.py --readme
+
+measures UR5 and H1 of `../shared/robots` and writes the tables into README.md; without `--readme` it prints them.
+Other robots: `python python/benches/compare.py URDF...`. `--quick` does little of everything, to see that it runs:
+its figures mean nothing. On a machine that does nothing else, of a build as `pip install` makes it.
 
 For each URDF a URDD is made in a temporary folder. Then, one thread each, processor time:
 
@@ -10,12 +15,15 @@ For each URDF a URDD is made in a temporary folder. Then, one thread each, proce
   Python, which is how they are used there. Collisions on the same convex pieces and pairs for all: Pinocchio by coal,
   each pair until the first that collides, and by its broad phase; PyBullet and MuJoCo by their own broad phases.
 
-It prints Markdown tables; those in README.md are a run of it. Peers that are not installed are left out, and said.
+Peers that are not installed are left out, and said; so are wall times.
 """
 
 from __future__ import annotations
 
+import argparse
+import importlib.metadata
 import os
+import re
 import resource
 import statistics
 import subprocess
@@ -35,10 +43,22 @@ import numpy as np
 
 import urdd
 
-CONFIGURATIONS = 10_000
-#: Of those that take long.
-FEWER = 500
-ROUNDS = 5
+REPOSITORY = Path(__file__).resolve().parents[2]
+README = REPOSITORY / "python" / "README.md"
+USUAL = [REPOSITORY.parent / "shared" / "robots" / name / "robot.urdf" for name in ("ur5", "h1")]
+#: Between these lines README.md has the tables.
+BEGIN, END = "<!-- benches/compare.py -->", "<!-- end of benches/compare.py -->"
+
+
+class Effort:
+    """How much is measured."""
+
+    configurations = 10_000
+    #: Of those that take long.
+    fewer = 500
+    rounds = 5
+    fresh = 9
+
 
 #: What a fresh process does. `{urdd}` and `{urdf}` are paths; `{dofs}` is a number.
 LOADING = {
@@ -71,10 +91,10 @@ def has(name: str) -> bool:
     return True
 
 
-def clock(work: Callable[[], object], rounds: int = ROUNDS) -> float:
+def clock(work: Callable[[], object], rounds: int | None = None) -> float:
     """The median of the processor time of some rounds, seconds."""
     times: list[float] = []
-    for _ in range(rounds):
+    for _ in range(min(rounds or Effort.rounds, Effort.rounds)):
         begin = time.process_time()
         work()
         times.append(time.process_time() - begin)
@@ -98,7 +118,7 @@ def quiet(work: Callable[[], dict[str, float]]) -> dict[str, float]:
 def loading(code: str) -> tuple[float, float] | None:
     """The wall time and the processor time of a fresh process, seconds: medians. None where it fails."""
     walls, processors = [], []
-    for _ in range(9):
+    for _ in range(Effort.fresh):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         begin = time.perf_counter()
         ended = subprocess.run([sys.executable, "-c", code], capture_output=True, check=False)
@@ -127,10 +147,10 @@ def of_us(robot: urdd.Robot, q: Any) -> dict[str, float]:
     }
 
     def one_by_one() -> None:
-        for row in q[:FEWER]:
+        for row in q[: Effort.fewer]:
             robot.fk(row)
 
-    found["poses, one by one"] = clock(one_by_one) / FEWER * len(q)
+    found["poses, one by one"] = clock(one_by_one) / Effort.fewer * len(q)
     return found
 
 
@@ -152,19 +172,19 @@ def of_pinocchio(robot: urdd.Robot, q: Any) -> dict[str, float]:
             pin.computeFrameJacobian(model, data, row, frame, pin.LOCAL_WORLD_ALIGNED)
 
     def by_pairs() -> None:
-        for row in own[:FEWER]:
+        for row in own[: Effort.fewer]:
             pin.computeCollisions(model, data, geometry, places, row, True)
 
     def by_broad_phase() -> None:
-        for row in own[:FEWER]:
+        for row in own[: Effort.fewer]:
             pin.computeCollisions(model, data, broad, row, True)
 
-    told = [pin.computeCollisions(model, data, geometry, places, row, True) for row in own[:FEWER]]
-    agree = np.array(told) == robot.in_collision(q[:FEWER])
+    told = [pin.computeCollisions(model, data, geometry, places, row, True) for row in own[: Effort.fewer]]
+    agree = np.array(told) == robot.in_collision(q[: Effort.fewer])
     if agree.mean() < 0.99:
         raise SystemExit(f"Pinocchio and we agree on {agree.mean():.1%} of configurations")
     slow = min(clock(by_pairs, 3), clock(by_broad_phase, 3))
-    return {"poses": clock(poses), "Jacobians": clock(jacobians), "collisions": slow / FEWER * len(q)}
+    return {"poses": clock(poses), "Jacobians": clock(jacobians), "collisions": slow / Effort.fewer * len(q)}
 
 
 def of_yourdfpy(urdf: Path, robot: urdd.Robot, q: Any) -> dict[str, float]:
@@ -174,12 +194,12 @@ def of_yourdfpy(urdf: Path, robot: urdd.Robot, q: Any) -> dict[str, float]:
     order = [robot.dof_names.index(name) for name in model.actuated_joint_names]
 
     def poses() -> None:
-        for row in q[:FEWER]:
+        for row in q[: Effort.fewer]:
             model.update_cfg(row[order])
             for link in model.link_map:
                 model.get_transform(link)
 
-    return {"poses": clock(poses, 3) / FEWER * len(q)}
+    return {"poses": clock(poses, 3) / Effort.fewer * len(q)}
 
 
 def of_mujoco(robot: urdd.Robot, q: Any) -> dict[str, float]:
@@ -203,7 +223,7 @@ def of_mujoco(robot: urdd.Robot, q: Any) -> dict[str, float]:
             mujoco.mj_jacBody(model, data, linear, angular, body)
 
     def collisions() -> None:
-        for row in own[:FEWER]:
+        for row in own[: Effort.fewer]:
             data.qpos[:] = row
             mujoco.mj_kinematics(model, data)
             mujoco.mj_comPos(model, data)
@@ -212,7 +232,7 @@ def of_mujoco(robot: urdd.Robot, q: Any) -> dict[str, float]:
     return {
         "poses": clock(poses),
         "Jacobians": clock(jacobians),
-        "collisions": clock(collisions, 3) / FEWER * len(q),
+        "collisions": clock(collisions, 3) / Effort.fewer * len(q),
     }
 
 
@@ -227,16 +247,16 @@ def of_pybullet(robot: urdd.Robot, q: Any) -> dict[str, float]:
     still = [0.0] * len(moving)
 
     def poses() -> None:
-        for row in q[:FEWER]:
+        for row in q[: Effort.fewer]:
             peer.set(row)
             bullet.getLinkStates(peer.body, range(count), computeForwardKinematics=True)
 
     def jacobians() -> None:
-        for row in q[:FEWER]:
+        for row in q[: Effort.fewer]:
             bullet.calculateJacobian(peer.body, last, [0.0, 0.0, 0.0], row.tolist(), still, still)
 
     def collisions() -> None:
-        for row in q[:FEWER]:
+        for row in q[: Effort.fewer]:
             peer.set(row)
             bullet.performCollisionDetection()
             bullet.getContactPoints(peer.body, peer.body)
@@ -245,55 +265,116 @@ def of_pybullet(robot: urdd.Robot, q: Any) -> dict[str, float]:
     if len(moving) == robot.num_dofs:
         found["Jacobians"] = clock(jacobians, 3)
     bullet.disconnect(client)
-    return {name: seconds / FEWER * len(q) for name, seconds in found.items()}
+    return {name: seconds / Effort.fewer * len(q) for name, seconds in found.items()}
 
 
-def compare(urdf: Path, folder: Path) -> None:
-    """Prints the tables of a robot."""
-    made = urdd.generate(urdf, folder / urdf.stem)
+#: The package of each peer, and the words that its row has besides.
+PEERS = {
+    "Pinocchio": ("pinocchio", ["pin", "coal"]),
+    "MuJoCo": ("mujoco", ["mujoco"]),
+    "PyBullet": ("pybullet", ["pybullet"]),
+    "yourdfpy": ("yourdfpy", ["yourdfpy"]),
+}
+
+
+def title(name: str) -> str:
+    """A peer with its versions."""
+    if name not in PEERS:
+        return name
+    first, *others = PEERS[name][1]
+    words = [f"{name} {short_version(first)}", *(f"{other} {short_version(other)}" for other in others)]
+    return " with ".join(words)
+
+
+def short_version(package: str) -> str:
+    try:
+        full = importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        # Parts of others come without metadata of their own name.
+        full = str(getattr(import_module(package), "__version__", ""))
+    parts = full.split(".")
+    return full if parts[0] == "0" else ".".join(parts[:2])
+
+
+def compare(urdf: Path, folder: Path) -> str:
+    """The table of a robot."""
+    made = urdd.generate(urdf, folder)
     robot = made.load()
-    q = robot.sample(CONFIGURATIONS)
+    q = robot.sample(Effort.configurations)
     colliding = robot.in_collision(q).mean()
     pairs = robot.proximity().num_pairs
-    print(
-        f"\n{robot.name}: {robot.num_links} links, {robot.num_dofs} DOFs, {pairs} pairs of pieces, "
-        f"{colliding:.0%} of the configurations collide\n"
-    )
-    peers = {"Pinocchio": "pinocchio", "yourdfpy": "yourdfpy", "MuJoCo": "mujoco", "PyBullet": "pybullet"}
-    missing = [name for name, module in peers.items() if not has(module)]
-    if missing:
-        print(f"not installed: {', '.join(missing)}\n")
     found: dict[str, dict[str, float]] = {"urdd": of_us(robot, q)}
-    if "Pinocchio" not in missing:
-        found["Pinocchio"] = of_pinocchio(robot, q)
-    if "yourdfpy" not in missing:
-        found["yourdfpy"] = of_yourdfpy(urdf, robot, q)
-    if "MuJoCo" not in missing:
-        found["MuJoCo"] = of_mujoco(robot, q)
-    if "PyBullet" not in missing:
+    missing = [name for name, (module, _) in PEERS.items() if not has(module)]
+    if missing:
+        print(f"not installed: {', '.join(missing)}", file=sys.stderr)
+    measures: dict[str, Callable[[], dict[str, float]]] = {
+        "Pinocchio": lambda: of_pinocchio(robot, q),
+        "MuJoCo": lambda: of_mujoco(robot, q),
+        "PyBullet": lambda: quiet(lambda: of_pybullet(robot, q)),
+        "yourdfpy": lambda: of_yourdfpy(urdf, robot, q),
+    }
+    for name, measure in measures.items():
+        if name in missing:
+            continue
         try:
-            found["PyBullet"] = quiet(lambda: of_pybullet(robot, q))
+            found[name] = measure()
         except urdd.ExportError as error:
-            print(f"PyBullet: {error}\n")
-    print("| | load, wall ms | load, CPU ms | poses, µs | Jacobian, µs | collides, µs |")
-    print("|---|---:|---:|---:|---:|---:|")
+            print(f"{name}: {error}", file=sys.stderr)
+    shown = robot.name.removesuffix("_description").upper()
+    lines = [
+        f"{shown}: {robot.num_links} links, {robot.num_dofs} DOFs, {pairs:,} pairs of pieces; "
+        f"{100 * colliding:.0f} % of the configurations collide.",
+        "",
+        "| | load, ms | poses, µs | Jacobian, µs | collides, µs |",
+        "|---|---:|---:|---:|---:|",
+    ]
+    walls: list[str] = []
     for name, times in found.items():
-        code = LOADING[name].format(urdd=str(folder / urdf.stem), urdf=str(urdf))
-        load = loading(code)
-        words = ["-", "-"] if load is None else [f"{1000 * seconds:.0f}" for seconds in load]
+        load = loading(LOADING[name].format(urdd=str(folder), urdf=str(urdf)))
+        words = ["-"] if load is None else [f"{1000 * load[1]:.0f}"]
         for what in ("poses", "Jacobians", "collisions"):
-            words.append(f"{times[what] / len(q) * 1e6:.2f}" if what in times else "-")
-        print(f"| {name} | {' | '.join(words)} |")
-    print(f"\nurdd.fk one by one: {found['urdd']['poses, one by one'] / len(q) * 1e6:.2f} µs")
+            words.append(three_digits(times[what] / len(q) * 1e6) if what in times else "-")
+        lines.append(f"| {title(name)} | {' | '.join(words)} |")
+        if load is not None:
+            walls.append(f"{name} {1000 * load[0]:.0f}")
+    print(f"{robot.name}: load, wall, ms: {', '.join(walls)}", file=sys.stderr)
+    alone = found["urdd"]["poses, one by one"] / len(q) * 1e6
+    print(f"{robot.name}: urdd.fk one by one: {alone:.2f} µs", file=sys.stderr)
+    return "\n".join(lines)
+
+
+def three_digits(number: float) -> str:
+    return f"{number:.0f}" if number >= 100 else f"{number:.1f}" if number >= 10 else f"{number:.2f}"
 
 
 def main() -> None:
     """Compares on every URDF that is given."""
-    if len(sys.argv) < 2:
-        raise SystemExit(__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("urdfs", nargs="*", type=Path, default=USUAL, metavar="URDF")
+    parser.add_argument("--readme", action="store_true", help="writes the tables into README.md")
+    parser.add_argument("--quick", action="store_true", help="does little of everything")
+    asked = parser.parse_args()
+    if asked.quick:
+        if asked.readme:
+            parser.error("figures of --quick mean nothing, and do not go into README.md")
+        Effort.configurations, Effort.fewer, Effort.rounds, Effort.fresh = 100, 10, 1, 1
+    for path in asked.urdfs:
+        if not path.is_file():
+            parser.error(f"there is no {path}")
+    tables: list[str] = []
     with tempfile.TemporaryDirectory() as folder:
-        for path in sys.argv[1:]:
-            compare(Path(path), Path(folder))
+        for number, path in enumerate(asked.urdfs):
+            tables.append(compare(path, Path(folder) / f"robot_{number}"))
+    text = "\n\n".join(tables)
+    if not asked.readme:
+        print(text)
+        return
+    readme = README.read_text(encoding="utf-8")
+    block = re.compile(f"{re.escape(BEGIN)}.*?{re.escape(END)}", re.DOTALL)
+    if len(block.findall(readme)) != 1:
+        raise SystemExit(f"{README} has not one place for the tables: {BEGIN} ... {END}")
+    README.write_text(block.sub(lambda _: f"{BEGIN}\n{text}\n{END}", readme), encoding="utf-8")
+    print(f"wrote {README}", file=sys.stderr)
 
 
 if __name__ == "__main__":

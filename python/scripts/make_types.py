@@ -37,6 +37,7 @@ MODULES = [
     "link_shapes_distance_statistics_module",
     "link_shapes_simple_skips_module",
     "link_shapes_skips_module",
+    "self_collision_model_module",
 ]
 NOT_MODULES = {"root_metadata", "report", "producer_result", "validator_result"}
 
@@ -55,47 +56,12 @@ __all__ = [
 '''
 
 READER = '''
-_T = TypeVar("_T")
-
-
-class Modules:
+class Modules(Reading):
     """The modules of a URDD, as typed objects. Each is read when it is first asked for, and then kept.
 
     Each property raises `ModuleMissingError` where the module is not there, and `ModuleUnusableError` where it is of no
     use, or of before version 1: `json` reads those too.
     """
-
-    def __init__(self, core: _urdd.Robot) -> None:
-        self._core = core
-        self._known: dict[str, Any] = {{}}
-
-    def names(self) -> list[str]:
-        """The names of the modules that are there, in the order of the specification."""
-        return self._core.module_names()
-
-    def version(self, name: str) -> str:
-        """The version of a module."""
-        return self._core.module(name)[0]
-
-    def json(self, name: str) -> Any:
-        """The document of a module as it is, of any version: dictionaries, lists, numbers, texts."""
-        return json.loads(self._core.module(name)[2])
-
-    def _read(self, name: str, make: Callable[[Any], _T]) -> _T:
-        if name not in self._known:
-            version, is_legacy, text = self._core.module(name)
-            if is_legacy:
-                raise ModuleUnusableError(
-                    f"{{name}} has version {{version}}, of before version 1, which has no type here: "
-                    f"`modules.json({{name!r}})` gives it as it is",
-                    name,
-                )
-            self._known[name] = make(json.loads(text))
-        found: _T = self._known[name]
-        return found
-
-    def __repr__(self) -> str:
-        return f"<urdd.Modules: {{', '.join(self.names())}}>"
 {properties}
 
 def read_root_metadata(text: str) -> RootMetadata:
@@ -231,7 +197,7 @@ def declaration(types: Types, name: str) -> str:
         if is_ambiguous(types, definition):
             words = ", ".join(f'"{key}"' for key, _ in tags)
             union, here = f"tuple[Literal[{words}], {values[0]}]", "that key and its value"
-        text = text.split(":")[0] + f": in JSON an object of one key, here {here}."
+        text = text.split(":")[0].removesuffix(".") + f": in JSON an object of one key, here {here}."
         return f"{name}: TypeAlias = {union}\n" + docstring(text, "")
     lines = [f"@dataclass(frozen=True)\nclass {name}:\n", docstring(text, "    ")]
     for key, schema in fields(definition).items():
@@ -314,12 +280,10 @@ def modules_file() -> str:
     imports = "\n".join(
         [
             "import json",
-            "from collections.abc import Callable",
             "from dataclasses import dataclass",
-            "from typing import Any, Literal, TypeAlias, TypeVar",
+            "from typing import Any, Literal, TypeAlias",
             "",
-            "from . import _urdd",
-            "from .errors import ModuleUnusableError",
+            "from ._reading import Reading",
         ]
     )
     head = HEAD.format(

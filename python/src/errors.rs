@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
+use urdd::combine::CombineError;
 use urdd::generate::GenerateError;
 use urdd::kinematics::ConfigurationError;
 use urdd::robot::RobotError;
@@ -71,6 +72,9 @@ pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
         RobotError::Batch { .. } | RobotError::Target(_) => {
             raise(py, "ConfigurationError", error, &[])
         }
+        RobotError::Obstacle { name, .. } => {
+            raise(py, "ObstacleError", error, &[("name", text(py, name))])
+        }
         RobotError::Mesh { .. } => raise(py, "MeshError", error, &[]),
         RobotError::Cancelled(_) => {
             pyo3::exceptions::PyKeyboardInterrupt::new_err(error.to_string())
@@ -88,7 +92,55 @@ pub fn of_generate(py: Python<'_>, error: &GenerateError) -> PyErr {
     if matches!(error, GenerateError::Cancelled) {
         return pyo3::exceptions::PyKeyboardInterrupt::new_err(error.to_string());
     }
-    let mut places: Vec<(String, u32, u32, String)> = Vec::new();
+    let places = placed(py, places_of(error));
+    let code = text(py, error.code());
+    raise(
+        py,
+        "GenerateError",
+        error,
+        &[("code", code), ("places", places)],
+    )
+}
+
+/// Why robots could not be put together.
+pub fn of_combine(py: Python<'_>, error: &CombineError) -> PyErr {
+    let (part, places) = match error {
+        CombineError::Generate {
+            error: GenerateError::Cancelled,
+            ..
+        } => return pyo3::exceptions::PyKeyboardInterrupt::new_err(error.to_string()),
+        CombineError::Generate { id, error } => (id.as_deref(), places_of(error)),
+        CombineError::Part { id, .. } => (Some(id.as_str()), Vec::new()),
+        CombineError::Recipe {
+            file,
+            at: Some(at),
+            fault,
+        } => (
+            None,
+            vec![(file.clone(), at.line, at.column, fault.to_string())],
+        ),
+        _ => (None, Vec::new()),
+    };
+    let part = part.filter(|part| !part.is_empty());
+    let part = part.map_or_else(|| py.None().into_bound(py), |part| text(py, part));
+    let more = [
+        ("code", text(py, error.code())),
+        ("part", part),
+        ("places", placed(py, places)),
+    ];
+    raise(py, "CombineError", error, &more)
+}
+
+/// A file, a line, a column, and what is wrong there.
+type Place = (String, u32, u32, String);
+
+fn placed<'py>(py: Python<'py>, places: Vec<Place>) -> Bound<'py, PyAny> {
+    let made = places.into_pyobject(py).map(Bound::into_any);
+    made.unwrap_or_else(|_| py.None().into_bound(py))
+}
+
+fn places_of(error: &GenerateError) -> Vec<Place> {
+    let mut places = Vec::new();
     match error {
         GenerateError::Refused { file, faults } => places.extend(faults.iter().map(|fault| {
             (
@@ -127,12 +179,5 @@ pub fn of_generate(py: Python<'_>, error: &GenerateError) -> PyErr {
         )),
         _ => {}
     }
-    let made = places.into_pyobject(py).map(Bound::into_any);
-    let places = made.unwrap_or_else(|_| py.None().into_bound(py));
-    raise(
-        py,
-        "GenerateError",
-        error,
-        &[("code", text(py, error.code())), ("places", places)],
-    )
+    places
 }

@@ -1,6 +1,7 @@
 //! Making URDDs.
 
 use std::path::PathBuf;
+use std::sync::Mutex;
 use std::time::Duration;
 
 use pyo3::exceptions::PyValueError;
@@ -12,8 +13,7 @@ use urdd::format::meshes::GeometryKind;
 use urdd::format::registry::ModuleKind;
 use urdd::generate::batch::caught;
 use urdd::generate::{
-    GenerateError, Generated, MeshFormats, Packages, Pieces, Progress, Selection, Settings,
-    XacroSettings,
+    Generated, MeshFormats, Packages, Pieces, Progress, Selection, Settings, XacroSettings,
 };
 
 use crate::errors::of_generate;
@@ -107,6 +107,7 @@ impl Options {
                 tolerance: self.piece_tolerance,
             },
             num_samples: self.samples,
+            model_effort: Default::default(),
             skipped_reasons: skip.transpose()?,
             xacro: XacroSettings {
                 expand_urdf: self.xacro,
@@ -139,36 +140,49 @@ pub fn skipped_reason(word: &str) -> Result<SkippedReason, String> {
     })
 }
 
-/// A module is begun: its name, how many are done, and how many there are.
-type Begun = (&'static str, usize, usize);
-type Outcome = Result<Generated, GenerateError>;
+/// A module is begun, or a step of one is done: its name, how many are done, and how many there are.
+type Begun = (String, usize, usize);
 
-struct Told<'a>(std::sync::Mutex<&'a Teller<Outcome, Begun>>);
+struct Told<'a, T>(Mutex<&'a Teller<T, Begun>>);
 
-impl Progress for Told<'_> {
+impl<T: Send> Progress for Told<'_, T> {
     fn module(&self, kind: ModuleKind, done: usize, total: usize) {
+        self.tell(kind.name().to_owned(), done, total);
+    }
+
+    fn part(&self, kind: ModuleKind, done: usize, total: usize) {
+        self.tell(format!("{}: step", kind.name()), done, total);
+    }
+}
+
+impl<T> Told<'_, T> {
+    fn tell(&self, what: String, done: usize, total: usize) {
         if let Ok(teller) = self.0.lock() {
-            teller.tell((kind.name(), done, total));
+            teller.tell((what, done, total));
         }
     }
 }
 
-fn made<'py>(
-    py: Python<'py>,
+/// What comes of making something, while `progress` is called with how far it is.
+pub fn with_progress<T: Send + 'static>(
+    py: Python<'_>,
     options: Options,
-    progress: Option<Bound<'py, PyAny>>,
-    make: impl FnOnce(&Settings, &dyn Progress) -> Outcome + Send + 'static,
-) -> PyResult<Bound<'py, PyDict>> {
+    progress: Option<Bound<'_, PyAny>>,
+    make: impl FnOnce(&Settings, &dyn Progress) -> T + Send + 'static,
+) -> PyResult<T> {
     let mut settings = options.settings().map_err(PyValueError::new_err)?;
     let hear = |begun: Begun| match &progress {
         Some(progress) => progress.call1(begun).map(drop),
         None => Ok(()),
     };
-    let outcome = work::run_and_tell(py, hear, move |cancellation, teller| {
+    work::run_and_tell(py, hear, move |cancellation, teller| {
         settings.cancellation = cancellation.clone();
-        make(&settings, &Told(std::sync::Mutex::new(teller)))
-    })?;
-    let generated = outcome.map_err(|error| of_generate(py, &error))?;
+        make(&settings, &Told(Mutex::new(teller)))
+    })
+}
+
+/// What there is to say of a URDD that was made.
+pub fn summary<'py>(py: Python<'py>, generated: &Generated) -> PyResult<Bound<'py, PyDict>> {
     let found = PyDict::new(py);
     found.set_item("robot_name", &generated.robot_name)?;
     found.set_item("num_links", generated.num_links)?;
@@ -199,36 +213,31 @@ fn made<'py>(
     Ok(found)
 }
 
-/// Makes a URDD of a file.
+/// Makes a URDD of a file; with `text` of that text, whose relative names of meshes begin in the folder `source`.
 #[pyfunction]
 pub fn generate<'py>(
     py: Python<'py>,
     source: PathBuf,
+    text: Option<Vec<u8>>,
     target: PathBuf,
     options: Options,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    made(py, options, progress, move |settings, progress| {
-        caught(&source, || {
-            urdd::generate::generate(&source, &target, settings, progress)
-        })
-    })
-}
-
-/// Makes a URDD of a text. Relative names of meshes begin in `folder`.
-#[pyfunction]
-pub fn generate_text<'py>(
-    py: Python<'py>,
-    urdf: Vec<u8>,
-    folder: PathBuf,
-    target: PathBuf,
-    options: Options,
-    progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyDict>> {
-    made(py, options, progress, move |settings, progress| {
-        let shown = "<text>";
-        caught(shown.as_ref(), || {
-            urdd::generate::generate_text(urdf, shown, &folder, &target, settings, progress)
-        })
-    })
+    let made = with_progress(
+        py,
+        options,
+        progress,
+        move |settings, progress| match text {
+            None => caught(&source, || {
+                urdd::generate::generate(&source, &target, settings, progress)
+            }),
+            Some(text) => {
+                let shown = "<text>";
+                caught(shown.as_ref(), || {
+                    urdd::generate::generate_text(text, shown, &source, &target, settings, progress)
+                })
+            }
+        },
+    )?;
+    summary(py, &made.map_err(|error| of_generate(py, &error))?)
 }

@@ -4,6 +4,8 @@
 //! interpreter is let go, so that no other thread changes them under the work.
 
 mod arrays;
+mod collision_model;
+mod combine;
 mod command;
 mod errors;
 mod export;
@@ -17,17 +19,22 @@ mod shapes;
 mod threads;
 mod validate;
 mod work;
+mod world;
 
 use pyo3::prelude::*;
 
 #[pymodule]
 mod _urdd {
     #[pymodule_export]
+    use crate::collision_model::CollisionModel;
+    #[pymodule_export]
+    use crate::combine::combine;
+    #[pymodule_export]
     use crate::command::main;
     #[pymodule_export]
     use crate::export::export;
     #[pymodule_export]
-    use crate::generate::{generate, generate_text};
+    use crate::generate::generate;
     #[pymodule_export]
     use crate::jobs::find_urdfs;
     #[pymodule_export]
@@ -40,6 +47,8 @@ mod _urdd {
     use crate::threads::{num_threads, set_num_threads};
     #[pymodule_export]
     use crate::validate::{explain, validate};
+    #[pymodule_export]
+    use crate::world::{Among, Obstacle};
 
     use pyo3::prelude::*;
 

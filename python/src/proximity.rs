@@ -22,6 +22,10 @@ impl Proximity {
         Proximity(Arc::new(proximity))
     }
 
+    pub fn shared(&self) -> Arc<urdd::robot::Proximity> {
+        Arc::clone(&self.0)
+    }
+
     /// What each of many configurations gives; of a single one by itself, on this thread. Those of a robot without DOFs
     /// are all the same one.
     fn each<T: Copy + Send + 'static>(

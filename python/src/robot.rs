@@ -15,6 +15,7 @@ use urdd::directory::source::is_urdd;
 use urdd::robot::{Inverse, InverseSettings, RobotError, ShapeKind, Target};
 
 use crate::arrays::{Batch, copy3, matrix, pose, shaped, write_matrix};
+use crate::collision_model::CollisionModel;
 use crate::errors::{of_robot, raise};
 use crate::proximity::Proximity;
 use crate::work;
@@ -37,6 +38,7 @@ pub struct Robot {
     reading: Mutex<()>,
     is_read: AtomicBool,
     proximity: Mutex<HashMap<ShapeKind, Py<Proximity>>>,
+    collision_model: Mutex<Option<Py<CollisionModel>>>,
 }
 
 impl Robot {
@@ -98,6 +100,7 @@ impl Robot {
             reading: Mutex::default(),
             is_read: AtomicBool::new(false),
             proximity: Mutex::default(),
+            collision_model: Mutex::default(),
         })
     }
 
@@ -342,6 +345,17 @@ impl Robot {
         let made = Py::new(py, Proximity::of(made))?;
         let mut known = work::lock(py, &self.proximity)?;
         Ok(known.entry(kind).or_insert(made).clone_ref(py))
+    }
+
+    /// The learned self-collision model.
+    fn collision_model(&self, py: Python<'_>) -> PyResult<Py<CollisionModel>> {
+        if let Some(known) = &*work::lock(py, &self.collision_model)? {
+            return Ok(known.clone_ref(py));
+        }
+        let made = self.ask(py, |robot, _| robot.collision_model())?;
+        let made = Py::new(py, CollisionModel::of(made))?;
+        let mut known = work::lock(py, &self.collision_model)?;
+        Ok(known.get_or_insert(made).clone_ref(py))
     }
 }
 

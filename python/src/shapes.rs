@@ -1,7 +1,5 @@
 //! Shapes, meshes and skips.
 
-use std::collections::HashMap;
-
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -25,7 +23,7 @@ impl Robot {
             found.set_item("link", shape.link)?;
             found.set_item("piece", shape.piece)?;
             match shape.solid {
-                Solid::Mesh(mesh) => put_mesh(py, &found, &welded(&mesh))?,
+                Solid::Mesh(mesh) => put_mesh(py, &found, &mesh)?,
                 Solid::Box { pose, half_extents } => {
                     found.set_item("pose", shaped(py, matrix(&pose).to_vec(), [4, 4])?)?;
                     let half = PyArray1::from_slice(py, &half_extents);
@@ -98,27 +96,6 @@ fn put_mesh(py: Python<'_>, found: &Bound<'_, PyDict>, mesh: &Mesh) -> PyResult<
     found.set_item("vertices", shaped(py, vertices, [mesh.vertices.len(), 3])?)?;
     let faces = mesh.triangles.as_flattened().to_vec();
     found.set_item("faces", shaped(py, faces, [mesh.triangles.len(), 3])?)
-}
-
-/// The mesh with each vertex once, in the order in which they first appear: STL says them for each triangle again.
-fn welded(mesh: &Mesh) -> Mesh {
-    let mut known: HashMap<[u64; 3], u32> = HashMap::new();
-    let mut vertices: Vec<[f64; 3]> = Vec::new();
-    let mut place = |corner: &[f64; 3]| {
-        // One zero, whatever its sign.
-        let key = corner.map(|x| (x + 0.0).to_bits());
-        *known.entry(key).or_insert_with(|| {
-            vertices.push(*corner);
-            (vertices.len() - 1) as u32
-        })
-    };
-    let places: Vec<u32> = mesh.vertices.iter().map(&mut place).collect();
-    let triangle = |corners: &[u32; 3]| corners.map(|corner| places[corner as usize]);
-    let triangles = mesh.triangles.iter().map(triangle).collect();
-    Mesh {
-        vertices,
-        triangles,
-    }
 }
 
 /// The place of a reason in `urdd.SKIP_REASONS`.

@@ -46,6 +46,28 @@ def toy(urdds: Path) -> urdd.Robot:
 
 
 @pytest.fixture(scope="session")
+def training(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[tuple[str, int, int]]]:
+    """A URDD with a learned self-collision model, and what its making told of its progress."""
+    told: list[tuple[str, int, int]] = []
+    path = tmp_path_factory.mktemp("learned") / "welding_arm_with_a_model"
+    made = urdd.generate(
+        ROBOTS / "welding_arm.urdf",
+        path,
+        modules=["all", "self_collision_model"],
+        samples=100,
+        progress=lambda what, done, total: told.append((what, done, total)),
+    )
+    assert "self_collision_model_module" in made.modules_made, made.notes
+    return path, told
+
+
+@pytest.fixture(scope="session")
+def learned(training: tuple[Path, list[tuple[str, int, int]]]) -> urdd.Robot:
+    """A robot with a learned self-collision model."""
+    return urdd.load(training[0])
+
+
+@pytest.fixture(scope="session")
 def figures() -> Any:
     """Poses of our robots by closed forms, Pinocchio, MuJoCo and yourdfpy."""
     return json.loads((REPOSITORY / "conformance" / "vectors" / "forward_kinematics.json").read_text(encoding="utf-8"))

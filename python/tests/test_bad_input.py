@@ -193,12 +193,11 @@ def test_control_c_in_generate(tmp_path: Path) -> None:
     def progress(module: str, done: int, total: int) -> None:
         begun.append(module)
         assert done < total
-        # Not at the last one: what is begun is made before it is looked whether to stop.
         if module == "link_shapes_distance_statistics_module":
             signal.raise_signal(signal.SIGINT)
 
     with pytest.raises(KeyboardInterrupt):
-        urdd.generate(ROBOTS / "welding_arm.urdf", tmp_path / "out", progress=progress)
+        urdd.generate(ROBOTS / "welding_arm.urdf", tmp_path / "out", samples=100_000, progress=progress)
     assert begun[0] == "urdf_module"
     assert list(tmp_path.iterdir()) == []
 

@@ -33,6 +33,16 @@ def test_forward_kinematics(arm: urdd.Robot) -> None:
     np.testing.assert_allclose([float(x) for x in lines[-1].split()[1:4]], poses[-1, :3, 3], atol=1e-4)
 
 
+@pytest.mark.parametrize("name", sorted(path.stem for path in ROBOTS.glob("*.urdf")))
+def test_forward_kinematics_by_json_and_numpy(name: str, tmp_path: Path) -> None:
+    """Joints of every kind: its poses are those that each URDD states."""
+    urdd.generate(ROBOTS / f"{name}.urdf", tmp_path / name, modules=["kinematics_samples"])
+    script = REPOSITORY / "examples" / "forward_kinematics.py"
+    command: list[str | Path] = [sys.executable, script, tmp_path / name, "--check"]
+    found = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    assert "differ" in found.stdout
+
+
 def test_inverse_kinematics(arm: urdd.Robot) -> None:
     own, ours = run("inverse_kinematics.py", arm.path, "torch").stdout.splitlines()
     assert float(own.split("error ")[1].split(",")[0]) < 1e-6
@@ -52,6 +62,27 @@ def test_nearest_pairs(arm: urdd.Robot) -> None:
     _, *rows = run("nearest_pairs.py", arm.path, "5").stdout.splitlines()
     found = [float(row.split()[2]) for row in rows]
     np.testing.assert_allclose(found, np.sort(arm.distances(arm.zero))[:5], atol=1e-4)
+
+
+def test_obstacles(arm: urdd.Robot) -> None:
+    head, *rows, shares, free = run("obstacles.py", arm.path, "200").stdout.splitlines()
+    assert head.split()[:2] == ["link", "obstacle"]
+    assert len(rows) == 5
+    assert all(row.split()[0] in arm.link_names for row in rows)
+    found = [float(row.split()[2]) for row in rows]
+    assert found == sorted(found)
+    q = arm.sample(200)
+    assert shares.startswith(f"{found_share(arm, q)} of 200 touch an obstacle, {np.mean(arm.in_collision(q)):.1%}")
+    assert int(free.split()[0]) > 0
+
+
+def found_share(robot: urdd.Robot, q: Any) -> str:
+    """How many configurations touch the obstacles of the example, with each distance worked out."""
+    world = urdd.World()
+    world.add_box("table", [2.0, 2.0, 0.1], [0.0, 0.0, -0.05], ignore=[robot.link_names[0]])
+    world.add_capsule("lamp", 0.05, 1.0, [0.5, 0.5, 0.5])
+    world.add_sphere("ball", 0.1, [0.6, 0.0, 0.4])
+    return f"{np.mean((robot.among(world).distances(q) == 0).any(axis=1)):.1%}"
 
 
 def test_planner_spheres(arm: urdd.Robot) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import doctest
 import importlib.metadata
+import inspect
 import re
 import subprocess
 import sys
@@ -15,7 +16,9 @@ import pytest
 import urdd
 import urdd._robot
 import urdd._validate
+import urdd._world
 from conftest import REPOSITORY
+from urdd._options import MakingOptions, options_of
 
 PYTHON = REPOSITORY / "python"
 
@@ -54,13 +57,21 @@ def test_every_public_name_is_documented() -> None:
         thing = getattr(urdd, name)
         if isinstance(thing, (type, FunctionType)):
             assert (thing.__doc__ or "").strip(), name
-    for kind in (urdd.Robot, urdd.Proximity, urdd.Skips, urdd.modules.Modules):
+    for kind in (
+        *urdd.Robot.__mro__[:-1],
+        urdd.Proximity,
+        urdd.CollisionModel,
+        urdd.Among,
+        urdd.World,
+        urdd.Skips,
+        urdd.modules.Modules,
+    ):
         for name, member in vars(kind).items():
             if not name.startswith("_") and (callable(member) or hasattr(member, "__get__")):
                 assert (getattr(member, "__doc__", None) or "").strip(), f"{kind.__name__}.{name}"
 
 
-@pytest.mark.parametrize("module", [urdd, urdd._robot, urdd._validate], ids=lambda module: module.__name__)
+@pytest.mark.parametrize("module", [urdd, urdd._robot, urdd._validate, urdd._world], ids=lambda module: module.__name__)
 def test_examples_in_the_documentation(module: object, urdds: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(urdds)
     results = doctest.testmod(module)  # type: ignore[arg-type]
@@ -68,11 +79,11 @@ def test_examples_in_the_documentation(module: object, urdds: Path, monkeypatch:
     assert results.failed == 0
 
 
-def test_the_readme(urdds: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_readme(learned: urdd.Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each block of Python is run as it stands, one after the other, where a URDD and a URDF lie."""
-    (tmp_path / "my_robot").symlink_to(urdds / "welding_arm")
+    (tmp_path / "my_robot").symlink_to(learned.path)
     robots = REPOSITORY / "conformance" / "robots"
-    for name in ("welding_arm.urdf", "meshes", "package.xml"):
+    for name in ("welding_arm.urdf", "gripper.urdf", "meshes", "package.xml"):
         (tmp_path / name).symlink_to(robots / name)
     monkeypatch.chdir(tmp_path)
     text = (PYTHON / "README.md").read_text(encoding="utf-8")
@@ -81,6 +92,19 @@ def test_the_readme(urdds: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     names: dict[str, object] = {}
     for block in blocks:
         exec(compile(block, "README.md", "exec"), names)
+
+
+def test_options_are_as_usual() -> None:
+    """What `generate` shows as usual, and what the others take where nothing is said, is one and the same."""
+    shown = inspect.signature(urdd.generate).parameters
+    usual = options_of({}, "generate")
+    for name in MakingOptions.__annotations__:
+        expected: object = shown[name].default
+        found: object = getattr(usual, name)
+        assert found == (list(expected) if isinstance(expected, tuple) else [] if name == "packages" else expected), (
+            name
+        )
+    assert set(shown) - set(MakingOptions.__annotations__) == {"source", "output", "xacro_arguments", "progress"}
 
 
 def test_the_import_is_light() -> None:

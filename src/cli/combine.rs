@@ -1,7 +1,5 @@
 //! `urdd combine`.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -12,14 +10,9 @@ use super::generate_output::Printer;
 use super::making::MakingArguments;
 use super::output;
 use super::signals::Signals;
-use crate::combine::{
-    CombineError, MAX_RECIPE_BYTES, PartFault, Recipe, SourceKind, combine, source_kind,
-};
-use crate::directory::regular;
-use crate::format::report::Severity;
+use crate::combine::{Recipe, check_parts, combine};
 use crate::generate::batch::Job;
-use crate::validate::code::Code;
-use crate::validate::{self, rules, settings};
+use crate::validate;
 
 /// Exit status: the robots could not be put together.
 const FAILED: u8 = 1;
@@ -100,7 +93,7 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
             unsaid = notes;
             recipe
         }),
-        ([file], None) => recipe(file),
+        ([file], None) => Recipe::read(file),
         ([holder, held], Some(at)) => {
             let three = |numbers: &Option<Vec<f64>>| {
                 let numbers = numbers.as_deref().unwrap_or_default();
@@ -122,8 +115,9 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
     let outcome = recipe.and_then(|recipe| {
         let progress = printer.begin_robot(&job);
         pool.install(|| {
-            let distrusted = check_parts(&recipe, settings.force)?;
             settings.cancellation = signals.cancellation();
+            let find_errors = |part: &Path| validate::find_errors(part, &settings.cancellation);
+            let distrusted = check_parts(&recipe, settings.force, find_errors)?;
             let mut made = combine(&recipe, &target, &settings, &distrusted, &*progress)?;
             made.notes.splice(..0, unsaid);
             Ok(made)
@@ -157,81 +151,4 @@ fn print_recipe(legacy: &Path) -> Result<u8, String> {
             output::print_raw(&recipe.to_toml(&here)).map(|()| 0)
         }
     }
-}
-
-fn recipe(file: &Path) -> Result<Recipe, CombineError> {
-    let shown = file.display().to_string();
-    let unreadable = |reason: String| CombineError::Unreadable {
-        file: shown.clone(),
-        reason,
-    };
-    if file.is_dir() || file.extension().is_none_or(|ending| ending != "toml") {
-        let words =
-            "a recipe is a .toml file; to put two robots together, give both, and `--at LINK`";
-        return Err(unreadable(words.to_owned()));
-    }
-    let bytes =
-        regular::read(file, MAX_RECIPE_BYTES).map_err(|error| unreadable(error.to_string()))?;
-    let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8".to_owned()))?;
-    let folder = match file.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => fs::canonicalize(folder),
-        _ => fs::canonicalize("."),
-    };
-    let folder = folder.map_err(|error| unreadable(error.to_string()))?;
-    Recipe::from_toml(&text, &shown, &folder)
-}
-
-/// Validates the parts that are URDDs. Gives those that do not pass, where they are taken all the same.
-fn check_parts(recipe: &Recipe, force: bool) -> Result<BTreeSet<String>, CombineError> {
-    let mut distrusted = BTreeSet::new();
-    let mut known: BTreeMap<PathBuf, Vec<String>> = BTreeMap::new();
-    for part in &recipe.parts {
-        let refused = |fault| CombineError::Part {
-            id: part.id.text.clone(),
-            source_path: part.source.display().to_string(),
-            fault,
-        };
-        if source_kind(&part.source).map_err(refused)? != SourceKind::Urdd {
-            continue;
-        }
-        let codes = match known.get(&part.source) {
-            Some(codes) => codes.clone(),
-            None => failing(&part.source),
-        };
-        known.insert(part.source.clone(), codes.clone());
-        if codes.is_empty() {
-            continue;
-        }
-        if !force {
-            return Err(refused(PartFault::Fails { codes }));
-        }
-        distrusted.insert(part.id.text.clone());
-    }
-    Ok(distrusted)
-}
-
-/// The rules that find errors in a URDD, and how many.
-fn failing(path: &Path) -> Vec<String> {
-    let usual = settings::Settings::default();
-    let run = match validate::validate_with(&[path], &usual, &rules::all()) {
-        Ok(run) => run,
-        Err(error) => return vec![error.to_string()],
-    };
-    let mut codes: BTreeMap<Code, usize> = BTreeMap::new();
-    for subject in &run.subjects {
-        let examined = match &subject.result {
-            Ok(examined) => examined,
-            Err(error) => return vec![error.to_string()],
-        };
-        let errors = examined.checks.iter();
-        let errors = errors.filter(|check| check.severity == Severity::Error);
-        for check in errors.filter(|check| !check.findings.is_empty()) {
-            *codes.entry(check.rule.code).or_default() += check.findings.len();
-        }
-    }
-    let told = codes.iter().map(|(code, count)| match count {
-        1 => format!("{code} (1 finding)"),
-        _ => format!("{code} ({count} findings)"),
-    });
-    told.collect()
 }

@@ -205,6 +205,12 @@ impl Progress for RobotBar {
             bar.set_message(kind.name());
         }
     }
+
+    fn part(&self, kind: ModuleKind, done: usize, total: usize) {
+        if let Some(bar) = &self.0 {
+            bar.set_message(format!("{}, step {done} of {total}", kind.name()));
+        }
+    }
 }
 
 impl Drop for RobotBar {

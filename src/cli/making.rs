@@ -11,12 +11,13 @@ use crate::format::escape;
 use crate::format::link_shapes_skips::SkippedReason;
 use crate::format::meshes::GeometryKind;
 use crate::generate::{MeshFormats, Packages, Pieces, Selection, Settings, XacroSettings};
+use crate::learn::train::Effort;
 
 /// How a URDD is made.
 #[derive(Args)]
 pub(super) struct MakingArguments {
     /// Modules to make besides the core class, or classes (core, geometry, shapes), separated by commas; what they are
-    /// derived from is made too. Without it, all.
+    /// derived from is made too. Without it, all but self_collision_model, which takes some seconds to train.
     #[arg(long, value_name = "MODULES", value_delimiter = ',')]
     modules: Vec<String>,
 
@@ -194,6 +195,7 @@ impl MakingArguments {
                 tolerance: self.piece_tolerance,
             },
             num_samples: self.samples,
+            model_effort: Effort::default(),
             xacro: XacroSettings {
                 expand_urdf: self.xacro,
                 arguments: xacro_arguments,

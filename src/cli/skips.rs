@@ -64,9 +64,11 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
     let replacement = Replacement::begin(urdd).map_err(|error| error.to_string())?;
     let robot = shapes::open(urdd)?;
     let imported = import_srdf(&robot, &text, force).map_err(|error| of_srdf(&error))?;
+    let mut model_is_stale = false;
     if imported.added > 0 {
         let edited = robot.with_skip_edits(imported.edits, None);
         let edited = edited.map_err(|error| of_urdd(&error))?;
+        model_is_stale = edited.model_is_stale;
         replacement
             .stage(&edited.files)
             .map_err(|error| error.to_string())?;
@@ -87,6 +89,9 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
             "  {} skipped that the SRDF does not disable\n",
             count(imported.unlisted, "pair")
         );
+    }
+    if model_is_stale {
+        told += "  the self-collision model was trained with the skips before: `urdd generate` with `--modules all,self_collision_model` makes another\n";
     }
     Ok(told)
 }

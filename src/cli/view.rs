@@ -244,6 +244,10 @@ impl Progress for Told<'_> {
             of: total,
         });
     }
+
+    fn part(&self, kind: ModuleKind, done: usize, total: usize) {
+        self.terminal.part(kind, done, total);
+    }
 }
 
 /// Makes a URDD of a URDF, into a temporary folder. Whether there is one.

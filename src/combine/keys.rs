@@ -3,7 +3,7 @@
 use toml::de::{DeTable, DeValue};
 
 use super::error::RecipeFault;
-use super::nearest::nearest;
+use crate::format::nearest::nearest;
 
 const RECIPE: &[&str] = &["name", "base", "part"];
 const PART: &[&str] = &[

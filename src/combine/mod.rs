@@ -2,8 +2,9 @@
 //! takes over what the parts' URDDs hold of their links.
 //!
 //! A [`Recipe`] says which robots, and how they hang on each other. [`combine`] makes the URDD. It does not judge
-//! the parts: whoever calls it validates those before.
+//! the parts: whoever calls it validates those before, by [`check_parts`].
 
+mod check_parts;
 mod compose;
 mod error;
 mod from_legacy;
@@ -12,7 +13,6 @@ mod keys;
 mod legacy;
 mod meshes;
 mod names;
-mod nearest;
 mod note;
 mod part;
 mod recipe;
@@ -39,6 +39,7 @@ use crate::generate::{
     read_urdf,
 };
 
+pub use check_parts::check_parts;
 pub use error::{CombineError, PartFault, RecipeFault};
 pub use names::LeftAlone;
 pub use note::Note;
@@ -178,6 +179,18 @@ fn used_meshes(taken: &Taken) -> BTreeSet<String> {
     names.collect()
 }
 
+/// The files that materials which come along name as their textures.
+fn textures(taken: &Taken) -> BTreeSet<String> {
+    let robot = &taken.loaded.robot;
+    let links = robot.links.iter().enumerate();
+    let links = links.filter(|(idx, _)| taken.trim.keeps_link(*idx));
+    let visuals = links.flat_map(|(_, link)| &link.visual);
+    let own = visuals.filter_map(|visual| visual.material.as_ref());
+    let textures = own.chain(&robot.materials);
+    let textures = textures.filter_map(|material| material.texture.as_ref());
+    textures.map(|texture| texture.filename.clone()).collect()
+}
+
 /// What else names links and joints in a part, as the recipe tells it.
 fn names_told<'a>(recipe: &Recipe, part: &'a Part) -> Result<BTreeSet<&'a str>, CombineError> {
     let mut told = BTreeSet::new();
@@ -211,6 +224,12 @@ fn said(parts: &[Taken], notes: &mut Vec<Note>) {
             notes.push(Note::Following {
                 part: part.clone(),
                 joint: joint.clone(),
+            });
+        }
+        for name in textures(taken) {
+            notes.push(Note::Texture {
+                part: part.clone(),
+                name,
             });
         }
         if !is_urdd(&taken) {

@@ -298,11 +298,3 @@ pub(super) fn mesh_edits(
 pub(super) fn escaped(text: &str) -> String {
     quick_xml::escape::escape(text).into_owned()
 }
-
-/// The name of the element that stands at a place.
-pub(super) fn tag_at<'a>(document: &'a Document<'a>, range: &std::ops::Range<usize>) -> &'a str {
-    let text = &document.input_text()[range.clone()];
-    let start = text.strip_prefix('<').unwrap_or(text);
-    let is_end = |c: char| c.is_ascii_whitespace() || c == '>' || c == '/';
-    start.split(is_end).next().unwrap_or_default()
-}

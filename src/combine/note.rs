@@ -23,6 +23,13 @@ pub enum Note {
         /// The mesh, as the URDF names it.
         name: String,
     },
+    /// A material names a file of a texture. URDDs carry the textures that meshes name, not those that materials do.
+    Texture {
+        /// The part.
+        part: String,
+        /// The texture, as the URDF names it.
+        name: String,
+    },
     /// A link's or joint's name in an element that URDF does not define was left as it is: it is not known whether it
     /// means the link or joint.
     LeftAlone {
@@ -75,6 +82,7 @@ impl Note {
         match self {
             Note::Part { note, .. } => note.kind.as_str(),
             Note::NoMesh { .. } => "mesh-not-found",
+            Note::Texture { .. } => "texture",
             Note::LeftAlone { .. } => "left-alone",
             Note::Gone { .. } => "gone",
             Note::Following { .. } => "following",
@@ -94,6 +102,12 @@ impl fmt::Display for Note {
             Note::NoMesh { part, name } => write!(
                 f,
                 "part `{}`: its URDD has no file for mesh `{}`: not carried; the element has no surface",
+                line(part),
+                line(name)
+            ),
+            Note::Texture { part, name } => write!(
+                f,
+                "part `{}`: texture `{}` of a material is not carried; its name stands as it is, and the file lies where it did",
                 line(part),
                 line(name)
             ),

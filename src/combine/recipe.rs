@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::error::{CombineError, RecipeFault};
-use super::nearest::nearest;
 use crate::directory::path::portable;
 use crate::directory::position::Position;
+use crate::format::nearest::nearest;
 use crate::format::urdf::{JointType, Limit};
 
 /// Longest recipe, bytes.

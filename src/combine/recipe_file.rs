@@ -1,16 +1,47 @@
 //! A recipe from the text of its file.
 
+use std::fs;
 use std::path::Path;
 
 use super::error::{CombineError, RecipeFault};
 use super::keys;
-use super::nearest::nearest;
-use super::recipe::{Attachment, Base, JointDescription, Part, Recipe, Word, word_of};
+use super::recipe::{
+    Attachment, Base, JointDescription, MAX_RECIPE_BYTES, Part, Recipe, Word, word_of,
+};
 use super::toml_file::{FreezeValue, JointFile, PartFile, RecipeFile};
 use crate::directory::position::LineIndex;
+use crate::directory::regular;
+use crate::format::nearest::nearest;
 use crate::format::urdf::{JointType, Limit};
 
 impl Recipe {
+    /// Reads a recipe from its file. Sources are relative to the folder that the file lies in.
+    ///
+    /// # Errors
+    /// As [`Recipe::from_toml`], and where the file cannot be read.
+    pub fn read(file: &Path) -> Result<Recipe, CombineError> {
+        let shown = file.display().to_string();
+        let unreadable = |reason: String| CombineError::Unreadable {
+            file: shown.clone(),
+            reason,
+        };
+        if file.is_dir() || file.extension().is_none_or(|ending| ending != "toml") {
+            let words =
+                "a recipe is a .toml file; to put two robots together, give both, and `--at LINK`";
+            return Err(unreadable(words.to_owned()));
+        }
+        let bytes =
+            regular::read(file, MAX_RECIPE_BYTES).map_err(|error| unreadable(error.to_string()))?;
+        let text =
+            String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8".to_owned()))?;
+        let folder = match file.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => fs::canonicalize(folder),
+            _ => fs::canonicalize("."),
+        };
+        let folder = folder.map_err(|error| unreadable(error.to_string()))?;
+        Recipe::from_toml(&text, &shown, &folder)
+    }
+
     /// Reads a recipe from the text of a TOML file in a folder; sources are relative to that.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use super::names::{self, LeftAlone, NamePlace, Named, escaped, mesh_edits};
 use super::part::Loaded;
 use super::trim::Trim;
 use crate::generate::has_quaternions;
-use crate::xml::element::{Edit, apply, attribute, children};
+use crate::xml::element::{Edit, apply, attribute, children, name_at};
 use crate::xml::{Kind, parse};
 
 /// A part's text, and what is to be said of it.
@@ -78,7 +78,7 @@ impl Rewrite<'_> {
         let mut told = Vec::new();
         for (range, name) in gone.values() {
             edits.push(removal(text, range));
-            let tag = names::tag_at(&document, range);
+            let tag = name_at(&document, range);
             told.push(format!("`<{tag}>` with `{name}`"));
         }
         let root = document.root_element();
@@ -100,7 +100,7 @@ impl Rewrite<'_> {
     /// Whether what a name stands in goes with what it names. Links and joints themselves go by
     /// their elements.
     fn goes(&self, document: &Document, place: &NamePlace) -> bool {
-        let tag = names::tag_at(document, &place.top);
+        let tag = name_at(document, &place.top);
         if !place.unknown {
             return false;
         }

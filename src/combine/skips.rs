@@ -2,10 +2,10 @@
 
 use super::compose::Taken;
 use super::error::{CombineError, RecipeFault};
-use super::nearest::nearest;
 use super::note::Note;
 use super::recipe::{Recipe, Word};
 use crate::format::link_shapes_skips::{SkipEdit, SkippedReason};
+use crate::format::nearest::nearest;
 
 /// Why a pair of the recipe is skipped.
 const REASON: &str = "the recipe skips it";

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::error::{CombineError, RecipeFault};
-use super::nearest::nearest;
 use super::recipe::{Part, Recipe, Word};
+use crate::format::nearest::nearest;
 use crate::format::urdf::{Joint, JointType, UrdfModule};
 
 /// What of a part comes along. Lists go with the part's own links and joints.

@@ -9,16 +9,6 @@ use super::srdf_merge::{SrdfError, parse};
 use crate::format::link_shapes_skips::SkipEdit;
 use crate::robot::{Robot, RobotError, ShapeKind};
 
-/// Kinds of shapes that an edit decides on.
-const KINDS: [ShapeKind; 6] = [
-    ShapeKind::Hulls,
-    ShapeKind::Boxes,
-    ShapeKind::Spheres,
-    ShapeKind::Pieces,
-    ShapeKind::PieceBoxes,
-    ShapeKind::PieceSpheres,
-];
-
 /// Why an SRDF is no edits of a robot.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -184,7 +174,7 @@ fn pair(a: usize, b: usize) -> (usize, usize) {
 /// where some are.
 fn skipped_now(robot: &Robot) -> Result<BTreeMap<(usize, usize), Option<bool>>, RobotError> {
     let mut found: BTreeMap<(usize, usize), BTreeSet<bool>> = BTreeMap::new();
-    for kind in KINDS {
+    for kind in ShapeKind::ALL {
         let skips = robot.skips(kind)?;
         let places = skips.places();
         for i in 0..places.len() {

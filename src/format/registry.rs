@@ -98,6 +98,8 @@ kinds! {
     LinkShapesSimpleSkips = "link_shapes_simple_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Dof, Chain, Bounds, ConvexHullMeshes, ConvexDecompositionMeshes, LinkShapesApproximations, LinkShapesDistanceStatistics];
     /// Pairs to skip, by reason and by a person's edits.
     LinkShapesSkips = "link_shapes_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Urdf, LinkShapesSimpleSkips];
+    /// A network that estimates how near links are. For who asks for it.
+    SelfCollisionModel = "self_collision_model_module" in "link_shapes_modules/", None, needs [Dof, Chain, Bounds, ConvexDecompositionMeshes, LinkShapesSkips];
     /// Error of linearised distances. Legacy only.
     LinkShapesLieAlgErrorModels = "link_shapes_lie_alg_error_models_module" in "link_shapes_modules/", None, needs [];
     /// A viewer's bookkeeping. Legacy only.
@@ -160,6 +162,7 @@ modules! {
     LinkShapesDistanceStatistics(link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule): LinkShapesDistanceStatistics @ "1.0.0", V1;
     LinkShapesSimpleSkips(link_shapes_simple_skips::LinkShapesSimpleSkipsModule): LinkShapesSimpleSkips @ "1.0.0", V1;
     LinkShapesSkips(link_shapes_skips::LinkShapesSkipsModule): LinkShapesSkips @ "1.0.0", V1;
+    SelfCollisionModel(self_collision_model::SelfCollisionModelModule): SelfCollisionModel @ "1.0.0", V1;
     LegacyUrdf(legacy::urdf::UrdfModule): Urdf @ "0.0.3" | "0.0.1", Legacy;
     LegacyDof(legacy::dof::DofModule): Dof @ "0.0.2" | "0.0.1", Legacy;
     LegacyChain(legacy::chain::ChainModule): Chain @ "0.0.1", Legacy;

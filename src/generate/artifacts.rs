@@ -16,6 +16,7 @@ use crate::format::convex_hull_meshes::ConvexHullMeshesModule;
 use crate::format::link_shapes_approximations::LinkShapesApproximationsModule;
 use crate::format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule;
 use crate::format::link_shapes_simple_skips::LinkShapesSimpleSkipsModule;
+use crate::format::link_shapes_skips::LinkShapesSkipsModule;
 use crate::format::plain_meshes::PlainMeshesModule;
 use crate::format::registry::ModuleKind;
 
@@ -28,6 +29,7 @@ pub(super) struct Artifacts {
     pub approximations: Option<Arc<LinkShapesApproximationsModule>>,
     pub statistics: Option<Arc<LinkShapesDistanceStatisticsModule>>,
     pub simple_skips: Option<Arc<LinkShapesSimpleSkipsModule>>,
+    pub skips: Option<Arc<LinkShapesSkipsModule>>,
 }
 
 impl Artifacts {
@@ -42,6 +44,7 @@ impl Artifacts {
             approximations: None,
             statistics: None,
             simple_skips: None,
+            skips: None,
         }
     }
 
@@ -119,6 +122,14 @@ impl Artifacts {
         self.have(
             |artifacts| &mut artifacts.simple_skips,
             |artifacts| artifacts.document(ModuleKind::LinkShapesSimpleSkips),
+        )
+    }
+
+    /// The skips.
+    pub fn skips(&mut self) -> Result<Arc<LinkShapesSkipsModule>, GenerateError> {
+        self.have(
+            |artifacts| &mut artifacts.skips,
+            |artifacts| artifacts.document(ModuleKind::LinkShapesSkips),
         )
     }
 

@@ -258,7 +258,15 @@ pub(super) fn distance_statistics(work: &mut Work) -> Result<Made, GenerateError
     let approximations = work.artifacts.approximations()?;
     let num_samples = work.settings.num_samples;
     let (dof, chain, bounds) = (&work.dof, &work.chain, &work.bounds);
-    let module = statistics(&solids, &approximations, (dof, chain, bounds), num_samples);
+    let kinematics = (dof, chain, bounds);
+    let cancellation = &work.settings.cancellation;
+    let module = statistics(
+        &solids,
+        &approximations,
+        kinematics,
+        num_samples,
+        cancellation,
+    )?;
     let module = Arc::new(module.map_err(|reason| unmeasurable(work, reason))?);
     if module.decomposition_convex_hulls.is_none() {
         let pieces = module.decomposition_shapes.len();
@@ -274,7 +282,7 @@ pub(super) fn distance_statistics(work: &mut Work) -> Result<Made, GenerateError
     streamed(document)
 }
 
-fn unmeasurable(work: &Work, reason: String) -> GenerateError {
+pub(super) fn unmeasurable(work: &Work, reason: String) -> GenerateError {
     GenerateError::Geometry {
         file: work.source.shown.clone(),
         reason,
@@ -313,8 +321,10 @@ pub(super) fn edited_skips(work: &mut Work) -> Result<Made, GenerateError> {
     }
     let links = work.chain.links_in_chain.iter();
     let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
-    let module = skips_module(&simple, skipped_reasons, kept, &names);
-    streamed(shape_documents::skips(&Arc::new(module)))
+    let module = Arc::new(skips_module(&simple, skipped_reasons, kept, &names));
+    let document = shape_documents::skips(&module);
+    work.artifacts.skips = Some(module);
+    streamed(document)
 }
 
 /// The reasons for which pairs are skipped: as asked for, or else as before; each once, in order.

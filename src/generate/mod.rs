@@ -18,6 +18,7 @@ mod error;
 pub mod fault;
 mod geometry_stages;
 mod kinematics_samples;
+mod learned;
 mod made;
 mod meshes;
 mod metadata;

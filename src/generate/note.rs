@@ -45,6 +45,8 @@ pub enum NoteKind {
     LeftOut,
     /// A table that is left out, as the specification allows for a robot of this size.
     TooLarge,
+    /// A module that was asked for and would be of no use.
+    OfNoUse,
 }
 
 impl NoteKind {
@@ -69,12 +71,13 @@ impl NoteKind {
         NoteKind::Outside,
         NoteKind::LeftOut,
         NoteKind::TooLarge,
+        NoteKind::OfNoUse,
     ];
 
     /// Whether what was assumed may make another robot of it than the author meant.
     pub fn changes_robot(self) -> bool {
-        use NoteKind::{Encoding, Outside, TooLarge, Xml};
-        !matches!(self, Encoding | Xml | Outside | TooLarge)
+        use NoteKind::{Encoding, OfNoUse, Outside, TooLarge, Xml};
+        !matches!(self, Encoding | Xml | Outside | TooLarge | OfNoUse)
     }
 
     /// Its word, for programs.
@@ -99,6 +102,7 @@ impl NoteKind {
             NoteKind::Outside => "outside",
             NoteKind::LeftOut => "left-out",
             NoteKind::TooLarge => "too-large",
+            NoteKind::OfNoUse => "of-no-use",
         }
     }
 }

@@ -17,7 +17,7 @@ use super::reuse::Reusable;
 use super::settings::Settings;
 use super::size;
 use super::source::{self, Source};
-use super::stages::{self, Stage};
+use super::stages::{self, Make, Stage};
 use super::work::Work;
 use crate::directory::canonical;
 use crate::directory::discover::ROOT_METADATA;
@@ -34,6 +34,9 @@ const GIT_ATTRIBUTES_FILE: &str = ".gitattributes";
 pub trait Progress: Sync {
     /// A module is begun; `done` of `total` are done.
     fn module(&self, kind: ModuleKind, done: usize, total: usize);
+
+    /// Part of the work on a module that takes long: `done` of `total` steps are done.
+    fn part(&self, _kind: ModuleKind, _done: usize, _total: usize) {}
 }
 
 impl Progress for () {
@@ -132,6 +135,7 @@ pub(super) fn make(
 
     let mut work = Work::new(source, settings, staging.content(), edits)?;
     work.reusable = Reusable::of(&settings.reuse, &stages::settings_texts(&work));
+    work.progress = progress;
     work.composition = composed.map(|composed| &composed.composition);
     let of_parts = composed.map(|_| ModuleKind::Composition);
     let kinds: BTreeSet<ModuleKind> = settings.selection.kinds().chain(of_parts).collect();
@@ -140,8 +144,11 @@ pub(super) fn make(
     for (done, stage) in stages.iter().enumerate() {
         settings.cancellation.check()?;
         progress.module(stage.kind, done, stages.len());
-        let (entry, kept) = run(stage, &mut work, &writer, old.as_ref(), &entries)?;
+        let made = run(stage, &mut work, &writer, old.as_ref(), &entries)?;
         check_assumptions(&work.notes, settings)?;
+        let Some((entry, kept)) = made else {
+            continue;
+        };
         let files = entry.module.files.iter();
         work.digests
             .extend(files.map(|file| (file.path.clone(), file.sha256.as_str().to_owned())));
@@ -242,14 +249,14 @@ fn check_target(
     Ok(())
 }
 
-/// Makes a module, or takes over the one that was there.
+/// Makes a module, or takes over the one that was there; `None` where it is of no use.
 fn run(
     stage: &Stage,
     work: &mut Work,
     writer: &Writer,
     old: Option<&Old>,
     entries: &[Entry],
-) -> Result<(Entry, bool), GenerateError> {
+) -> Result<Option<(Entry, bool)>, GenerateError> {
     let kind = stage.kind;
     let inputs = stage
         .reuse
@@ -262,9 +269,15 @@ fn run(
             writer.keep(&old.folder.join(&file.path), &file.path)?;
         }
         let entry = metadata::entry(kind, files.to_vec(), Some(inputs.clone()));
-        return Ok((entry, true));
+        return Ok(Some((entry, true)));
     }
-    let Made { document, files } = (stage.make)(work)?;
+    let made = match stage.make {
+        Make::Always(make) => Some(make(work)?),
+        Make::WhereOfUse(make) => make(work)?,
+    };
+    let Some(Made { document, files }) = made else {
+        return Ok(None);
+    };
     let mut written: Vec<FileEntry> = writer.module(kind, metadata::MODULE_VERSION, &document)?;
     for file in files {
         written.push(match file.content {
@@ -272,7 +285,7 @@ fn run(
             Content::Shared(bytes) => writer.file(&file.path, &bytes)?,
         });
     }
-    Ok((metadata::entry(kind, written, inputs), false))
+    Ok(Some((metadata::entry(kind, written, inputs), false)))
 }
 
 /// Whether the URDD before is the same to the byte: its metadata, and each file as that says. Those

@@ -21,8 +21,8 @@ fn known() -> String {
     names.chain(classes).collect::<Vec<_>>().join(", ")
 }
 
-/// The modules of version 1, in the order of the specification: what this program makes of every
-/// robot. What is made of a robot that is put together from others, nobody needs to ask for.
+/// The modules of version 1, in the order of the specification, that can be asked for. What is made of a robot that is
+/// put together from others, nobody needs to ask for.
 fn kinds() -> Vec<ModuleKind> {
     let current = MODULES.iter().filter(|spec| spec.profile == Profile::V1);
     let kinds = current.map(|spec| spec.kind);
@@ -41,10 +41,16 @@ fn short(kind: ModuleKind) -> &'static str {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Selection(BTreeSet<ModuleKind>);
 
+/// What this program makes of every robot, unless it is told otherwise: all but what has to be trained.
+fn by_default() -> impl Iterator<Item = ModuleKind> {
+    let kinds = kinds().into_iter();
+    kinds.filter(|kind| *kind != ModuleKind::SelfCollisionModel)
+}
+
 impl Selection {
-    /// Every module that this program can make.
+    /// Every module that this program makes of a robot, unless it is told otherwise.
     pub fn all() -> Self {
-        Selection(kinds().into_iter().collect())
+        Selection(by_default().collect())
     }
 
     /// Reads words: names of modules, with or without `_module`, and of conformance classes.
@@ -55,7 +61,7 @@ impl Selection {
         let kinds = kinds();
         let up_to = |class: ConformanceClass| {
             let is_of = move |kind: &ModuleKind| kind.class().is_none_or(|of| of <= class);
-            kinds.iter().copied().filter(is_of).collect::<Vec<_>>()
+            by_default().filter(is_of).collect::<Vec<_>>()
         };
         let mut asked = up_to(ConformanceClass::Core);
         asked.retain(|kind| kind.class().is_some());
@@ -70,7 +76,7 @@ impl Selection {
                 ("core", _) => asked.extend(up_to(ConformanceClass::Core)),
                 ("geometry", _) => asked.extend(up_to(ConformanceClass::Geometry)),
                 ("shapes", _) => asked.extend(up_to(ConformanceClass::Shapes)),
-                ("all", _) => asked.extend(&kinds),
+                ("all", _) => asked.extend(by_default()),
                 _ => {
                     let word = word.to_owned();
                     return Err(UnknownModule { word });

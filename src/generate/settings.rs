@@ -9,6 +9,7 @@ use crate::cancellation::Cancellation;
 use crate::directory::root::Root;
 use crate::format::link_shapes_skips::SkippedReason;
 use crate::format::meshes::GeometryKind;
+use crate::learn::train::Effort;
 
 /// How URDDs are made.
 #[derive(Debug, Clone)]
@@ -43,6 +44,8 @@ pub struct Settings {
     /// without them, but for the last digits of distances, in less time. They are believed: give none that a validator
     /// refuses.
     pub reuse: Vec<Root>,
+    /// How much work training a self-collision model is.
+    pub model_effort: Effort,
     /// Where it is asked to stop: before the next module or mesh, with [`GenerateError::Cancelled`], and nothing is
     /// changed.
     ///
@@ -90,8 +93,8 @@ impl Default for Pieces {
 }
 
 impl Default for Settings {
-    /// Every module, from visual geometry, with at most 7 pieces for a link, 1,000 samples, and no packages but those around the
-    /// URDF.
+    /// Every module but what has to be trained, from visual geometry, with at most 7 pieces for a link, 1,000 samples, and no packages but those
+    /// around the URDF.
     fn default() -> Self {
         Settings {
             selection: Selection::all(),
@@ -107,6 +110,7 @@ impl Default for Settings {
             drop_edits: false,
             force: false,
             reuse: Vec::new(),
+            model_effort: Effort::default(),
             cancellation: Cancellation::default(),
         }
     }

@@ -7,6 +7,7 @@
 use super::connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS, connections_module};
 use super::error::GenerateError;
 use super::geometry_stages as geometry;
+use super::learned;
 use super::made::{Content, Made, MadeFile, document};
 use super::meshes::original::original_meshes;
 use super::reuse::SettingsTexts;
@@ -42,7 +43,16 @@ pub(super) struct Stage {
     /// When a module that was made before is kept.
     pub reuse: Reuse,
     /// Makes the module.
-    pub make: fn(&mut Work) -> Result<Made, GenerateError>,
+    pub make: Make,
+}
+
+/// How a module is made.
+#[derive(Clone, Copy)]
+pub(super) enum Make {
+    /// Of every robot.
+    Always(fn(&mut Work) -> Result<Made, GenerateError>),
+    /// Of robots for which it is of use.
+    WhereOfUse(fn(&mut Work) -> Result<Option<Made>, GenerateError>),
 }
 
 /// Every stage, in the order of the specification.
@@ -50,83 +60,88 @@ const STAGES: &[Stage] = &[
     Stage {
         kind: ModuleKind::Urdf,
         reuse: Reuse::Never,
-        make: |work| document(&work.source.reading.robot),
+        make: Make::Always(|work| document(&work.source.reading.robot)),
     },
     Stage {
         kind: ModuleKind::Dof,
         reuse: Reuse::Never,
-        make: |work| document(&work.dof),
+        make: Make::Always(|work| document(&work.dof)),
     },
     Stage {
         kind: ModuleKind::Chain,
         reuse: Reuse::Never,
-        make: |work| document(&work.chain),
+        make: Make::Always(|work| document(&work.chain)),
     },
     Stage {
         kind: ModuleKind::Connections,
         // With hundreds of links it is megabytes of text.
         reuse: Reuse::SameInputs("2"),
-        make: connections,
+        make: Make::Always(connections),
     },
     Stage {
         kind: ModuleKind::Bounds,
         reuse: Reuse::Never,
-        make: |work| document(&work.bounds),
+        make: Make::Always(|work| document(&work.bounds)),
     },
     Stage {
         kind: ModuleKind::KinematicsSamples,
         reuse: Reuse::Never,
-        make: |work| document(&work.samples),
+        make: Make::Always(|work| document(&work.samples)),
     },
     Stage {
         kind: ModuleKind::Composition,
         reuse: Reuse::Never,
-        make: |work| document(&work.composition),
+        make: Make::Always(|work| document(&work.composition)),
     },
     Stage {
         kind: ModuleKind::OriginalMeshes,
         reuse: Reuse::Never,
-        make: meshes,
+        make: Make::Always(meshes),
     },
     Stage {
         kind: ModuleKind::PlainMeshes,
         reuse: Reuse::SameSettings(geometry::plain_settings),
-        make: geometry::plain,
+        make: Make::Always(geometry::plain),
     },
     Stage {
         kind: ModuleKind::ConvexHullMeshes,
         reuse: Reuse::SameSettings(geometry::hulls_settings),
-        make: geometry::hulls,
+        make: Make::Always(geometry::hulls),
     },
     Stage {
         kind: ModuleKind::ConvexDecompositionMeshes,
         reuse: Reuse::SameSettings(geometry::decomposition_settings),
-        make: geometry::pieces,
+        make: Make::Always(geometry::pieces),
     },
     Stage {
         kind: ModuleKind::LinkShapesApproximations,
         reuse: Reuse::SameInputs(""),
-        make: geometry::boxes_and_spheres,
+        make: Make::Always(geometry::boxes_and_spheres),
     },
     Stage {
         kind: ModuleKind::LinkShapesMaxDistanceFromOrigin,
         reuse: Reuse::SameInputs(""),
-        make: geometry::distances_from_origin,
+        make: Make::Always(geometry::distances_from_origin),
     },
     Stage {
         kind: ModuleKind::LinkShapesDistanceStatistics,
         reuse: Reuse::SameSettings(geometry::statistics_settings),
-        make: geometry::distance_statistics,
+        make: Make::Always(geometry::distance_statistics),
     },
     Stage {
         kind: ModuleKind::LinkShapesSimpleSkips,
         reuse: Reuse::SameInputs("2"),
-        make: geometry::skips_by_distance,
+        make: Make::Always(geometry::skips_by_distance),
     },
     Stage {
         kind: ModuleKind::LinkShapesSkips,
         reuse: Reuse::SameSettings(geometry::skips_settings),
-        make: geometry::edited_skips,
+        make: Make::Always(geometry::edited_skips),
+    },
+    Stage {
+        kind: ModuleKind::SelfCollisionModel,
+        reuse: Reuse::SameSettings(learned::settings),
+        make: Make::WhereOfUse(learned::self_collision_model),
     },
 ];
 

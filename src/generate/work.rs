@@ -11,6 +11,7 @@ use super::meshes::names::mesh_files;
 use super::meshes::original::OriginalMeshes;
 use super::note::{Note, NoteKind};
 use super::reuse::Reusable;
+use super::robot::Progress;
 use super::settings::Settings;
 use super::source::Source;
 use super::{bounds, chain, dof, kinematics_samples};
@@ -42,6 +43,8 @@ pub(super) struct Work<'a> {
     pub digests: HashMap<String, String>,
     /// What other URDDs hold of links of the same content.
     pub reusable: Reusable,
+    /// Who wants to know how far it is.
+    pub progress: &'a dyn Progress,
 }
 
 impl<'a> Work<'a> {
@@ -76,6 +79,7 @@ impl<'a> Work<'a> {
             composition: None,
             digests: HashMap::new(),
             reusable: Reusable::default(),
+            progress: &(),
         })
     }
 
@@ -93,6 +97,11 @@ impl<'a> Work<'a> {
     /// Notes that a table is left out because it would grow too large, as the specification allows.
     pub fn too_large(&mut self, problem: String, assumed: &str) {
         self.note(NoteKind::TooLarge, problem, assumed);
+    }
+
+    /// Notes that a module that was asked for is not made, since it would be of no use.
+    pub fn of_no_use(&mut self, problem: String, assumed: &str) {
+        self.note(NoteKind::OfNoUse, problem, assumed);
     }
 
     fn note(&mut self, kind: NoteKind, problem: String, assumed: &str) {

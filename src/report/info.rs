@@ -12,6 +12,7 @@ use crate::document::urdd::Urdd;
 use crate::format::dof::Quantity;
 use crate::format::escape;
 use crate::format::registry::{ModuleDocument, ModuleKind};
+use crate::format::self_collision_model::HeldOutCounts;
 
 /// What a URDD holds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -36,6 +37,8 @@ pub struct Info {
     pub base: Option<String>,
     /// The parts of a robot that was put together, as a tree.
     pub parts: Vec<PartInfo>,
+    /// How often the self-collision model was right, as its module says.
+    pub collision_model: Option<HeldOutCounts>,
     /// The modules.
     pub modules: Vec<ModuleInfo>,
 }
@@ -83,6 +86,10 @@ impl Info {
             Some(ModuleDocument::Composition(composition)) => Some(composition),
             _ => None,
         };
+        let model = match urdd.document(ModuleKind::SelfCollisionModel) {
+            Some(ModuleDocument::SelfCollisionModel(model)) => Some(model.held_out.clone()),
+            _ => None,
+        };
         Ok(Info {
             path: name.to_owned(),
             robot_name: robot
@@ -96,6 +103,7 @@ impl Info {
             dofs: dofs(&urdd),
             base: composition.and_then(|of| info_parts::base(of.base.as_ref(), robot)),
             parts: composition.map_or_else(Vec::new, |of| info_parts::tree(&of.parts, robot)),
+            collision_model: model,
             modules: urdd
                 .modules()
                 .iter()
@@ -215,6 +223,17 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
             .map(|[lower, upper]| format!("  [{lower}, {upper}]{unit}"))
             .unwrap_or_default();
         writeln!(out, "    {index:>3}  {:width$}{bounds}", safe(&dof.name))?;
+    }
+    if let Some(counts) = &info.collision_model {
+        let free = counts
+            .num_configurations
+            .0
+            .saturating_sub(counts.num_colliding.0);
+        writeln!(
+            out,
+            "  model     misses {} of {} collisions, clears {} of {free} free configurations (as it says)",
+            counts.num_missed, counts.num_colliding, counts.num_cleared
+        )?;
     }
     if !info.parts.is_empty() {
         let base = info

@@ -52,7 +52,9 @@ impl<'a> Meshes<'a> {
         let path = preferred.into_iter().find_map(of).or(paths.first());
         match path {
             Some(path) => {
-                let mesh = read(self.part, self.meshes.profile, path.path)?.merged();
+                let mut mesh = read(self.part, self.meshes.profile, path.path)?.merged();
+                // STL says a vertex again for each of its triangles.
+                mesh.weld();
                 match mesh.vertices.is_empty() {
                     true => Err(fault(path.path, "it has no vertex".to_owned())),
                     false => Ok(mesh),

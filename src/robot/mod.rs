@@ -30,6 +30,7 @@
 //! each DOF, in the order of [`Robot::dofs`]; values beyond the bounds are allowed. Links are in the order of
 //! `urdf_module`.
 
+mod collision_model;
 mod description;
 mod error;
 mod inverse;
@@ -52,6 +53,7 @@ use crate::directory::root::Root;
 use crate::directory::source::Source;
 
 pub use crate::kinematics::inverse::{Inverse, InverseSettings, InverseSolution};
+pub use crate::learn::{Clearance, CollisionModel};
 pub use description::SourceFile;
 pub use error::RobotError;
 pub use inverse::Target;

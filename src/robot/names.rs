@@ -2,6 +2,7 @@
 
 use super::Robot;
 use super::error::RobotError;
+use crate::format::nearest::nearest;
 
 impl Robot {
     /// The name of each link.
@@ -60,17 +61,6 @@ pub(super) fn index(what: &'static str, names: &[String], name: &str) -> Result<
         .ok_or_else(|| RobotError::Unknown {
             what,
             name: name.to_owned(),
-            nearest: nearest(names, name),
+            nearest: nearest(names.iter().map(String::as_str), name),
         })
-}
-
-/// The name that differs in the fewest characters, of those that differ in less than half.
-fn nearest(names: &[String], name: &str) -> Option<String> {
-    let distance = |known: &String| strsim::damerau_levenshtein(known, name);
-    names
-        .iter()
-        .map(|known| (distance(known), known))
-        .filter(|(distance, known)| 2 * distance <= known.chars().count().max(2))
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, known)| known.clone())
 }

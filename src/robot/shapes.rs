@@ -106,7 +106,7 @@ pub struct LinkShape {
 /// A body. Lengths are metres, in the link's frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
-    /// A convex mesh.
+    /// A convex mesh, each vertex once.
     Mesh(Mesh),
     /// A box: the pose of its centre and axes, and half of each side.
     Box {

@@ -29,6 +29,8 @@ pub struct EditedSkips {
     pub module: LinkShapesSkipsModule,
     /// By path, relative to the root: the module's JSON and YAML, and `urdd.json` with their sizes and hashes.
     pub files: BTreeMap<String, Vec<u8>>,
+    /// Whether the URDD has a self-collision model. It was trained with the skips before, and has to be made again.
+    pub model_is_stale: bool,
 }
 
 impl EditedSkips {
@@ -77,7 +79,13 @@ impl Robot {
         let mut files = module_files(&module)?;
         let metadata = self.metadata_with(&files)?;
         files.insert(ROOT_METADATA.to_owned(), metadata);
-        Ok(EditedSkips { module, files })
+        let model = ModuleKind::SelfCollisionModel;
+        let model_is_stale = self.part_as_it_is(&[model])?.module(model).is_some();
+        Ok(EditedSkips {
+            module,
+            files,
+            model_is_stale,
+        })
     }
 
     /// `urdd.json` with the sizes and hashes of some files.

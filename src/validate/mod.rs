@@ -9,8 +9,10 @@ pub mod code;
 pub mod context;
 pub mod distances;
 pub mod engine;
+mod find_errors;
 pub mod finding;
 pub mod fold;
+pub mod learned;
 mod locate;
 mod names;
 pub mod needs;
@@ -30,6 +32,8 @@ mod unverified;
 pub mod urdf_text;
 pub mod views;
 mod worst;
+
+pub use find_errors::find_errors;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};

@@ -2,12 +2,17 @@
 
 use std::ops::Range;
 
-use roxmltree::{Attribute, Node};
+use roxmltree::{Attribute, Document, Node};
 
 /// The name of an element, its prefix included, as it is written: `xacro:link` is no `link`, whatever
 /// `xacro` stands for.
 pub fn name<'a>(element: Node<'a, 'a>) -> &'a str {
-    let text = &element.document().input_text()[element.range()];
+    name_at(element.document(), &element.range())
+}
+
+/// The name of the element that stands at a place, as [`name`] gives it.
+pub fn name_at<'a>(document: &'a Document<'a>, range: &Range<usize>) -> &'a str {
+    let text = &document.input_text()[range.clone()];
     let start = text.strip_prefix('<').unwrap_or(text);
     start
         .split(|c: char| c.is_ascii_whitespace() || c == '>' || c == '/')

@@ -1,8 +1,9 @@
 //! Recipes that cannot be followed: one typed error each, with its place and what to do.
 
-use urdd::combine::{CombineError, PartFault, RecipeFault};
+use urdd::combine::{CombineError, Note, PartFault, RecipeFault};
+use urdd::generate::{Selection, Settings, generate};
 
-use crate::support::{core, ours, put_together};
+use crate::support::{core, findings, ours, put_together};
 
 /// A recipe with an arm and a gripper, some of whose lines are others.
 fn recipe(changes: &[(&str, &str)]) -> String {
@@ -314,4 +315,63 @@ fn names_are_told_as_elements_or_attributes() {
         fault(&[("# more of the gripper", names)]).0,
         RecipeFault::BadName(_)
     ));
+}
+
+#[test]
+fn parts_of_unequal_modules_are_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    for (name, modules) in [
+        ("six_axis_arm", &["core", "original_meshes"][..]),
+        ("gripper", &["core"]),
+    ] {
+        let settings = Settings {
+            selection: Selection::parse(modules.iter().copied()).expect("modules"),
+            ..Settings::default()
+        };
+        generate(&ours(name), &folder.join(name), &settings, &()).expect("a URDD");
+    }
+    let text = recipe(&[
+        (
+            ours("six_axis_arm").to_str().expect("a path"),
+            "six_axis_arm",
+        ),
+        (ours("gripper").to_str().expect("a path"), "gripper"),
+    ]);
+    let settings = Settings {
+        selection: Selection::parse(["core", "original_meshes"]).expect("modules"),
+        ..Settings::default()
+    };
+    let (made, target) = put_together(&text, folder, &settings).expect("a robot");
+    let unequal = Note::UnequalModules {
+        part: "gripper".to_owned(),
+        lacks: vec!["original_meshes_module".to_owned()],
+    };
+    assert_eq!(made.notes, [unequal]);
+    // What one of them lacks is there of the whole.
+    let meshes = "mesh_modules/original_meshes_module/module.json";
+    assert!(target.join(meshes).is_file());
+    assert_eq!(findings(&target), [] as [String; 0]);
+}
+
+#[test]
+fn sources_may_lie_anywhere_and_no_path_is_recorded() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let recipes = folder.path().join("recipes");
+    std::fs::create_dir(&recipes).expect("a folder");
+    std::fs::copy(ours("gripper"), folder.path().join("gripper.urdf")).expect("a file");
+    let text = recipe(&[(ours("gripper").to_str().expect("a path"), "../gripper.urdf")]);
+    let (made, target) = put_together(&text, &recipes, &core()).expect("a robot");
+    let names: Vec<&str> = (made.composition.parts.iter())
+        .map(|part| part.name.as_str())
+        .collect();
+    assert_eq!(names, ["six_axis_arm", "gripper"]);
+    // Neither where the recipe's parts lie, nor where the arm does.
+    let own = folder.path().to_str().expect("a path");
+    for path in [own, env!("CARGO_MANIFEST_DIR"), "../gripper"] {
+        for file in ["cell.urdf", "urdd.json", "composition_module/module.json"] {
+            let text = std::fs::read_to_string(target.join(file)).expect("a file");
+            assert!(!text.contains(path), "{file} names {path}");
+        }
+    }
 }

@@ -1,23 +1,7 @@
 //! `urdd combine` as a program.
 
-use std::path::Path;
-use std::process::Command;
-
+use crate::program::urdd;
 use crate::support::ours;
-
-fn urdd(arguments: &[&str], folder: &Path) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_urdd"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .expect("the program");
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
-    (
-        output.status.code().expect("a status"),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
 
 const CORE: [&str; 2] = ["--modules", "core"];
 

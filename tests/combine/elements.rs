@@ -200,3 +200,30 @@ fn materials_of_one_name_look_alike() {
         "{text}"
     );
 }
+
+#[test]
+fn textures_of_materials_are_not_carried_and_that_is_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let urdf = r#"<robot name="t">
+  <material name="wood"><texture filename="textures/wood.png"/></material>
+  <link name="a"><visual><geometry><box size="1 1 1"/></geometry>
+    <material name="own"><texture filename="package://t/own.png"/></material></visual></link>
+  <link name="b"><visual><geometry><box size="1 1 1"/></geometry>
+    <material name="gone"><texture filename="gone.png"/></material></visual></link>
+  <joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>
+</robot>"#;
+    std::fs::write(folder.path().join("t.urdf"), urdf).expect("a file");
+    let recipe = "[[part]]\nid = \"t\"\nsource = \"t.urdf\"\ndrop = [\"b\"]\n";
+    let (made, target) = put_together(recipe, folder.path(), &core()).expect("a robot");
+    let texture = |name: &str| Note::Texture {
+        part: "t".to_owned(),
+        name: name.to_owned(),
+    };
+    // Each by its name, but for that of the link that is dropped.
+    assert_eq!(
+        made.notes,
+        [texture("package://t/own.png"), texture("textures/wood.png")]
+    );
+    let text = std::fs::read_to_string(target.join("cell.urdf")).expect("the URDF");
+    assert!(text.contains("<texture filename=\"textures/wood.png\"/>"));
+}

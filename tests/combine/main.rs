@@ -2,6 +2,8 @@
 
 #[path = "../support/dice.rs"]
 mod dice;
+#[path = "../support/program.rs"]
+mod program;
 #[path = "../support/robots.rs"]
 #[allow(dead_code)] // Not every file of tests needs all.
 mod robots;

@@ -1,5 +1,6 @@
 //! Thirty robots put together at random of our nine: each is valid, and each part moves as by itself.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -78,6 +79,8 @@ struct Member<'a> {
     frozen: Vec<(String, f64)>,
     /// The part and link that carries it, and the joint's pose on that.
     on: Option<(usize, String, Isometry3<f64>)>,
+    /// The type of the joint by which it hangs on that.
+    attached: Option<&'static str>,
 }
 
 fn number(dice: &mut Dice, size: f64) -> f64 {
@@ -113,6 +116,7 @@ fn recipe<'a>(dice: &mut Dice, known: &'a [Known], number_of: usize) -> (String,
             dropped: Vec::new(),
             frozen: Vec::new(),
             on: None,
+            attached: None,
         };
         drop_some(dice, &mut member, &mut text);
         freeze_some(dice, &mut member, &mut text);
@@ -146,6 +150,7 @@ fn recipe<'a>(dice: &mut Dice, known: &'a [Known], number_of: usize) -> (String,
                 UnitQuaternion::from_euler_angles(roll, pitch, yaw),
             );
             member.on = Some((on, link, pose));
+            member.attached = Some(kind);
         }
         members.push(member);
     }
@@ -263,6 +268,7 @@ fn robots_put_together_at_random_are_valid_and_move_as_their_parts() {
         .collect();
     let mut dice = Dice(11);
     let (mut frozen, mut dropped, mut nested) = (0, 0, 0);
+    let (mut attached, mut prefixes) = (BTreeSet::new(), BTreeSet::new());
     for number in 0..30 {
         let (text, members) = recipe(&mut dice, &known, number);
         let (_, target) =
@@ -297,6 +303,8 @@ fn robots_put_together_at_random_are_valid_and_move_as_their_parts() {
             .iter()
             .filter(|member| member.of.path.ends_with("nested"))
             .count();
+        attached.extend(members.iter().filter_map(|member| member.attached));
+        prefixes.extend(members.iter().map(|member| member.prefix.clone()));
         // The first ones are parts of later ones.
         if number == 4 {
             let path: &Path = &folder.join("nested");
@@ -308,5 +316,11 @@ fn robots_put_together_at_random_are_valid_and_move_as_their_parts() {
     assert!(
         frozen > 10 && dropped > 10 && nested > 5,
         "{frozen} {dropped} {nested}"
+    );
+    assert_eq!(attached, BTreeSet::from(TYPES));
+    let without = |prefix: &str| prefixes.contains(prefix);
+    assert!(
+        without("") && without("p0/") && without("p1_"),
+        "{prefixes:?}"
     );
 }

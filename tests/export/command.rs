@@ -1,21 +1,5 @@
-use std::path::Path;
-use std::process::Command;
-
+use crate::program::urdd;
 use crate::robots::{made, our_robots};
-
-fn urdd(arguments: &[&str], folder: &Path) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_urdd"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .expect("the program");
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
-    (
-        output.status.code().expect("a status"),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
 
 #[test]
 fn nothing_is_written_over_unless_asked() {
@@ -154,7 +138,7 @@ fn what_is_no_urdd_is_told_apart() {
     );
 }
 
-fn walk(folder: &Path) -> Vec<std::path::PathBuf> {
+fn walk(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();

@@ -1,7 +1,6 @@
 //! SRDFs read into edits.
 
 use std::path::Path;
-use std::process::Command;
 
 use urdd::export::{ImportError, SrdfError, import_srdf};
 use urdd::robot::{Robot, ShapeKind};
@@ -56,18 +55,8 @@ fn pairs_become_edits_and_nothing_is_lost() {
     let run = |text: &str, more: &[&str]| {
         let file = folder.path().join("x.srdf");
         std::fs::write(&file, text).expect("a file");
-        let output = Command::new(env!("CARGO_BIN_EXE_urdd"))
-            .args(["skips", "import", "x.srdf", "robot"])
-            .args(more)
-            .current_dir(folder.path())
-            .output()
-            .expect("the program");
-        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
-        (
-            output.status.code(),
-            text(output.stdout),
-            text(output.stderr),
-        )
+        let import = ["skips", "import", "x.srdf", "robot"];
+        crate::program::urdd(&[&import[..], more].concat(), folder.path())
     };
     let told = run(
         &srdf(&format!("{}{}{}", pair(0, 1), pair(4, 2), pair(0, 3))),
@@ -76,7 +65,7 @@ fn pairs_become_edits_and_nothing_is_lost() {
     assert_eq!(
         told,
         (
-            Some(0),
+            0,
             "robot: 2 edits added; 1 pair of the SRDF as they were\n  3 pairs skipped that the SRDF does not disable\n".to_owned(),
             String::new()
         )
@@ -98,13 +87,13 @@ fn pairs_become_edits_and_nothing_is_lost() {
     // Another SRDF that says the contrary of what was decided.
     let contrary = srdf("<enable_collisions link1=\"l3\" link2=\"l0\"/>");
     let (status, _, said) = run(&contrary, &[]);
-    assert_eq!(status, Some(2));
+    assert_eq!(status, 2);
     assert!(
         said.contains("has an edit that says of `l0` and `l3`") && said.contains("SRDF: Never"),
         "{said}"
     );
     assert_eq!(skipped(&urdd).len(), 6);
-    assert_eq!(run(&contrary, &["--force"]).0, Some(0));
+    assert_eq!(run(&contrary, &["--force"]).0, 0);
     assert_eq!(skipped(&urdd), [(0, 1), (1, 2), (2, 3), (2, 4), (3, 4)]);
     let edits = Robot::open(&urdd)
         .expect("a robot")

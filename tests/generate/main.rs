@@ -8,6 +8,7 @@ mod core;
 mod edits;
 mod hostile;
 mod interrupted;
+mod learned;
 mod mesh_formats;
 mod outside;
 mod packages;

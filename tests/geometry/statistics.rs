@@ -1,9 +1,11 @@
 //! Statistics of pairs of shapes over samples.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use urdd::geometry::convex::{
     ConvexShape, Motion, MotionError, PairStatistics, PlacedShape, Sphere, distance,
-    pair_distances, pair_statistics,
+    pair_distances, pair_statistics, statistics_of_kinds,
 };
 
 /// Numbers from 0 to 1, the same in each run (SplitMix64).
@@ -188,4 +190,23 @@ fn what_is_no_motion() {
         pair_statistics::<Sphere>(&[], &motion),
         Some(PairStatistics::default())
     );
+}
+
+#[test]
+fn it_stops_before_the_next_pair() {
+    let motion = Motion::new(&poses(20), &GROUPS).expect("a motion");
+    let shapes = shapes();
+    let asked = AtomicUsize::new(0);
+    let stops_after = |count: usize| {
+        let asked = &asked;
+        move || asked.fetch_add(1, Ordering::Relaxed) >= count
+    };
+    let all = statistics_of_kinds(&[&&shapes[..]], &motion, &stops_after(usize::MAX));
+    assert_eq!(all, Some(vec![statistics(20)]));
+    // Once for each pair of the seven shapes.
+    assert_eq!(asked.swap(0, Ordering::Relaxed), 21);
+    let stopped = statistics_of_kinds(&[&&shapes[..]], &motion, &stops_after(3));
+    assert_eq!(stopped, None);
+    // Shapes whose pairs have not begun may ask once each.
+    assert!(asked.into_inner() < 21);
 }

@@ -145,6 +145,13 @@ fn a_mesh_keeps_its_cavity_and_a_hull_fills_it() {
     let all = proximity.among(&world).unwrap().distances(&q).unwrap();
     let inside = of(&all, "block", "cup");
     assert!((inside.distance - 0.3).abs() < 2e-4, "{inside:?}");
+    let among = proximity.among(&world).unwrap();
+    let values = among.distance_values(&q).unwrap();
+    // One for each shape, of the nearest part.
+    assert_eq!(values.len(), all.len());
+    for (value, one) in values.iter().zip(&all) {
+        assert!((value - one.distance).abs() < 1e-12, "{value} {one:?}");
+    }
     let world = World::new([hull]);
     assert!(proximity.among(&world).unwrap().in_collision(&q).unwrap());
 }
@@ -176,11 +183,26 @@ fn as_parry_has_it() {
         let q = robot.configurations().unwrap().random(seed);
         let poses = robot.link_poses(&q).unwrap();
         let all = among.distances(&q).unwrap();
+        let values: Vec<f64> = all.iter().map(|one| one.distance).collect();
+        let without_points = among.distance_values(&q).unwrap();
+        assert_eq!(without_points.len(), values.len());
+        for (one, other) in without_points.iter().zip(&values) {
+            assert!((one - other).abs() < 1e-12, "{one} {other}");
+        }
+        let pairs: Vec<([usize; 2], usize)> = all
+            .iter()
+            .map(|one| ([one.link_idx, one.piece], one.obstacle_idx))
+            .collect();
+        assert_eq!(among.pairs().collect::<Vec<_>>(), pairs);
         let mut nearest = all.clone();
         nearest.sort_by(|a, b| a.distance.total_cmp(&b.distance));
         assert_eq!(
             among.nearest(&q, 1).unwrap()[0].distance,
             nearest[0].distance
+        );
+        assert_eq!(
+            among.least_distance(&q).unwrap(),
+            without_points.iter().copied().reduce(f64::min)
         );
         assert_eq!(among.in_collision(&q).unwrap(), nearest[0].distance == 0.0);
         for one in &all {

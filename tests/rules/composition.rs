@@ -237,6 +237,24 @@ pub fn cases() -> Vec<Case> {
                 json!([{ "joint_idx": 3, "position": [0.0] }]),
             )],
         ),
+        case(
+            CMP006,
+            "frozen-twice",
+            true,
+            &[(
+                "/parts/1/frozen_joints",
+                json!([
+                    { "joint_idx": 3, "position": [0.01] },
+                    { "joint_idx": 3, "position": [0.02] },
+                ]),
+            )],
+        ),
+        case(
+            CMP006,
+            "frozen-with-two-values",
+            true,
+            &[("/parts/1/frozen_joints/0/position", json!([0.01, 0.02]))],
+        ),
         // Where it was is not known any more.
         case(
             CMP006,

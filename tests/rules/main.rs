@@ -17,6 +17,7 @@ mod dof;
 mod extensions;
 mod json;
 mod kinematics;
+mod learned;
 mod legacy;
 mod legacy_core;
 mod legacy_robot;
@@ -150,6 +151,7 @@ fn cases() -> Vec<Case> {
         mesh_files::cases(),
         shapes::cases(),
         kinematics::cases(),
+        learned::cases(),
         legacy::cases(),
         legacy_core::cases(),
     ]

@@ -4,6 +4,7 @@
 //! - [`robot`]: a robot as its URDF has it, its XML, and arbitrary robots for proptest
 //! - [`core`]: robot -> documents of the core modules and the kinematics samples
 //! - [`meshes`], [`shapes`]: robot of boxes -> documents and files of the other modules
+//! - [`model`]: a robot with a self-collision model that is written down
 //! - [`fixture`]: a whole URDD in memory, to be edited, sealed and written
 //! - [`folder`]: a folder on disk, for many URDDs one after the other
 //! - [`dice`]: choices of a seeded test
@@ -19,5 +20,6 @@ pub mod emit;
 pub mod fixture;
 pub mod folder;
 pub mod meshes;
+pub mod model;
 pub mod robot;
 pub mod shapes;

@@ -1,5 +1,7 @@
 import type {
   About,
+  Clearances,
+  CollisionModel,
   Explanation,
   PairDistance,
   Pose,
@@ -59,6 +61,13 @@ export class Robot {
   nearest(q: Iterable<number>, k?: number, shapes?: ShapeKind): Distance[];
   /** Whether shapes that are not skipped touch. */
   inCollision(q: Iterable<number>, shapes?: ShapeKind): boolean;
+  /** What the learned self-collision model is, and how often it was wrong; null where the URDD has none. */
+  readonly collisionModel: CollisionModel | null;
+  /**
+   * What that model estimates, which guarantees nothing: where `may_collide` is false a configuration may be passed
+   * over, and the others checked by `inCollision`. Null where the URDD has none.
+   */
+  clearances(q: Iterable<number>): Clearances | null;
   /** Which pairs are skipped, and why. */
   skips(shapes?: ShapeKind): SkipsAnswer;
   /** Boxes or spheres. */

@@ -110,6 +110,14 @@ export class Robot {
     return this.#ask({ ask: "in_collision", q: [...q], shapes });
   }
 
+  get collisionModel() {
+    return this.#ask({ ask: "collision_model" });
+  }
+
+  clearances(q) {
+    return this.#ask({ ask: "clearances", q: [...q] });
+  }
+
   skips(shapes = "pieces") {
     return this.#ask({ ask: "skips", shapes });
   }

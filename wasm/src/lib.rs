@@ -10,6 +10,7 @@ mod explain;
 mod files;
 mod memory;
 mod mesh;
+mod model;
 mod pairs;
 #[cfg(target_arch = "wasm32")]
 mod random;

@@ -1,14 +1,14 @@
 //! A robot to ask about itself.
 
 use serde_json::{Value, json};
-use urdd::robot::{PairDistance, Proximity, Robot, RobotError, ShapeKind, Solid};
+use urdd::robot::{CollisionModel, PairDistance, Proximity, Robot, RobotError, ShapeKind, Solid};
 
 use crate::about::about;
 use crate::files::Files;
 use crate::pairs::Pairs;
 use crate::reach::reach;
 use crate::sources::sources;
-use crate::{answer, memory};
+use crate::{answer, memory, model};
 
 /// A robot, and what was prepared for it.
 pub struct Handle {
@@ -16,6 +16,8 @@ pub struct Handle {
     robot: Robot,
     proximity: Vec<Proximity>,
     pairs: Option<Pairs>,
+    /// The learned model, once it was read; nothing in it where the robot has none.
+    model: Option<Option<CollisionModel>>,
 }
 
 /// Opens the robot whose files these are. Nothing of it is read yet.
@@ -31,6 +33,7 @@ pub unsafe extern "C" fn urdd_robot_open(files: *mut Files) -> *mut Handle {
         files,
         proximity: Vec::new(),
         pairs: None,
+        model: None,
     }))
 }
 
@@ -86,6 +89,9 @@ pub unsafe extern "C" fn urdd_robot_poses(
 /// - `{"ask": "in_collision", "q": [...], "shapes": "pieces"}`: true or false.
 /// - `{"ask": "proximity", "q": [...], "shapes": "pieces", "k": 3}`: `nearest`, each with its statistics;
 ///   `in_collision`, `pairs` (how many are looked at) and `of` (how many there are).
+/// - `{"ask": "collision_model"}`: what the learned self-collision model is, and how often it was wrong; null where there
+///   is none ([`model::about`]).
+/// - `{"ask": "clearances", "q": [...]}`: what that model estimates ([`model::clearances`]); null where there is none.
 /// - `{"ask": "skips", "shapes": "pieces"}`: the matrices of skips and reasons, and the edits.
 /// - `{"ask": "edit_skips", "shapes": "pieces", "edits": [...], "skipped_reasons": null}`: the matrices as they are with
 ///   these edits, and `files`: the text of each file of the URDD that changes.
@@ -181,6 +187,17 @@ fn ask(handle: &mut Handle, question: &[u8]) -> Result<Value, String> {
                 "num_samples": pairs.num_samples(kind),
             }))
         }
+        "collision_model" => {
+            let model = learned(&mut handle.model, &handle.robot)?;
+            Ok(model.map_or(Value::Null, model::about))
+        }
+        "clearances" => {
+            let q = values()?;
+            match learned(&mut handle.model, &handle.robot)? {
+                Some(model) => model::clearances(model, &handle.robot, &q),
+                None => Ok(Value::Null),
+            }
+        }
         "skips" => {
             let kind = kind(&question)?;
             let skips = handle.robot.skips(kind).map_err(said)?;
@@ -247,6 +264,17 @@ fn proximity<'a>(handle: &'a mut Handle, question: &Value) -> Result<&'a Proximi
         }
     };
     Ok(&handle.proximity[at])
+}
+
+/// The learned model, read when it is first asked for.
+fn learned<'a>(
+    known: &'a mut Option<Option<CollisionModel>>,
+    robot: &Robot,
+) -> Result<Option<&'a CollisionModel>, String> {
+    if known.is_none() {
+        *known = Some(model::read(robot)?);
+    }
+    Ok(known.iter().flatten().next())
 }
 
 fn pairs(handle: &mut Handle) -> Result<&Pairs, String> {

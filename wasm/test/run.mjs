@@ -84,6 +84,8 @@ try {
     compareAbout(urdd.ask(handle, { ask: "about" }), target);
     compareSkips(urdd.ask(handle, { ask: "skips", shapes: "hulls" }), target);
     reaches(urdd, handle);
+    assert.equal(urdd.ask(handle, { ask: "collision_model" }), null);
+    assert.equal(urdd.ask(handle, { ask: "clearances", q: about.zero }), null);
     const sources = urdd.ask(handle, { ask: "sources" });
     const { links } = read(target, "urdf_module");
     const count = (link) => link.visual.length + link.collision.length;
@@ -100,6 +102,7 @@ try {
     assert.ok(report.totals.error > 0, "the wrong value is found");
   }
   assert.ok(compared > 1000, `${compared} distances`);
+  compareModel(urdd, join(folder, "learned"));
   assert.throws(() => urdd.zip("x", new Uint8Array(100)), /./);
   assert.throws(() => urdd.zip("x", new Uint8Array(0)), /./);
   assert.equal(urdd.explain("DOF003").code, "DOF003");
@@ -171,6 +174,57 @@ function reaches(urdd, handle) {
   assert.deepEqual(urdd.ask(handle, { ...wish, dofs: [] }).configuration, about.zero);
   assert.throws(() => urdd.ask(handle, { ...wish, position: [1, 2] }), /`position` is no list of 3 numbers/);
   assert.throws(() => urdd.ask(handle, { ...wish, link: 1000 }), /./);
+}
+
+/** What the learned model says is what its own test vectors say; one that is cut short is told of. */
+function compareModel(urdd, target) {
+  run("generate", "conformance/robots/six_axis_arm.urdf", "-o", target, "--modules", "all,self_collision_model");
+  const { pairs, other_pairs, clip_distance, held_out, layers, test_vectors } = read(join(target, "link_shapes_modules"), "self_collision_model_module");
+  const names = read(target, "chain_module").links_in_chain.map((link) => link.name);
+  const open = () => {
+    const files = urdd.zip("learned.zip", readFileSync(zip(target)));
+    return [files, urdd.open(files)];
+  };
+  const [files, handle] = open();
+  assert.deepEqual(urdd.ask(handle, { ask: "collision_model" }), {
+    pairs: pairs.length,
+    other_pairs: other_pairs.length,
+    num_parameters: layers.reduce((sum, { weights, biases }) => sum + weights.flat().length + biases.length, 0),
+    clip_distance,
+    held_out,
+  });
+  assert.ok(test_vectors.length > 0);
+  for (const { configuration, clearances } of test_vectors) {
+    const found = urdd.ask(handle, { ask: "clearances", q: configuration });
+    assert.equal(found.clearances.length, clearances.length);
+    clearances.forEach((expected, k) => near(found.clearances[k], expected, 1e-9 * Math.max(Math.abs(expected), clip_distance)));
+  }
+  console.log(`${test_vectors.length} test vectors of a learned model compared`);
+  const verdicts = new Set();
+  for (let k = 0; k < 40; k++) {
+    const found = urdd.ask(handle, { ask: "clearances", q: urdd.ask(handle, { ask: "random", k }) });
+    const least = Math.min(...found.clearances);
+    const { pair, links, link_idxs, clearance } = found.least;
+    assert.equal(clearance, least);
+    assert.equal(pair, found.clearances.indexOf(least));
+    assert.deepEqual(link_idxs, [pairs[pair].link_a_idx, pairs[pair].link_b_idx]);
+    assert.deepEqual(links, link_idxs.map((link) => names[link]));
+    assert.equal(found.may_collide, least <= 0);
+    verdicts.add(found.may_collide);
+  }
+  assert.equal(verdicts.size, 2, "some configurations are clear, and some are not");
+  assert.throws(() => urdd.ask(handle, { ask: "clearances", q: [0] }), /./);
+  urdd.close(handle);
+  urdd.closeFiles(files);
+
+  const report = compareFindings(urdd, `${target}.zip`, "learned");
+  assert.equal(report.totals.error, 0);
+  const module = join(target, "link_shapes_modules/self_collision_model_module/module.json");
+  writeFileSync(module, readFileSync(module, "utf8").slice(0, -20));
+  const [cut, robot] = open();
+  assert.throws(() => urdd.ask(robot, { ask: "collision_model" }), /self_collision_model_module: /);
+  urdd.close(robot);
+  urdd.closeFiles(cut);
 }
 
 function compareSkips(skips, target) {

@@ -118,9 +118,46 @@ export interface ProximityAnswer {
   pairs: number;
   of: number | null;
   num_samples: number | null;
-  /** How long it took, ms. */
+  /** What the learned model says of the same configuration, or why it cannot; null where there is none, or for other
+   * shapes than the pieces that it stands for. */
+  model: Learned | { error: string } | null;
+  /** How long the distances took, ms. */
   ms: number;
 }
+
+/** The learned self-collision model: see `wasm/src/model.rs`. */
+export interface CollisionModel {
+  /** Number of pairs of links that it has a clearance for. */
+  pairs: number;
+  /** Number of pairs that it takes to be apart always. */
+  other_pairs: number;
+  num_parameters: number;
+  /** From here on distances were all the same to it, metres. */
+  clip_distance: number;
+  /** How often it was right where it was not trained. */
+  held_out: {
+    first_sample_idx: number;
+    num_configurations: number;
+    num_colliding: number;
+    /** In collision, and cleared all the same. */
+    num_missed: number;
+    /** Free, and cleared. */
+    num_cleared: number;
+  };
+}
+
+/** What the model estimates of a configuration. */
+export interface Clearances {
+  /** Whether any clearance is 0 or less. */
+  may_collide: boolean;
+  /** The least clearance, metres, and the place of its pair among all; null for a model without a pair. */
+  least: { pair: number; links: [string, string]; link_idxs: [number, number]; clearance: number } | null;
+  /** Of each pair, metres. */
+  clearances: number[];
+}
+
+/** The model, and what it says. */
+export type Learned = CollisionModel & Clearances;
 
 export interface SkipEdit {
   link_a: string;

@@ -22,6 +22,7 @@ const MODULES = {
   about: ABOUT,
   volumes: ["link_shapes_approximations"],
   pairs: PAIRS,
+  model: ["self_collision_model"],
   samples: ["kinematics_samples"],
 };
 

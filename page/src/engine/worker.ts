@@ -2,7 +2,18 @@
 
 import { UrddModule } from "./module";
 import { Store } from "./store";
-import type { About, Answer, CallName, Calls, LinkMesh, MeshPaths, Request, ShapeKind } from "./protocol";
+import type {
+  About,
+  Answer,
+  CallName,
+  Calls,
+  Clearances,
+  CollisionModel,
+  LinkMesh,
+  MeshPaths,
+  Request,
+  ShapeKind,
+} from "./protocol";
 
 const scope = self as unknown as {
   postMessage(message: Answer, transfer: Transferable[]): void;
@@ -102,7 +113,8 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     engine().ask(open(), { ask: "prepare", shapes });
     const begin = performance.now();
     const answer = engine().ask(open(), { ask: "proximity", q, shapes, k }) as Calls["proximity"][1];
-    return { ...answer, ms: performance.now() - begin };
+    const ms = performance.now() - begin;
+    return { ...answer, model: shapes === "pieces" ? learned(q) : null, ms };
   },
 
   async skips({ shapes }) {
@@ -144,11 +156,23 @@ async function ensureShapes(shapes: ShapeKind, tell: Tell): Promise<void> {
   const { store, about } = opened();
   await store.ensure(store.needed("pairs"));
   await store.ensure(store.needed("volumes"));
+  if (shapes === "pieces") await store.ensure(store.needed("model"));
   const lists = shapes === "hulls" ? about.meshes.hulls : shapes === "pieces" ? about.meshes.pieces : null;
   const paths = lists?.flat().flatMap((mesh) => mesh.read ?? []) ?? [];
   await store.ensure(paths, (done, of) => {
     tell(done, of, shapes);
   });
+}
+
+/** What the learned model says, where there is one. */
+function learned(q: number[]): Calls["proximity"][1]["model"] {
+  try {
+    const model = engine().ask(open(), { ask: "collision_model" }) as CollisionModel | null;
+    return model && { ...model, ...(engine().ask(open(), { ask: "clearances", q }) as Clearances) };
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) throw error;
+    return { error: (error as Error).message };
+  }
 }
 
 function triangles(store: Store, link: number, piece: number, path: string | null): LinkMesh {

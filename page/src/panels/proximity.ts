@@ -7,6 +7,7 @@ import { decide, nearer } from "../skips";
 import { cut, fill, h } from "../ui/dom";
 import { length, name, percent } from "../ui/format";
 import type { Pair } from "../state";
+import { learnedLine } from "./learned";
 
 export const SHAPE_NAMES: Record<ShapeKind, string> = {
   hulls: "hulls",
@@ -41,6 +42,7 @@ export function proximity(app: App): HTMLElement {
     render();
   });
   const state = h("p", { class: "collision", "aria-live": "polite" });
+  const learned = learnedLine();
   const list = h("div", { class: "pairs" });
   const detail = h("div", { class: "detail" });
   const empty = h("p", { class: "empty" });
@@ -55,6 +57,7 @@ export function proximity(app: App): HTMLElement {
       h("span", { class: "spring" }),
       h("span", { class: "hint" }, "distance · of mean"),
     ),
+    learned.element,
     empty,
     list,
     detail,
@@ -79,6 +82,7 @@ export function proximity(app: App): HTMLElement {
     if (kind.value !== shapes) kind.value = shapes;
     state.textContent = answer ? (answer.in_collision ? "In collision with itself" : "No self-collision") : "";
     state.className = `collision ${answer ? (answer.in_collision ? "bad" : "good") : ""}`;
+    learned.show(answer);
     empty.hidden = found.length > 0;
     empty.textContent = said(error, answer, robot !== null);
     selected(app, detail, found.find((at) => same(pair, pairOf(at))) ?? null, answer);

@@ -2,8 +2,25 @@
 
 const KEY = "urdd-theme";
 
+/** What was chosen last. A frame that may keep nothing, as in a notebook, has no storage: asking for it throws. */
+function remembered(): string | null {
+  try {
+    return localStorage.getItem(KEY);
+  } catch {
+    return null;
+  }
+}
+
+function remember(theme: string): void {
+  try {
+    localStorage.setItem(KEY, theme);
+  } catch {
+    // It holds until the page is left.
+  }
+}
+
 export function startTheme(): void {
-  const chosen = localStorage.getItem(KEY);
+  const chosen = remembered();
   if (chosen === "dark" || chosen === "light") document.documentElement.dataset["theme"] = chosen;
   matchMedia("(prefers-color-scheme: light)").addEventListener("change", tell);
 }
@@ -16,7 +33,7 @@ export function isLight(): boolean {
 export function toggleTheme(): void {
   const next = isLight() ? "dark" : "light";
   document.documentElement.dataset["theme"] = next;
-  localStorage.setItem(KEY, next);
+  remember(next);
   tell();
 }
 

@@ -9,7 +9,8 @@
 (100,)
 
 Lengths are metres, angles radians, poses matrices (4, 4) in the frame of the root link. :class:`Robot` says the rest.
-:func:`generate` makes a URDD of a URDF, :func:`validate` checks one, :func:`export` hands it on.
+:func:`generate` makes a URDD of a URDF, :func:`combine` one of several robots, :func:`validate` checks one,
+:func:`export` hands it on. :class:`World` holds obstacles.
 """
 
 from __future__ import annotations
@@ -23,7 +24,10 @@ from ._answers import (
     ConvexMesh,
     InverseSolution,
     InverseSolutions,
+    LearnedPair,
     MeshKind,
+    ObstacleDistance,
+    ObstaclePair,
     Pair,
     PairDistance,
     ShapeKind,
@@ -32,19 +36,24 @@ from ._answers import (
     Spheres,
     Visual,
 )
+from ._collision_model import CollisionModel
+from ._combine import Combined, CombineNote, combine
 from ._export import Export, export
 from ._generate import Generated, Job, Note, find_urdfs, generate, generate_text
 from ._proximity import Proximity
 from ._robot import Robot, load
 from ._urdd import __version__, num_threads, set_num_threads
 from ._validate import Rule, explain, validate
+from ._world import Among, World
 from .errors import (
+    CombineError,
     ConfigurationError,
     ExportError,
     GenerateError,
     MeshError,
     ModuleMissingError,
     ModuleUnusableError,
+    ObstacleError,
     OpenError,
     UnknownNameError,
     UrddError,
@@ -59,7 +68,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "SKIP_REASONS",
+    "Among",
     "Box",
+    "CollisionModel",
+    "CombineError",
+    "CombineNote",
+    "Combined",
     "ConfigurationError",
     "ConvexMesh",
     "Export",
@@ -70,12 +84,16 @@ __all__ = [
     "InverseSolution",
     "InverseSolutions",
     "Job",
+    "LearnedPair",
     "MeshError",
     "MeshKind",
     "ModuleMissingError",
     "ModuleUnusableError",
     "MujocoRobot",
     "Note",
+    "ObstacleDistance",
+    "ObstacleError",
+    "ObstaclePair",
     "OpenError",
     "Pair",
     "PairDistance",
@@ -93,7 +111,9 @@ __all__ = [
     "UnknownNameError",
     "UrddError",
     "Visual",
+    "World",
     "__version__",
+    "combine",
     "errors",
     "explain",
     "export",

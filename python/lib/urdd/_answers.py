@@ -46,6 +46,39 @@ class PairDistance(Pair):
 
 
 @dataclass(frozen=True)
+class LearnedPair:
+    """Two links that a learned self-collision model has an output for."""
+
+    links: tuple[str, str]
+    """The names of the two links."""
+    margin: float
+    """What is taken from the network's output to give the clearance, metres: it makes misses rare."""
+
+
+@dataclass(frozen=True)
+class ObstaclePair:
+    """A shape of a robot, and an obstacle."""
+
+    link: str
+    """The name of the shape's link."""
+    piece: int
+    """Which piece of the link it is; 0 for a hull and what is about it."""
+    obstacle: str
+    """The name of the obstacle."""
+
+
+@dataclass(frozen=True)
+class ObstacleDistance(ObstaclePair):
+    """How near a shape of a robot is to an obstacle."""
+
+    distance: float
+    """Metres; 0 where they touch or overlap."""
+    points: Floats
+    """(2, 3): the point of the shape and that of the obstacle at which the distance is, in the root link's frame,
+    metres; where they overlap, both are one point of both."""
+
+
+@dataclass(frozen=True)
 class InverseSolution:
     """A configuration, and how near to its target it is."""
 

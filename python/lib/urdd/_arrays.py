@@ -46,6 +46,14 @@ def configurations(q: ArrayLike, dof_names: tuple[str, ...]) -> tuple[Floats, tu
     return rows, batch
 
 
+def positions(values: ArrayLike, length: int, whose: str) -> tuple[Floats, tuple[int, ...]]:
+    """Configurations of another program as (n, length), and the shape before the last axis that they came in."""
+    given = numbers(values, f"a configuration of {whose}")
+    if given.ndim == 0 or given.shape[-1] != length:
+        raise ConfigurationError(f"{whose} configurations have {length} values, and these {given.shape}")
+    return flat(given), given.shape[:-1]
+
+
 def flat(given: Floats) -> Floats:
     """(n, last): all axes but the last as one, also where the last has no values."""
     return given.reshape(prod(given.shape[:-1]), given.shape[-1])

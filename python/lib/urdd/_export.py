@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 
 from . import _urdd
 from ._answers import ShapeKind
-from ._generate import words
+from ._options import words
 from ._robot import Robot, load
 
 __all__ = ["Export", "Format", "export"]

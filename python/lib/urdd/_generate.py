@@ -6,12 +6,16 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from . import _urdd
+from ._options import MakingOptions, options_of
 from ._robot import Robot, load
 
-__all__ = ["GenerateOptions", "Generated", "Job", "Note", "find_urdfs", "generate", "generate_text"]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+__all__ = ["Generated", "Job", "Note", "find_urdfs", "generate", "generate_text", "generated"]
 
 
 @dataclass(frozen=True)
@@ -72,27 +76,6 @@ class Generated:
         return load(self.path)
 
 
-@dataclass(frozen=True)
-class GenerateOptions:
-    """How URDDs are made; each is described at :func:`generate`."""
-
-    modules: list[str] | None
-    packages: list[tuple[str, Path]]
-    allowed_folders: list[Path]
-    geometry: str
-    mesh_formats: list[str]
-    pieces: int
-    piece_tolerance: float | None
-    samples: int
-    skip: list[str] | None
-    strict: bool
-    xacro: bool
-    xacro_arguments: list[str]
-    xacro_timeout: float
-    drop_edits: bool
-    force: bool
-
-
 class Job(NamedTuple):
     """A robot of many."""
 
@@ -130,7 +113,8 @@ def generate(
     Args:
         source: the file.
         output: the folder of the URDD.
-        modules: modules to make besides the core class, or classes: ``["geometry"]``. Without it, all.
+        modules: modules to make besides the core class, or classes: ``["geometry"]``. Without it, all but
+            ``self_collision_model``, which is trained for a minute or more: ``["all", "self_collision_model"]``.
         packages: where ROS packages are, by name.
         allowed_folders: folders besides those of the robot and its packages from which mesh files may be taken.
         geometry: which geometry links are made from; a link that has none of it gets the other.
@@ -147,31 +131,32 @@ def generate(
         xacro_timeout: how long the program xacro may take, seconds.
         drop_edits: drops the edits of skips in the URDD that is replaced.
         force: writes into a folder that holds something else than a URDD of this program.
-        progress: is called with a module's name, how many modules are done, and how many there are.
+        progress: is called with a module's name, how many modules are done, and how many there are; while a module is
+            made that takes long, also with ``"MODULE: step"``, how many steps of it are done, and how many there are.
 
     Raises:
         GenerateError: where the source is no robot, or the URDD cannot be written.
         KeyboardInterrupt: after Ctrl-C; nothing was changed then.
     """
-    options = _options(
-        modules,
-        packages,
-        allowed_folders,
-        geometry,
-        mesh_formats,
-        pieces,
-        piece_tolerance,
-        samples,
-        skip,
-        strict,
-        xacro,
-        xacro_arguments,
-        xacro_timeout,
-        drop_edits,
-        force,
-    )
+    given: MakingOptions = {
+        "modules": modules,
+        "packages": packages,
+        "allowed_folders": allowed_folders,
+        "geometry": geometry,
+        "mesh_formats": mesh_formats,
+        "pieces": pieces,
+        "piece_tolerance": piece_tolerance,
+        "samples": samples,
+        "skip": skip,
+        "strict": strict,
+        "xacro": xacro,
+        "xacro_timeout": xacro_timeout,
+        "drop_edits": drop_edits,
+        "force": force,
+    }
+    options = options_of(given, "generate", xacro_arguments)
     target = Path(output)
-    return _generated(target, _urdd.generate(Path(source), target, options, progress))
+    return generated(target, _urdd.generate(Path(source), None, target, options, progress))
 
 
 def generate_text(
@@ -179,41 +164,15 @@ def generate_text(
     output: str | os.PathLike[str],
     *,
     folder: str | os.PathLike[str] = ".",
-    modules: Iterable[str] | None = None,
-    packages: Mapping[str, str | os.PathLike[str]] | None = None,
-    allowed_folders: Iterable[str | os.PathLike[str]] = (),
-    geometry: Literal["visual", "collision"] = "visual",
-    mesh_formats: Iterable[Literal["glb", "stl", "obj"]] = ("glb", "stl", "obj"),
-    pieces: int = 7,
-    piece_tolerance: float | None = None,
-    samples: int = 1000,
-    skip: Iterable[Literal["same-link", "always", "adjacent", "default", "never"]] | None = None,
-    strict: bool = False,
-    drop_edits: bool = False,
-    force: bool = False,
     progress: Callable[[str, int, int], object] | None = None,
+    **options: Unpack[MakingOptions],
 ) -> Generated:
-    """As :func:`generate`, of the text of a URDF. Relative names of meshes begin in ``folder``."""
-    options = _options(
-        modules,
-        packages,
-        allowed_folders,
-        geometry,
-        mesh_formats,
-        pieces,
-        piece_tolerance,
-        samples,
-        skip,
-        strict,
-        False,
-        None,
-        60.0,
-        drop_edits,
-        force,
-    )
+    """As :func:`generate`, with the same options, of the text of a URDF. Relative names of meshes begin in
+    ``folder``."""
     text = urdf.encode() if isinstance(urdf, str) else bytes(urdf)
     target = Path(output)
-    return _generated(target, _urdd.generate_text(text, Path(folder), target, options, progress))
+    found = _urdd.generate(Path(folder), text, target, options_of(options, "generate_text"), progress)
+    return generated(target, found)
 
 
 def find_urdfs(*paths: str | os.PathLike[str], shard: tuple[int, int] | None = None) -> list[Job]:
@@ -235,49 +194,7 @@ def find_urdfs(*paths: str | os.PathLike[str], shard: tuple[int, int] | None = N
     return jobs[part - 1 :: of]
 
 
-def _options(
-    modules: Iterable[str] | None,
-    packages: Mapping[str, str | os.PathLike[str]] | None,
-    allowed_folders: Iterable[str | os.PathLike[str]],
-    geometry: str,
-    mesh_formats: Iterable[str],
-    pieces: int,
-    piece_tolerance: float | None,
-    samples: int,
-    skip: Iterable[str] | None,
-    strict: bool,
-    xacro: bool,
-    xacro_arguments: Mapping[str, object] | None,
-    xacro_timeout: float,
-    drop_edits: bool,
-    force: bool,
-) -> GenerateOptions:
-    return GenerateOptions(
-        modules=None if modules is None else words(modules, "modules"),
-        packages=[(name, Path(path)) for name, path in (packages or {}).items()],
-        allowed_folders=[Path(folder) for folder in allowed_folders],
-        geometry=geometry,
-        mesh_formats=words(mesh_formats, "mesh_formats"),
-        pieces=int(pieces),
-        piece_tolerance=None if piece_tolerance is None else float(piece_tolerance),
-        samples=int(samples),
-        skip=None if skip is None else words(skip, "skip"),
-        strict=bool(strict),
-        xacro=bool(xacro),
-        xacro_arguments=[f"{name}:={value}" for name, value in (xacro_arguments or {}).items()],
-        xacro_timeout=float(xacro_timeout),
-        drop_edits=bool(drop_edits),
-        force=bool(force),
-    )
-
-
-def words(given: Iterable[str], what: str) -> list[str]:
-    """A list of words. A single text is one by mistake: its letters would be the words."""
-    if isinstance(given, str):
-        raise TypeError(f"{what} must be a list of words: [{given!r}]")
-    return list(given)
-
-
-def _generated(path: Path, found: dict[str, Any]) -> Generated:
+def generated(path: Path, found: dict[str, Any]) -> Generated:
+    """What the compiled part says of a URDD that was made."""
     notes = [Note(*note) for note in found.pop("notes")]
     return Generated(path=path, notes=notes, **found)

@@ -12,11 +12,11 @@ from ._arrays import Floats, configurations, numbers, points
 from .errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from ._robot import Robot
+    from ._motion import Moving
 
 
 def solve(
-    robot: Robot,
+    robot: Moving,
     link: str | int,
     goals: Floats,
     start: ArrayLike | None,
@@ -72,9 +72,11 @@ def three(point: ArrayLike, what: str) -> tuple[float, float, float]:
     return (x, y, z)
 
 
-def as_targets(target: ArrayLike, place: tuple[int | None, ...], pose: tuple[int | None, ...]) -> Floats:
+def as_targets(
+    target: ArrayLike, place: tuple[int | None, ...], pose: tuple[int | None, ...], what: str = "a target"
+) -> Floats:
     """Places or poses, which are rotations and translations."""
-    given = numbers(target, "a target")
+    given = numbers(target, what)
 
     def fits(shape: tuple[int | None, ...]) -> bool:
         pairs = zip(given.shape, shape, strict=False)
@@ -82,13 +84,13 @@ def as_targets(target: ArrayLike, place: tuple[int | None, ...], pose: tuple[int
 
     if not fits(place) and not fits(pose):
         words = [str(shape).replace("None", "n") for shape in (pose, place)]
-        raise ConfigurationError(f"a target is of shape {words[0]} or {words[1]}, and this of {given.shape}")
+        raise ConfigurationError(f"{what} is of shape {words[0]} or {words[1]}, and this of {given.shape}")
     if not np.isfinite(given).all():
-        raise ConfigurationError("the target is not finite")
+        raise ConfigurationError(f"{what} is not finite")
     if fits(pose):
         rotation = given[..., :3, :3]
         unit = np.abs(rotation @ np.swapaxes(rotation, -1, -2) - np.eye(3)).max(initial=0.0) < 1e-6
         last = np.abs(given[..., 3, :] - np.array([0.0, 0.0, 0.0, 1.0])).max(initial=0.0) < 1e-9
         if not (unit and last and bool((np.linalg.det(rotation) > 0).all())):
-            raise ConfigurationError("the target is no pose: a rotation, a translation, and the last row 0, 0, 0, 1")
+            raise ConfigurationError(f"{what} is no pose: a rotation, a translation, and the last row 0, 0, 0, 1")
     return given

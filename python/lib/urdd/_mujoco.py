@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._answers import ShapeKind
-from ._arrays import Floats, configurations, flat, numbers
+from ._arrays import Floats, configurations, positions
 from ._joints import Joint, joints_of, quaternion_of, rotation_vector_of
 from ._need import need
-from .errors import ConfigurationError
 
 if TYPE_CHECKING:
     from ._robot import Robot
@@ -50,10 +49,7 @@ class MujocoRobot:
 
     def dofs(self, qpos: ArrayLike) -> Floats:
         """(..., dofs): our configuration of MuJoCo's positions (..., nq). What mimic joints say is not looked at."""
-        given = numbers(qpos, "MuJoCo's positions")
-        if given.ndim == 0 or given.shape[-1] != self.model.nq:
-            raise ConfigurationError(f"MuJoCo's positions have {self.model.nq} values, and these {given.shape}")
-        rows = flat(given)
+        rows, batch = positions(qpos, self.model.nq, "MuJoCo's")
         found = np.zeros((len(rows), len(self.dof_names)))
         for joint, at in self._places:
             if joint.mimic is not None:
@@ -62,7 +58,7 @@ class MujocoRobot:
             found[:, joint.dofs[:slides]] = rows[:, at[:slides]]
             if slides < len(joint.dofs):
                 found[:, joint.dofs[slides:]] = rotation_vector_of(rows[:, at[slides] : at[slides] + 4])
-        return found.reshape(*given.shape[:-1], len(self.dof_names))
+        return found.reshape(*batch, len(self.dof_names))
 
 
 def to_mujoco(robot: Robot, shapes: ShapeKind = "pieces", *, visuals: bool = True) -> MujocoRobot:

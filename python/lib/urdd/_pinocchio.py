@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._answers import Box, ConvexMesh, ShapeKind, Spheres
-from ._arrays import Floats, configurations, flat, numbers
+from ._arrays import Floats, configurations, positions
 from ._joints import (
     Joint,
     in_plane_basis,
@@ -74,10 +74,7 @@ class PinocchioRobot:
 
     def dofs(self, q: ArrayLike) -> Floats:
         """(..., dofs): our configuration of one of Pinocchio's (..., nq). What mimic joints say is not looked at."""
-        given = numbers(q, "a configuration of Pinocchio's")
-        if given.ndim == 0 or given.shape[-1] != self.model.nq:
-            raise ConfigurationError(f"Pinocchio's configurations have {self.model.nq} values, and these {given.shape}")
-        rows = flat(given)
+        rows, batch = positions(q, self.model.nq, "Pinocchio's")
         found = np.zeros((len(rows), len(self.dof_names)))
         for place in self._places:
             joint, at = place.joint, place.q
@@ -95,7 +92,7 @@ class PinocchioRobot:
                 found[:, joint.dofs[:slides]] = rows[:, at : at + slides]
                 xyzw = rows[:, at + slides : at + slides + 4]
                 found[:, joint.dofs[slides:]] = rotation_vector_of(np.roll(xyzw, 1, axis=1))
-        return found.reshape(*given.shape[:-1], len(self.dof_names))
+        return found.reshape(*batch, len(self.dof_names))
 
     def tangent(self, q: ArrayLike) -> Floats:
         """(nv, dofs): from velocities of our DOFs, in one configuration of ours, to Pinocchio's. Our Jacobian is

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from . import _urdd
-from ._generate import words
+from ._options import words
 from .errors import OpenError
 
 if TYPE_CHECKING:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 __all__ = [
+    "CombineError",
     "ConfigurationError",
     "ExportError",
     "GenerateError",
     "MeshError",
     "ModuleMissingError",
     "ModuleUnusableError",
+    "ObstacleError",
     "OpenError",
     "Place",
     "UnknownNameError",
@@ -87,12 +89,21 @@ class MeshError(UrddError):
     """A mesh file that cannot be used."""
 
 
+class ObstacleError(UrddError, ValueError):
+    """An obstacle that is none: a size below 0, numbers that are not finite, no points."""
+
+    def __init__(self, message: str, name: str = "") -> None:
+        super().__init__(message, name)
+        self.name: str = name
+        """The name of the obstacle."""
+
+
 class ExportError(UrddError):
     """A format that cannot hold the robot."""
 
 
-class GenerateError(UrddError):
-    """A URDD could not be made. Nothing was written, and what was there before still is."""
+class _MakingError(UrddError):
+    """Nothing was written, and what was there before still is."""
 
     def __init__(
         self, message: str, code: str = "", places: list[tuple[str, int, int, str]] | list[Place] | None = None
@@ -103,3 +114,26 @@ class GenerateError(UrddError):
         """What kind of error it is, such as ``refused``, ``unreadable``, ``outside``, ``strict``."""
         self.places: list[Place] = found
         """The places that are at fault, in the order of the file."""
+
+
+class GenerateError(_MakingError):
+    """A URDD could not be made. Nothing was written, and what was there before still is."""
+
+
+class CombineError(_MakingError):
+    """Robots could not be put together. Nothing was written, and what was there before still is. Codes are those of
+    :class:`GenerateError`, ``recipe``, ``part`` and ``part-fails``."""
+
+    def __init__(
+        self,
+        message: str,
+        code: str = "",
+        places: list[tuple[str, int, int, str]] | list[Place] | None = None,
+        part: str | None = None,
+    ) -> None:
+        super().__init__(message, code, places)
+        self.part: str | None = part
+        """The id of the part that is at fault; None where it is the recipe, or all together."""
+
+    def __reduce__(self) -> tuple[type[CombineError], tuple[object, ...]]:
+        return type(self), (*self.args, self.part)

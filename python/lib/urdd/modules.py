@@ -6,14 +6,13 @@ Written by `python/scripts/make_types.py` from `schema/`. Do not edit.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias, TypeVar
+from typing import Any, Literal, TypeAlias
 
-from . import _urdd
-from .errors import ModuleUnusableError
+from ._reading import Reading
 
 __all__ = [
+    "AngleInput",
     "Axis",
     "BoundingSphere",
     "BoundsModule",
@@ -42,6 +41,7 @@ __all__ = [
     "Generator",
     "Geometry",
     "GeometryKind",
+    "HeldOutCounts",
     "Inertia",
     "Inertial",
     "Joint",
@@ -49,10 +49,12 @@ __all__ = [
     "JointType",
     "KinematicsSample",
     "KinematicsSamplesModule",
+    "LengthInput",
     "Limit",
     "Link",
     "LinkInChain",
     "LinkName",
+    "LinkPair",
     "LinkPath",
     "LinkShapesApproximationsModule",
     "LinkShapesDistanceStatisticsModule",
@@ -65,6 +67,10 @@ __all__ = [
     "MeshFiles",
     "MeshReference",
     "Mimic",
+    "ModelInput",
+    "ModelLayer",
+    "ModelPair",
+    "ModelTestVector",
     "ModuleEntry",
     "Modules",
     "Obb",
@@ -83,7 +89,10 @@ __all__ = [
     "Quantity",
     "ResolvedMimic",
     "RootMetadata",
+    "RotationVectorInput",
     "SafetyController",
+    "SampleRange",
+    "SelfCollisionModelModule",
     "SkipEdit",
     "SkipReason",
     "SkipReasons",
@@ -1269,6 +1278,155 @@ class LinkShapesSkipsModule:
     """Skips between the spheres of convex pieces; null where the statistics are."""
 
 
+@dataclass(frozen=True)
+class AngleInput:
+    """An angle."""
+
+    dof_idx: int
+    """The DOF, which is an angle."""
+
+
+@dataclass(frozen=True)
+class LengthInput:
+    """A length."""
+
+    dof_idx: int
+    """The DOF, which is a length."""
+
+    middle: float
+    """What becomes 0, metres."""
+
+    half_range: float
+    """How far from that is 1, metres; positive."""
+
+
+@dataclass(frozen=True)
+class RotationVectorInput:
+    """A rotation vector."""
+
+    dof_idxs: list[int]
+    """Its three DOFs."""
+
+
+@dataclass(frozen=True)
+class ModelLayer:
+    """A layer of a network: its values are `weights` times the values before, plus `biases`."""
+
+    weights: list[list[float]]
+    """One row for each value of the layer, with one number for each value before it."""
+
+    biases: list[float]
+    """One number for each value of the layer."""
+
+
+@dataclass(frozen=True)
+class ModelPair:
+    """A pair of links that the network has an output for."""
+
+    link_a_idx: int
+    """One link."""
+
+    link_b_idx: int
+    """The other, of a higher index."""
+
+    margin: float
+    """The clearance of the pair is the network's output less this, metres. A clearance of 0 or less means that the
+    pair may be in contact."""
+
+
+@dataclass(frozen=True)
+class LinkPair:
+    """A pair of links."""
+
+    link_a_idx: int
+    """One link."""
+
+    link_b_idx: int
+    """The other, of a higher index."""
+
+
+@dataclass(frozen=True)
+class SampleRange:
+    """Sampled configurations (SPEC 9.3) that follow each other."""
+
+    first_sample_idx: int
+    """The first."""
+
+    num_configurations: int
+    """How many."""
+
+
+@dataclass(frozen=True)
+class HeldOutCounts:
+    """How often the model was right on sampled configurations that follow each other. A configuration is in
+    collision where a pair of links in `pairs` or `other_pairs` is in contact; the model clears it where no
+    clearance is 0 or less."""
+
+    first_sample_idx: int
+    """The first configuration."""
+
+    num_configurations: int
+    """How many there are."""
+
+    num_colliding: int
+    """How many of them are in collision."""
+
+    num_missed: int
+    """How many of those the model clears all the same: the misses."""
+
+    num_cleared: int
+    """How many configurations without a collision the model clears."""
+
+
+@dataclass(frozen=True)
+class ModelTestVector:
+    """What the model gives in a configuration."""
+
+    configuration: list[float]
+    """One value for each DOF, rad or m."""
+
+    clearances: list[float]
+    """One clearance for each entry of `pairs`, metres."""
+
+
+@dataclass(frozen=True)
+class SelfCollisionModelModule:
+    """A network that estimates, for a configuration, how near pairs of links are to each other. It is for passing
+    over configurations that are far from any contact; it guarantees nothing. How often it was wrong on
+    configurations that it was not trained on is stated."""
+
+    trained_on: str
+    """Of the shapes and the kinematics that it was trained on: SHA-256 of the text that SPEC 8.8.7 defines."""
+
+    clip_distance: float
+    """Distances from here on were all the same to it, metres."""
+
+    inputs: list[ModelInput]
+    """What the network is told of a configuration, in the order of its first layer's columns."""
+
+    layers: list[ModelLayer]
+    """The layers of the network, the first one first. After each but the last, every value is replaced by its
+    hyperbolic tangent."""
+
+    pairs: list[ModelPair]
+    """The pairs of links that the network has an output for, in that order."""
+
+    other_pairs: list[LinkPair]
+    """The pairs of links that are not skipped and have no output: they were never near in training."""
+
+    training: SampleRange
+    """The sampled configurations (SPEC 9.3) that it was trained on."""
+
+    calibration: SampleRange
+    """The sampled configurations that decided when training ended and what the margins are."""
+
+    held_out: HeldOutCounts
+    """What came of sampled configurations that had no part in making it."""
+
+    test_vectors: list[ModelTestVector]
+    """What it gives in some configurations."""
+
+
 Source: TypeAlias = FileEntry
 """What a URDD was made from: in JSON an object of one key, here that key's value."""
 
@@ -1277,6 +1435,9 @@ Geometry: TypeAlias = Mesh | Cuboid | Cylinder | Capsule | Sphere
 
 PartSource: TypeAlias = tuple[Literal["Urdd", "Urdf"], str]
 """What a part was taken from: in JSON an object of one key, here that key and its value."""
+
+ModelInput: TypeAlias = AngleInput | LengthInput | RotationVectorInput
+"""Something that the network is told of a configuration: in JSON an object of one key, here that key's value."""
 
 
 def _generator(v: Any) -> Generator:
@@ -1897,47 +2058,102 @@ def _link_shapes_skips_module(v: Any) -> LinkShapesSkipsModule:
     )
 
 
-_T = TypeVar("_T")
+def _model_input(v: Any) -> ModelInput:
+    ((kind, value),) = v.items()
+    if kind == "Angle":
+        return _angle_input(value)
+    if kind == "Length":
+        return _length_input(value)
+    return _rotation_vector_input(value)
 
 
-class Modules:
+def _angle_input(v: Any) -> AngleInput:
+    return AngleInput(
+        dof_idx=int(v["dof_idx"]),
+    )
+
+
+def _length_input(v: Any) -> LengthInput:
+    return LengthInput(
+        dof_idx=int(v["dof_idx"]),
+        middle=v["middle"],
+        half_range=v["half_range"],
+    )
+
+
+def _rotation_vector_input(v: Any) -> RotationVectorInput:
+    return RotationVectorInput(
+        dof_idxs=[int(x) for x in v["dof_idxs"]],
+    )
+
+
+def _model_layer(v: Any) -> ModelLayer:
+    return ModelLayer(
+        weights=v["weights"],
+        biases=v["biases"],
+    )
+
+
+def _model_pair(v: Any) -> ModelPair:
+    return ModelPair(
+        link_a_idx=int(v["link_a_idx"]),
+        link_b_idx=int(v["link_b_idx"]),
+        margin=v["margin"],
+    )
+
+
+def _link_pair(v: Any) -> LinkPair:
+    return LinkPair(
+        link_a_idx=int(v["link_a_idx"]),
+        link_b_idx=int(v["link_b_idx"]),
+    )
+
+
+def _sample_range(v: Any) -> SampleRange:
+    return SampleRange(
+        first_sample_idx=int(v["first_sample_idx"]),
+        num_configurations=int(v["num_configurations"]),
+    )
+
+
+def _held_out_counts(v: Any) -> HeldOutCounts:
+    return HeldOutCounts(
+        first_sample_idx=int(v["first_sample_idx"]),
+        num_configurations=int(v["num_configurations"]),
+        num_colliding=int(v["num_colliding"]),
+        num_missed=int(v["num_missed"]),
+        num_cleared=int(v["num_cleared"]),
+    )
+
+
+def _model_test_vector(v: Any) -> ModelTestVector:
+    return ModelTestVector(
+        configuration=v["configuration"],
+        clearances=v["clearances"],
+    )
+
+
+def _self_collision_model_module(v: Any) -> SelfCollisionModelModule:
+    return SelfCollisionModelModule(
+        trained_on=v["trained_on"],
+        clip_distance=v["clip_distance"],
+        inputs=[_model_input(x) for x in v["inputs"]],
+        layers=[_model_layer(x) for x in v["layers"]],
+        pairs=[_model_pair(x) for x in v["pairs"]],
+        other_pairs=[_link_pair(x) for x in v["other_pairs"]],
+        training=_sample_range(v["training"]),
+        calibration=_sample_range(v["calibration"]),
+        held_out=_held_out_counts(v["held_out"]),
+        test_vectors=[_model_test_vector(x) for x in v["test_vectors"]],
+    )
+
+
+class Modules(Reading):
     """The modules of a URDD, as typed objects. Each is read when it is first asked for, and then kept.
 
     Each property raises `ModuleMissingError` where the module is not there, and `ModuleUnusableError` where it is of no
     use, or of before version 1: `json` reads those too.
     """
-
-    def __init__(self, core: _urdd.Robot) -> None:
-        self._core = core
-        self._known: dict[str, Any] = {}
-
-    def names(self) -> list[str]:
-        """The names of the modules that are there, in the order of the specification."""
-        return self._core.module_names()
-
-    def version(self, name: str) -> str:
-        """The version of a module."""
-        return self._core.module(name)[0]
-
-    def json(self, name: str) -> Any:
-        """The document of a module as it is, of any version: dictionaries, lists, numbers, texts."""
-        return json.loads(self._core.module(name)[2])
-
-    def _read(self, name: str, make: Callable[[Any], _T]) -> _T:
-        if name not in self._known:
-            version, is_legacy, text = self._core.module(name)
-            if is_legacy:
-                raise ModuleUnusableError(
-                    f"{name} has version {version}, of before version 1, which has no type here: "
-                    f"`modules.json({name!r})` gives it as it is",
-                    name,
-                )
-            self._known[name] = make(json.loads(text))
-        found: _T = self._known[name]
-        return found
-
-    def __repr__(self) -> str:
-        return f"<urdd.Modules: {', '.join(self.names())}>"
 
     @property
     def urdf(self) -> UrdfModule:
@@ -2031,6 +2247,13 @@ class Modules:
         """The pairs of shapes that a collision check skips: those with one of the skipped reasons, and then a
         person's edits, applied in order."""
         return self._read("link_shapes_skips_module", _link_shapes_skips_module)
+
+    @property
+    def self_collision_model(self) -> SelfCollisionModelModule:
+        """A network that estimates, for a configuration, how near pairs of links are to each other. It is for
+        passing over configurations that are far from any contact; it guarantees nothing. How often it was wrong
+        on configurations that it was not trained on is stated."""
+        return self._read("self_collision_model_module", _self_collision_model_module)
 
 
 def read_root_metadata(text: str) -> RootMetadata:

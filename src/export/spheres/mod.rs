@@ -1,12 +1,13 @@
 //! Spheres about links: each link's pieces cut into cells, and the smallest sphere about each cell.
 //!
 //! A link begins as one cell. The cell that wastes most, by the volume of its sphere beyond its own, is cut in two by a
-//! plane, as long as spheres are left; of all steps on the way, the one whose spheres have the least volume counts. Every
-//! convex part lies whole in the cells that it was cut into, so the spheres of a link together hold all of its pieces, and
-//! with them the link.
+//! plane, as long as spheres are left; of all steps on the way, the one whose spheres fill the least volume together
+//! counts. Every convex part lies whole in the cells that it was cut into, so the spheres of a link together hold all of
+//! its pieces, and with them the link.
 
 mod cell;
 pub(super) mod curobo;
+mod filled;
 pub(super) mod foam;
 
 use rayon::prelude::*;
@@ -16,6 +17,7 @@ use super::subject::Subject;
 use crate::geometry::bounding_sphere::BoundingSphere;
 use crate::robot::{LinkShape, ShapeKind, Solid};
 use cell::Cell;
+use filled::filled;
 
 /// Most cuts for each sphere that is asked for: some cuts alone give no other sphere.
 const CUTS: usize = 4;
@@ -86,7 +88,7 @@ fn share(links: &mut [Cover], count: usize) {
 /// The cells of a link, and the best spheres so far.
 struct Cover {
     cells: Vec<Cell>,
-    /// Those with the least volume, summed.
+    /// Those that fill the least volume together.
     best: Vec<BoundingSphere>,
     volume: f64,
 }
@@ -95,7 +97,7 @@ impl Cover {
     fn new(cells: Vec<Cell>) -> Self {
         let best = held(&cells);
         Cover {
-            volume: best.iter().map(cell::volume).sum(),
+            volume: filled(&best),
             best,
             cells,
         }
@@ -112,10 +114,10 @@ impl Cover {
             return false;
         }
         let spheres = held(&self.cells);
-        let volume: f64 = spheres.iter().map(cell::volume).sum();
         if spheres.len() > most {
             return false;
         }
+        let volume = filled(&spheres);
         // Some cuts make things worse before the next makes them better.
         if volume < self.volume {
             (self.best, self.volume) = (spheres, volume);

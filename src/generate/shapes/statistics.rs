@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::rounding::seven_digits;
 use super::{ConvexMeshes, MOST_PIECES_WITH_MATRICES};
+use crate::cancellation::{Cancellation, Cancelled};
 use crate::format::bounds::BoundsModule;
 use crate::format::chain::ChainModule;
 use crate::format::dof::DofModule;
@@ -32,12 +33,35 @@ pub(crate) struct Kinds<T> {
 }
 
 /// Makes the module, or says in words why there is none.
+///
+/// # Errors
+/// Where it is asked to stop.
 pub(crate) fn statistics(
     solids: &ConvexMeshes,
     approximations: &LinkShapesApproximationsModule,
     (dof, chain, bounds): Kinematics,
     num_samples: u32,
-) -> Result<LinkShapesDistanceStatisticsModule, String> {
+    cancellation: &Cancellation,
+) -> Result<Result<LinkShapesDistanceStatisticsModule, String>, Cancelled> {
+    let found = sampled(
+        solids,
+        approximations,
+        (dof, chain, bounds),
+        num_samples,
+        cancellation,
+    );
+    cancellation.check()?;
+    Ok(found.map(|found| module(solids, num_samples, found)))
+}
+
+/// The statistics of all pairs; they do not hold where it was asked to stop.
+fn sampled(
+    solids: &ConvexMeshes,
+    approximations: &LinkShapesApproximationsModule,
+    (dof, chain, bounds): Kinematics,
+    num_samples: u32,
+    cancellation: &Cancellation,
+) -> Result<Kinds<PairStatistics>, String> {
     let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
     let configuration = |sample: u32| {
         let name = format!("sampled configuration {sample}");
@@ -45,7 +69,14 @@ pub(crate) fn statistics(
     };
     let configurations = (0..num_samples).into_par_iter().map(configuration);
     let motion = motion(dof, chain, configurations)?;
-    let found = over(&motion, solids, approximations, chain)?;
+    over(&motion, solids, approximations, chain, cancellation)
+}
+
+fn module(
+    solids: &ConvexMeshes,
+    num_samples: u32,
+    found: Kinds<PairStatistics>,
+) -> LinkShapesDistanceStatisticsModule {
     let matrices = |pairs: PairStatistics| DistanceStatistics {
         mean_distances: to_seven_digits(pairs.mean),
         min_distances: to_seven_digits(pairs.min),
@@ -60,7 +91,7 @@ pub(crate) fn statistics(
         decomposition_obbs,
         decomposition_bounding_spheres,
     ] = pieces.unwrap_or_default();
-    Ok(LinkShapesDistanceStatisticsModule {
+    LinkShapesDistanceStatisticsModule {
         num_samples: Count(num_samples),
         full_shapes: solids.full_shapes(),
         decomposition_shapes: solids.decomposition_shapes(),
@@ -70,7 +101,7 @@ pub(crate) fn statistics(
         decomposition_convex_hulls,
         decomposition_obbs,
         decomposition_bounding_spheres,
-    })
+    }
 }
 
 /// The distances in the default configuration (SPEC 9.4), metres.
@@ -83,7 +114,8 @@ pub(crate) fn at_default_configuration(
     let name = "the default configuration".to_owned();
     let configuration = [(name, space.default_configuration())];
     let motion = motion(dof, chain, configuration.into_par_iter())?;
-    let found = over(&motion, solids, approximations, chain)?;
+    let never = Cancellation::default();
+    let found = over(&motion, solids, approximations, chain, &never)?;
     // Of one configuration, all three are the distance.
     let distances = |pairs: PairStatistics| pairs.min;
     Ok(Kinds {
@@ -95,12 +127,13 @@ pub(crate) fn at_default_configuration(
 /// What sampled configurations and their poses follow from.
 pub(crate) type Kinematics<'a> = (&'a DofModule, &'a ChainModule, &'a BoundsModule);
 
-/// The distances of all shapes while the robot moves.
+/// The distances of all shapes while the robot moves; they do not hold where it was asked to stop.
 fn over(
     motion: &Motion,
     solids: &ConvexMeshes,
     of: &LinkShapesApproximationsModule,
     chain: &ChainModule,
+    cancellation: &Cancellation,
 ) -> Result<Kinds<PairStatistics>, String> {
     let hulls = placed(&solids.hulls, chain, of_mesh)?;
     let boxes = placed(&of.full_obbs, chain, of_box)?;
@@ -121,7 +154,7 @@ fn over(
         kinds.extend::<[&dyn ShapeList; 3]>([pieces, boxes, spheres]);
     }
     // Every body is one of the chain's links, which the motion is of.
-    let mut found = statistics_of_kinds(&kinds, motion)
+    let mut found = statistics_of_kinds(&kinds, motion, &|| cancellation.is_cancelled())
         .unwrap_or_default()
         .into_iter();
     let mut three = || [(); 3].map(|()| found.next().unwrap_or_default());

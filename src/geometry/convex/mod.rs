@@ -9,6 +9,7 @@
 //! instruction set of an architecture and for each number of threads.
 
 pub mod across;
+mod bodies;
 mod cells;
 mod gjk;
 mod kernel;
@@ -21,6 +22,7 @@ mod support;
 mod support_table;
 mod witness;
 
+pub use bodies::BodyPairs;
 pub use fearless_simd::Level;
 pub use gjk::TOLERANCE;
 pub use kernel::{Shape, distance};

@@ -1,5 +1,7 @@
 //! Mean, least and greatest distance of each pair of shapes over samples.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use fearless_simd::Level;
 use rayon::prelude::*;
 
@@ -83,14 +85,16 @@ pub fn pair_statistics<T: Shape>(
     shapes: &[PlacedShape<T>],
     motion: &Motion,
 ) -> Option<PairStatistics> {
-    statistics_of_kinds(&[&shapes], motion)?.pop()
+    statistics_of_kinds(&[&shapes], motion, &|| false)?.pop()
 }
 
 /// The statistics of several kinds of shapes, each as [`pair_statistics`] gives it. Where two bodies are
-/// with respect to each other is worked out once for all kinds.
+/// with respect to each other is worked out once for all kinds. `None` also if `should_stop` says so, which is asked
+/// before each pair of shapes.
 pub fn statistics_of_kinds(
     kinds: &[&dyn ShapeList],
     motion: &Motion,
+    should_stop: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<PairStatistics>> {
     // For each body its shapes: the kind, and the number in it.
     let mut on_body: Vec<Vec<(usize, usize)>> = vec![Vec::new(); motion.num_bodies()];
@@ -108,6 +112,14 @@ pub fn statistics_of_kinds(
         .flat_map(|(i, &a)| bodies[i..].iter().map(move |&b| [a, b]));
 
     let level = Level::new();
+    let is_stopped = AtomicBool::new(false);
+    let goes_on = || {
+        let stops = should_stop();
+        if stops {
+            is_stopped.store(true, Ordering::Relaxed);
+        }
+        !stops
+    };
     let mut statistics: Vec<PairStatistics> = kinds
         .iter()
         .map(|shapes| PairStatistics::zeros(shapes.count()))
@@ -117,18 +129,24 @@ pub fn statistics_of_kinds(
         if some.is_empty() {
             return Some(statistics);
         }
-        let rows = some.into_par_iter().flat_map(|[a, b]| {
+        let goes_on = &goes_on;
+        // Poses of pairs that nobody needs any more take long too.
+        let wanted = |_: &[usize; 2]| !is_stopped.load(Ordering::Relaxed);
+        let rows = some.into_par_iter().filter(wanted).flat_map(|[a, b]| {
             let poses = motion.relative(a, b);
             let of_b = &on_body[b];
             on_body[a].par_iter().map(move |&(kind, i)| {
                 let others = of_b.iter().copied();
                 let others = others.filter(|&(of, j)| of == kind && (a != b || j > i));
-                let others = others.map(|(_, j)| j);
+                let others = others.map(|(_, j)| j).take_while(|_| goes_on());
                 let pairs = row(level, kinds[kind], i, others, &poses);
                 Row { kind, i, pairs }
             })
         });
         let rows: Vec<Row> = rows.collect();
+        if is_stopped.load(Ordering::Relaxed) {
+            return None;
+        }
         for Row { kind, i, pairs } in rows {
             for (j, summary) in pairs {
                 statistics[kind].put(i, j, summary);

@@ -9,8 +9,8 @@ use crate::robot::shapes::Solid;
 pub(in crate::robot) enum Body {
     /// A hull, a piece, or a box by its corners.
     Convex(ConvexShape),
-    /// A sphere: it is all in the sphere about it.
-    Round,
+    /// A sphere, by its centre: it is all in the sphere about it.
+    Round(ConvexShape),
 }
 
 /// A sphere in a link's frame, metres.
@@ -45,7 +45,8 @@ pub(super) fn body(solid: &Solid) -> Result<(Body, Sphere), ShapeError> {
             let (centre, radius) = (*centre, *radius);
             // The same limits as for points.
             ConvexShape::of_points(&[centre, centre.map(|x| x + radius)])?;
-            Ok((Body::Round, Sphere { centre, radius }))
+            let core = ConvexShape::of_points(&[centre])?;
+            Ok((Body::Round(core), Sphere { centre, radius }))
         }
     }
 }

@@ -1,10 +1,11 @@
 //! A robot among obstacles.
 
+use std::ops::Deref;
 use std::sync::Arc;
 
 use super::obstacle::{Obstacle, Part, World};
+use crate::geometry::convex::Witness;
 use crate::geometry::convex::across::{self, AT_ONCE, PlacedPair};
-use crate::geometry::convex::{ConvexShape, ShapeError, Witness};
 use crate::robot::error::RobotError;
 use crate::robot::names::index;
 use crate::robot::proximity::{Body, Placed, Proximity, dot, to_root};
@@ -29,16 +30,17 @@ pub struct ObstacleDistance {
     pub points: [[f64; 3]; 2],
 }
 
+/// A pair of a shape and a part, and a distance.
+type Bounded = (f64, (usize, usize));
+
 /// A robot's shapes and a world, prepared for distances.
 #[derive(Debug)]
-pub struct Among<'a> {
-    proximity: &'a Proximity,
+pub struct Among<P> {
+    proximity: P,
     names: Vec<Arc<str>>,
     parts: Vec<(usize, Part)>,
     /// Of each obstacle the links that are not tested against it.
     ignored: Vec<Vec<usize>>,
-    /// The centres of shapes that are spheres.
-    centres: Vec<Option<ConvexShape>>,
 }
 
 impl Proximity {
@@ -46,13 +48,18 @@ impl Proximity {
     ///
     /// # Errors
     /// [`RobotError::Unknown`] for a link that an obstacle is to ignore and that is not there.
-    pub fn among(&self, world: &World) -> Result<Among<'_>, RobotError> {
-        let centre = |shape: &crate::robot::proximity::Shape| match shape.body {
-            Body::Convex(_) => Ok(None),
-            Body::Round => ConvexShape::of_points(&[shape.sphere.centre]).map(Some),
-        };
-        let centres: Result<Vec<_>, ShapeError> = self.shapes.iter().map(centre).collect();
-        let names: Vec<String> = self.names.iter().map(ToString::to_string).collect();
+    pub fn among(&self, world: &World) -> Result<Among<&Proximity>, RobotError> {
+        Among::new(self, world)
+    }
+}
+
+impl<P: Deref<Target = Proximity>> Among<P> {
+    /// As [`Proximity::among`], with the shapes borrowed or shared.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn new(proximity: P, world: &World) -> Result<Self, RobotError> {
+        let names: Vec<String> = proximity.names.iter().map(ToString::to_string).collect();
         let ignored = |obstacle: &Obstacle| {
             let links = obstacle.ignored.iter();
             links.map(|link| index("link", &names, link)).collect()
@@ -63,19 +70,55 @@ impl Proximity {
         let parts = obstacles
             .flat_map(|(k, obstacle)| obstacle.parts.iter().map(move |part| (k, part.clone())));
         Ok(Among {
-            proximity: self,
+            proximity,
             names: world.obstacles.iter().map(|one| one.name.clone()).collect(),
             parts: parts.collect(),
             ignored: ignored?,
-            centres: centres.map_err(|error| RobotError::Unusable {
-                module: self.kind.module(),
-                reason: error.to_string(),
-            })?,
         })
     }
-}
 
-impl Among<'_> {
+    /// The pairs that are told apart: each shape of the robot, as the indices of its link and piece, with each obstacle
+    /// that does not ignore it, as its index; by the shapes, then by the obstacles.
+    pub fn pairs(&self) -> impl Iterator<Item = ([usize; 2], usize)> {
+        let shapes = self.proximity.shapes.iter();
+        shapes.flat_map(|shape| {
+            let tested = (0..self.names.len()).filter(|k| !self.ignored[*k].contains(&shape.link));
+            tested.map(|obstacle| ([shape.link, shape.piece], obstacle))
+        })
+    }
+
+    /// The distance of each of the [pairs](Among::pairs), metres: as [`Among::distances`], without the points.
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn distance_values(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
+        let placed = self.place(configuration)?;
+        let tested: Vec<(usize, usize)> = self.tested().collect();
+        let values = self.values(&placed, &tested).into_iter().zip(&tested);
+        let mut found: Vec<f64> = Vec::new();
+        let mut last = None;
+        // The parts of an obstacle are one after the other.
+        for (value, (shape, part)) in values {
+            let pair = Some((*shape, self.parts[*part].0));
+            match found.last_mut() {
+                Some(least) if pair == last => *least = least.min(value),
+                _ => found.push(value),
+            }
+            last = pair;
+        }
+        Ok(found)
+    }
+
+    /// The least distance of all pairs, metres; `None` without pairs.
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn least_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
+        let placed = self.place(configuration)?;
+        let nearest = self.least_pairs(&placed, self.tested().collect(), 1);
+        Ok(nearest.first().map(|(distance, _)| *distance))
+    }
+
     /// The nearest part of each obstacle to each shape of the robot: by the shapes, in the order of their links and
     /// pieces, then by the obstacles.
     ///
@@ -104,7 +147,7 @@ impl Among<'_> {
         k: usize,
     ) -> Result<Vec<ObstacleDistance>, RobotError> {
         let placed = self.place(configuration)?;
-        Ok(self.least(&placed, self.pairs().collect(), k))
+        Ok(self.least(&placed, self.tested().collect(), k))
     }
 
     /// Whether any shape of the robot touches or overlaps an obstacle.
@@ -114,14 +157,14 @@ impl Among<'_> {
     pub fn in_collision(&self, configuration: &[f64]) -> Result<bool, RobotError> {
         let placed = self.place(configuration)?;
         let near = self
-            .pairs()
+            .tested()
             .filter(|pair| self.bound(&placed, *pair) <= 0.0);
         let near: Vec<(usize, usize)> = near.collect();
         let touches = |pairs: &[(usize, usize)]| self.values(&placed, pairs).contains(&0.0);
         Ok(near.chunks(AT_ONCE).any(touches))
     }
 
-    fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
+    fn tested(&self) -> impl Iterator<Item = (usize, usize)> {
         let shapes = 0..self.proximity.shapes.len();
         shapes.flat_map(|shape| self.pairs_of(shape))
     }
@@ -157,7 +200,13 @@ impl Among<'_> {
         pairs: Vec<(usize, usize)>,
         k: usize,
     ) -> Vec<ObstacleDistance> {
-        type Bounded = (f64, (usize, usize));
+        let best = self.least_pairs(placed, pairs, k).into_iter();
+        let pairs: Vec<(usize, usize)> = best.map(|(_, pair)| pair).collect();
+        self.witnesses(placed, &pairs)
+    }
+
+    /// The `k` nearest of some pairs, with their distances.
+    fn least_pairs(&self, placed: &Placed, pairs: Vec<(usize, usize)>, k: usize) -> Vec<Bounded> {
         let by = |a: &Bounded, b: &Bounded| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
         let bound = |pair| (self.bound(placed, pair).max(0.0), pair);
         let mut bounds: Vec<Bounded> = pairs.into_iter().map(bound).collect();
@@ -173,8 +222,7 @@ impl Among<'_> {
             best.sort_unstable_by(by);
             best.truncate(k);
         }
-        let pairs: Vec<(usize, usize)> = best.into_iter().map(|(_, pair)| pair).collect();
-        self.witnesses(placed, &pairs)
+        best
     }
 
     /// A shape of the robot and a part of an obstacle, the second in the frame of the first's link.
@@ -185,11 +233,8 @@ impl Among<'_> {
         let axis = |k: usize| back([0, 1, 2].map(|i| if i == k { 1.0 } else { 0.0 }));
         let part = &self.parts[part].1.shape;
         PlacedPair {
-            a: match (&own.body, &self.centres[shape]) {
-                (Body::Convex(convex), _) => convex,
-                (Body::Round, Some(centre)) => centre,
-                // Every sphere has its centre: see `among`.
-                (Body::Round, None) => part,
+            a: match &own.body {
+                Body::Convex(shape) | Body::Round(shape) => shape,
             },
             b: part,
             b_in_a: [axis(0), axis(1), axis(2), back(link[3].map(|x| -x))],
@@ -201,7 +246,7 @@ impl Among<'_> {
         let own = &self.proximity.shapes[shape];
         let own = match own.body {
             Body::Convex(_) => 0.0,
-            Body::Round => own.sphere.radius,
+            Body::Round(_) => own.sphere.radius,
         };
         [own, self.parts[part].1.radius]
     }

@@ -74,6 +74,19 @@ impl Poses {
             .map_err(|error| SkipReason::Kinematics(error.to_string()))
     }
 
+    /// A sampled configuration, and the poses in it.
+    ///
+    /// # Errors
+    /// Where numbers go beyond 64 bits.
+    pub fn sampled(&self, sample: u32) -> Result<(Vec<f64>, Vec<Isometry3<f64>>), SkipReason> {
+        let configuration = self.space.sampled(u64::from(sample));
+        let poses = self.kinematics.link_poses(&configuration);
+        let poses = poses.map_err(|error| {
+            SkipReason::Kinematics(format!("sampled configuration {sample}: {error}"))
+        })?;
+        Ok((configuration, poses))
+    }
+
     /// The poses in some of the sampled configurations.
     ///
     /// # Errors
@@ -81,13 +94,7 @@ impl Poses {
     pub fn motion(&self, samples: Range<u32>) -> Result<Motion, SkipReason> {
         let poses: Vec<Vec<Isometry3<f64>>> = samples
             .into_par_iter()
-            .map(|sample| {
-                let configuration = self.space.sampled(u64::from(sample));
-                let poses = self.kinematics.link_poses(&configuration);
-                poses.map_err(|error| {
-                    SkipReason::Kinematics(format!("sampled configuration {sample}: {error}"))
-                })
-            })
+            .map(|sample| Ok(self.sampled(sample)?.1))
             .collect::<Result<_, _>>()?;
         Motion::new(&poses, &self.groups).map_err(|error| SkipReason::Kinematics(error.to_string()))
     }

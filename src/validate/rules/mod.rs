@@ -9,6 +9,7 @@ pub mod dof;
 pub mod extensions;
 pub mod json;
 pub mod kinematics;
+pub mod learned;
 pub mod legacy;
 pub mod meshes;
 pub mod schema;
@@ -37,6 +38,7 @@ pub fn all() -> Vec<&'static Rule> {
         composition::RULES,
         meshes::RULES,
         shapes::RULES,
+        learned::RULES,
         kinematics::RULES,
         legacy::RULES,
     ];

@@ -1,0 +1,48 @@
+"""How modules are read; `urdd.modules` has a property for each."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from . import _urdd
+from .errors import ModuleUnusableError
+
+_T = TypeVar("_T")
+
+
+class Reading:
+    """The modules of a URDD as documents. Each is read when it is first asked for, and then kept."""
+
+    def __init__(self, core: _urdd.Robot) -> None:
+        self._core = core
+        self._known: dict[str, Any] = {}
+
+    def names(self) -> list[str]:
+        """The names of the modules that are there, in the order of the specification."""
+        return self._core.module_names()
+
+    def version(self, name: str) -> str:
+        """The version of a module."""
+        return self._core.module(name)[0]
+
+    def json(self, name: str) -> Any:
+        """The document of a module as it is, of any version: dictionaries, lists, numbers, texts."""
+        return json.loads(self._core.module(name)[2])
+
+    def _read(self, name: str, make: Callable[[Any], _T]) -> _T:
+        if name not in self._known:
+            version, is_legacy, text = self._core.module(name)
+            if is_legacy:
+                raise ModuleUnusableError(
+                    f"{name} has version {version}, of before version 1, which has no type here: "
+                    f"`modules.json({name!r})` gives it as it is",
+                    name,
+                )
+            self._known[name] = make(json.loads(text))
+        found: _T = self._known[name]
+        return found
+
+    def __repr__(self) -> str:
+        return f"<urdd.Modules: {', '.join(self.names())}>"

@@ -1,0 +1,43 @@
+//! Putting robots together.
+
+use std::path::{Path, PathBuf};
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use urdd::combine::{Recipe, check_parts};
+use urdd::validate::find_errors;
+
+use crate::errors::of_combine;
+use crate::generate::{Options, summary, with_progress};
+
+/// How a robot hangs on a link of another: the link, position and roll, pitch, yaw, and the name of what is made.
+type Attached = (String, [[f64; 3]; 2], Option<String>);
+
+/// Puts robots together: those of a recipe, or with `attached` two, of which the first is `source`. Gives what there is
+/// to say of the URDD, and of the parts, each a kind and a message.
+#[pyfunction]
+#[allow(clippy::type_complexity)]
+pub fn combine<'py>(
+    py: Python<'py>,
+    source: PathBuf,
+    attached: Option<(PathBuf, Attached)>,
+    target: PathBuf,
+    options: Options,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<(Bound<'py, PyDict>, Vec<(&'static str, String)>)> {
+    let made = with_progress(py, options, progress, move |settings, progress| {
+        let recipe = match attached {
+            None => Recipe::read(&source)?,
+            Some((held, (link, pose, name))) => {
+                Recipe::of_two(&source, &held, name.as_deref(), &link, pose)?
+            }
+        };
+        let find_errors = |part: &Path| find_errors(part, &settings.cancellation);
+        let distrusted = check_parts(&recipe, settings.force, find_errors)?;
+        urdd::combine::combine(&recipe, &target, settings, &distrusted, progress)
+    })?;
+    let made = made.map_err(|error| of_combine(py, &error))?;
+    let notes = made.notes.iter();
+    let notes = notes.map(|note| (note.kind(), note.to_string())).collect();
+    Ok((summary(py, &made.generated)?, notes))
+}

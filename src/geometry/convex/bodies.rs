@@ -1,0 +1,208 @@
+//! Pairs of bodies of several convex shapes each: whether any is in contact, and how far they are apart.
+//!
+//! Shapes far apart are passed over by spheres about them.
+
+use fearless_simd::Level;
+use nalgebra::Isometry3;
+
+use super::across::{self, AT_ONCE, PlacedPair};
+use super::shape::{ConvexShape, ShapeError};
+
+/// A convex shape and the sphere about it.
+#[derive(Debug)]
+struct Part {
+    body: usize,
+    shape: ConvexShape,
+    radius: f64,
+}
+
+/// Shapes of bodies, and which pairs of them are of interest.
+#[derive(Debug)]
+pub struct BodyPairs {
+    parts: Vec<Part>,
+    /// Pairs of parts, those of one pair of bodies after each other.
+    pairs: Vec<[usize; 2]>,
+    /// For each pair of bodies the bodies, and the end of its pairs in `pairs`.
+    bodies: Vec<([usize; 2], usize)>,
+    /// For each body a sphere about all its shapes: the centre, and the radius; `None` for one without.
+    spheres: Vec<Option<([f64; 3], f64)>>,
+    level: Level,
+}
+
+/// So much larger, as a part, a sphere is than its farthest vertex: more than rounding can hide.
+const LARGER: f64 = 1.0 + 1e-12;
+
+impl BodyPairs {
+    /// Of shapes: for each the number of its body, and its vertices in the body's frame, metres.
+    ///
+    /// # Errors
+    /// The number of the first shape that distances cannot be taken of, and why.
+    pub fn new<'a>(
+        shapes: impl IntoIterator<Item = (usize, &'a [[f64; 3]])>,
+    ) -> Result<Self, (usize, ShapeError)> {
+        let part = |(number, (body, vertices)): (usize, (usize, &[[f64; 3]]))| {
+            let shape = ConvexShape::of_points(vertices).map_err(|error| (number, error))?;
+            let centre = shape.centre();
+            let away = |p: &[f64; 3]| (0..3).map(|k| (p[k] - centre[k]).powi(2)).sum::<f64>();
+            let radius = vertices.iter().map(away).fold(0.0, f64::max).sqrt();
+            Ok(Part {
+                body,
+                shape,
+                radius: radius * LARGER + f64::MIN_POSITIVE,
+            })
+        };
+        let parts = shapes.into_iter().enumerate().map(part);
+        let parts: Vec<Part> = parts.collect::<Result<_, _>>()?;
+        let last = parts.iter().map(|part| part.body + 1).max();
+        let sphere = |body: usize| about(parts.iter().filter(|part| part.body == body));
+        Ok(Self {
+            spheres: (0..last.unwrap_or(0)).map(sphere).collect(),
+            parts,
+            pairs: Vec::new(),
+            bodies: Vec::new(),
+            level: Level::new(),
+        })
+    }
+
+    /// Adds two bodies, with all pairs of their shapes that `of_interest` is true of; it gets the numbers of two shapes.
+    /// Returns whether there is such a pair: without one, nothing is added.
+    pub fn add(&mut self, bodies: [usize; 2], of_interest: impl Fn(usize, usize) -> bool) -> bool {
+        let before = self.pairs.len();
+        let of = |body: usize| {
+            let parts = self.parts.iter().enumerate();
+            parts.filter_map(move |(number, part)| (part.body == body).then_some(number))
+        };
+        let pairs = of(bodies[0]).flat_map(|a| of(bodies[1]).map(move |b| [a, b]));
+        let pairs: Vec<[usize; 2]> = pairs.filter(|[a, b]| of_interest(*a, *b)).collect();
+        self.pairs.extend(pairs);
+        let any = self.pairs.len() > before;
+        if any {
+            self.bodies.push((bodies, self.pairs.len()));
+        }
+        any
+    }
+
+    /// The pairs of bodies, as they were added.
+    pub fn bodies(&self) -> impl ExactSizeIterator<Item = [usize; 2]> {
+        self.bodies.iter().map(|(bodies, _)| *bodies)
+    }
+
+    /// Number of pairs of shapes.
+    pub fn num_shape_pairs(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// The distance of each pair of bodies, metres, 0 in contact; `limit` where it is more than that. `poses` has a
+    /// finite pose for each body. `distances` is as long as [`BodyPairs::bodies`].
+    pub fn distances(&self, poses: &[Isometry3<f64>], limit: f64, distances: &mut [f64]) {
+        distances.fill(limit);
+        let mut near = Near::default();
+        for (number, pair) in self.near(poses, limit) {
+            near.add(number, pair);
+            if near.is_full() {
+                near.take_distances(self.level, distances);
+            }
+        }
+        near.take_distances(self.level, distances);
+    }
+
+    /// Whether any pair of bodies is in contact.
+    pub fn any_touches(&self, poses: &[Isometry3<f64>]) -> bool {
+        let mut near = Near::default();
+        for (number, pair) in self.near(poses, 0.0) {
+            near.add(number, pair);
+            if near.is_full() && near.touch(self.level) {
+                return true;
+            }
+        }
+        near.touch(self.level)
+    }
+
+    /// The pairs of shapes whose spheres are no farther apart than `limit`, each with the number of its pair of bodies.
+    fn near<'a>(
+        &'a self,
+        poses: &'a [Isometry3<f64>],
+        limit: f64,
+    ) -> impl Iterator<Item = (usize, PlacedPair<'a>)> {
+        let mut start = 0;
+        let groups = self.bodies.iter().enumerate();
+        groups.flat_map(move |(number, (bodies, end))| {
+            let pairs = &self.pairs[start..*end];
+            start = *end;
+            let b_in_a = poses[bodies[0]].inv_mul(&poses[bodies[1]]);
+            let spheres = bodies.map(|body| self.spheres.get(body).copied().flatten());
+            let may_be_near = match spheres {
+                [Some((p, of_a)), Some((q, of_b))] => {
+                    let q = b_in_a * nalgebra::Point3::from(q);
+                    let apart = (q - nalgebra::Point3::from(p)).norm();
+                    apart <= (limit + of_a + of_b) * LARGER
+                }
+                _ => false,
+            };
+            let pairs = if may_be_near { pairs } else { &[] };
+            pairs.iter().filter_map(move |[a, b]| {
+                let (a, b) = (&self.parts[*a], &self.parts[*b]);
+                let centre = b_in_a * nalgebra::Point3::from(b.shape.centre());
+                let apart = (centre - nalgebra::Point3::from(a.shape.centre())).norm();
+                let pair = || PlacedPair::new(&a.shape, &b.shape, &b_in_a);
+                (apart <= (limit + a.radius + b.radius) * LARGER).then(|| (number, pair()))
+            })
+        })
+    }
+}
+
+/// Pairs that wait to be worked on together.
+#[derive(Default)]
+struct Near<'a> {
+    numbers: Vec<usize>,
+    pairs: Vec<PlacedPair<'a>>,
+}
+
+impl<'a> Near<'a> {
+    fn add(&mut self, number: usize, pair: PlacedPair<'a>) {
+        self.numbers.push(number);
+        self.pairs.push(pair);
+    }
+
+    fn is_full(&self) -> bool {
+        self.pairs.len() == AT_ONCE
+    }
+
+    /// Takes the distances of those that wait into those of the pairs of bodies.
+    fn take_distances(&mut self, level: Level, distances: &mut [f64]) {
+        let mut found = [0.0; AT_ONCE];
+        across::distances(level, &self.pairs, &mut found[..self.pairs.len()]);
+        for (number, found) in self.numbers.drain(..).zip(found) {
+            distances[number] = distances[number].min(found);
+        }
+        self.pairs.clear();
+    }
+
+    /// Whether any of those that wait is in contact.
+    fn touch(&mut self, level: Level) -> bool {
+        let touch = !self.pairs.is_empty() && across::any_touches(level, &self.pairs);
+        self.numbers.clear();
+        self.pairs.clear();
+        touch
+    }
+}
+
+/// A sphere about the spheres of shapes.
+fn about<'a>(parts: impl Iterator<Item = &'a Part> + Clone) -> Option<([f64; 3], f64)> {
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for part in parts.clone() {
+        for (k, x) in part.shape.centre().into_iter().enumerate() {
+            low[k] = low[k].min(x - part.radius);
+            high[k] = high[k].max(x + part.radius);
+        }
+    }
+    parts.clone().next()?;
+    let centre = [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
+    let reach = |part: &Part| {
+        let apart = part.shape.centre().into_iter().zip(centre);
+        apart.map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt() + part.radius
+    };
+    let radius = parts.map(reach).fold(0.0, f64::max);
+    Some((centre, radius * LARGER))
+}

@@ -1,0 +1,200 @@
+//! Choosing margins.
+
+use super::labels::Labels;
+use super::settings::{FIRST_MISSES, LEVELS, MISSES, TAIL};
+
+/// What is known of one pair.
+struct Pair {
+    /// The configurations in which the output is at most the margin, by falling output.
+    order: Vec<u32>,
+    /// How many of them are above the margin by now.
+    passed: usize,
+    /// Margins that fall, each with the number of misses that is to be expected of it.
+    levels: Vec<Level>,
+    /// Which of these is chosen.
+    level: usize,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Level {
+    margin: f64,
+    /// Collisions that are missed, among as many configurations as there are here.
+    misses: f64,
+}
+
+/// Going on to another level of a pair.
+struct Offer {
+    pair: usize,
+    level: usize,
+    /// Free configurations that are cleared for each collision that is missed by it.
+    worth: f64,
+}
+
+/// The margin of each pair, in the unit of the outputs: outputs up to it say that the pair may be in contact. `clip` is
+/// the clip distance in that unit.
+///
+/// Few contacts come out high, and a margin that passes just these would be missed by others. So how many are missed
+/// is taken from a tail: of the highest contacts of a pair the excess over the next is taken to be distributed
+/// exponentially. All pairs begin with a margin that hardly misses any; then margins are lowered where that clears
+/// most free configurations for each miss, until as many are to be expected as may be.
+pub(super) fn margins(outputs: &[f64], labels: &Labels, clip: f64) -> Vec<f64> {
+    let num_pairs = labels.num_pairs;
+    let count = labels.collides.len();
+    let output = |k: u32, pair: usize| outputs[k as usize * num_pairs + pair];
+    let is_contact = |k: u32, pair: usize| labels.row(k as usize)[pair] == 0.0;
+    let all = || 0..u32::try_from(count).unwrap_or(u32::MAX);
+    let contacts_of = |k: u32| labels.row(k as usize).iter().filter(|d| **d == 0.0).count();
+    let pair = |pair: usize| {
+        let contacts: Vec<u32> = all().filter(|k| is_contact(*k, pair)).collect();
+        // A miss of this pair is none of the configuration where another pair is in contact too.
+        let alone = contacts.iter().filter(|k| contacts_of(**k) == 1).count();
+        let alone = alone as f64 / contacts.len().max(1) as f64;
+        let mut values: Vec<f64> = contacts.iter().map(|k| output(*k, pair)).collect();
+        values.sort_by(|a, b| b.total_cmp(a));
+        let levels = levels(&values, alone.max(LEAST_ALONE), clip);
+        let first = levels[0].margin;
+        let mut order: Vec<u32> = all().filter(|k| output(*k, pair) <= first).collect();
+        order.sort_by(|a, b| output(*b, pair).total_cmp(&output(*a, pair)));
+        Pair {
+            order,
+            passed: 0,
+            levels,
+            level: 0,
+        }
+    };
+    let mut pairs: Vec<Pair> = (0..num_pairs).map(pair).collect();
+    // By how many pairs a configuration is held to be in collision.
+    let mut held_by = vec![0_u32; count];
+    for k in pairs.iter().flat_map(|pair| &pair.order) {
+        held_by[*k as usize] += 1;
+    }
+    let colliding = labels.collides.iter().filter(|collides| **collides).count();
+    let expected = pairs.iter().map(|pair| pair.levels[0].misses);
+    let mut left = MISSES * colliding as f64 - expected.sum::<f64>();
+    loop {
+        let offers = pairs.iter().enumerate().filter_map(|(at, pair)| {
+            let now = pair.levels[pair.level];
+            let mut rest = pair.order[pair.passed..].iter().peekable();
+            // A configuration that others hold too is cleared in part.
+            let mut cleared = 0.0;
+            let mut best: Option<Offer> = None;
+            for (level, next) in pair.levels.iter().enumerate().skip(pair.level + 1) {
+                while let Some(k) = rest.next_if(|k| output(**k, at) > next.margin) {
+                    let k = *k as usize;
+                    if !labels.collides[k] {
+                        cleared += 1.0 / f64::from(held_by[k]);
+                    }
+                }
+                let misses = next.misses - now.misses;
+                if misses > left {
+                    break;
+                }
+                let worth = cleared / misses;
+                if cleared > 0.0 && best.as_ref().is_none_or(|best| worth > best.worth) {
+                    best = Some(Offer {
+                        pair: at,
+                        level,
+                        worth,
+                    });
+                }
+            }
+            best
+        });
+        let best = offers.max_by(|a, b| a.worth.total_cmp(&b.worth).then(b.pair.cmp(&a.pair)));
+        let Some(Offer {
+            pair: at, level, ..
+        }) = best
+        else {
+            return pairs.iter().map(|of| of.levels[of.level].margin).collect();
+        };
+        let pair = &mut pairs[at];
+        left -= pair.levels[level].misses - pair.levels[pair.level].misses;
+        pair.level = level;
+        let margin = pair.levels[level].margin;
+        let passed = pair.order[pair.passed..].iter();
+        let passed = passed.take_while(|k| output(**k, at) > margin);
+        let passed: Vec<u32> = passed.copied().collect();
+        pair.passed += passed.len();
+        for k in passed {
+            held_by[k as usize] -= 1;
+        }
+    }
+}
+
+/// Of so many misses of a pair at least this part is taken to be missed altogether.
+const LEAST_ALONE: f64 = 0.1;
+/// With fewer contacts than this, no tail is seen.
+const FEW: usize = 4;
+
+/// Margins of a pair whose contacts have these outputs, falling.
+fn levels(contacts: &[f64], alone: f64, clip: f64) -> Vec<Level> {
+    if contacts.len() < FEW {
+        let highest = contacts.first().copied().unwrap_or(-0.1 * clip);
+        return vec![Level {
+            margin: highest + 0.1 * clip,
+            misses: 0.0,
+        }];
+    }
+    let tail = (contacts.len() / 2).min(TAIL);
+    let base = contacts[tail];
+    let excess = contacts[..tail].iter().map(|value| value - base);
+    let mean = excess.sum::<f64>() / tail as f64;
+    let mut levels: Vec<Level> = Vec::new();
+    let mut misses = FIRST_MISSES;
+    for _ in 0..LEVELS {
+        let margin = match misses <= tail as f64 {
+            true => base + mean * libm::log(tail as f64 / misses),
+            // Here there are contacts enough to count them.
+            false if misses < contacts.len() as f64 / 4.0 => contacts[misses as usize],
+            false => break,
+        };
+        let falls = levels.last().is_none_or(|last| margin < last.margin);
+        if falls {
+            levels.push(Level {
+                margin,
+                misses: misses * alone,
+            });
+        }
+        misses *= 2.0;
+    }
+    levels
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Outputs of contacts as they are if the excess is distributed exponentially: a closed form.
+    fn exponential(count: usize) -> Vec<f64> {
+        let value = |k: usize| -((k as f64 + 0.5) / count as f64).ln();
+        (0..count).map(value).collect()
+    }
+
+    #[test]
+    fn a_tail_is_followed_beyond_the_highest_contact() {
+        let contacts = exponential(1000);
+        let first = levels(&contacts, 1.0, 1.0)[0];
+        // So high that of 1,000 contacts FIRST_MISSES are beyond: ln(1000 / 0.02) = 10.8.
+        assert!((first.margin - 10.8).abs() < 1.0, "{first:?}");
+        assert!(first.margin > contacts[0]);
+    }
+
+    #[test]
+    fn margins_fall_while_few_collisions_are_missed() {
+        let contacts = exponential(1000);
+        // 200 free configurations among the highest contacts, and 10 among the others.
+        let free = (0..200).map(|k| 6.0 + 0.02 * k as f64).chain([1.0; 10]);
+        let outputs: Vec<f64> = contacts.into_iter().chain(free).collect();
+        let labels = Labels::of_one_pair(1000, 210);
+        let margin = margins(&outputs, &labels, 1.0)[0];
+        // 0.5 % of 1,000 are 5: the margin of ln(1000 / 5) = 5.3, or above, as far as that clears any.
+        assert!((5.0..6.0).contains(&margin), "{margin}");
+    }
+
+    #[test]
+    fn of_few_contacts_none_is_given_up() {
+        let outputs = [1.0, 0.5, 3.0];
+        let labels = Labels::of_one_pair(2, 1);
+        assert_eq!(margins(&outputs, &labels, 1.0), [1.1]);
+    }
+}

@@ -1,0 +1,189 @@
+//! `self_collision_model_module`: trained, the same by any number of threads, refused where it is of no use.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use urdd::generate::note::NoteKind;
+use urdd::generate::{Generated, Selection, Settings, generate};
+use urdd::learn::train::Effort;
+use urdd::robot::Robot;
+
+use super::{findings_of, read_json};
+
+/// Enough for a model that says something, soon.
+const LITTLE: Effort = Effort {
+    training: 4_000,
+    calibration: 3_000,
+    held_out: 3_000,
+    epochs: 4,
+};
+
+const MODULE: &str = "link_shapes_modules/self_collision_model_module/module.json";
+
+fn settings() -> Settings {
+    Settings {
+        selection: Selection::parse(["shapes", "self_collision_model"]).unwrap(),
+        model_effort: LITTLE,
+        ..Settings::default()
+    }
+}
+
+fn robot(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/robots");
+    folder.join(name)
+}
+
+/// A robot with two long boxes on joints, which meet half of the time; written where it is wanted.
+fn pair(folder: &Path, joint: &str) -> PathBuf {
+    let link = |name: &str| {
+        format!(
+            "<link name='{name}'><collision><origin xyz='0.2 0 0'/><geometry><box size='0.4 0.1 0.1'/></geometry></collision></link>"
+        )
+    };
+    let joint = |name: &str, at: &str| {
+        format!(
+            "<joint name='{name}_joint' type='{joint}'><parent link='base'/><child link='{name}'/><origin xyz='{at}'/><axis xyz='0 0 1'/><limit lower='-3' upper='3' effort='1' velocity='1'/></joint>"
+        )
+    };
+    let text = format!(
+        "<robot name='pair'><link name='base'/>{}{}{}{}</robot>",
+        link("left"),
+        link("right"),
+        joint("left", "0 0.3 0"),
+        joint("right", "0 -0.3 0"),
+    );
+    let path = folder.join("pair.urdf");
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+fn make(urdf: &Path, folder: &Path, settings: &Settings) -> Generated {
+    generate(urdf, folder, settings, &()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn count(model: &Value, key: &str) -> u64 {
+    model["held_out"][key].as_u64().unwrap()
+}
+
+#[test]
+fn a_model_says_how_often_it_is_right_and_a_validator_agrees() {
+    let folder = tempfile::tempdir().unwrap();
+    let (urdf, made) = (pair(folder.path(), "revolute"), folder.path().join("made"));
+    make(&urdf, &made, &settings());
+    assert_eq!(findings_of(&made), []);
+    let model = read_json(&made.join(MODULE));
+    let [all, colliding, missed, cleared] = [
+        "num_configurations",
+        "num_colliding",
+        "num_missed",
+        "num_cleared",
+    ]
+    .map(|key| count(&model, key));
+    // Better by far than a coin.
+    assert!(colliding > all / 60, "{colliding}");
+    assert!(missed * 5 < colliding, "{missed} of {colliding}");
+    assert!(cleared * 10 > (all - colliding) * 8, "{cleared}");
+
+    // More cleared than were: found out.
+    let text = std::fs::read_to_string(made.join(MODULE)).unwrap();
+    let (from, to) = (
+        format!("\"num_cleared\": {cleared}"),
+        format!("\"num_cleared\": {}", cleared + 20),
+    );
+    assert!(text.contains(&from));
+    std::fs::write(made.join(MODULE), text.replace(&from, &to)).unwrap();
+    let codes: Vec<String> = findings_of(&made).into_iter().map(|of| of.0).collect();
+    assert!(codes.contains(&"LRN010".to_owned()), "{codes:?}");
+}
+
+#[test]
+fn the_same_bytes_by_one_thread_and_by_three() {
+    let folder = tempfile::tempdir().unwrap();
+    let urdf = pair(folder.path(), "revolute");
+    let texts = [1, 3].map(|threads| {
+        let made = folder.path().join(threads.to_string());
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| make(&urdf, &made, &settings()));
+        std::fs::read_to_string(made.join(MODULE)).unwrap()
+    });
+    assert_eq!(texts[0], texts[1]);
+}
+
+#[test]
+fn it_is_kept_while_nothing_changes_and_not_made_unless_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let (urdf, made) = (pair(folder.path(), "revolute"), folder.path().join("made"));
+    make(&urdf, &made, &settings());
+    let again = make(&urdf, &made, &settings());
+    assert!(!again.changed);
+    assert!(again.modules.last().is_some_and(|module| module.kept));
+    make(&urdf, &made, &Settings::default());
+    assert!(!made.join(MODULE).exists());
+    assert_eq!(findings_of(&made), []);
+    let error = Robot::open(&made).unwrap().collision_model().unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "self_collision_model_module is missing: make it with `urdd generate ROBOT.urdf -o DIR --modules self_collision_model`"
+    );
+}
+
+/// What is kept is read back from its files.
+#[test]
+fn the_same_bytes_whether_the_rest_is_made_or_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let urdf = robot("six_axis_arm.urdf");
+    let [at_once, later] = ["at_once", "later"].map(|name| folder.path().join(name));
+    make(&urdf, &at_once, &settings());
+    make(&urdf, &later, &Settings::default());
+    make(&urdf, &later, &settings());
+    let [at_once, later] = [at_once, later].map(|made| std::fs::read(made.join(MODULE)).unwrap());
+    assert!(at_once == later, "other bytes");
+}
+
+#[test]
+fn robots_for_which_it_is_of_no_use_go_without() {
+    let folder = tempfile::tempdir().unwrap();
+    let apart = folder.path().join("apart.urdf");
+    let text = std::fs::read_to_string(pair(folder.path(), "revolute")).unwrap();
+    std::fs::write(&apart, text.replace("0.3 0", "3 0")).unwrap();
+    let fixed = folder.path().join("fixed.urdf");
+    std::fs::write(&fixed, text.replace("'revolute'", "'fixed'")).unwrap();
+    let planar = pair(folder.path(), "planar");
+    for (urdf, why) in [
+        (
+            &planar,
+            "DOF `left_joint/trans_x` is a length without limits",
+        ),
+        (&apart, "of 4000 sampled configurations 0 are in collision"),
+        (
+            &fixed,
+            "no two links that are not skipped move against each other",
+        ),
+    ] {
+        let made = folder.path().join("made");
+        let outcome = make(urdf, &made, &settings());
+        let notes: Vec<_> = outcome
+            .notes
+            .iter()
+            .filter(|n| n.kind == NoteKind::OfNoUse)
+            .collect();
+        assert_eq!(notes.len(), 1, "{:?}", outcome.notes);
+        assert!(notes[0].problem.contains(why), "{}", notes[0].problem);
+        assert!(!made.join(MODULE).exists());
+        assert_eq!(findings_of(&made), []);
+        std::fs::remove_dir_all(&made).unwrap();
+    }
+}
+
+#[test]
+fn a_robot_of_ours_with_lengths_turns_and_mimics() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = folder.path().join("made");
+    let outcome = make(&robot("hand.urdf"), &made, &settings());
+    assert_eq!(findings_of(&made), []);
+    let refused = outcome
+        .notes
+        .iter()
+        .any(|note| note.kind == NoteKind::OfNoUse);
+    assert_eq!(refused, !made.join(MODULE).exists());
+}

@@ -1,0 +1,49 @@
+//! The learned self-collision model, asked about in JSON.
+
+use serde_json::{Value, json};
+use urdd::format::registry::ModuleKind;
+use urdd::kinematics::ConfigurationError;
+use urdd::robot::{CollisionModel, Robot, RobotError};
+
+/// Reads the model; `None` where the robot has none.
+pub fn read(robot: &Robot) -> Result<Option<CollisionModel>, String> {
+    match robot.collision_model() {
+        Ok(model) => Ok(Some(model)),
+        Err(RobotError::Missing(ModuleKind::SelfCollisionModel)) => Ok(None),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// `pairs` and `other_pairs` (how many), `num_parameters`, `clip_distance` (m), and `held_out`: the counts of
+/// `self_collision_model_module`.
+pub fn about(model: &CollisionModel) -> Value {
+    json!({
+        "pairs": model.pairs().len(),
+        "other_pairs": model.other_pairs().len(),
+        "num_parameters": model.num_parameters(),
+        "clip_distance": model.clip_distance(),
+        "held_out": model.held_out(),
+    })
+}
+
+/// `may_collide`; `clearances` of all pairs (m); `least`: the place of its pair among them, its `links`, `link_idxs` and
+/// `clearance`, null for a model without a pair.
+pub fn clearances(model: &CollisionModel, robot: &Robot, q: &[f64]) -> Result<Value, String> {
+    let said = |error: ConfigurationError| error.to_string();
+    let names = robot.links().map_err(|error| error.to_string())?;
+    let least = model.least(q).map_err(said)?.and_then(|least| {
+        let pair = model.pairs().get(least.pair)?;
+        let links = [pair.link_a_idx.get(), pair.link_b_idx.get()];
+        Some(json!({
+            "pair": least.pair,
+            "links": [names.get(links[0])?, names.get(links[1])?],
+            "link_idxs": links,
+            "clearance": least.value,
+        }))
+    });
+    Ok(json!({
+        "may_collide": model.may_collide(q).map_err(said)?,
+        "least": least,
+        "clearances": model.clearances(q).map_err(said)?,
+    }))
+}
