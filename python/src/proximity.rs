@@ -26,8 +26,7 @@ impl Proximity {
         Arc::clone(&self.0)
     }
 
-    /// What each of many configurations gives; of a single one by itself, on this thread. Those of a robot without DOFs
-    /// are all the same one.
+    /// What each of many configurations gives.
     fn each<T: Copy + Send + 'static>(
         &self,
         py: Python<'_>,
@@ -35,20 +34,9 @@ impl Proximity {
         one: impl FnOnce(&urdd::robot::Proximity, &[f64]) -> Result<Vec<T>, RobotError> + Send,
         many: impl FnOnce(&Until<'_>, &[f64]) -> Result<Vec<T>, RobotError> + Send + 'static,
     ) -> PyResult<Vec<T>> {
-        let answer = match batch.count {
-            0 => Ok(Vec::new()),
-            count if count == 1 || batch.values.is_empty() => {
-                let found = py.detach(|| one(&self.0, &batch.values));
-                found.map(|found| found.repeat(count))
-            }
-            _ => {
-                let own = Arc::clone(&self.0);
-                work::run(py, move |cancellation| {
-                    many(&own.until(cancellation), &batch.values)
-                })?
-            }
-        };
-        answer.map_err(|error| of_robot(py, &error))
+        work::ask(py, &self.0, batch, one, |own, cancellation, batch| {
+            many(&own.until(cancellation), &batch.values)
+        })
     }
 }
 

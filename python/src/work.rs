@@ -3,14 +3,17 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::panic::PanicException;
 use pyo3::prelude::*;
 use urdd::cancellation::Cancellation;
+use urdd::robot::RobotError;
 
+use crate::arrays::Batch;
+use crate::errors::of_robot;
 use crate::threads::pool;
 
 /// How often it is looked whether Ctrl-C was pressed.
@@ -41,6 +44,29 @@ pub fn run<T: Send + 'static>(
         |(): ()| Ok(()),
         move |cancellation, _| job(cancellation),
     )
+}
+
+/// What each of many configurations gives, by `many`; of a single one by `one`, on this thread. Those of a robot without
+/// DOFs are all the same one.
+pub fn ask<S: Send + Sync + 'static, T: Copy + Send + 'static>(
+    py: Python<'_>,
+    subject: &Arc<S>,
+    batch: Batch,
+    one: impl FnOnce(&S, &[f64]) -> Result<Vec<T>, RobotError> + Send,
+    many: impl FnOnce(&S, &Cancellation, &Batch) -> Result<Vec<T>, RobotError> + Send + 'static,
+) -> PyResult<Vec<T>> {
+    let answer = match batch.count {
+        0 => Ok(Vec::new()),
+        count if count == 1 || batch.values.is_empty() => {
+            let found = py.detach(|| one(subject, &batch.values));
+            found.map(|found| found.repeat(count))
+        }
+        _ => {
+            let own = Arc::clone(subject);
+            run(py, move |cancellation| many(&own, cancellation, &batch))?
+        }
+    };
+    answer.map_err(|error| of_robot(py, &error))
 }
 
 /// As [`run`]; `hear` is called on the caller's thread with what the job tells. An error of it stops the job too.

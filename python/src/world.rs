@@ -125,34 +125,22 @@ pub struct Among(Arc<urdd::robot::Among<Arc<urdd::robot::Proximity>>>);
 type Asked = urdd::robot::Among<Arc<urdd::robot::Proximity>>;
 
 impl Among {
-    /// What each of many configurations gives; of a single one on this thread. Those of a robot without DOFs are all the
-    /// same one.
+    /// What each of many configurations gives.
     fn each<T: Copy + Send + 'static>(
         &self,
         py: Python<'_>,
         batch: Batch,
-        one: impl Fn(&Asked, &[f64]) -> Result<Vec<T>, RobotError> + Send + Sync + 'static,
+        one: impl Fn(&Asked, &[f64]) -> Result<Vec<T>, RobotError> + Copy + Send + Sync + 'static,
     ) -> PyResult<Vec<T>> {
-        let answer = match batch.count {
-            0 => Ok(Vec::new()),
-            count if count == 1 || batch.values.is_empty() => {
-                let found = py.detach(|| one(&self.0, &batch.values));
-                found.map(|found| found.repeat(count))
-            }
-            count => {
-                let own = Arc::clone(&self.0);
-                work::run(py, move |cancellation| {
-                    let row = |k: usize| {
-                        cancellation.check()?;
-                        one(&own, batch.row(k))
-                    };
-                    let found = (0..count).into_par_iter().map(row);
-                    let found: Vec<Vec<T>> = found.collect::<Result<_, RobotError>>()?;
-                    Ok(found.concat())
-                })?
-            }
-        };
-        answer.map_err(|error| of_robot(py, &error))
+        work::ask(py, &self.0, batch, one, move |own, cancellation, batch| {
+            let row = |k: usize| {
+                cancellation.check()?;
+                one(own, batch.row(k))
+            };
+            let found = (0..batch.count).into_par_iter().map(row);
+            let found: Vec<Vec<T>> = found.collect::<Result<_, RobotError>>()?;
+            Ok(found.concat())
+        })
     }
 }
 

@@ -24,7 +24,7 @@ use crate::format::self_collision_model::{
 use crate::format::urdf::JointType;
 use crate::geometry::convex::BodyPairs;
 use crate::kinematics::{ConfigurationSpace, ForwardKinematics};
-use crate::learn::train::{self, NoModel, Subject, Useless};
+use crate::learn::train::{self, MOST_PAIRS, NoModel, Subject, Useless};
 
 /// Distances count up to this part of the largest between two hulls.
 const CLIP: f64 = 1.0 / 16.0;
@@ -50,7 +50,11 @@ pub(super) fn self_collision_model(work: &mut Work) -> Result<Option<Made>, Gene
     let kinematics = ForwardKinematics::new(chain, dof).map_err(|e| unusable(work, &e))?;
     let pairs = pairs(&pieces, &skips).map_err(|e| unusable(work, &e))?;
     let trained_on = trained_on(work, &skips);
-    let made = inputs(work, &pairs).map_err(NoModel::OfNoUse);
+    let made = match pairs.bodies().len() > MOST_PAIRS {
+        true => Err(Useless::ManyPairs { most: MOST_PAIRS }),
+        false => inputs(work, &pairs),
+    };
+    let made = made.map_err(NoModel::OfNoUse);
     let made = made.and_then(|inputs| {
         let subject = Subject {
             kinematics: &kinematics,
@@ -113,6 +117,10 @@ fn pairs(pieces: &LinkPieces, skips: &LinkShapesSkipsModule) -> Result<BodyPairs
     let links = &skips.full_shapes;
     for (i, a) in links.iter().enumerate() {
         for (j, b) in links.iter().enumerate().skip(i + 1) {
+            // Of so many no model is made, however many there are.
+            if pairs.bodies().len() > MOST_PAIRS {
+                return Ok(pairs);
+            }
             let skipped = |a: usize, b: usize| match &skips.decomposition_convex_hulls_skips {
                 Some(rows) => rows[a][b],
                 None => skips.full_convex_hulls_skips[i][j],

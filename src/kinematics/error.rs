@@ -151,3 +151,20 @@ pub enum ConfigurationError {
         link_idx: usize,
     },
 }
+
+impl ConfigurationError {
+    /// Whether a configuration has so many values, and all are finite.
+    pub(crate) fn check(configuration: &[f64], expected: usize) -> Result<(), Self> {
+        let found = configuration.len();
+        if found != expected {
+            return Err(Self::Length { expected, found });
+        }
+        match configuration.iter().position(|q| !q.is_finite()) {
+            Some(dof_idx) => Err(Self::NotFinite {
+                dof_idx,
+                value: configuration[dof_idx],
+            }),
+            None => Ok(()),
+        }
+    }
+}

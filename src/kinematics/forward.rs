@@ -155,17 +155,7 @@ impl ForwardKinematics {
     /// # Errors
     /// Where it is not.
     pub(super) fn check(&self, configuration: &[f64]) -> Result<(), ConfigurationError> {
-        let (expected, found) = (self.num_dofs, configuration.len());
-        if found != expected {
-            return Err(ConfigurationError::Length { expected, found });
-        }
-        match configuration.iter().position(|q| !q.is_finite()) {
-            Some(dof_idx) => Err(ConfigurationError::NotFinite {
-                dof_idx,
-                value: configuration[dof_idx],
-            }),
-            None => Ok(()),
-        }
+        ConfigurationError::check(configuration, self.num_dofs)
     }
 
     /// The joints between a link and the root, from the link on.

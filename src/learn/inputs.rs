@@ -64,6 +64,15 @@ pub(super) fn read(inputs: &[ModelInput], num_dofs: usize) -> Result<Vec<Input>,
     inputs.iter().enumerate().map(read).collect()
 }
 
+/// Writes the values of all inputs, one after the other.
+pub(super) fn tell(inputs: &[Input], configuration: &[f64], mut row: &mut [f64]) {
+    for input in inputs {
+        let (own, rest) = row.split_at_mut(input.width());
+        input.put(configuration, own);
+        row = rest;
+    }
+}
+
 impl Input {
     /// How many values it gives.
     pub fn width(&self) -> usize {

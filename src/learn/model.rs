@@ -217,7 +217,7 @@ impl CollisionModel {
                     let count = block.len();
                     for (lane, configuration) in block.enumerate() {
                         self.check(configuration)?;
-                        self.tell(configuration, &mut told);
+                        inputs::tell(&self.inputs, configuration, &mut told);
                         for (value, told) in room[0].iter_mut().zip(&told) {
                             value[lane] = *told;
                         }
@@ -242,33 +242,15 @@ impl CollisionModel {
     }
 
     fn check(&self, configuration: &[f64]) -> Result<(), ConfigurationError> {
-        let (expected, found) = (self.num_dofs, configuration.len());
-        if found != expected {
-            return Err(ConfigurationError::Length { expected, found });
-        }
-        match configuration.iter().position(|q| !q.is_finite()) {
-            Some(dof_idx) => Err(ConfigurationError::NotFinite {
-                dof_idx,
-                value: configuration[dof_idx],
-            }),
-            None => Ok(()),
-        }
+        ConfigurationError::check(configuration, self.num_dofs)
     }
 
     /// What the network is told of a configuration.
     fn told(&self, configuration: &[f64]) -> Vec<f64> {
         let width = self.inputs.iter().map(Input::width).sum();
         let mut told = vec![0.0; width];
-        self.tell(configuration, &mut told);
+        inputs::tell(&self.inputs, configuration, &mut told);
         told
-    }
-
-    fn tell(&self, configuration: &[f64], mut told: &mut [f64]) {
-        for input in &self.inputs {
-            let (own, rest) = told.split_at_mut(input.width());
-            input.put(configuration, own);
-            told = rest;
-        }
     }
 
     fn by_dofs(&self, configuration: &[f64], mut by_inputs: &[f64]) -> Vec<f64> {

@@ -4,6 +4,7 @@ use std::ops::Deref;
 use std::sync::{Arc, OnceLock};
 
 use super::distances::Distances;
+use super::learned::counts::Judge;
 use super::part::Why;
 use super::skip::SkipReason;
 use super::solids::Solids;
@@ -13,6 +14,7 @@ use crate::cancellation::Cancellation;
 use crate::document::robot;
 use crate::document::shapes::Shapes;
 use crate::document::urdd::{RobotFrom, Urdd};
+use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::format::root_metadata::ConformanceClass;
 
 /// A URDD as rules see it: what was loaded, and what the validator works out once for all rules. A
@@ -29,6 +31,7 @@ pub struct Context {
     solids: Arc<OnceLock<Solids>>,
     distances: OnceLock<Result<Distances, SkipReason>>,
     placed: OnceLock<Placed>,
+    model_judge: OnceLock<Result<Judge, SkipReason>>,
 }
 
 impl Deref for Context {
@@ -52,6 +55,7 @@ impl Context {
             solids: Arc::default(),
             distances: OnceLock::new(),
             placed: OnceLock::new(),
+            model_judge: OnceLock::new(),
         }
     }
 
@@ -126,6 +130,19 @@ impl Context {
     pub fn distances(&self) -> Result<&Distances, &SkipReason> {
         let make = || Distances::new(&self.urdd, self.solids(), self.deep);
         self.distances.get_or_init(make).as_ref()
+    }
+
+    /// What the self-collision model and exact distances are compared by, prepared when this is first asked for; or
+    /// why they cannot be. For rules that need LRN003 to have found no fault.
+    pub fn model_judge(&self) -> Result<&Judge, &SkipReason> {
+        let kind = ModuleKind::SelfCollisionModel;
+        let make = || match self.document(kind) {
+            Some(ModuleDocument::SelfCollisionModel(model)) => {
+                Judge::new(&self.urdd, self.solids(), model)
+            }
+            _ => Err(SkipReason::Absent(kind)),
+        };
+        self.model_judge.get_or_init(make).as_ref()
     }
 
     /// The links whose plain mesh is not what the robot shows there.

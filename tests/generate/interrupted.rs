@@ -70,29 +70,36 @@ fn send(signal: &str, child: &Child) {
 fn a_killed_run_leaves_the_old_and_the_next_one_tidies_up() {
     let (folder, source) = workshop(12);
     let target = folder.path().join("out");
-    let make = |source: &Path| generate(source, &target, &Settings::default(), &()).unwrap();
-    make(&source);
-    let old = bytes_below(&target);
+    let make = || generate(&source, &target, &Settings::default(), &()).unwrap();
+    make();
+    // What is there, and what the next run makes: never the same, so that every run has all of its work before it.
+    let mut now = ("r", bytes_below(&target));
     fs::write(&source, robot("other", 12)).unwrap();
-    let fresh = folder.path().join("fresh");
-    generate(&source, &fresh, &Settings::default(), &()).unwrap();
-    let new = bytes_below(&fresh);
+    let begun = Instant::now();
+    assert!(start(&source, &target).wait().unwrap().success());
+    let takes = begun.elapsed();
+    let mut next = std::mem::replace(&mut now, ("other", bytes_below(&target)));
     let mut killed = 0;
     for i in 0..30 {
+        fs::write(&source, robot(next.0, 12)).unwrap();
         let mut child = start(&source, &target);
-        std::thread::sleep(Duration::from_millis(10 * i));
+        std::thread::sleep(takes * i / 30);
         let _ = child.kill();
         killed += usize::from(child.wait().unwrap().signal() == Some(9));
-        let now = bytes_below(&target);
-        assert!(now == old || now == new, "kill {i}");
+        let found = bytes_below(&target);
+        assert!(found == now.1 || found == next.1, "kill {i}");
+        if found == next.1 {
+            std::mem::swap(&mut now, &mut next);
+        }
         // Nobody takes what is left for a URDD.
         let found = urdd::directory::discover::discover(folder.path()).unwrap();
         let found: Vec<&str> = found.iter().map(|urdd| urdd.name.as_str()).collect();
-        assert_eq!(found, ["fresh", "out"]);
+        assert_eq!(found, ["out"]);
     }
     assert!(killed > 10, "{killed} of 30 runs were killed");
-    make(&source);
-    assert!(bytes_below(&target) == new);
+    fs::write(&source, robot(next.0, 12)).unwrap();
+    make();
+    assert!(bytes_below(&target) == next.1);
     assert_eq!(hidden(folder.path()), [""; 0]);
 }
 

@@ -175,6 +175,57 @@ fn robots_for_which_it_is_of_no_use_go_without() {
     }
 }
 
+/// Links of one box each; `parent` says what each hangs on, and `at` where. All of them turn about z.
+fn boxes(count: usize, parent: impl Fn(usize) -> String, at: impl Fn(usize) -> String) -> String {
+    let link = |k: usize| {
+        let (parent, at) = (parent(k), at(k));
+        format!(
+            "<link name='l{k}'><collision><origin xyz='0.3 0 0'/><geometry><box size='0.6 0.05 0.05'/></geometry></collision></link><joint name='j{k}' type='revolute'><parent link='{parent}'/><child link='l{k}'/><origin xyz='{at}'/><axis xyz='0 0 1'/><limit lower='-3' upper='3' effort='1' velocity='1'/></joint>"
+        )
+    };
+    let links: String = (0..count).map(link).collect();
+    format!("<robot name='boxes'><link name='base'/>{links}</robot>")
+}
+
+#[test]
+fn robots_that_are_too_large_go_without() {
+    let folder = tempfile::tempdir().unwrap();
+    let round = |k: usize| {
+        let angle = std::f64::consts::TAU * k as f64 / 40.0;
+        format!("{} {} 0", angle.cos(), angle.sin())
+    };
+    let star = boxes(40, |_| "base".to_owned(), round);
+    let before = |k: usize| match k {
+        0 => "base".to_owned(),
+        k => format!("l{}", k - 1),
+    };
+    // Only the first and the last have a shape.
+    let line = boxes(103, before, |_| "0.01 0 0".to_owned());
+    let (first, rest) = line.split_once("<link name='l1'>").unwrap();
+    let (middle, last) = rest.split_once("<link name='l102'>").unwrap();
+    let shape = &first[first.find("<collision>").unwrap()..first.find("</link><joint").unwrap()];
+    let middle = middle.replace(shape, "");
+    let line = format!("{first}<link name='l1'>{middle}<link name='l102'>{last}");
+    for (name, text, why) in [
+        ("star", star, "more than 512 pairs of links are not skipped"),
+        (
+            "line",
+            line,
+            "the robot has 103 DOFs, and a model is made of 100 at most",
+        ),
+    ] {
+        let urdf = folder.path().join(format!("{name}.urdf"));
+        std::fs::write(&urdf, text).unwrap();
+        let made = folder.path().join(name);
+        let outcome = make(&urdf, &made, &settings());
+        let notes = outcome.notes.iter();
+        let notes: Vec<_> = notes.filter(|n| n.kind == NoteKind::OfNoUse).collect();
+        assert_eq!(notes.len(), 1, "{:?}", outcome.notes);
+        assert!(notes[0].problem.contains(why), "{}", notes[0].problem);
+        assert!(!made.join(MODULE).exists());
+    }
+}
+
 #[test]
 fn a_robot_of_ours_with_lengths_turns_and_mimics() {
     let folder = tempfile::tempdir().unwrap();

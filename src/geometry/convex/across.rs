@@ -29,19 +29,17 @@ pub const AT_ONCE: usize = LANES;
 impl<'a> PlacedPair<'a> {
     /// Of a pose with finite numbers.
     pub fn new(a: &'a ConvexShape, b: &'a ConvexShape, b_in_a: &Isometry3<f64>) -> Self {
-        let rotation = b_in_a.rotation.to_rotation_matrix();
-        let column = |k: usize| rotation.matrix().column(k).into_owned().into();
-        Self {
-            a,
-            b,
-            b_in_a: [
-                column(0),
-                column(1),
-                column(2),
-                b_in_a.translation.vector.into(),
-            ],
-        }
+        let b_in_a = columns(b_in_a);
+        Self { a, b, b_in_a }
     }
+}
+
+/// The columns of a pose's rotation, then its shift, metres.
+pub fn columns(pose: &Isometry3<f64>) -> [[f64; 3]; 4] {
+    let rotation = pose.rotation.to_rotation_matrix();
+    let column = |k: usize| rotation.matrix().column(k).into_owned().into();
+    let shift = pose.translation.vector.into();
+    [column(0), column(1), column(2), shift]
 }
 
 /// The distance of each pair, metres, 0 for those that touch or overlap. `distances` is as long as `pairs`.

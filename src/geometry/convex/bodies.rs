@@ -11,7 +11,6 @@ use super::shape::{ConvexShape, ShapeError};
 /// A convex shape and the sphere about it.
 #[derive(Debug)]
 struct Part {
-    body: usize,
     shape: ConvexShape,
     radius: f64,
 }
@@ -20,6 +19,8 @@ struct Part {
 #[derive(Debug)]
 pub struct BodyPairs {
     parts: Vec<Part>,
+    /// For each body the places of its shapes in `parts`.
+    of_body: Vec<Vec<usize>>,
     /// Pairs of parts, those of one pair of bodies after each other.
     pairs: Vec<[usize; 2]>,
     /// For each pair of bodies the bodies, and the end of its pairs in `pairs`.
@@ -40,23 +41,24 @@ impl BodyPairs {
     pub fn new<'a>(
         shapes: impl IntoIterator<Item = (usize, &'a [[f64; 3]])>,
     ) -> Result<Self, (usize, ShapeError)> {
-        let part = |(number, (body, vertices)): (usize, (usize, &[[f64; 3]]))| {
+        let mut parts = Vec::new();
+        let mut of_body: Vec<Vec<usize>> = Vec::new();
+        for (number, (body, vertices)) in shapes.into_iter().enumerate() {
             let shape = ConvexShape::of_points(vertices).map_err(|error| (number, error))?;
             let centre = shape.centre();
             let away = |p: &[f64; 3]| (0..3).map(|k| (p[k] - centre[k]).powi(2)).sum::<f64>();
             let radius = vertices.iter().map(away).fold(0.0, f64::max).sqrt();
-            Ok(Part {
-                body,
+            parts.push(Part {
                 shape,
                 radius: radius * LARGER + f64::MIN_POSITIVE,
-            })
-        };
-        let parts = shapes.into_iter().enumerate().map(part);
-        let parts: Vec<Part> = parts.collect::<Result<_, _>>()?;
-        let last = parts.iter().map(|part| part.body + 1).max();
-        let sphere = |body: usize| about(parts.iter().filter(|part| part.body == body));
+            });
+            of_body.resize(of_body.len().max(body + 1), Vec::new());
+            of_body[body].push(number);
+        }
+        let sphere = |of: &Vec<usize>| about(of.iter().map(|number| &parts[*number]));
         Ok(Self {
-            spheres: (0..last.unwrap_or(0)).map(sphere).collect(),
+            spheres: of_body.iter().map(sphere).collect(),
+            of_body,
             parts,
             pairs: Vec::new(),
             bodies: Vec::new(),
@@ -68,13 +70,11 @@ impl BodyPairs {
     /// Returns whether there is such a pair: without one, nothing is added.
     pub fn add(&mut self, bodies: [usize; 2], of_interest: impl Fn(usize, usize) -> bool) -> bool {
         let before = self.pairs.len();
-        let of = |body: usize| {
-            let parts = self.parts.iter().enumerate();
-            parts.filter_map(move |(number, part)| (part.body == body).then_some(number))
-        };
-        let pairs = of(bodies[0]).flat_map(|a| of(bodies[1]).map(move |b| [a, b]));
-        let pairs: Vec<[usize; 2]> = pairs.filter(|[a, b]| of_interest(*a, *b)).collect();
-        self.pairs.extend(pairs);
+        let of = |body: usize| self.of_body.get(body).map_or(&[][..], Vec::as_slice);
+        for a in of(bodies[0]) {
+            let with = of(bodies[1]).iter().filter(|b| of_interest(*a, **b));
+            self.pairs.extend(with.map(|b| [*a, *b]));
+        }
         let any = self.pairs.len() > before;
         if any {
             self.bodies.push((bodies, self.pairs.len()));
@@ -130,6 +130,7 @@ impl BodyPairs {
             let pairs = &self.pairs[start..*end];
             start = *end;
             let b_in_a = poses[bodies[0]].inv_mul(&poses[bodies[1]]);
+            let columns = across::columns(&b_in_a);
             let spheres = bodies.map(|body| self.spheres.get(body).copied().flatten());
             let may_be_near = match spheres {
                 [Some((p, of_a)), Some((q, of_b))] => {
@@ -144,8 +145,12 @@ impl BodyPairs {
                 let (a, b) = (&self.parts[*a], &self.parts[*b]);
                 let centre = b_in_a * nalgebra::Point3::from(b.shape.centre());
                 let apart = (centre - nalgebra::Point3::from(a.shape.centre())).norm();
-                let pair = || PlacedPair::new(&a.shape, &b.shape, &b_in_a);
-                (apart <= (limit + a.radius + b.radius) * LARGER).then(|| (number, pair()))
+                let pair = PlacedPair {
+                    a: &a.shape,
+                    b: &b.shape,
+                    b_in_a: columns,
+                };
+                (apart <= (limit + a.radius + b.radius) * LARGER).then_some((number, pair))
             })
         })
     }

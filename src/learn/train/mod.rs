@@ -16,7 +16,7 @@ mod settings;
 use rayon::prelude::*;
 use thiserror::Error;
 
-pub use self::settings::Effort;
+pub use self::settings::{Effort, MOST_DOFS, MOST_PAIRS};
 
 use self::labels::Labels;
 use super::inputs::{self, Input};
@@ -79,9 +79,15 @@ pub enum Useless {
     NothingMoves,
     /// Too many pairs.
     #[error(
-        "{found} pairs of links are not skipped, and a model of more than {most} is no faster than what it stands for"
+        "more than {most} pairs of links are not skipped, and a model of so many is no faster than what it stands for"
     )]
     ManyPairs {
+        /// How many there may be.
+        most: usize,
+    },
+    /// Too many DOFs.
+    #[error("the robot has {found} DOFs, and a model is made of {most} at most")]
+    ManyDofs {
         /// How many there are.
         found: usize,
         /// How many there may be.
@@ -118,14 +124,17 @@ pub fn train(
     cancellation: &Cancellation,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<SelfCollisionModelModule, NoModel> {
-    let most = settings::MOST_PAIRS;
-    let found = subject.pairs.bodies().len();
-    if found > most {
-        return Err(NoModel::OfNoUse(Useless::ManyPairs { found, most }));
+    let num_pairs = subject.pairs.bodies().len();
+    if num_pairs > MOST_PAIRS {
+        return Err(NoModel::OfNoUse(Useless::ManyPairs { most: MOST_PAIRS }));
     }
-    let inputs = inputs::read(&subject.inputs, subject.space.num_dofs());
+    let (found, most) = (subject.space.num_dofs(), MOST_DOFS);
+    if found > most {
+        return Err(NoModel::OfNoUse(Useless::ManyDofs { found, most }));
+    }
+    let inputs = inputs::read(&subject.inputs, found);
     let inputs = inputs.unwrap_or_default();
-    if found == 0 || inputs.is_empty() {
+    if num_pairs == 0 || inputs.is_empty() {
         return Err(NoModel::OfNoUse(Useless::NothingMoves));
     }
     // Labels take about as long as some epochs.
@@ -284,12 +293,6 @@ fn rows(configurations: &[f64], num_dofs: usize, inputs: &[Input]) -> Vec<f64> {
     let each = rows
         .par_chunks_exact_mut(width.max(1))
         .zip(configurations.par_chunks_exact(num_dofs.max(1)));
-    each.for_each(|(mut row, configuration)| {
-        for input in inputs {
-            let (own, rest) = row.split_at_mut(input.width());
-            input.put(configuration, own);
-            row = rest;
-        }
-    });
+    each.for_each(|(row, configuration)| inputs::tell(inputs, configuration, row));
     rows
 }

@@ -41,7 +41,9 @@ impl Effort {
 pub(super) const VALIDATION: usize = 5_000;
 
 /// Most pairs of links: labels take 4 bytes for each, in each configuration.
-pub(super) const MOST_PAIRS: usize = 512;
+pub const MOST_PAIRS: usize = 512;
+/// Most DOFs: a configuration takes 8 bytes for each, and what the network is told of it 32.
+pub const MOST_DOFS: usize = 100;
 /// Least number of collisions, and of free configurations, among those of training.
 pub(super) const LEAST: usize = 50;
 /// A pair has an output where it came nearer than this, as a part of the clip distance.

@@ -4,11 +4,12 @@ use rayon::prelude::*;
 
 use super::network::Network;
 use super::pairs;
-use crate::format::self_collision_model::SelfCollisionModelModule;
+use crate::document::urdd::Urdd;
+use crate::format::self_collision_model::{HeldOutCounts, SelfCollisionModelModule};
 use crate::geometry::convex::BodyPairs;
-use crate::validate::context::Context;
 use crate::validate::distances::poses::Poses;
 use crate::validate::skip::SkipReason;
+use crate::validate::solids::Solids;
 
 /// A count may be off by one for every so many configurations.
 pub const PER_TOLERANCE: u32 = 10_000;
@@ -19,8 +20,8 @@ const DEFAULT: u64 = 1_000_000_000;
 const DEEP: u64 = 600_000_000_000;
 
 /// What a model and exact distances are compared by.
-pub struct Judge<'a> {
-    network: Network<'a>,
+pub struct Judge {
+    network: Network,
     poses: Poses,
     pieces: BodyPairs,
     /// What a configuration costs.
@@ -47,17 +48,29 @@ impl Found {
     }
 }
 
-impl<'a> Judge<'a> {
+impl From<&HeldOutCounts> for Found {
+    fn from(stated: &HeldOutCounts) -> Self {
+        Self {
+            configurations: stated.num_configurations.0.into(),
+            colliding: stated.num_colliding.0.into(),
+            missed: stated.num_missed.0.into(),
+            cleared: stated.num_cleared.0.into(),
+        }
+    }
+}
+
+impl Judge {
     /// Of a model in which the rules before found no fault.
     ///
     /// # Errors
     /// Why it cannot be compared.
     pub fn new(
-        context: &'a Context,
-        model: &'a SelfCollisionModelModule,
+        urdd: &Urdd,
+        solids: &Solids,
+        model: &SelfCollisionModelModule,
     ) -> Result<Self, SkipReason> {
-        let poses = Poses::new(context.urdd())?;
-        let pieces = pairs::pieces(context)?;
+        let poses = Poses::new(urdd)?;
+        let pieces = pairs::pieces(urdd, solids)?;
         let numbers: usize = model.layers.iter().map(|of| of.biases.len()).sum();
         let weights = model.layers.iter().flat_map(|of| &of.weights);
         let weights: usize = weights.map(Vec::len).sum();

@@ -32,15 +32,15 @@ pub fn first_fresh(model: &SelfCollisionModelModule) -> u32 {
 }
 
 /// A network of which the lists are as long as they must be.
-pub struct Network<'a> {
-    inputs: &'a [ModelInput],
+pub struct Network {
+    inputs: Vec<ModelInput>,
     layers: Vec<(DMatrix<f64>, DVector<f64>)>,
     margins: DVector<f64>,
 }
 
-impl<'a> Network<'a> {
+impl Network {
     /// Of a model in which LRN003 found no fault.
-    pub fn new(model: &'a SelfCollisionModelModule) -> Self {
+    pub fn new(model: &SelfCollisionModelModule) -> Self {
         let layers = model.layers.iter().map(|layer| {
             let (rows, columns) = (
                 layer.weights.len(),
@@ -52,7 +52,7 @@ impl<'a> Network<'a> {
         });
         let margins = model.pairs.iter().map(|pair| pair.margin);
         Self {
-            inputs: &model.inputs,
+            inputs: model.inputs.clone(),
             layers: layers.collect(),
             margins: DVector::from_iterator(model.pairs.len(), margins),
         }
@@ -61,7 +61,7 @@ impl<'a> Network<'a> {
     /// The clearance of each pair in a configuration of as many values as there are DOFs, metres.
     pub fn clearances(&self, configuration: &[f64]) -> Vec<f64> {
         let mut values = Vec::new();
-        for input in self.inputs {
+        for input in &self.inputs {
             match input {
                 ModelInput::Angle(of) => {
                     let q = configuration[of.dof_idx.get()];

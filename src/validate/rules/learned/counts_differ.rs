@@ -1,7 +1,7 @@
 use super::subject;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::learned::counts::{self, Judge};
+use crate::validate::learned::counts::{self, Found};
 use crate::validate::rule::declare_rule;
 use crate::validate::skip::SkipReason;
 
@@ -29,9 +29,9 @@ fn check(context: &Context, findings: &mut Findings) {
     let Some((module, model)) = subject(context) else {
         return;
     };
-    let judge = match Judge::new(context, model) {
+    let judge = match context.model_judge() {
         Ok(judge) => judge,
-        Err(reason) => return findings.skip(reason),
+        Err(reason) => return findings.skip(reason.clone()),
     };
     let all = model.held_out.num_configurations.0;
     let some = judge.affordable(all, context.is_deep());
@@ -40,17 +40,12 @@ fn check(context: &Context, findings: &mut Findings) {
         Err(reason) => return findings.skip(reason),
     };
     let tolerance = u64::from(all.div_ceil(counts::PER_TOLERANCE));
-    let stated = [
-        (
-            "num_colliding",
-            model.held_out.num_colliding,
-            found.colliding,
-        ),
-        ("num_missed", model.held_out.num_missed, found.missed),
-        ("num_cleared", model.held_out.num_cleared, found.cleared),
-    ];
-    for (key, stated, found) in stated {
-        let stated = u64::from(stated.0);
+    let stated = Found::from(&model.held_out);
+    for (key, stated, found) in [
+        ("num_colliding", stated.colliding, found.colliding),
+        ("num_missed", stated.missed, found.missed),
+        ("num_cleared", stated.cleared, found.cleared),
+    ] {
         // Of a part of the configurations, no more can be said than that there are too many.
         let differs = match some == all {
             true => found.abs_diff(stated) > tolerance,

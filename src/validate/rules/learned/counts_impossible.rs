@@ -2,6 +2,7 @@ use super::subject;
 use crate::format::self_collision_model::SampleRange;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
+use crate::validate::learned::counts::Found;
 use crate::validate::rule::declare_rule;
 
 declare_rule! {
@@ -30,13 +31,9 @@ fn check(context: &Context, findings: &mut Findings) {
         );
     };
     let held_out = &model.held_out;
-    let [all, colliding, missed, cleared] = [
-        held_out.num_configurations,
-        held_out.num_colliding,
-        held_out.num_missed,
-        held_out.num_cleared,
-    ]
-    .map(|count| u64::from(count.0));
+    let stated = Found::from(held_out);
+    let (all, colliding) = (stated.configurations, stated.colliding);
+    let (missed, cleared) = (stated.missed, stated.cleared);
     if colliding > all {
         let message = "more configurations are in collision than there are";
         return report("/held_out/num_colliding", message, all, colliding);

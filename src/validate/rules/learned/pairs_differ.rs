@@ -25,7 +25,8 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) {
-    let (Some((module, model)), Some(expected)) = (subject(context), pairs::not_skipped(context))
+    let (Some((module, model)), Some(expected)) =
+        (subject(context), pairs::not_skipped(context.urdd()))
     else {
         return;
     };

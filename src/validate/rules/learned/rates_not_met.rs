@@ -1,7 +1,7 @@
 use super::subject;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::learned::counts::{Found, Judge};
+use crate::validate::learned::counts::Found;
 use crate::validate::learned::{fisher, network};
 use crate::validate::rule::declare_rule;
 
@@ -33,9 +33,9 @@ fn check(context: &Context, findings: &mut Findings) {
     let Some((module, model)) = subject(context) else {
         return;
     };
-    let judge = match Judge::new(context, model) {
+    let judge = match context.model_judge() {
         Ok(judge) => judge,
-        Err(reason) => return findings.skip(reason),
+        Err(reason) => return findings.skip(reason.clone()),
     };
     let count = match context.is_deep() {
         true => 10 * CONFIGURATIONS,
@@ -48,20 +48,7 @@ fn check(context: &Context, findings: &mut Findings) {
         Ok(found) => found,
         Err(reason) => return findings.skip(reason),
     };
-    let held_out = &model.held_out;
-    let [all, colliding, missed, cleared] = [
-        held_out.num_configurations,
-        held_out.num_colliding,
-        held_out.num_missed,
-        held_out.num_cleared,
-    ]
-    .map(|count| u64::from(count.0));
-    let stated = Found {
-        configurations: all,
-        colliding,
-        missed,
-        cleared,
-    };
+    let stated = Found::from(&model.held_out);
     let kept = |of: &Found| [of.free() - of.cleared, of.free()];
     let lost = |of: &Found| [of.missed, of.colliding];
     for (key, what, [x, of], [stated, among]) in [
