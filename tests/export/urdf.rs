@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use urdd::export::{Export, ExportError, Format, Options, export};
-use urdd::generate::{Settings, generate};
+use urdd::generate::{Selection, Settings, generate};
 use urdd::robot::{Robot, ShapeKind, Solid};
 
 use crate::robots::{made, made_of, our_robots};
@@ -34,7 +34,11 @@ fn joints_and_masses_stay_and_shapes_are_the_collision_geometry() {
             let folder = tempfile::tempdir().expect("a folder");
             let file = write(folder.path(), &exported);
             let target = folder.path().join("again");
-            generate(&file, &target, &Settings::default(), &()).expect("a URDD");
+            let core = Settings {
+                selection: Selection::parse(["core"]).expect("a selection"),
+                ..Settings::default()
+            };
+            generate(&file, &target, &core, &()).expect("a URDD");
             let again = Robot::open(&target)
                 .expect("a robot")
                 .description()

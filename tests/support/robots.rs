@@ -1,6 +1,8 @@
 //! URDDs of our robots, and of URDFs that a test writes.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use urdd::generate::{Settings, generate};
 
@@ -29,12 +31,42 @@ pub fn our_robots() -> Vec<(String, PathBuf)> {
     robots
 }
 
-/// A URDD of a URDF, in a folder that lasts as long as what is returned.
+/// The files of a URDD, by their paths in it.
+type Files = Vec<(PathBuf, Vec<u8>)>;
+
+/// A URDD of one of our robots, in a folder of its own that lasts as long as what is returned. It is generated once.
 pub fn made(urdf: &Path) -> (tempfile::TempDir, PathBuf) {
+    static MADE: Mutex<BTreeMap<PathBuf, Arc<OnceLock<Files>>>> = Mutex::new(BTreeMap::new());
+    let mut all = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let one = Arc::clone(all.entry(urdf.to_owned()).or_default());
+    drop(all);
     let folder = tempfile::tempdir().expect("a folder");
     let target = folder.path().join("robot");
-    generate(urdf, &target, &Settings::default(), &()).expect("a URDD");
+    let generated = || {
+        generate(urdf, &target, &Settings::default(), &()).expect("a URDD");
+        let files = files_below(&target, &target);
+        std::fs::remove_dir_all(&target).expect("a folder");
+        files
+    };
+    for (path, bytes) in one.get_or_init(generated) {
+        let path = target.join(path);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        std::fs::write(path, bytes).expect("a file");
+    }
     (folder, target)
+}
+
+fn files_below(folder: &Path, root: &Path) -> Files {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let below = |entry: std::io::Result<std::fs::DirEntry>| {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            return files_below(&path, root);
+        }
+        let bytes = std::fs::read(&path).expect("a file");
+        vec![(path.strip_prefix(root).expect("below").to_owned(), bytes)]
+    };
+    entries.flat_map(below).collect()
 }
 
 /// A URDD of a URDF's text.

@@ -1,17 +1,21 @@
 // The module against the program: the same findings, poses as the URDD has them, the same distances.
 //
 //     node wasm/test/run.mjs URDD_PROGRAM URDD_WASM
+//
+// URDD_WASM may be compressed by brotli, and ends in `.br` then.
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, relative } from "node:path";
-import { brotliCompressSync, gzipSync } from "node:zlib";
+import { brotliCompressSync, brotliDecompressSync, gzipSync } from "node:zlib";
 import { Urdd } from "../npm/module.mjs";
 
 const [program, wasm] = process.argv.slice(2);
-const bytes = readFileSync(wasm);
+const given = readFileSync(wasm);
+const compressed = wasm.endsWith(".br") ? given : brotliCompressSync(given);
+const bytes = brotliDecompressSync(compressed);
 const module = await WebAssembly.compile(bytes);
 assert.deepEqual(WebAssembly.Module.imports(module), [], "the module imports nothing");
 
@@ -246,4 +250,4 @@ function compareFindings(urdd, archive, name) {
 
 const kB = (bytes) => `${Math.round(bytes.length / 1000)} kB`;
 console.log(`${compared} distances compared`);
-console.log(`the module: ${kB(bytes)}, gzip ${kB(gzipSync(bytes, { level: 9 }))}, brotli ${kB(brotliCompressSync(bytes))}`);
+console.log(`the module: ${kB(bytes)}, gzip ${kB(gzipSync(bytes, { level: 9 }))}, brotli ${kB(compressed)}`);
