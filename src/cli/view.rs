@@ -4,7 +4,7 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 
@@ -124,6 +124,14 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
                 .filter(|robot| !make(robot, &settings))
                 .count();
             if failed == count && !signals.cancellation().is_cancelled() {
+                let begun = Instant::now();
+                let is_told = || wanted.iter().all(|robot| robot.shown.is_failure_told());
+                while !is_told() && begun.elapsed() < BROWSER_STARTS {
+                    if signals.cancellation().is_cancelled() {
+                        return failed;
+                    }
+                    std::thread::sleep(Duration::from_millis(20));
+                }
                 std::thread::sleep(LAST_WORD);
                 signals.cancellation().cancel();
             }
@@ -138,8 +146,10 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     }
 }
 
-/// How long the page may ask what happened, where there is no robot to show.
-const LAST_WORD: Duration = Duration::from_secs(2);
+/// How long a browser may take until the page asks what happened, where there is no robot to show.
+const BROWSER_STARTS: Duration = Duration::from_secs(30);
+/// How long the page may ask for the rest then.
+const LAST_WORD: Duration = Duration::from_secs(1);
 
 /// The URDF that a path stands for: itself, or the only one in a folder in which there is no URDD.
 fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::save::Files;
@@ -16,6 +17,8 @@ pub struct Shown {
     /// What people call it: its path from the folder that was given.
     pub name: String,
     standing: Mutex<Standing>,
+    /// Whether a page was told that its generation failed.
+    failure_told: AtomicBool,
     /// The report, and the revision that it is of.
     pub(super) report: Mutex<Option<(String, String)>>,
     /// The picture, and the revision that it is of.
@@ -101,6 +104,16 @@ impl Shown {
         self.standing().making = making;
     }
 
+    /// A page is told that its generation failed.
+    pub(super) fn tell_failure(&self) {
+        self.failure_told.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether a page was told that its generation failed.
+    pub fn is_failure_told(&self) -> bool {
+        self.failure_told.load(Ordering::Relaxed)
+    }
+
     /// It was generated, with these assumptions.
     pub fn made(&self, notes: Vec<String>) {
         let mut standing = self.standing();
@@ -180,6 +193,7 @@ impl Collection {
                 kind,
                 making,
             }),
+            failure_told: AtomicBool::new(false),
             report: Mutex::default(),
             picture: Mutex::default(),
             undo: Mutex::default(),

@@ -168,7 +168,10 @@ pub fn entry(robot: &Shown) -> Value {
         Making::Running { what, done, of } => {
             (json!({ "what": what, "done": done, "of": of }), Value::Null)
         }
-        Making::Failed(why) => (Value::Null, json!(why)),
+        Making::Failed(why) => {
+            robot.tell_failure();
+            (Value::Null, json!(why))
+        }
     };
     json!({
         "id": robot.id,
