@@ -6,7 +6,7 @@ import { createServer } from "node:net";
 import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { drawn, inPage, open, run, setting, state, tab } from "./world.mjs";
+import { drawn, inPage, open, run, setting, soon, state, tab } from "./world.mjs";
 
 async function freePort() {
   const probe = createServer();
@@ -47,8 +47,11 @@ inPage(set, "the gallery has a picture, links, DOFs and the verdict of each robo
     texts.find((text) => text.startsWith("welding_arm")),
     /9 links · 6 DOFs.*passes/,
   );
-  const drawn = await page.locator(".card img").evaluateAll((all) => all.map((image) => image.naturalWidth));
-  assert.deepEqual(drawn, [320, 320]);
+  // They are fetched when they come into view.
+  await soon(async () => {
+    const drawn = await page.locator(".card img").evaluateAll((all) => all.map((image) => image.naturalWidth));
+    assert.deepEqual(drawn, [320, 320]);
+  });
   await page.getByRole("searchbox", { name: "Find a robot" }).fill("9 links");
   assert.equal(await page.locator(".card:visible").count(), 1);
   await page.getByRole("searchbox", { name: "Find a robot" }).fill("nothing of the kind");

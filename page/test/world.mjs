@@ -181,6 +181,18 @@ export async function drawn(page, name) {
   );
 }
 
+/** What this check returns once it holds: the page gets there in its own time, later on a machine that is busy. */
+export async function soon(check) {
+  for (const end = Date.now() + 60_000; ;) {
+    try {
+      return await check();
+    } catch (error) {
+      if (Date.now() > end) throw error;
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+  }
+}
+
 /** A value of the page's state, once it is as wanted. */
 export async function state(page, key, wanted = (value) => value !== null) {
   for (const end = Date.now() + 120_000; ;) {
