@@ -146,7 +146,8 @@ fn primitives(
     let every = step(triangles.len(), expected.primitives.len());
     for (number, at) in triangles.iter().enumerate() {
         let corners = found.corners(found.triangles[*at]);
-        let [a, b, c] = corners.map(nalgebra::Vector3::from);
+        let vectors = corners.map(nalgebra::Vector3::from);
+        let [a, b, c] = vectors;
         let area = (b - a).cross(&(c - a)).norm() / 2.0;
         let middle: [f64; 3] = ((a + b + c) / 3.0).into();
         total += area;
@@ -161,7 +162,7 @@ fn primitives(
             let inside = -primitive.distance(middle);
             if on
                 && inside <= primitive.sag(PRIMITIVE_SAG) + tolerance
-                && primitive.faces_outward(middle, (b - a).cross(&(c - a)))
+                && primitive.faces_outward(vectors, tolerance)
             {
                 on_any = true;
                 *sum += area;
@@ -333,6 +334,37 @@ mod tests {
         }
         let (expected, found) = of(&all);
         assert_eq!(fault(&expected, &found), None);
+    }
+
+    /// The faces of a disk's rim are nearer to its flat sides than they are inside of the rim.
+    #[test]
+    fn thin_shapes_pass_and_their_turned_faces_do_not() {
+        for length in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+            let disk = Geometry::Cylinder(Cylinder {
+                radius: 1.5,
+                length,
+            });
+            let plate = Geometry::Box(Cuboid {
+                size: [3.0, length, 2.0],
+            });
+            for (shape, mesh) in [
+                (disk.clone(), primitives::cylinder(1.5, length)),
+                (disk, coarse(17, 1.5, length)),
+                (plate, primitives::cuboid([3.0, length, 2.0])),
+            ] {
+                let (expected, found) = of(&[(shape, mesh, [0.1, 0.0, -0.2])]);
+                assert_eq!(fault(&expected, &found), None, "{length}");
+                // Thinner than rounding allows to tell.
+                if length < 1e-3 {
+                    continue;
+                }
+                for at in [0, found.triangles.len() / 2, found.triangles.len() - 1] {
+                    let mut turned = found.clone();
+                    turned.triangles[at].swap(0, 1);
+                    assert!(fault(&expected, &turned).is_some(), "{length}: {at}");
+                }
+            }
+        }
     }
 
     #[test]

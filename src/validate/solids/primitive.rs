@@ -60,19 +60,20 @@ impl Primitive {
         }
     }
 
-    /// Whether a face with this normal, through a point on or a little inside the surface, faces
-    /// outward. (Of a flat shape each face does.)
-    pub fn faces_outward(&self, point: [f64; 3], normal: Vector3<f64>) -> bool {
-        let length = normal.norm();
-        if length == 0.0 {
+    /// Whether a triangle whose corners are on the surface, but for `rounding` in m, faces outward. (Of a flat shape, and
+    /// of one without area, each does.)
+    pub fn faces_outward(&self, [a, b, c]: [Vector3<f64>; 3], rounding: f64) -> bool {
+        let normal = (b - a).cross(&(c - a));
+        let doubled = normal.norm();
+        if doubled == 0.0 {
             return true;
         }
-        let step = normal / length * (self.extent() * 1e-3);
-        let point = Vector3::from(point);
-        let (ahead, behind) = (point + step, point - step);
-        // What is ahead is farther outside.
-        let rounding = self.extent() * 1e-9;
-        self.distance(ahead.into()) >= self.distance(behind.into()) - rounding
+        // All shapes are convex, and have their middle inside: it is behind each face.
+        let lever = (a + b + c) / 3.0 - self.position;
+        let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
+        // Corners that are off by the rounding turn the normal by it over the least height.
+        let turn = rounding * longest / doubled;
+        normal.dot(&lever) / doubled >= -(rounding + turn * lever.norm())
     }
 
     /// The area of the true surface, m².
