@@ -4,7 +4,7 @@ use semver::VersionReq;
 use serde::Serialize;
 
 use super::case::{Expected, Kind, Verdict};
-use super::data::{INVALID, URDD, VALID};
+use super::data::{INVALID, URDD};
 use super::suite::Suite;
 use super::valid;
 use crate::directory::discover::ROOT_METADATA;
@@ -64,7 +64,7 @@ pub enum ItemKind {
 /// Every URDD of the suite: the valid ones, then the cases.
 pub fn items(suite: &Suite) -> Vec<Item> {
     let valid = valid::robots().into_iter().map(|robot| {
-        let id = format!("{VALID}/{robot}");
+        let id = valid::id(&robot);
         Item {
             folder: id.clone(),
             id,

@@ -82,7 +82,7 @@ pub fn export(folder: &Path) -> Result<Exported, ExportError> {
     let robots = folder.join(ROBOTS);
     valid::write_robots(&robots)?;
     Tree::carried(VECTORS).write(&folder.join(VECTORS))?;
-    let other_bytes = write_valid(&robots, &folder.join(VALID))?;
+    let other_bytes = write_valid(&valid::robots(), &robots, &folder.join(VALID))?;
     let left_out = write_cases(&suite, folder)?;
 
     let mut items = items(&suite);
@@ -116,19 +116,23 @@ pub fn export(folder: &Path) -> Result<Exported, ExportError> {
     Ok(exported)
 }
 
-/// Makes every valid URDD. Gives the robots of which it has other bytes than the suite was checked
-/// with.
-pub fn write_valid(robots: &Path, folder: &Path) -> Result<Vec<String>, ExportError> {
+/// Makes the valid URDDs of these robots, whose URDFs are in the folder `robots`. Gives those of which it has other bytes
+/// than the suite was checked with.
+pub fn write_valid(
+    names: &[String],
+    robots: &Path,
+    folder: &Path,
+) -> Result<Vec<String>, ExportError> {
     let mut other_bytes = Vec::new();
-    for robot in valid::robots() {
-        let target = folder.join(&robot);
-        valid::make(&robot, robots, &target).map_err(|error| ExportError::Generate {
+    for robot in names {
+        let target = folder.join(robot);
+        valid::make(robot, robots, &target).map_err(|error| ExportError::Generate {
             robot: robot.clone(),
             error: Box::new(error),
         })?;
         let made = Tree::read(&target, &target)?;
-        if valid::kept(&made) != valid::carried(&robot) {
-            other_bytes.push(robot);
+        if valid::kept(&made) != valid::carried(robot) {
+            other_bytes.push(robot.clone());
         }
     }
     Ok(other_bytes)

@@ -21,6 +21,11 @@ pub fn robots() -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 
+/// The id of the valid URDD of a robot, and its folder in the suite.
+pub fn id(robot: &str) -> String {
+    format!("{VALID}/{robot}")
+}
+
 /// Writes the robots into a folder: the URDFs, and what they name.
 ///
 /// # Errors
@@ -60,5 +65,5 @@ pub fn kept(urdd: &Tree) -> Tree {
 
 /// What is kept of the valid URDD of a robot.
 pub fn carried(robot: &str) -> Tree {
-    Tree::carried(&format!("{VALID}/{robot}"))
+    Tree::carried(&id(robot))
 }

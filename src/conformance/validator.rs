@@ -141,10 +141,12 @@ pub fn run(
     }
     let folder = Workplace::new(plan.keep.as_deref())?;
     observe(&Event::Start(chosen.len()));
-    if chosen.iter().any(|item| item.kind == ItemKind::Valid) {
+    let is_chosen = |robot: &String| chosen.iter().any(|item| item.id == valid::id(robot));
+    let names: Vec<String> = valid::robots().into_iter().filter(is_chosen).collect();
+    if !names.is_empty() {
         let robots = folder.path().join(ROBOTS);
         valid::write_robots(&robots)?;
-        write_valid(&robots, &folder.path().join(VALID))?;
+        write_valid(&names, &robots, &folder.path().join(VALID))?;
     }
     let judge = |item: &Item| -> Result<Option<Ran>, ValidatorError> {
         let ran = judge(plan, &suite, item, folder.path())?;
