@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,10 @@ NAMES = [
     "toy_all_joints",
     "welding_arm",
 ]
+
+
+# A shell that runs this in the background has Ctrl-C ignored, also by what is started here, and tests press it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
