@@ -1,7 +1,7 @@
 //! How long a question about a robot takes: poses, Jacobians, distances of all pairs, collision.
 //!
 //! `cargo bench --bench proximity -- URDD...` prints for each URDD and for hulls and pieces the median over five rounds
-//! of the mean over 1,000 random configurations, in microseconds, on one thread and on two; and for parry the distances
+//! of the mean over 200 random configurations, in microseconds, on one thread and on two; and for parry the distances
 //! of the same pairs. `benches/proximity_coal.py` does the same by Pinocchio with coal. Without arguments it takes
 //! `target/bench/welding_arm`, which it makes.
 
@@ -15,7 +15,7 @@ use parry3d_f64::shape::ConvexPolyhedron;
 use urdd::generate::{Settings, generate};
 use urdd::robot::{Robot, ShapeKind, Solid};
 
-const CONFIGURATIONS: u64 = 1000;
+const CONFIGURATIONS: u64 = 200;
 const ROUNDS: usize = 5;
 
 fn main() {
@@ -85,7 +85,7 @@ fn measure(path: &std::path::Path) {
                 std::hint::black_box(proximity.distances(q).expect("distances"));
             }
         });
-        parry(&robot, kind, &all[..100]);
+        parry(&robot, kind, &all[..20]);
     }
 }
 

@@ -1,7 +1,7 @@
 """Distances and collisions by Pinocchio with coal, on the hulls, pieces, pairs and configurations of a URDD.
 
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install pin
-    /tmp/peers/bin/python benches/proximity_coal.py target/release/urdd URDD...
+    /tmp/peers/bin/python benches/proximity_coal.py [--configurations 200] target/release/urdd URDD...
 
 `example-robot-data:NAME` in the place of a URDD stands for one that is made of `NAME.urdf` of that package (`pip install
 example-robot-data`), such as `example-robot-data:panda`.
@@ -11,11 +11,11 @@ Each configuration is one of SPEC 9.2. First the distances of all pairs are comp
 median of five rounds, in microseconds for a configuration, without what Python itself takes for an empty loop.
 """
 
+import argparse
 import json
 import os
 import pathlib
 import subprocess
-import sys
 import tempfile
 import time
 
@@ -23,7 +23,6 @@ import coal
 import numpy
 import pinocchio
 
-CONFIGURATIONS = 200
 ROUNDS = 5
 HULLS = ("hulls", "mesh_modules/convex_hull_meshes_module/module.json", "full_convex_hulls_skips")
 PIECES = (
@@ -34,12 +33,16 @@ PIECES = (
 
 
 def main() -> None:
-    program, *urdds = sys.argv[1:]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("urdds", nargs="+")
+    parser.add_argument("--configurations", type=int, default=200)
+    given = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        for urdd in urdds:
-            robot = Robot(made(program, urdd, folder))
+        for urdd in given.urdds:
+            robot = Robot(made(given.program, urdd, folder))
             for kind in (HULLS, PIECES):
-                compare(program, robot, *kind)
+                compare(given.program, robot, given.configurations, *kind)
 
 
 EXAMPLE = "example-robot-data:"
@@ -128,18 +131,20 @@ class Robot:
         return geometry
 
 
-def ask(program: str, robot: Robot, kind: str, pairs: int):
-    command = [program, "check-collisions", robot.root, "--random", str(CONFIGURATIONS)]
+def ask(program: str, robot: Robot, count: int, kind: str, pairs: int):
+    command = [program, "check-collisions", robot.root, "--random", str(count)]
     command += ["--shapes", kind, "--format", "json", "--nearest", str(pairs)]
     output = subprocess.run(command, check=False, capture_output=True, text=True).stdout
     return [json.loads(line) for line in output.splitlines()]
 
 
-def compare(program: str, robot: Robot, kind: str, module: str, skips: str) -> None:
+def compare(
+    program: str, robot: Robot, count: int, kind: str, module: str, skips: str
+) -> None:
     geometry = robot.geometry(module, skips)
     pairs = len(geometry.collisionPairs)
     model, data, found = robot.model, robot.model.createData(), geometry.createData()
-    ours = ask(program, robot, kind, pairs)
+    ours = ask(program, robot, count, kind, pairs)
     all_q = [robot.configuration(one["values"]) for one in ours]
     names = [shape.name for shape in geometry.geometryObjects]
     exact = geometry.createData()

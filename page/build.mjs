@@ -1,8 +1,10 @@
 // Bundles the page into dist/, each file compressed by brotli, with a stamp of what it was made from.
 //
-//     node build.mjs [URDD_WASM]
+//     node build.mjs [URDD_WASM ROBOT_WASM [FOLDER]]
 //
-// URDD_WASM is the module that `cargo build --release -p urdd-wasm --target wasm32-unknown-unknown` makes.
+// URDD_WASM is the module that `cargo build --release -p urdd-wasm --target wasm32-unknown-unknown` makes; ROBOT_WASM, for
+// a page in one file, the one that it makes with `--no-default-features`: without the validator. FOLDER is page/dist unless
+// it is given; `URDD_DIST=FOLDER npm test` tries what is there.
 
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
@@ -13,8 +15,9 @@ import { brotliCompressSync, gzipSync } from "node:zlib";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const repository = join(here, "..");
-const dist = join(here, "dist");
+const dist = process.argv[4] ?? join(here, "dist");
 const wasm = process.argv[2] ?? join(repository, "target/wasm32-unknown-unknown/release/urdd_wasm.wasm");
+const robot = process.argv[3] ?? join(repository, "target/wasm32-unknown-unknown/release/robot.wasm");
 
 const common = {
   bundle: true,
@@ -36,6 +39,7 @@ const files = {
   "worker.js": await bundle("src/engine/worker.ts", "iife"),
   "style.css": await bundle("src/style.css"),
   "urdd.wasm": readFileSync(wasm),
+  "robot.wasm": readFileSync(robot),
 };
 
 rmSync(dist, { recursive: true, force: true });
@@ -44,7 +48,7 @@ let page = 0;
 for (const [name, bytes] of Object.entries(files)) {
   const brotli = brotliCompressSync(bytes);
   writeFileSync(join(dist, `${name}.br`), brotli);
-  if (name !== "urdd.wasm") page += brotli.length;
+  if (!name.endsWith(".wasm")) page += brotli.length;
   console.log(`${name.padEnd(12)} ${bytes.length} bytes, gzip ${gzipSync(bytes).length}, brotli ${brotli.length}`);
 }
 console.log(`the page without robots and wasm: ${page} bytes compressed`);

@@ -47,6 +47,8 @@ pub mod generate;
 pub mod geometry;
 pub mod kinematics;
 pub mod learn;
+#[cfg(feature = "generate")]
+pub mod process;
 pub mod report;
 pub mod robot;
 pub mod skips;

@@ -14,6 +14,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("format", &[]),
     ("directory", &["cancellation", "format"]),
     ("document", &["format", "directory", "kinematics"]),
+    ("process", &["cancellation"]),
     ("xml", &[]),
     ("geometry", &["xml"]),
     ("kinematics", &["format"]),
@@ -31,6 +32,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "geometry",
             "kinematics",
             "learn",
+            "process",
             "skips",
             "xml",
         ],
@@ -73,12 +75,20 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     (
         "export",
-        &["format", "document", "geometry", "kinematics", "robot"],
+        &[
+            "format",
+            "document",
+            "geometry",
+            "kinematics",
+            "robot",
+            "xml",
+        ],
     ),
     ("report", &["format", "directory", "document", "validate"]),
     (
         "conformance",
         &[
+            "cancellation",
             "format",
             "directory",
             "document",
@@ -86,6 +96,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "kinematics",
             "skips",
             "generate",
+            "process",
             "validate",
             "report",
         ],
@@ -120,6 +131,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "view",
             "export",
             "conformance",
+            "process",
         ],
     ),
 ];

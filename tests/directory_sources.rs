@@ -66,7 +66,7 @@ fn arm() -> BTreeMap<String, Vec<u8>> {
 }
 
 fn refused(bytes: Vec<u8>) -> ArchiveFault {
-    Archive::new("robot", bytes.into()).expect_err("a fault")
+    Archive::new("robot", bytes).expect_err("a fault")
 }
 
 fn findings(output: &Output) -> Value {
@@ -155,7 +155,7 @@ fn sources_list_and_read_alike() {
         .map(|(path, bytes)| (path.clone(), Arc::from(bytes.as_slice())))
         .collect();
     let memory = Root::of(Memory::new("arm", shared).expect("sound paths"));
-    let packed = pack(&urdd_files, "arm/").into();
+    let packed = pack(&urdd_files, "arm/");
     let archive = Root::of(Archive::new("other", packed).expect("an archive"));
     let expected = disk.list().expect("a listing");
     assert!(expected.entries.len() > 15);
@@ -271,7 +271,17 @@ fn names_that_are_there_twice_are_refused() {
     assert_eq!(entry_fault(pack(&files.into(), "")), EntryFault::Duplicate);
 }
 
-/// Where the archive's own list states something of an entry: offset from its signature.
+/// Where the archive's own list, and the entry's header, state something of an entry: offset from the list's signature.
+fn set_in_both(bytes: &mut [u8], name: &str, offset: usize, value: &[u8]) {
+    set_in_list(bytes, name, offset, value);
+    let at = (0..bytes.len()).find(|at| bytes[*at..].starts_with(name.as_bytes()));
+    let header = at.expect("the name") - 30;
+    assert!(bytes[header..].starts_with(b"PK\x03\x04"));
+    let place = header + offset - 2;
+    bytes[place..place + value.len()].copy_from_slice(value);
+}
+
+/// As [`set_in_both`], in the list alone.
 fn set_in_list(bytes: &mut [u8], name: &str, offset: usize, value: &[u8]) {
     let at = (0..bytes.len())
         .rfind(|at| bytes[*at..].starts_with(name.as_bytes()))
@@ -285,7 +295,7 @@ fn set_in_list(bytes: &mut [u8], name: &str, offset: usize, value: &[u8]) {
 fn entries_that_are_not_what_is_stated_are_refused() {
     let change = |offset: usize, value: &[u8]| {
         let mut bytes = pack(&arm(), "");
-        set_in_list(&mut bytes, "urdd.json", offset, value);
+        set_in_both(&mut bytes, "urdd.json", offset, value);
         entry_fault(bytes)
     };
     assert_eq!(change(8, &[1, 0]), EntryFault::Encrypted);
@@ -306,6 +316,119 @@ fn entries_that_are_not_what_is_stated_are_refused() {
         matches!(too_large, EntryFault::TooLarge { .. }),
         "{too_large}"
     );
+}
+
+/// Some programs believe the list, and others the headers.
+#[test]
+fn an_entry_that_is_described_in_two_ways_is_refused() {
+    let whole = pack(&arm(), "");
+    for (offset, value) in [
+        (8, &[1, 0][..]),
+        (10, &[0, 0]),
+        (16, &[1, 2, 3, 4]),
+        (20, &[1, 0, 0, 0]),
+        (24, &[1, 0, 0, 0]),
+    ] {
+        let mut bytes = whole.clone();
+        set_in_list(&mut bytes, "urdd.json", offset, value);
+        assert_eq!(entry_fault(bytes), EntryFault::Header, "at {offset}");
+    }
+    let mut bytes = whole;
+    let at = (0..bytes.len()).find(|at| bytes[*at..].starts_with(b"urdd.json"));
+    bytes[at.expect("the name")] = b'v';
+    assert_eq!(entry_fault(bytes), EntryFault::Header, "the name");
+}
+
+/// Of a record at the end of an archive: where the list begins.
+fn move_list(archive: &mut [u8], by: usize) {
+    let end = archive.len() - 22;
+    assert!(archive[end..].starts_with(b"PK\x05\x06"));
+    let add = |archive: &mut [u8], at: usize| {
+        let word = u32::from_le_bytes(archive[at..at + 4].try_into().expect("four"));
+        let moved = word + u32::try_from(by).expect("small");
+        archive[at..at + 4].copy_from_slice(&moved.to_le_bytes());
+    };
+    let list = u32::from_le_bytes(archive[end + 16..end + 20].try_into().expect("four"));
+    let mut at = list as usize;
+    while archive[at..].starts_with(b"PK\x01\x02") {
+        add(archive, at + 42);
+        let length =
+            |k: usize| usize::from(archive[at + k]) + 256 * usize::from(archive[at + k + 1]);
+        at += 46 + length(28) + length(30) + length(32);
+    }
+    add(archive, end + 16);
+}
+
+#[test]
+fn two_archives_in_one_file_are_refused() {
+    let (one, two) = (pack(&arm(), ""), pack(&arm(), "arm/"));
+    let other = |bytes: Vec<u8>, what: &str| {
+        assert_eq!(refused(bytes), ArchiveFault::OtherBytes, "{what}");
+    };
+    other([one.clone(), two.clone()].concat(), "one after another");
+    let mut moved = two.clone();
+    move_list(&mut moved, one.len());
+    other(
+        [one.clone(), moved].concat(),
+        "the second one knows of the first",
+    );
+    let mut commented = one.clone();
+    let length = u16::try_from(two.len()).expect("short");
+    let end = commented.len() - 2;
+    commented[end..].copy_from_slice(&length.to_le_bytes());
+    other(
+        [commented, two.clone()].concat(),
+        "the second one is a comment of the first",
+    );
+    other(
+        [b"#!/bin/sh\n".to_vec(), one.clone()].concat(),
+        "something before",
+    );
+    other([one.clone(), b"\n".to_vec()].concat(), "something after");
+    let mut prefixed = one.clone();
+    move_list(&mut prefixed, 10);
+    other(
+        [b"#!/bin/sh\n".to_vec(), prefixed].concat(),
+        "something before, known of",
+    );
+    // An archive inside an archive is a file like any other.
+    let mut files = arm();
+    files.insert("dof_module/notes.zip".to_owned(), two);
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    let stored = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+    for (path, bytes) in &files {
+        zip.start_file(path, stored).expect("an entry");
+        zip.write_all(bytes).expect("written");
+    }
+    let bytes = zip.finish().expect("an archive").into_inner();
+    assert!(Archive::new("robot", bytes).is_ok());
+}
+
+#[test]
+fn names_that_no_file_system_takes_are_refused() {
+    for (name, is_too_long) in [
+        ("n".repeat(1020), false),
+        ("n".repeat(1021), true),
+        (["n"; 2048].join("/"), false),
+        (["n"; 2049].join("/"), true),
+        ("n".repeat(60_000), true),
+    ] {
+        let two = [
+            ("urdd.json".to_owned(), b"{}".to_vec()),
+            (name.clone(), Vec::new()),
+        ];
+        let archive = Archive::new("robot", pack(&two.into(), ""));
+        match archive {
+            Ok(_) => assert!(!is_too_long, "{} bytes", name.len()),
+            Err(ArchiveFault::Entry { fault, .. }) => {
+                assert!(
+                    is_too_long && matches!(fault, EntryFault::LongName { .. }),
+                    "{fault}"
+                );
+            }
+            Err(fault) => panic!("{fault}"),
+        }
+    }
 }
 
 #[test]
@@ -350,7 +473,7 @@ fn an_archive_of_too_many_entries_is_refused() {
             ArchiveFault::Count {
                 listed: 100_001,
                 ..
-            } | ArchiveFault::Broken { .. }
+            } | ArchiveFault::OtherBytes
         ),
         "{fault}"
     );
@@ -373,7 +496,7 @@ fn which_urdd_is_meant_must_be_clear() {
     let mut beside = one("a/urdd.json");
     beside.extend(one("__MACOSX/a/._urdd.json"));
     beside.extend(one("docs/readme.txt"));
-    let archive = Archive::new("robot", pack(&beside, "").into()).expect("one URDD");
+    let archive = Archive::new("robot", pack(&beside, "")).expect("one URDD");
     let listing = Root::of(archive).list().expect("a listing");
     assert_eq!(listing.entries.len(), 1);
 }
@@ -398,7 +521,7 @@ fn links_in_an_archive_are_as_on_disk() {
         zip.add_symlink(path, target, options).expect("a link");
     }
     let bytes = zip.finish().expect("an archive").into_inner();
-    let root = Root::of(Archive::new("robot", bytes.into()).expect("an archive"));
+    let root = Root::of(Archive::new("robot", bytes).expect("an archive"));
     let listing = root.list().expect("a listing");
     let kind = |path: &str| listing.get(path).expect("an entry").kind;
     assert_eq!(kind("to_file"), EntryKind::File);

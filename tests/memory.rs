@@ -109,3 +109,34 @@ fn a_mesh_takes_a_stated_multiple_of_memory() {
         fs::remove_dir_all(folder.path().join("out")).unwrap();
     }
 }
+
+/// An archive's names are stored once, however many folders they name; and an archive is in memory once.
+#[test]
+fn many_levels_take_no_memory() {
+    use std::io::Write as _;
+    use zip::write::{SimpleFileOptions, ZipWriter};
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.zip");
+    let pack = |entries: &[(String, usize)]| {
+        let stored =
+            SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+        let mut zip = ZipWriter::new(fs::File::create(&file).unwrap());
+        zip.start_file("urdd.json", stored).unwrap();
+        zip.write_all(b"{}").unwrap();
+        for (name, size) in entries {
+            zip.start_file(name.as_str(), stored).unwrap();
+            zip.write_all(&vec![b'x'; *size]).unwrap();
+        }
+        zip.finish().unwrap();
+        usize::try_from(fs::metadata(&file).unwrap().len()).unwrap()
+    };
+    // One name of 32,000 levels in 551 kB: refused.
+    let size = pack(&[(["a"; 32_000].join("/"), 420_000)]);
+    assert_within(2, size, 2, &["info", "a.zip"], folder.path());
+    // Many of as many as are allowed.
+    let deep = |k: usize| (format!("{k:04}/{}", ["a"; 2040].join("/")), 1);
+    let size = pack(&(0..2_000).map(deep).collect::<Vec<_>>());
+    assert_within(3, size, 0, &["info", "a.zip"], folder.path());
+    let size = pack(&[("notes".to_owned(), 200 << 20)]);
+    assert_within(1, size, 0, &["info", "a.zip"], folder.path());
+}

@@ -113,3 +113,53 @@ fn geometry_that_is_not_verified_is_named_in_every_format() {
     assert!(invocation.to_string().contains(WORDS), "{invocation}");
     assert_eq!(invocation["executionSuccessful"], json!(true));
 }
+
+#[test]
+fn a_model_that_is_not_verified_is_named_in_every_format() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path();
+    let mut stale = support::model::fixture();
+    stale.set(support::model::MODEL, "/trained_on", json!("0".repeat(64)));
+    stale.seal();
+    stale.write_to(&root.join("stale"));
+    support::model::fixture().write_to(&root.join("true"));
+    let mut without = Fixture::full(&robot());
+    without.seal();
+    without.write_to(&root.join("without"));
+
+    let report = urdd(root, &["validate", "--format", "json", "."]);
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    let open = |urdd: usize| report["urdds"][urdd]["model_not_verified"].clone();
+    assert_eq!(
+        open(0),
+        json!({ "codes": ["LRN010", "LRN011"], "reasons": ["LRN006 found a fault"] })
+    );
+    assert_eq!([open(1), open(2)], [json!(null), json!(null)]);
+
+    const WORDS: &str = "the rates of the self-collision model were not verified";
+    assert!(urdd(root, &["validate", "stale"]).contains(WORDS));
+    assert!(!urdd(root, &["validate", "true"]).contains("verified"));
+    let sarif = urdd(root, &["validate", "--format", "sarif", "stale"]);
+    let sarif: Value = serde_json::from_str(&sarif).expect("JSON");
+    let invocation = &sarif["runs"][0]["invocations"][0];
+    assert!(invocation.to_string().contains(WORDS), "{invocation}");
+    for copy in ["b", "c", "d"] {
+        stale.write_to(&root.join(copy));
+    }
+    let summary = urdd(root, &["validate", "."]);
+    assert!(
+        summary.contains(&format!("{WORDS}, in 4 URDDs")),
+        "{summary}"
+    );
+
+    // `urdd info` says it too, with the rates.
+    let info = |name: &str| urdd(root, &["info", name]);
+    assert!(info("true").contains("rates verified"), "{}", info("true"));
+    assert!(
+        info("stale").contains("rates NOT TRUE: LRN006 found a fault"),
+        "{}",
+        info("stale")
+    );
+    assert!(info("true").contains(" % of ") || info("true").contains(" %) of "));
+    assert!(!info("without").contains("rates"));
+}

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// Names of all tests in a folder: functions under `#[test]`, also in macros that make them.
+/// Names of all tests in a folder: functions under `#[test]`, also in macros that make them, and those of pytest.
 fn tests_below(folder: &Path, names: &mut BTreeSet<String>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -17,6 +17,11 @@ fn tests_below(folder: &Path, names: &mut BTreeSet<String>) {
                 let name = name.and_then(|rest| rest.split(['(', '<']).next());
                 names.extend(name.map(|name| name.trim().to_owned()));
             }
+        } else if path.extension().is_some_and(|extension| extension == "py") {
+            let text = fs::read_to_string(&path).unwrap();
+            let starts = text.lines().filter_map(|line| line.strip_prefix("def "));
+            let functions = starts.filter_map(|rest| rest.split('(').next());
+            names.extend(functions.map(ToOwned::to_owned));
         }
     }
 }
@@ -30,7 +35,7 @@ fn cells(line: &str) -> Vec<&str> {
 fn every_promise_names_tests_that_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut tests = BTreeSet::new();
-    for folder in ["src", "tests"] {
+    for folder in ["src", "tests", "python/tests"] {
         tests_below(&root.join(folder), &mut tests);
     }
     let page = fs::read_to_string(root.join("docs/security.md")).unwrap();

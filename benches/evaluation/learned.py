@@ -1,28 +1,33 @@
-"""Self-collision models of six robots: what they miss and clear, what they cost, beside exact distances.
+"""Self-collision models of six robots: what they miss and clear, near contact too, and what they cost.
 
-    python benches/evaluation/learned.py --robots FOLDER [--urdd PROGRAM --bench PROGRAM]
+    python benches/evaluation/learned.py --robots FOLDER [--urdd PROGRAM] [--only NAME ...]
 
 For each robot a URDD is made, then again with `self_collision_model`, which keeps the rest; the processor time of the
-second run on one thread is that of training. The counts are those that the module states, which `urdd validate` counts
-again. Times: `benches/learned.rs`, one thread, medians of five rounds over 5,000 configurations. Panda and Z1 come from
-the package `example-robot-data`.
+second run on one thread is that of training. `benches/learned.rs` counts on 200,000 configurations and takes times. With
+`--only` the rows of the other robots stay as they are. Panda and Z1 come from the package `example-robot-data`.
 """
 
 from __future__ import annotations
 
-import argparse
 import importlib.metadata
+import json
 import os
-import re
 import resource
 import subprocess
 import tempfile
 from pathlib import Path
+from typing import Any
 
-from tables import ROOT, document, made_by, program, version_of, write
+from robots import arguments, bench, document, printed, program, version_of
+from results import FOLDER, Table, write
 
 PAPER = {"UR5": "ur5", "xArm7": "xarm7", "H1": "h1", "Orca hand": "orca"}
 DATA = {"Panda": "panda_description/urdf/panda.urdf", "Z1": "z1_description/urdf/z1.urdf"}
+COLUMNS = [
+    "robot", "DOFs", "pairs with an output", "weights", "kB", "training, CPU s", "collisions missed",
+    "free cleared", "model, µs", "exact distances, µs", "exact yes or no, µs", "model, then exact, µs",
+]
+ORDER = ["UR5", "xArm7", "Panda", "Z1", "H1", "Orca hand"]
 
 
 def data() -> Path:
@@ -38,55 +43,141 @@ def seconds(command: list[str | Path], environment: dict[str, str]) -> float:
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--robots", type=Path, required=True)
-    parser.add_argument("--urdd", type=Path, help="instead of one that is built of these sources")
-    parser.add_argument("--bench", type=Path, help="benches/learned.rs, built")
-    arguments = parser.parse_args()
-    urdd = program(arguments.urdd)
-    bench = [arguments.bench] if arguments.bench else ["cargo", "bench", "--quiet", "--bench", "learned", "--"]
-    share = data()
-    environment = {**os.environ, "RAYON_NUM_THREADS": "1", "ROS_PACKAGE_PATH": str(share)}
+def measure(name: str, urdf: Path, urdd: Path, timed: Path, folder: Path) -> dict[str, Any]:
+    """All figures of a robot."""
+    environment = {**os.environ, "RAYON_NUM_THREADS": "1", "ROS_PACKAGE_PATH": str(data())}
+    target = folder / name.replace(" ", "_")
+    make: list[str | Path] = [urdd, "generate", urdf, "-o", target]
+    seconds(make, environment)
+    without = seconds([urdd, "validate", "--quiet", "--fail-on", "info", target], environment)
+    training = seconds([*make, "--modules", "all,self_collision_model"], environment)
+    path = target / "link_shapes_modules/self_collision_model_module/module.json"
+    found: dict[str, Any] = {"robot": name, "dofs": document(target, "dof_module")["num_dofs"], "model": None}
+    if not path.exists():
+        return found
+    validating = seconds([urdd, "validate", "--quiet", "--fail-on", "info", target], environment)
+    model = document(target, "self_collision_model_module")
+    found["model"] = {
+        "pairs": len(model["pairs"]),
+        "other_pairs": len(model["other_pairs"]),
+        "weights": sum(len(layer["biases"]) * (len(layer["weights"][0]) + 1) for layer in model["layers"]),
+        "kilobytes": path.stat().st_size / 1000,
+        "training_seconds": training,
+        "validating_seconds": validating - without,
+        "measured": json.loads(printed([timed, target])),
+    }
+    return found
+
+
+def percent(rate: dict[str, Any]) -> str:
+    """A rate with its interval."""
+    if rate["of"] == 0:
+        return "-"
+    share, lower, upper = (100 * x for x in (rate["count"] / rate["of"], rate["lower"], rate["upper"]))
+    return f"{share:.2f} % ({lower:.2f} to {upper:.2f})"
+
+
+def of(rate: dict[str, Any]) -> str:
+    """The same, with the counts."""
+    return f"{rate['count']:,} of {rate['of']:,}: {percent(rate)}"
+
+
+def depth(found: dict[str, Any]) -> str:
+    """Median and largest depth."""
+    if found["median_mm"] is None:
+        return "-"
+    return f"{found['median_mm']:.1f} / {found['largest_mm']:.1f}"
+
+
+def evaluation_rows(robots: list[dict[str, Any]]) -> list[list[str]]:
+    """The rows of docs/evaluation.md."""
     rows = []
-    with tempfile.TemporaryDirectory() as folder:
-        for name in ["UR5", "xArm7", "Panda", "Z1", "H1", "Orca hand"]:
-            robot = PAPER.get(name)
-            urdf = (
-                arguments.robots / robot / "robot.urdf" if robot else share / "example-robot-data/robots" / DATA[name]
-            )
-            target = Path(folder) / name.replace(" ", "_")
-            make: list[str | Path] = [urdd, "generate", urdf, "-o", target]
-            seconds(make, environment)
-            training = seconds([*make, "--modules", "all,self_collision_model"], environment)
-            path = target / "link_shapes_modules/self_collision_model_module/module.json"
-            dofs = str(document(target, "dof_module")["num_dofs"])
-            if not path.exists():
-                rows.append([name, dofs, "none is made", *["-"] * 9])
-                continue
-            subprocess.run([urdd, "validate", "--quiet", "--fail-on", "info", target], check=True)
-            model = document(target, "self_collision_model_module")
-            counts = model["held_out"]
-            colliding = counts["num_colliding"]
-            free = counts["num_configurations"] - colliding
-            missed, cleared = counts["num_missed"], counts["num_cleared"]
-            weights = sum(len(layer["biases"]) * (len(layer["weights"][0]) + 1) for layer in model["layers"])
-            printed = subprocess.run([*bench, target], cwd=ROOT, check=True, capture_output=True, text=True).stdout
-            times = re.findall(r": ([\d.]+) us", printed)
-            rows.append(
-                [
-                    name,
-                    dofs,
-                    f"{len(model['pairs'])} of {len(model['pairs']) + len(model['other_pairs'])}",
-                    f"{weights:,}",
-                    f"{path.stat().st_size / 1000:.0f}",
-                    f"{training:.1f}",
-                    f"{missed} of {colliding:,} ({100 * missed / colliding:.2f} %)",
-                    f"{100 * cleared / free:.1f} %",
-                    *times,
-                ]
-            )
-    write("learned", rows, made_by(version_of(urdd, arguments.urdd is not None)))
+    for one in robots:
+        model = one["model"]
+        if model is None:
+            rows.append([one["robot"], str(one["dofs"]), "none is made", *["-"] * 9])
+            continue
+        counts, largest = model["measured"]["counts"], model["measured"]["times"][-1]
+        rows.append(
+            [
+                one["robot"],
+                str(one["dofs"]),
+                f"{model['pairs']} of {model['pairs'] + model['other_pairs']}",
+                f"{model['weights']:,}",
+                f"{model['kilobytes']:.0f}",
+                f"{model['training_seconds']:.1f}",
+                percent(counts["misses"]),
+                percent(counts["clears"]),
+                *(f"{largest[key]:.2f}" for key in ("model", "distances", "exact", "both")),
+            ]
+        )
+    return rows
+
+
+def tables(robots: list[dict[str, Any]]) -> dict[str, list[list[str]]]:
+    """The tables of docs/learned.md, and the one of docs/evaluation.md, by name: a row of columns, then rows."""
+    made: dict[str, list[list[str]]] = {
+        "all": [COLUMNS, *evaluation_rows(robots)],
+        "rates": [["robot", "collisions missed", "free cleared", "depth of misses, mm: median / largest"]],
+        "near-contact": [
+            ["robot", "a step away (8.8.10)", "depth, mm", "noise of 0.05 rad away", "depth, mm", "at contact, by bisection"]
+        ],
+        "batches": [["robot", "batch", "model, µs", "exact yes or no, µs", "model, then exact, µs", "exact distances, µs"]],
+        "obstacles": [["robot", "cleared that hit an obstacle", "exact, µs", "model, then exact, µs"]],
+    }
+    for one in robots:
+        if one["model"] is None:
+            continue
+        name, measured = one["robot"], one["model"]["measured"]
+        counts, obstacles = measured["counts"], measured["obstacles"]
+        made["rates"].append([name, of(counts["misses"]), percent(counts["clears"]), depth(counts["depth"])])
+        step, noise = counts["near_by_step"], counts["near_by_noise"]
+        made["near-contact"].append(
+            [
+                name,
+                of(step["misses"]),
+                depth(step["depth"]),
+                of(noise["misses"]),
+                depth(noise["depth"]),
+                of(counts["at_contact"]),
+            ]
+        )
+        for row in measured["times"]:
+            times = [f"{row[key]:.2f}" for key in ("model", "exact", "both", "distances")]
+            made["batches"].append([name, f"{row['batch']:,}", *times])
+        times = [f"{obstacles[key]:.2f}" for key in ("exact", "both")]
+        made["obstacles"].append([name, of(obstacles["cleared_that_hit"]), *times])
+    return made
+
+
+def keep(name: str, made: list[list[str]]) -> Table:
+    """A table with the rows of robots that were not measured now as they were."""
+    path = FOLDER / "learned.json"
+    before = json.loads(path.read_text("utf-8"))["items"].get(name) if path.is_file() else None
+    columns, *rows = made
+    measured = {row[0] for row in rows}
+    if before and before["columns"] == columns:
+        rows += [row for row in before["rows"] if row[0] not in measured]
+    return {"columns": columns, "rows": sorted(rows, key=lambda row: ORDER.index(row[0]))}
+
+
+def main() -> None:
+    parser = arguments(__doc__)
+    parser.add_argument("--only", nargs="+", choices=ORDER, default=ORDER, help="measure these robots alone")
+    given = parser.parse_args()
+    urdd, timed = program(given.urdd), bench("learned")
+    share = data() / "example-robot-data/robots"
+    found = []
+    for name in given.only:
+        urdf = given.robots / PAPER[name] / "robot.urdf" if name in PAPER else share / DATA[name]
+        with tempfile.TemporaryDirectory() as folder:
+            found.append(measure(name, urdf, urdd, timed, Path(folder)))
+    write(
+        "learned",
+        {name: keep(name, made) for name, made in tables(found).items()},
+        version_of(urdd, given.urdd is not None),
+        how="counted on 200,000 configurations",
+    )
 
 
 if __name__ == "__main__":

@@ -15,7 +15,6 @@ leaves out.
 
 from __future__ import annotations
 
-import argparse
 import importlib.metadata
 import json
 import subprocess
@@ -27,10 +26,26 @@ from typing import Any
 
 import lines_cpp
 import lines_rust
-from tables import DECLARED, ROOT, document, generated, made_by, program, write
+from robots import ROOT, arguments, document, generated, program
+from results import Table, write
 
 ROBOT = ROOT / "conformance" / "robots" / "six_axis_arm.urdf"
 HERE = Path(__file__).resolve().parent
+#: The rows of the table.
+ROWS = [
+    "a program by json and numpy",
+    "urdd in Rust",
+    "urdd in Python",
+    "yourdfpy",
+    "roboticstoolbox",
+    "KDL",
+    "PyBullet",
+    "Pinocchio",
+    "MuJoCo",
+    "Klampt",
+    "Drake",
+    "Isaac Sim",
+]
 #: The paper's counts.
 PAPER = {
     "a program by json and numpy": "0",
@@ -87,7 +102,7 @@ def rows(sources: Path | None, flags: list[str], urdf: Path, urdd: Path) -> list
     q = {one["joint_name"]: value for one, value in zip(dof["dofs"], sample["configuration"], strict=True)}
     position = {name: pose["position"] for name, pose in zip(names, sample["link_poses"], strict=True)}
     found = []
-    for name in DECLARED["lines"]["rows"]:
+    for name in ROWS:
         if name in WITHOUT:
             reads, load, pose, how = "URDF" if name != "Isaac Sim" else "USD", "-", "-", WITHOUT[name]
         elif name == "urdd in Rust":
@@ -120,18 +135,19 @@ def rows(sources: Path | None, flags: list[str], urdf: Path, urdd: Path) -> list
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__, robots=False)
     parser.add_argument("--sources", type=Path)
-    parser.add_argument("--urdd", type=Path, help="instead of one that is built of these sources")
-    arguments = parser.parse_args()
-    urdd = program(arguments.urdd)
+    given = parser.parse_args()
+    urdd = program(given.urdd)
     # Boost and Eigen of the wheel `pin`, where it is installed beside this Python.
     prefix = next((Path(path) / "cmeel.prefix" for path in sys.path if (Path(path) / "cmeel.prefix").is_dir()), None)
     flags = [f"-I{prefix}/include", f"-L{prefix}/lib", f"-Wl,-rpath,{prefix}/lib"] if prefix else []
+    columns = ["what", "reads", "lines to FK", "FK itself", "paper", "counted"]
     with tempfile.TemporaryDirectory() as folder:
         urdf = without_shapes(Path(folder))
         made = generated(urdd, urdf, Path(folder) / "urdd", "--modules", "kinematics_samples")
-        write("lines", rows(arguments.sources, flags, urdf, made), made_by())
+        table: Table = {"columns": columns, "rows": rows(given.sources, flags, urdf, made)}
+        write("lines", {"all": table})
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from tables import ROOT
+from robots import ROOT
 
 Lines = set[tuple[str, int]]
 

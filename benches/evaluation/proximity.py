@@ -1,42 +1,32 @@
 """Distances and collisions beside Pinocchio with coal, for the five robots of the paper.
 
-    python benches/evaluation/proximity.py --robots FOLDER [--urdd PROGRAM]
+    python benches/evaluation/proximity.py --robots FOLDER [--configurations 200] [--urdd PROGRAM]
 
-For each robot a URDD is made. Ours: the package `urdd`, 1,000 sampled configurations as a batch on one thread. Coal:
-`benches/proximity_coal.py`, 200 of them in a loop in Python, of which the loop's own time is taken off; it first holds
-the answers of both to each other. Both: microseconds of processor time for a configuration, the poses included, median
-of five rounds; coal's yes or no by its broad phase. Needs the packages `urdd` and `pin`.
+For each robot a URDD is made. Ours: `benches/proximity.rs`, 200 sampled configurations as a batch on one thread and on two, and
+parry on the same pairs. Coal: `benches/proximity_coal.py`, the same configurations in a loop in Python, of which the loop's own
+time is taken off; it first holds the answers of both to each other. Both: microseconds for a configuration, the poses included,
+medians of five rounds; coal's yes or no by its broad phase. Needs the package `pin`, which brings coal.
 """
 
 from __future__ import annotations
 
-import argparse
 import importlib.metadata
 import re
-import statistics
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
-import urdd
-from tables import ROBOTS, ROOT, generated, made_by, program, urdf_of, write
+from robots import ROBOTS, ROOT, arguments, bench, generated, printed, program, urdf_of, version_of
+from results import Table, write
 
-CONFIGURATIONS = 1000
-ROUNDS = 5
+KINDS = ("hulls", "pieces")
 
 
-def clock(work: Callable[[Any], object], q: Any) -> float:
-    """Microseconds of processor time for a configuration."""
-    times: list[float] = []
-    for _ in range(ROUNDS):
-        begin = time.process_time()
-        work(q)
-        times.append(time.process_time() - begin)
-    return 1e6 * statistics.median(times) / CONFIGURATIONS
+def by_kind(text: str, title: str) -> dict[str, str]:
+    """What a program prints of hulls and of pieces, each after a line that the pattern matches."""
+    parts = re.split(title, text, flags=re.MULTILINE)
+    return dict(zip(parts[1::2], parts[2::2], strict=True))
 
 
 def by_coal(command: list[str | Path]) -> dict[str, str]:
@@ -46,8 +36,7 @@ def by_coal(command: list[str | Path]) -> dict[str, str]:
         sys.exit(done.returncode)
     if done.returncode < 0:
         print(f"{command[-1]}: coal ended by signal {-done.returncode}", file=sys.stderr)
-    parts = re.split(r"^\S.*, (hulls|pieces): ", done.stdout, flags=re.MULTILINE)
-    return dict(zip(parts[1::2], parts[2::2], strict=True))
+    return by_kind(done.stdout, r"^\S.*, (hulls|pieces): ")
 
 
 def number(pattern: str, text: str) -> float:
@@ -62,39 +51,61 @@ def rate(pairs: int, microseconds: float) -> str:
     return f"{pairs / microseconds:.1f} million"
 
 
+def span(ratios: list[float]) -> str:
+    return f"{min(ratios):.1f} to {max(ratios):.1f}"
+
+
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--robots", type=Path, required=True)
-    parser.add_argument("--urdd", type=Path, help="instead of one that is built of these sources")
-    arguments = parser.parse_args()
-    binary = program(arguments.urdd)
-    urdd.set_num_threads(1)
-    rows = []
+    parser = arguments(__doc__)
+    parser.add_argument("--configurations", type=int, default=200, help="for coal")
+    given = parser.parse_args()
+    binary, ours_by = program(given.urdd), bench("proximity")
+    rows: list[list[str]] = []
+    short: list[list[str]] = []
+    parry: list[float] = []
+    points: list[float] = []
+    worst = 0.0
     with tempfile.TemporaryDirectory() as folder:
         for robot in ROBOTS:
-            target = generated(binary, urdf_of(robot, arguments.robots), Path(folder) / robot.name.replace(" ", "_"))
-            coal = by_coal([sys.executable, "benches/proximity_coal.py", binary, target])
-            loaded = urdd.load(target)
-            q = loaded.sample(CONFIGURATIONS)
-            for kind in ("hulls", "pieces"):
-                proximity = loaded.proximity(kind)
-                pairs = proximity.num_pairs
-                ours = clock(proximity.distances, q), clock(proximity.in_collision, q)
-                row = [robot.name, kind, f"{pairs:,}", f"{ours[0]:.1f}", "-", rate(pairs, ours[0]), "-"]
-                row += [f"{ours[1]:.1f}", "-"]
+            target = generated(binary, urdf_of(robot, given.robots), Path(folder) / robot.name.replace(" ", "_"))
+            peers = [sys.executable, "benches/proximity_coal.py", "--configurations", str(given.configurations)]
+            coal = by_coal([*peers, binary, target])
+            ours = by_kind(printed([ours_by, target]), r"^  (hulls|pieces): ")
+            for kind in KINDS:
+                text = ours[kind]
+                pairs = int(number(r"(\d+) pairs", text))
+                distances, two, collides = (
+                    number(rf"{what}\s+([\d.]+) us", text)
+                    for what in ("distances, 1 threads", "distances, 2 threads", "collision, 1 threads")
+                )
+                parry.append(number(r"by parry, 1 thread\s+([\d.]+) us", text) / distances)
+                points.append(number(r"with points, one by one\s+([\d.]+) us", text) / distances)
+                row = [robot.name, kind, f"{pairs:,}", f"{distances:.1f}", f"{two:.1f}", "-", rate(pairs, distances), "-"]
+                row += [f"{collides:.1f}", "-"]
                 if theirs := coal.get(kind):
                     if int(number(r"^(\d+) pairs", theirs)) != pairs:
                         sys.exit(f"{robot.name}: coal has other pairs than the {pairs} of ours")
-                    distances = number(r"  distances\s+([\d.]+) us", theirs)
-                    row[4], row[6] = f"{distances:.1f}", rate(pairs, distances)
-                    row[8] = f"{number(r'  collision, broad phase +([0-9.]+) us', theirs):.1f}"
+                    worst = max(worst, number(r"distances within (\S+) m", theirs))
+                    by_them = number(r"  distances\s+([\d.]+) us", theirs)
+                    row[5], row[7] = f"{by_them:.1f}", rate(pairs, by_them)
+                    row[9] = f"{number(r'  collision, broad phase +([0-9.]+) us', theirs):.1f}"
                 rows.append(row)
-    versions = [
-        f"urdd {urdd.__version__}",
-        f"Pinocchio {importlib.metadata.version('pin')}",
-        f"coal {importlib.metadata.version('coal')}",
+                if kind == "pieces" or robot == ROBOTS[0]:
+                    short.append([row[k] for k in (0, 1, 2, 3, 5, 8, 9)])
+    columns = [
+        "robot", "shapes", "pairs", "all distances, µs", "on two threads", "by coal, µs", "distances per second", "by coal",
+        "collides, µs", "by coal, µs",
     ]
-    write("proximity", rows, made_by(*versions))
+    items: dict[str, Table | str] = {
+        "all": {"columns": columns, "rows": rows},
+        "short": {"columns": [columns[k] for k in (0, 1, 2, 3, 5, 8, 9)], "rows": short},
+        "parry": f"{span(parry)} times",
+        "points": f"{span(points)} times",
+        "differ": f"{worst:.0e} m".replace("e-0", "e-"),
+    }
+    peers = [f"{name} {importlib.metadata.version(package)}" for name, package in (("Pinocchio", "pin"), ("coal", "coal"))]
+    how = f"{given.configurations} configurations by coal"
+    write("proximity", items, version_of(binary, given.urdd is not None), *peers, how=how)
 
 
 if __name__ == "__main__":

@@ -34,17 +34,17 @@ pub const FREE_FIELDS: &[FreeField] = &[
     FreeField {
         module: "self_collision_model_module",
         field: "/clip_distance",
-        clause: "8.8.10",
+        clause: "8.8.12",
     },
     FreeField {
         module: "self_collision_model_module",
         field: "/training",
-        clause: "8.8.10",
+        clause: "8.8.12",
     },
     FreeField {
         module: "self_collision_model_module",
         field: "/calibration",
-        clause: "8.8.10",
+        clause: "8.8.12",
     },
     // What the parts were by themselves: this URDD holds nothing of it.
     FreeField {
@@ -304,6 +304,12 @@ pub const FIELD_TOLERANCES: &[FieldTolerance] = &[
         field: "",
         tolerance: Tolerance::OfSpan(1e-5),
         clause: "8.5",
+    },
+    FieldTolerance {
+        module: "self_collision_model_module",
+        field: "/evaluation",
+        tolerance: Tolerance::Absolute(5.0),
+        clause: "8.8.9",
     },
 ];
 

@@ -1,5 +1,7 @@
 /** What the page does: opens robots, moves them, asks about them. Panels show the state and call this. */
 
+import { absentMeshes } from "./absent";
+import { contactsOf } from "./contacts";
 import { Trapped } from "./engine/client";
 import type { Engine } from "./engine/client";
 import type { Report, RobotSource, ShapeKind } from "./engine/protocol";
@@ -8,11 +10,17 @@ import { RobotModel } from "./model";
 import { partsOf } from "./parts";
 import type { Entry, Part } from "./model";
 import type { Site } from "./site";
-import { LAYERS, NO_SKIPS, StateStore } from "./state";
+import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, StateStore } from "./state";
 import type { Layer, LayerKind } from "./state";
+import { keepUnits } from "./ui/format";
+import type { Units } from "./ui/format";
 
-/** Nearest pairs that are shown. */
-const NEAREST = 24;
+/** Nearest pairs of shapes that are asked for: where they are listed, and where only contacts count. */
+const LISTED = 128;
+const FEW = 24;
+/** Poses that can be taken back, and how long the robot rests before another one counts as a step of its own, ms. */
+const MOST_STEPS = 200;
+const REST = 300;
 
 export class App {
   readonly store = new StateStore();
@@ -21,6 +29,11 @@ export class App {
   /** A word for the files of the robot as they were read; null where nobody says. */
   revision: string | null = null;
   private opening = 0;
+  /** The robot whose first picture is there. */
+  private drawn: RobotModel | null = null;
+  private back: number[][] = [];
+  private forth: number[][] = [];
+  private movedAt = -Infinity;
   private noting: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
@@ -33,13 +46,21 @@ export class App {
       if (this.store.now.robot === robot) this.store.set({ poses });
     });
     this.proximity = new Latest(async ({ q, shapes }) => {
-      const robot = this.store.now.robot;
+      const { robot, tab } = this.store.now;
+      const isOld = (): boolean => this.store.now.robot !== robot || this.store.now.shapes !== shapes;
       try {
-        const answer = await engine.ask("proximity", { q, shapes, k: NEAREST });
-        if (this.store.now.robot === robot) this.store.set({ proximity: { answer, error: null } });
+        const answer = await engine.ask("proximity", { q, shapes, k: tab === "Proximity" ? LISTED : FEW });
+        if (isOld()) return;
+        const contacts = contactsOf(answer, shapes, this.store.now.contacts);
+        this.store.set({ proximity: { answer, error: null }, contacts });
       } catch (error) {
-        if (this.store.now.robot === robot) this.store.set({ proximity: { answer: null, error: message(error) } });
+        if (!isOld()) this.store.set({ proximity: { answer: null, error: message(error) }, contacts: null });
       }
+    });
+    this.store.on(["tab"], ({ tab, robot }) => {
+      if (!CHOOSES_PAIRS.has(tab)) this.store.set({ pair: null });
+      // More of them are listed there.
+      if (tab === "Proximity" && robot) this.measure();
     });
   }
 
@@ -54,6 +75,8 @@ export class App {
       loading: { what: "modules", done: 0, of: 0 },
       ...(keep ? {} : { selected: null, hovered: null, hidden: new Set<number>(), pair: null }),
       proximity: { answer: null, error: null },
+      contacts: null,
+      absent: [],
       // Decisions that are not saved outlive another reading of the same robot.
       skips: keep && before.skips.dirty ? before.skips : NO_SKIPS,
       report: { report: null, error: null, busy: null },
@@ -70,7 +93,10 @@ export class App {
       const q = keep && before.q.length === robot.dofs.length ? before.q : (about.zero ?? robot.dofs.map(() => 0));
       const poses = about.dofs ? await this.engine.ask("poses", { q }) : null;
       if (turn !== this.opening) return null;
+      this.back = [];
+      this.forth = [];
       this.store.set({ robot, q, poses, loading: null });
+      void this.findAbsent(robot);
       return robot;
     } catch (error) {
       if (turn === this.opening) this.store.set({ loading: null, failure: message(error) });
@@ -84,19 +110,40 @@ export class App {
     if (robot?.source.kind !== "url") return;
     await this.open(robot.entry, await this.site.source(robot.entry), true);
     this.store.set({ skips: { ...this.store.now.skips, saved: skips.saved } });
-    const { tab } = this.store.now;
-    if (tab === "Proximity") this.measure(true);
-    if (tab === "Findings") void this.loadReport();
+    if (this.store.now.tab === "Findings") void this.loadReport();
   }
 
   close(): void {
     this.opening++;
-    this.store.set({ robot: null, failure: null, loading: null, q: [], poses: null });
+    this.store.set({ robot: null, failure: null, loading: null, q: [], poses: null, pair: null, contacts: null });
   }
 
-  /** Moves the robot. */
+  /** Moves the robot. What follows at once, as a drag does, is one step that can be taken back. */
   move(q: number[]): void {
     if (!q.every(Number.isFinite)) return;
+    const now = performance.now();
+    if (now - this.movedAt > REST) {
+      this.back = [...this.back.slice(1 - MOST_STEPS), this.store.now.q];
+      this.forth = [];
+    }
+    this.movedAt = now;
+    this.place(q);
+  }
+
+  /** Takes the last step of the robot back, or makes it again. */
+  step(by: "back" | "forth"): void {
+    const [from, to] = by === "back" ? [this.back, this.forth] : [this.forth, this.back];
+    const q = from.pop();
+    if (!q) {
+      this.note(by === "back" ? "There is no earlier pose." : "There is no later pose.");
+      return;
+    }
+    to.push(this.store.now.q);
+    this.movedAt = -Infinity;
+    this.place(q);
+  }
+
+  private place(q: number[]): void {
     this.store.set({ q, sample: null });
     this.poses.ask(q);
     this.measure();
@@ -108,17 +155,31 @@ export class App {
     this.move(q);
   }
 
-  /** Asks for distances where somebody looks at them. */
-  measure(always = false): void {
-    const { robot, q, shapes, tab, proximity } = this.store.now;
-    if (!robot?.moves) return;
-    const shown = tab === "Proximity" || proximity.answer !== null;
-    if (always || shown) this.proximity.ask({ q, shapes });
+  /** Asks for distances, and so whether the robot collides. The first picture comes before. */
+  measure(): void {
+    const { robot, q, shapes } = this.store.now;
+    if (robot?.moves && this.drawn === robot) this.proximity.ask({ q, shapes });
+  }
+
+  /** The first picture of the robot is there, or there will be none. */
+  settled(): void {
+    this.drawn = this.store.now.robot;
+    this.measure();
   }
 
   useShapes(shapes: ShapeKind): void {
-    this.store.set({ shapes, pair: null, proximity: { answer: null, error: null } });
-    this.measure(true);
+    this.store.set({ shapes, pair: null, proximity: { answer: null, error: null }, contacts: null });
+    this.measure();
+  }
+
+  setUnits(units: Units): void {
+    keepUnits(units);
+    this.store.set({ units });
+  }
+
+  private async findAbsent(robot: RobotModel): Promise<void> {
+    const absent = await absentMeshes(this.engine, robot);
+    if (this.store.now.robot === robot) this.store.set({ absent });
   }
 
   select(selected: Part | null): void {
@@ -161,10 +222,7 @@ export class App {
       if (this.store.now.robot === robot) this.store.set({ report: { report, error, busy: null } });
     };
     try {
-      const known =
-        robot.source.kind === "url" || this.store.now.entries.includes(robot.entry)
-          ? await this.site.report(robot.entry)
-          : null;
+      const known = robot.entry.id !== "" ? await this.site.report(robot.entry) : null;
       const made =
         known ??
         (await this.engine.aside("validate", { name: robot.entry.name }, ({ done, of }) => {

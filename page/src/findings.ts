@@ -42,6 +42,7 @@ export interface Place {
   file: string | null;
   pointer: string | null;
   line: number | null;
+  column: number | null;
   subject: string | null;
   expected: string | null;
   actual: string | null;
@@ -52,8 +53,41 @@ export function places(finding: Finding): Place[] {
   return Array.isArray(finding["places"]) ? (finding["places"] as Place[]) : [];
 }
 
+/** How many findings there are: each place where a rule finds something is one, as `urdd validate` counts them. */
+export function tally({ totals }: Report): Record<Severity, number> & { all: number } {
+  const { error = 0, warning = 0, info = 0 } = totals;
+  return { error, warning, info, all: error + warning + info };
+}
+
+/** What is to be mended first: what a fault does to whoever uses the URDD, the worst first, as `urdd validate` has it. */
+export const CONSEQUENCES = new Map([
+  ["wrong-motion", "wrong motion"],
+  ["wrong-place", "wrong place"],
+  ["missing-geometry", "missing geometry"],
+  ["collisions", "missed or false collisions"],
+  ["format", "format"],
+  ["appearance", "appearance"],
+  ["looseness", "looseness"],
+]);
+
+/** Findings in the order in which to mend them. */
+export function toMend(findings: readonly Finding[]): Finding[] {
+  const order = [...CONSEQUENCES.keys()];
+  const rank = ({ consequence }: Finding): number => order.indexOf(String(consequence));
+  return findings.slice().sort((a, b) => RANK[b.severity] - RANK[a.severity] || rank(a) - rank(b) || b.count - a.count);
+}
+
+/** The links that a finding names. */
+export function linksOf(robot: RobotModel, finding: Finding): Set<number> {
+  return new Set(places(finding).flatMap((place) => linkOf(robot, place) ?? []));
+}
+
 /** The worst of each link that has findings, or that was not verified. */
 export function worstOfLinks(robot: RobotModel, report: Report | null): Map<number, Worst> {
+  return worstOf(robot, report, () => true);
+}
+
+function worstOf(robot: RobotModel, report: Report | null, counts: (finding: Finding) => boolean): Map<number, Worst> {
   const worst = new Map<number, Worst>();
   const add = (link: number | null, severity: Worst): void => {
     if (link === null) return;
@@ -63,7 +97,39 @@ export function worstOfLinks(robot: RobotModel, report: Report | null): Map<numb
   const urdd = report?.urdds[0];
   for (const { link } of urdd?.geometry_not_verified ?? []) add(known(robot, link), "unverified");
   for (const finding of urdd?.findings ?? []) {
-    for (const place of places(finding)) add(linkOf(robot, place), finding.severity);
+    if (counts(finding)) for (const link of linksOf(robot, finding)) add(link, finding.severity);
   }
   return worst;
+}
+
+/** A rule that names links of a robot: how many of them, and whether they are so many that it tells none from the rest. */
+export interface NamedLinks {
+  code: string;
+  links: Set<number>;
+  isSystematic: boolean;
+}
+
+/** Share of the links from which on a rule names no link in particular. */
+const SYSTEMATIC = 0.5;
+
+export function namedLinks(robot: RobotModel, report: Report | null): NamedLinks[] {
+  const found = new Map<string, Set<number>>();
+  for (const finding of toMend(report?.urdds[0]?.findings ?? [])) {
+    const links = found.get(finding.code) ?? new Set<number>();
+    for (const link of linksOf(robot, finding)) links.add(link);
+    if (links.size > 0) found.set(finding.code, links);
+  }
+  const most = Math.max(2, SYSTEMATIC * robot.links.length);
+  return [...found].map(([code, links]) => ({ code, links, isSystematic: links.size > most }));
+}
+
+/** What links are painted by: the worst of what names them in particular, or what one rule finds. */
+export function paintOf(
+  robot: RobotModel,
+  report: Report | null,
+  painted: "worst" | { code: string },
+): Map<number, Worst> {
+  if (painted !== "worst") return worstOf(robot, report, ({ code }) => code === painted.code);
+  const left = new Set(namedLinks(robot, report).flatMap(({ code, isSystematic }) => (isSystematic ? [code] : [])));
+  return worstOf(robot, report, ({ code }) => !left.has(code));
 }

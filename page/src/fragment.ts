@@ -5,6 +5,9 @@ import type { Layer, LayerKind, OverlayKind, Pair, Tab } from "./state";
 import { SHAPE_KINDS } from "./engine/protocol";
 import type { ShapeKind } from "./engine/protocol";
 
+/** A list that is empty, and not only left out. */
+const NONE = "none";
+
 export interface Shared {
   robot: string | null;
   q: number[] | null;
@@ -16,6 +19,8 @@ export interface Shared {
   shapes: ShapeKind | null;
   layers: Partial<Record<LayerKind, Layer>> | null;
   overlays: OverlayKind[] | null;
+  /** Metres. */
+  frameSize: number | null;
   camera: number[] | null;
   token: string | null;
 }
@@ -83,8 +88,9 @@ export function read(fragment: string): Shared {
     hidden: ranges(words.get("x")),
     pair: pairOf(words.get("p")),
     shapes: SHAPE_KINDS.find((kind) => kind === words.get("k")) ?? null,
-    layers: Object.keys(layers).length > 0 ? layers : null,
+    layers: Object.keys(layers).length > 0 || words.get("l") === NONE ? layers : null,
     overlays: overlays === null ? null : OVERLAYS.filter((kind) => overlays.split(",").includes(kind)),
+    frameSize: numbers(words.get("f"))?.find((size) => size > 0) ?? null,
     camera: numbers(words.get("c")),
     token: words.get("token"),
   };
@@ -96,7 +102,7 @@ export function write(shared: Shared): string {
     if (value !== null && value !== "")
       words.push(`${key}=${encodeURIComponent(value).replaceAll("%2C", ",").replaceAll("%3A", ":")}`);
   };
-  const short = (value: number): string => String(Number(value.toFixed(5)));
+  const short = (value: number): string => String(Number(value.toFixed(7)));
   add("r", shared.robot);
   add("t", shared.tab);
   add("s", shared.selected);
@@ -105,8 +111,10 @@ export function write(shared: Shared): string {
   add("p", shared.pair?.map((place) => place.join(".")).join(",") ?? null);
   add("x", shared.hidden ? inRanges(shared.hidden) : null);
   const layers = Object.entries(shared.layers ?? {}).filter(([, layer]) => layer.on);
-  add("l", layers.map(([name, layer]) => (layer.opacity < 1 ? `${name}:${short(layer.opacity)}` : name)).join(","));
-  add("o", shared.overlays?.join(",") ?? null);
+  const drawn = layers.map(([name, layer]) => (layer.opacity < 1 ? `${name}:${short(layer.opacity)}` : name));
+  add("l", shared.layers && (drawn.join(",") || NONE));
+  add("o", shared.overlays && (shared.overlays.join(",") || NONE));
+  add("f", shared.frameSize === null ? null : short(shared.frameSize));
   add("q", shared.q?.map(short).join(",") ?? null);
   add("c", shared.camera?.map(short).join(",") ?? null);
   return words.join("&");

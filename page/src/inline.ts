@@ -1,6 +1,7 @@
-/** What a page that is one file carries in itself: `<script type="text/plain" id="...">` with base64. */
+/** What a page that is one file carries in itself: `<script type="text/plain" id="...">`, deflated, in base64. */
 
-import type { Report, RobotSource } from "./engine/protocol";
+import { inflateSync } from "fflate";
+import type { Explanation, Report, RobotSource } from "./engine/protocol";
 import type { Entry } from "./model";
 
 function text(name: string): string {
@@ -13,7 +14,7 @@ export function bytes(name: string): ArrayBuffer {
   const raw = atob(text(name));
   const found = new Uint8Array(raw.length);
   for (let k = 0; k < raw.length; k++) found[k] = raw.charCodeAt(k);
-  return found.buffer;
+  return inflateSync(found).slice().buffer;
 }
 
 /** The worker's code as an address. */
@@ -35,4 +36,11 @@ export function source(entry: Entry): RobotSource {
 
 export function report(): Report {
   return json("report.json") as Report;
+}
+
+/** What a rule of the report means. */
+export function explain(code: string): Explanation {
+  const known = (json("rules.json") as Explanation[]).find((rule) => rule.code === code);
+  if (!known) throw new Error("this page does not carry what the rule means");
+  return known;
 }

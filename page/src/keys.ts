@@ -2,23 +2,36 @@
 
 import type { App } from "./app";
 import type { Stage } from "./stage";
+import { undo } from "./skips";
 import { TABS } from "./state";
 
 export function keys(app: App, stage: Stage | null): void {
   addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (event.key === "Escape") {
-      app.store.set({ pair: null, selected: null });
+    const isField = /^(?:INPUT|SELECT|TEXTAREA)$/.test(target.tagName);
+    const types = isField && !/^(?:range|checkbox)$/.test(target.getAttribute("type") ?? "");
+    if ((event.ctrlKey || event.metaKey) && !event.altKey && !types) {
+      const again = event.key === "y" || (event.key.toLowerCase() === "z" && event.shiftKey);
+      if (!again && event.key !== "z") return;
+      event.preventDefault();
+      // Where decisions are made, they are what is taken back.
+      if (app.store.now.tab === "Skips" && !again) void undo(app);
+      else if (app.store.now.robot?.moves) app.step(again ? "forth" : "back");
       return;
     }
-    if (/^(?:INPUT|SELECT|TEXTAREA)$/.test(target.tagName)) return;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === "Escape") {
+      app.store.set({ pair: null, selected: null, unfolded: null });
+      return;
+    }
+    if (isField) return;
     const number = Number(event.key);
     const tab = TABS[number - 1];
     if (tab) {
-      app.store.set({ tab });
+      app.store.set({ tab, unfolded: "panels" });
     } else if (event.key === "/") {
       event.preventDefault();
+      app.store.set({ unfolded: "links" });
       document.getElementById("find")?.focus();
     } else if (event.key === " " && target.tagName !== "BUTTON") {
       event.preventDefault();

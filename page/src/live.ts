@@ -1,6 +1,9 @@
-/** Follows the files on disk: asks each second whether those of the open robot changed, and reads it again. */
+/** Follows the server: whether it answers, and whether the files of the open robot changed. */
 
 import type { App } from "./app";
+import { Gone, Refused } from "./site";
+import type { State } from "./state";
+import { fill, h } from "./ui/dom";
 
 const PERIOD = 1000;
 const GONE = "gone";
@@ -8,13 +11,18 @@ const GONE = "gone";
 export function follow(app: App): void {
   /** The change that the person was told of. */
   let told: string | null = null;
-  let lost = false;
   const look = async (): Promise<void> => {
-    const { robot } = app.store.now;
-    if (robot?.source.kind !== "url") return;
+    const { robot, server } = app.store.now;
+    // Who never had a token is told so elsewhere.
+    if (app.site.token === null) return;
+    if (robot?.source.kind !== "url") {
+      await app.site.answers();
+      app.store.set({ server: "here" });
+      return;
+    }
     const revision = await app.site.revision(robot.entry);
-    if (lost) app.note("The server is back.");
-    lost = false;
+    app.store.set({ server: "here" });
+    if (server !== "here") app.note("`urdd view` is back.");
     if (app.store.now.robot !== robot || app.revision === null || revision === app.revision) return;
     if (revision === told) return;
     told = revision;
@@ -29,13 +37,29 @@ export function follow(app: App): void {
   };
   const again = (): void => {
     look()
-      .catch(() => {
-        if (!lost) app.note("`urdd view` does not answer: changes on disk are not seen.");
-        lost = true;
+      .catch((error: unknown) => {
+        const server: State["server"] = error instanceof Refused ? "another" : error instanceof Gone ? "gone" : "here";
+        app.store.set({ server });
       })
       .finally(() => {
         setTimeout(again, PERIOD);
       });
   };
   again();
+}
+
+/** Says that the server ended, and what to do, for as long as that is so. */
+export function serverLine(app: App): HTMLElement {
+  const line = h("div", { class: "server", role: "alert" });
+  app.store.on(["server", "skips"], ({ server, skips, robot }) => {
+    line.hidden = server === "here";
+    const what =
+      server === "gone"
+        ? "`urdd view` has ended. What is shown stays here; nothing can be saved, and changes on disk are not seen. Start it again, and open the address that it prints."
+        : "Another `urdd view` has taken the place of the one that this page is of. Open the address that it printed, or paste it into this tab.";
+    const more = skips.dirty && robot ? " Decisions on skips are not saved: note them before you leave this page." : "";
+    const text = server === "here" ? "" : what + more;
+    if (line.textContent !== text) fill(line, text);
+  });
+  return line;
 }

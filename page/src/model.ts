@@ -22,6 +22,9 @@ export interface Entry {
   /** What was assumed when it was generated for this view. */
   notes: string[];
   picture: string | null;
+  /** Where a site has the list of its files, and its report. */
+  files?: string;
+  report?: string;
 }
 
 /** A robot of which nobody has said anything yet. */

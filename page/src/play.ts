@@ -5,12 +5,15 @@ import { message } from "./app";
 import type { Sample } from "./engine/protocol";
 
 const PER_SAMPLE = 700;
-const SWEEP = 4000;
+/** Greatest speeds of a sweep, rad/s and m/s, where the joint's own limit is not lower; and the shortest time, s. */
+const SPEED = { rad: Math.PI / 4, m: 0.1 };
+const SHORTEST = 4;
 
 export class Player {
   changed: (playing: boolean) => void = () => undefined;
   private turn = 0;
   private playing = false;
+  private sweeping: number | null = null;
 
   constructor(private readonly app: App) {}
 
@@ -18,6 +21,7 @@ export class Player {
     if (!this.playing) return;
     this.turn++;
     this.playing = false;
+    this.sweeping = null;
     this.changed(false);
   }
 
@@ -50,19 +54,29 @@ export class Player {
     this.app.store.set({ sample: { at, of, position, angle } });
   }
 
+  /** Moves a joint through its limits and back. A second call stops it. */
   sweep(dof: number): void {
+    if (this.sweeping === dof) {
+      this.stop();
+      return;
+    }
     const { robot, q } = this.app.store.now;
-    const bounds = robot?.dofs[dof]?.bounds;
+    const found = robot?.dofs[dof];
+    const bounds = found?.bounds;
     const [lower, upper] = bounds ?? [-Math.PI, Math.PI];
     const turn = this.begin();
+    this.sweeping = dof;
     const start = performance.now();
     const first = q[dof] ?? 0;
     const middle = (lower + upper) / 2;
     const half = (upper - lower) / 2 || 1;
     const phase = Math.asin(Math.max(-1, Math.min(1, (first - middle) / half)));
+    const own = robot?.joints[found?.joint ?? -1]?.limit?.velocity ?? Infinity;
+    const speed = Math.min(SPEED[found?.unit ?? "rad"], own > 0 ? own : Infinity);
+    const time = 1000 * Math.max(SHORTEST, (2 * Math.PI * half) / speed);
     const step = (now: number): void => {
       if (turn !== this.turn) return;
-      const share = Math.min(1, (now - start) / SWEEP);
+      const share = Math.min(1, Math.max(0, now - start) / time);
       this.app.setDof(dof, share < 1 ? middle + half * Math.sin(phase + 2 * Math.PI * share) : first);
       if (share < 1) requestAnimationFrame(step);
       else this.stop();

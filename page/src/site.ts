@@ -1,28 +1,74 @@
 /** Where the page's robots come from: `urdd view`, a static site, or a file with a robot inside. */
 
-import type { FileEntry, Report, RobotSource } from "./engine/protocol";
+import type { Explanation, FileEntry, Report, RobotSource } from "./engine/protocol";
 import * as inline from "./inline";
 import { unknown } from "./model";
+import { named } from "./named";
 import type { Entry } from "./model";
+import { keptToken } from "./token";
 
 export type Mode = "live" | "static" | "inline";
 
+/** How long a request may take before the server counts as gone, ms. */
+const PATIENCE = 8000;
+
+/** The server answers, and does not know the token. */
+export class Refused extends Error {
+  constructor() {
+    super(
+      "The link has no token that `urdd view` knows: it was started anew, or the link is not whole. Paste the address that " +
+        "`urdd view` printed into this tab, or a link that Share copied.",
+    );
+  }
+}
+
+/** Nothing answers where the page came from. */
+export class Gone extends Error {}
+
 export class Site {
-  constructor(
-    readonly mode: Mode,
-    private readonly token: string | null,
-  ) {}
+  /** By which the server knows this page; null where none is wanted. */
+  token: string | null = null;
+
+  constructor(readonly mode: Mode) {}
+
+  /** The robots, asked for with a link's token, or with the one that this browser keeps. */
+  async known(token: string | null): Promise<Entry[]> {
+    if (this.mode !== "live") return this.robots();
+    const tokens = new Set([token, this.token, keptToken()].filter((known) => known !== null));
+    for (const known of tokens) {
+      this.token = known;
+      try {
+        return await this.robots();
+      } catch (error) {
+        if (!(error instanceof Refused)) throw error;
+      }
+    }
+    this.token = null;
+    throw new Refused();
+  }
 
   async robots(): Promise<Entry[]> {
-    const robots = this.mode === "inline" ? inline.robots() : ((await this.json("robots.json")) as Entry[]);
+    const robots = this.mode === "inline" ? inline.robots() : ((await this.json(named("robots.json"))) as Entry[]);
     return robots.map((entry) => ({ ...unknown(entry.name), ...entry }));
+  }
+
+  /** Asks whether the server answers, and knows this page.
+   *
+   * Throws `Gone` or `Refused` where it does not. */
+  async answers(): Promise<void> {
+    const response = await this.fetch("robots.json", { method: "HEAD", signal: AbortSignal.timeout(PATIENCE) });
+    if (response.status === 403) throw new Refused();
   }
 
   async source(entry: Entry): Promise<RobotSource> {
     if (this.mode === "inline") return inline.source(entry);
     const base = `robots/${encodeURIComponent(entry.id)}/`;
-    const listed = (await this.json(`${base}files.json`)) as { name: string; files: FileEntry[]; revision?: string };
-    const here = new URL(`${base}files/`, document.baseURI).href;
+    const listed = (await this.json(entry.files ?? `${base}files.json`)) as {
+      name: string;
+      files: FileEntry[];
+      revision?: string;
+    };
+    const here = new URL(entry.files ? "." : `${base}files/`, document.baseURI).href;
     return {
       kind: "url",
       name: listed.name,
@@ -35,7 +81,12 @@ export class Site {
 
   async report(entry: Entry): Promise<Report> {
     if (this.mode === "inline") return inline.report();
-    return (await this.json(`robots/${encodeURIComponent(entry.id)}/report.json`)) as Report;
+    return (await this.json(entry.report ?? `robots/${encodeURIComponent(entry.id)}/report.json`)) as Report;
+  }
+
+  /** What a rule means, where the page carries it. */
+  explanation(code: string): Explanation | null {
+    return this.mode === "inline" ? inline.explain(code) : null;
   }
 
   /** What a gallery says of a robot. */
@@ -46,36 +97,39 @@ export class Site {
   /** The address of a small picture of a robot; null where it has none. */
   async picture(entry: Entry): Promise<string | null> {
     const path = `robots/${encodeURIComponent(entry.id)}/picture.png`;
-    const response = await fetch(path, { headers: this.headers() });
+    const response = await this.fetch(path);
     return response.status === 200 ? URL.createObjectURL(await response.blob()) : null;
   }
 
   /** A word that changes when the robot's files do; `gone` where there are none any more. */
   async revision(entry: Entry): Promise<string> {
-    const answer = (await this.json(`robots/${encodeURIComponent(entry.id)}/revision.json`)) as { revision: string };
-    return answer.revision;
+    const path = `robots/${encodeURIComponent(entry.id)}/revision.json`;
+    return ((await this.json(path, PATIENCE)) as { revision: string }).revision;
   }
 
   async post(path: string, body: unknown): Promise<unknown> {
-    const response = await fetch(path, {
-      method: "POST",
-      headers: { ...this.headers(), "content-type": "application/json" },
-      body: JSON.stringify(body),
-    });
+    const response = await this.fetch(path, { method: "POST", body: JSON.stringify(body) });
     const text = await response.text();
     if (!response.ok) throw new Error(text || `the server answered ${response.status}`);
     return JSON.parse(text) as unknown;
   }
 
-  private headers(): Record<string, string> {
-    return this.token ? { "x-urdd-token": this.token } : {};
+  private async fetch(path: string, init: RequestInit = {}): Promise<Response> {
+    const headers: Record<string, string> = this.token === null ? {} : { "x-urdd-token": this.token };
+    if (init.body) headers["content-type"] = "application/json";
+    try {
+      return await fetch(path, { ...init, headers });
+    } catch {
+      const who = this.mode === "live" ? "`urdd view`" : "The site";
+      throw new Gone(
+        `${who} does not answer. ${this.mode === "live" ? "Start it again, and open the address that it prints." : "Try again later."}`,
+      );
+    }
   }
 
-  private async json(path: string): Promise<unknown> {
-    const response = await fetch(path, { headers: this.headers() });
-    if (response.status === 403) {
-      throw new Error("The server does not know this tab. Open the address that `urdd view` printed, with its token.");
-    }
+  private async json(path: string, patience?: number): Promise<unknown> {
+    const response = await this.fetch(path, { signal: patience === undefined ? null : AbortSignal.timeout(patience) });
+    if (response.status === 403) throw new Refused();
     if (!response.ok) throw new Error(`${path}: the server answered ${response.status}`);
     return (await response.json()) as unknown;
   }

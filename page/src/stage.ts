@@ -1,23 +1,24 @@
 /** The picture: what is in it follows the state; the pointer selects, moves joints and pulls links. */
 
-import { Color, Vector3 } from "three";
+import { Vector3 } from "three";
 import type { App } from "./app";
 import { message } from "./app";
-import { worstOfLinks } from "./findings";
 import type { RobotModel } from "./model";
-import { partColor } from "./parts";
 import { pairOf, same as samePair } from "./panels/proximity";
+import { looks } from "./scene/dress";
 import { Gizmo, GIZMOS } from "./scene/gizmo";
 import { Ground } from "./scene/ground";
 import { load } from "./scene/layers";
 import { Overlays } from "./scene/overlays";
 import { prepare } from "./scene/pick";
 import { RobotScene } from "./scene/robot";
-import type { Look } from "./scene/robot";
+import { Names } from "./scene/names";
+import { rimColor } from "./scene/rim";
 import { View } from "./scene/view";
 import { Witness } from "./scene/witness";
 import { Hand } from "./hand";
-import { drawnLayers, LAYERS } from "./state";
+import { absent } from "./panels/absent";
+import { drawnLayers, ghosted, LAYERS } from "./state";
 import type { LayerKind, State } from "./state";
 import { h } from "./ui/dom";
 import { color } from "./ui/theme";
@@ -35,8 +36,6 @@ const HANDLES = {
 };
 
 const START = new Vector3(1, -0.75, 0.45);
-/** What is not looked at. */
-const FADED = 0.18;
 
 export class Stage {
   readonly element: HTMLElement;
@@ -45,11 +44,17 @@ export class Stage {
   scene: RobotScene | null = null;
   private readonly ground = new Ground();
   private readonly overlays = new Overlays();
+  private readonly names: Names;
   private readonly witness: Witness;
   private readonly label = h("div", { class: "witness", hidden: true });
   private readonly progress = h("div", { class: "progress", role: "progressbar", hidden: true });
   private model: RobotModel | null = null;
+  /** That of the robot, metres. */
   private size = 1;
+  /** From where the next robot is looked at; null for all of it. */
+  from: number[] | null = null;
+  /** The robot that the camera was put for. */
+  private lookedAt: string | null = null;
   /** Milliseconds from the page's start to the first whole picture. */
   firstPicture: number | null = null;
   /** The robot that is drawn whole, and looked at. */
@@ -74,8 +79,24 @@ export class Stage {
         ),
       );
     }
-    this.element = h("div", { class: "stage" }, canvas, this.label, views, this.progress);
     this.view = new View(canvas);
+    this.names = new Names(this.view);
+    const howto = h(
+      "p",
+      { class: "howto" },
+      "Drag a joint to move it · shift-drag a link to pull it · space: play samples",
+    );
+    this.element = h(
+      "div",
+      { class: "stage" },
+      canvas,
+      this.names.element,
+      this.label,
+      h("div", { class: "over" }, views, absent(app)),
+      howto,
+      this.progress,
+    );
+    this.view.follow(this.element);
     this.witness = new Witness(this.view, this.label);
     this.gizmo = new Gizmo(app, this.view);
     const handles = GIZMOS.map((kind) => {
@@ -96,6 +117,7 @@ export class Stage {
     views.append(h("span", { class: "gap" }), ...handles.map(([, button]) => button));
     app.store.on(["robot"], ({ robot }) => {
       views.hidden = !robot;
+      howto.hidden = !robot?.moves;
       for (const [, button] of handles) button.hidden = !robot?.moves;
     });
     this.view.scene.add(this.ground.group, this.overlays.group, this.witness.group);
@@ -115,6 +137,7 @@ export class Stage {
     const theme = (): void => {
       this.view.background(color("--stage"));
       this.ground.color(color("--grid"), color("--grid-strong"));
+      rimColor(color("--rim"));
       this.dress(store.now);
     };
     addEventListener("urdd-theme", theme);
@@ -126,9 +149,10 @@ export class Stage {
       if (!poses || !robot) return;
       this.scene?.pose(poses);
       this.overlays.pose(poses);
+      this.names.pose(poses);
       this.view.invalidate();
     });
-    store.on(["layers", "pair", "shapes"], () => {
+    store.on(["layers", "pair", "shapes", "tab"], () => {
       void this.fill();
     });
     store.on(
@@ -143,16 +167,19 @@ export class Stage {
         "painted",
         "byPart",
         "faults",
-        "proximity",
+        "contacts",
+        "tab",
       ],
       (state) => {
         this.dress(state);
       },
     );
-    store.on(["overlays", "selected", "robot"], (state) => {
+    store.on(["overlays", "frameSize", "selected", "robot"], (state) => {
       this.over(state);
     });
-    store.on(["proximity", "pair"], ({ proximity: { answer }, pair }) => {
+    store.on(["proximity", "pair", "tab", "units"], (state) => {
+      const { answer } = state.proximity;
+      const pair = ghosted(state);
       const found = answer?.nearest.find((at) => samePair(pair, pairOf(at))) ?? null;
       this.witness.show(found, this.size);
     });
@@ -164,19 +191,25 @@ export class Stage {
 
   /** Another robot, or none. */
   private take(robot: RobotModel | null): void {
-    const before = this.model;
     this.scene?.dispose();
     this.scene = null;
     this.overlays.clear();
     this.model = robot;
     this.view.invalidate();
-    if (!robot) return;
+    if (!robot) {
+      // While the same robot is read again the camera stays.
+      if (!this.app.store.now.loading) this.lookedAt = null;
+      this.names.show([]);
+      return;
+    }
     this.scene = new RobotScene(robot.links.length);
     this.busy = new Set();
     this.view.scene.add(this.scene.root);
     const { poses } = this.app.store.now;
     if (poses) this.scene.pose(poses);
-    void this.fill(before?.entry.id !== robot.entry.id);
+    const isNew = this.from !== null || robot.entry.id === "" || robot.entry.id !== this.lookedAt;
+    this.lookedAt = robot.entry.id;
+    void this.fill(isNew);
   }
 
   /** Loads the layers that are on. */
@@ -192,7 +225,10 @@ export class Stage {
       if (scene !== this.scene) return;
     }
     if (look) this.settle(scene);
+    // Another call may still be loading: the last one ends it.
+    if (busy.size > 0 || this.settledOn === model) return;
     this.settledOn = model;
+    this.app.settled();
   }
 
   /** The layers of the present scene that are being loaded. */
@@ -226,67 +262,46 @@ export class Stage {
     this.ground.under(box);
     this.over(this.app.store.now);
     this.view.fit(box, START);
+    if (this.from) this.place(this.from);
+    this.from = null;
     requestAnimationFrame(() => {
       this.firstPicture ??= performance.now();
-      dispatchEvent(new Event("urdd-settled"));
     });
   }
 
-  private over({ robot, overlays, selected, poses }: State): void {
+  private over({ robot, overlays, frameSize, selected, poses }: State): void {
     this.ground.group.visible = overlays.grid;
     if (robot && this.scene) {
-      this.overlays.make(robot, overlays, this.size, selected?.kind === "link" ? selected.index : null);
-      if (poses) this.overlays.pose(poses);
+      const link = selected?.kind === "link" ? selected.index : null;
+      this.overlays.make(robot, overlays, this.size, frameSize ?? this.frameSize, link);
+      const named = overlays.frames && overlays.names ? robot.links.map(({ name }, index) => ({ name, index })) : [];
+      // What is chosen is named in any case.
+      this.names.show(named.sort((a, b) => Number(b.index === link) - Number(a.index === link)));
+      if (poses) {
+        this.overlays.pose(poses);
+        this.names.pose(poses);
+      }
     }
     this.view.invalidate();
   }
 
+  /** The length of frames' axes that suits the robot, metres. */
+  get frameSize(): number {
+    return this.size * 0.07;
+  }
+
   /** Colours and opacities. */
   private dress(state: State): void {
-    const { robot, hidden, overlays, selected, hovered, pair, painted, byPart, report } = state;
-    const layers = drawnLayers(state);
-    if (!robot || !this.scene) return;
-    const tints = new Map<number, Color>();
-    const tint = (link: number | null | undefined, name: string): void => {
-      if (link !== null && link !== undefined) tints.set(link, new Color(color(name)));
-    };
-    for (const [part, own, parent] of [
-      [hovered, "--hover", "--parent"],
-      [selected, "--accent", "--parent"],
-    ] as const) {
-      if (part?.kind === "link") tint(part.index, own);
-      else if (part) {
-        tint(robot.joints[part.index]?.parent, parent);
-        tint(robot.joints[part.index]?.child, own === "--hover" ? "--child" : own);
-      }
-    }
-    const worst = painted ? worstOfLinks(robot, report.report) : null;
-    const parts = new Map<number, Color>();
-    if (byPart)
-      robot.parts.forEach(({ links }, part) => {
-        for (const link of links) parts.set(link, new Color(partColor(part)));
-      });
-    const paint = (link: number): Color | null => {
-      if (!worst) return parts.get(link) ?? null;
-      const name = { error: "--error", warning: "--warning", info: "--info", unverified: "--open" }[
-        worst.get(link) ?? "info"
-      ];
-      return new Color(color(worst.has(link) ? name : report.report ? "--good" : "--open"));
-    };
-    const touching =
-      state.proximity.answer?.nearest.some((at) => at.distance <= 0 && samePair(pair, pairOf(at))) ?? false;
-    this.scene.show(layers, hidden, overlays.wireframe, (link, piece, layer): Look => {
-      let fade = 1;
-      let own = tints.get(link) ?? null;
-      if (pair) {
-        const of = pair.find(([other]) => other === link);
-        const isPiece = layer === "pieces" || layer.startsWith("piece-");
-        const exact = layer === state.shapes && pair.some(([other, k]) => other === link && (k === piece || !isPiece));
-        fade = exact ? 1 : of ? 0.3 : FADED;
-        if (exact && touching) own = new Color(color("--error"));
-      }
-      return { tint: own, fade, paint: paint(link) };
-    });
+    if (!state.robot || !this.scene) return;
+    this.scene.show(drawnLayers(state), state.hidden, state.overlays.wireframe, looks(state));
+    this.view.invalidate();
+  }
+
+  /** Puts the camera: its place, and what it looks at. */
+  place(camera: number[]): void {
+    this.view.camera.position.fromArray(camera, 0);
+    this.view.controls.target.fromArray(camera, 3);
+    this.view.controls.update();
     this.view.invalidate();
   }
 }

@@ -2,7 +2,11 @@
 
 import { SHAPE_KINDS } from "./engine/protocol";
 import type { ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
+import type { AbsentMesh } from "./absent";
+import type { Contacts } from "./contacts";
 import type { Entry, Part, RobotModel } from "./model";
+import { keptUnits } from "./ui/format";
+import type { Units } from "./ui/format";
 
 /** What the URDF itself has, the plain meshes, and what stands for links in checks. */
 export const LAYERS = ["original", "collision", "plain", ...SHAPE_KINDS] as const;
@@ -32,12 +36,13 @@ export const LAYER_HINTS: Partial<Record<LayerKind, string>> = {
   plain: "The meshes that all other shapes are made of",
 };
 
-export const OVERLAYS = ["wireframe", "frames", "axes", "com", "inertia", "path", "grid"] as const;
+export const OVERLAYS = ["wireframe", "frames", "names", "axes", "com", "inertia", "path", "grid"] as const;
 export type OverlayKind = (typeof OVERLAYS)[number];
 
 export const OVERLAY_NAMES: Record<OverlayKind, string> = {
   wireframe: "Wireframe",
   frames: "Link frames",
+  names: "Names of frames",
   axes: "Joint axes",
   com: "Centres of mass",
   inertia: "Inertia boxes",
@@ -47,6 +52,9 @@ export const OVERLAY_NAMES: Record<OverlayKind, string> = {
 
 export const TABS = ["Joints", "Shapes", "Proximity", "Skips", "Findings", "Info"] as const;
 export type Tab = (typeof TABS)[number];
+
+/** Tabs in which a pair is chosen; outside of them none is. */
+export const CHOOSES_PAIRS: ReadonlySet<Tab> = new Set(["Proximity", "Skips"] as const);
 
 /** A pair of shapes: link and piece of each. */
 export type Pair = [[number, number], [number, number]];
@@ -67,10 +75,14 @@ export interface State {
   hovered: Part | null;
   layers: Record<LayerKind, Layer>;
   overlays: Record<OverlayKind, boolean>;
+  /** Length of the axes of frames, metres; null where it follows from the robot's size. */
+  frameSize: number | null;
   hidden: ReadonlySet<number>;
   tab: Tab;
   shapes: ShapeKind;
   proximity: { answer: ProximityAnswer | null; error: string | null };
+  /** What is in contact now; null where that is not known. The same object as long as it is the same. */
+  contacts: Contacts | null;
   pair: Pair | null;
   skips: {
     answer: SkipsAnswer | null;
@@ -83,21 +95,34 @@ export interface State {
     saved: number;
   };
   report: { report: Report | null; error: string | null; busy: string | null };
-  /** Colours of links by their worst finding. */
-  painted: boolean;
+  /** Meshes that the URDF names and the URDD does not have. */
+  absent: AbsentMesh[];
+  /** Colours of links by their findings: by their worst, by those of one rule, or not. */
+  painted: "worst" | { code: string } | null;
   /** Colours of links by the part that they are of, where the robot was put together. */
   byPart: boolean;
   /** The pose error of the sample that is shown. */
   sample: { at: number; of: number; position: number; angle: number } | null;
   /** A line for the status bar, for a moment. */
   note: string | null;
+  units: Units;
+  /** Whether `urdd view` answers: it ended, or another one is in its place. */
+  server: "here" | "gone" | "another";
+  /** What is unfolded where the window is narrow. */
+  unfolded: "links" | "panels" | null;
 }
 
 export const NO_SKIPS: State["skips"] = { answer: null, error: null, before: [], dirty: false, saved: 0 };
 
+/** The pair that fades the rest: in the tab of distances alone. */
+export function ghosted({ pair, tab }: Readonly<State>): Pair | null {
+  return tab === "Proximity" ? pair : null;
+}
+
 /** The layers that are drawn: a chosen pair is seen in its own shapes, whatever else is on. */
-export function drawnLayers({ layers, pair, shapes }: Readonly<State>): State["layers"] {
-  return pair && !layers[shapes].on ? { ...layers, [shapes]: { on: true, opacity: 1 } } : layers;
+export function drawnLayers(state: Readonly<State>): State["layers"] {
+  const { layers, shapes } = state;
+  return ghosted(state) && !layers[shapes].on ? { ...layers, [shapes]: { on: true, opacity: 1 } } : layers;
 }
 
 export function initial(): State {
@@ -115,18 +140,33 @@ export function initial(): State {
       LayerKind,
       Layer
     >,
-    overlays: { wireframe: false, frames: false, axes: false, com: false, inertia: false, path: false, grid: true },
+    overlays: {
+      wireframe: false,
+      frames: false,
+      names: true,
+      axes: false,
+      com: false,
+      inertia: false,
+      path: false,
+      grid: true,
+    },
+    frameSize: null,
     hidden: new Set(),
     tab: "Joints",
     shapes: "pieces",
     proximity: { answer: null, error: null },
+    contacts: null,
     pair: null,
     skips: NO_SKIPS,
     report: { report: null, error: null, busy: null },
-    painted: false,
+    absent: [],
+    painted: null,
     byPart: true,
     sample: null,
     note: null,
+    units: keptUnits(),
+    server: "here",
+    unfolded: null,
   };
 }
 

@@ -43,7 +43,7 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
       const reached = robot.reach({ q: robot.random(3), link, position: there.position, restarts: 20 });
       const [nearest] = robot.nearest(robot.about.zero ?? [], 1, "hulls");
       const [model, clearances] = [robot.collisionModel, robot.clearances(q)];
-      const missed: number | undefined = model?.held_out.num_missed;
+      const missed: number | undefined = model?.evaluation.num_missed;
       const least: number | undefined = clearances?.least?.clearance;
       if (model !== null || clearances !== null) throw new Error("a model, where there is none: " + missed + least);
       console.log(JSON.stringify({ report, there, reached, nearest, code: urdd.explain("DOF003").code }));

@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { createServer } from "node:net";
 import { join } from "node:path";
 import { test } from "node:test";
@@ -35,7 +36,7 @@ async function exported(made) {
       await new Promise((resolve) => setTimeout(resolve, 100));
     }
   }
-  return { address, end: () => server.kill() };
+  return { address, site, end: () => server.kill() };
 }
 
 const set = setting(["welding_arm", "gripper"], exported);
@@ -74,6 +75,25 @@ inPage(set, "the site shows its robots, with their reports, and writes nothing",
   assert.equal(await page.getByRole("button", { name: "Download the files" }).count(), 1);
 });
 
+inPage(set, "a link of the site opens its view in another browser, and Back leads to the gallery", async (page) => {
+  await open(page, "gripper");
+  await page.getByRole("button", { name: "Middle" }).click();
+  const middle = await state(page, "q", (q) => q.some((value) => value !== 0));
+  await page.getByRole("button", { name: "Share" }).click();
+  await page.getByText("The link is copied.").waitFor();
+  const link = await page.evaluate(() => globalThis.navigator.clipboard.readText());
+  assert.ok(!link.includes("token"), link);
+  const other = await tab(set.chrome, link);
+  await drawn(other.page, "gripper");
+  const q = await state(other.page, "q", (q) => q.some((value) => value !== 0));
+  q.forEach((value, dof) => assert.ok(Math.abs(value - middle[dof]) < 1e-6));
+  await other.close();
+  await page.goBack();
+  await page.waitForSelector(".card:visible");
+  await page.goto(link);
+  await drawn(page, "gripper");
+});
+
 test("a page in one file opens from the disk, and a robot moves in it", { timeout: 300_000 }, async () => {
   const file = join(set.made.folder, "one.html");
   assert.equal(run("view", join(set.made.robots, "gripper"), "--export", file).status, 0);
@@ -89,4 +109,26 @@ test("a page in one file opens from the disk, and a robot moves in it", { timeou
   await state(page, "proximity", (value) => value.answer !== null);
   assert.deepEqual(faults, []);
   await close();
+});
+
+inPage(set, "a second export keeps what a person added, and the site works", async (page) => {
+  const { site, address } = set.server;
+  const mine = { CNAME: "robots.example", "robots/notes.txt": "mine", "urdd-site/notes.txt": "mine too" };
+  mkdirSync(join(site, "robots"), { recursive: true });
+  for (const [name, text] of Object.entries(mine)) writeFileSync(join(site, name), text);
+  writeFileSync(join(set.made.robots, "gripper/.env"), "SECRET");
+  const done = run("view", join(set.made.robots, "gripper"), "--export", site);
+  assert.equal(done.status, 0, done.stderr);
+  for (const [name, text] of Object.entries(mine)) assert.equal(readFileSync(join(site, name), "utf8"), text);
+  // A browser may keep the old page for some seconds; a reload asks the server.
+  await page.reload();
+  await drawn(page, "gripper");
+  const files = await page.evaluate(() => globalThis.urdd.app.store.now.robot.files);
+  assert.ok(files.length > 30 && !files.some(({ path }) => path === ".env"));
+  for (const { at } of JSON.parse(readFileSync(join(site, "urdd-site.json"), "utf8"))
+    .files.filter(({ path }) => path.endsWith(".bin"))
+    .map(({ path }) => ({ at: path }))) {
+    const response = await fetch(new URL(at, address));
+    assert.equal(response.headers.get("content-type"), "application/octet-stream", at);
+  }
 });

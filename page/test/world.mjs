@@ -94,12 +94,7 @@ export async function view(...words) {
     });
     child.on("exit", (code) => reject(new Error(`urdd view ended: ${code} ${errors}`)));
   });
-  const said = async (pattern) => {
-    for (const end = Date.now() + 30_000; !pattern.test(errors);) {
-      if (Date.now() > end) throw new Error(`it said: ${errors}`);
-      await new Promise((resolve) => setTimeout(resolve, 50));
-    }
-  };
+  const said = (pattern) => soon(() => assert.match(errors, pattern), 30);
   return { address, status, said, end: () => child.kill("SIGINT") };
 }
 
@@ -117,11 +112,11 @@ export async function browser() {
 }
 
 /** The page as it was built last, where URDD_DIST names its folder: the program need not be built again for it. */
-async function fromDist(page) {
+async function fromDist(context) {
   const dist = process.env.URDD_DIST;
   if (!dist) return;
   const types = { js: "text/javascript", css: "text/css", wasm: "application/wasm" };
-  await page.route(/\/(?:app\.js|worker\.js|style\.css|urdd\.wasm)$/, (route) => {
+  await context.route(/\/(?:app\.js|worker\.js|style\.css|urdd\.wasm)$/, (route) => {
     const name = new URL(route.request().url()).pathname.slice(1);
     const body = brotliDecompressSync(readFileSync(join(dist, `${name}.br`)));
     return route.fulfill({ body, contentType: types[name.split(".").pop()] });
@@ -132,10 +127,10 @@ async function fromDist(page) {
 export async function tab(chrome, address, { first, routes, ...options } = {}) {
   const context = await chrome.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: "dark", ...options });
   await context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  await fromDist(context);
   const page = await context.newPage();
   const faults = [];
   const { host } = new URL(address);
-  await fromDist(page);
   for (const script of first ?? []) await page.addInitScript(script);
   for (const [pattern, answer] of routes ?? []) await page.route(pattern, answer);
   page.on("console", (message) => {
@@ -182,8 +177,8 @@ export async function drawn(page, name) {
 }
 
 /** What this check returns once it holds: the page gets there in its own time, later on a machine that is busy. */
-export async function soon(check) {
-  for (const end = Date.now() + 60_000; ;) {
+export async function soon(check, seconds = 60) {
+  for (const end = Date.now() + 1000 * seconds; ;) {
     try {
       return await check();
     } catch (error) {
@@ -194,11 +189,10 @@ export async function soon(check) {
 }
 
 /** A value of the page's state, once it is as wanted. */
-export async function state(page, key, wanted = (value) => value !== null) {
-  for (const end = Date.now() + 120_000; ;) {
+export function state(page, key, wanted = (value) => value !== null) {
+  return soon(async () => {
     const value = await page.evaluate((key) => globalThis.urdd.app.store.now[key], key);
-    if (wanted(value)) return value;
-    if (Date.now() > end) throw new Error(`${key} stays ${JSON.stringify(value).slice(0, 300)}`);
-    await page.waitForTimeout(50);
-  }
+    assert.ok(wanted(value), `${key} stays ${JSON.stringify(value)?.slice(0, 300)}`);
+    return value;
+  }, 120);
 }

@@ -206,7 +206,7 @@ def of_mujoco(robot: urdd.Robot, q: Any) -> dict[str, float]:
     """The same."""
     mujoco: Any = import_module("mujoco")
     peer = robot.to_mujoco(visuals=False)
-    model, data, own = peer.model, mujoco.MjData(peer.model), peer.qpos(q)
+    model, data, own = peer.model, mujoco.MjData(peer.model), peer.q(q)
     body = model.body(robot.link_names[farthest(robot)]).id
     linear, angular = np.zeros((3, model.nv)), np.zeros((3, model.nv))
 

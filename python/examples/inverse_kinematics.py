@@ -1,7 +1,7 @@
 """Inverse kinematics: damped least squares by the Jacobian, within joint limits, in a dozen lines; and `robot.ik`,
 which also starts again where that is stuck.
 
-    python inverse_kinematics.py URDD [LINK]
+    python inverse_kinematics.py URDD LINK        such as welding_arm tool_center_point
 """
 
 import sys
@@ -27,8 +27,10 @@ def solve(robot, link, target, q, damping=1e-2, steps=500):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
     robot = urdd.load(sys.argv[1])
-    link = sys.argv[2] if len(sys.argv) > 2 else robot.link_names[-1]
+    link = sys.argv[2]
     wanted = robot.sample(seed=3)
     target = robot.fk(wanted, link)
     nearby = robot.clamp(wanted + 0.1)

@@ -2,6 +2,8 @@
 
 python many_robots_ray.py OUTPUT FOLDER...                 on this machine, or the cluster that RAY_ADDRESS names
 python many_robots_ray.py --workers 2 OUTPUT FOLDER...     on this machine, so many robots at a time
+
+Ray listens to the network, on this machine too, and asks for a token (from 2.60 on): run it where that may be.
 """
 
 import argparse

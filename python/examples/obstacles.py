@@ -14,7 +14,7 @@ count = int(sys.argv[2]) if len(sys.argv) > 2 else 1000
 
 world = urdd.World()
 # The root link stands on the table.
-world.add_box("table", size=[2.0, 2.0, 0.1], pose=[0.0, 0.0, -0.05], ignore=[robot.link_names[0]])
+world.add_box("table", size=[2.0, 2.0, 0.1], pose=[0.0, 0.0, -0.05], ignore=[robot.root_link])
 world.add_capsule("lamp", radius=0.05, length=1.0, pose=[0.5, 0.5, 0.5])
 world.add_sphere("ball", radius=0.1, centre=[0.6, 0.0, 0.4])
 around = robot.among(world)

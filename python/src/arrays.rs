@@ -1,12 +1,24 @@
 //! Arrays of numpy, in and out.
 
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
-use numpy::PyReadonlyArray3;
-use numpy::ndarray::IntoDimension;
+use numpy::ndarray::{Dimension, IntoDimension};
 use numpy::{
-    Element, IntoPyArray, PyArray, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods,
+    Element, IntoPyArray, PyArray, PyArrayMethods, PyReadonlyArray, PyReadonlyArray2,
+    PyUntypedArrayMethods,
 };
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use urdd::cancellation::Cancellation;
+use urdd::robot::RobotError;
+
+use crate::errors::of_robot;
+use crate::work;
+
+/// Bytes of an array for which numpy is not asked, and no room kept besides: what is as small is there, or nothing is.
+const SMALL: usize = 1 << 20;
+/// What the work on a large array may take besides, bytes: for the threads, each of which works on some configurations.
+const BESIDES: usize = 64 << 20;
 
 /// Configurations, one a row, in memory of their own.
 pub struct Batch {
@@ -15,11 +27,11 @@ pub struct Batch {
 }
 
 impl Batch {
-    pub fn new(array: &PyReadonlyArray2<'_, f64>) -> Self {
-        Batch {
+    pub fn new(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
+        Ok(Batch {
             count: array.shape()[0],
-            values: copy(array),
-        }
+            values: copy(array)?,
+        })
     }
 
     /// The values of each configuration; of a robot without DOFs none.
@@ -27,16 +39,99 @@ impl Batch {
         let dofs = self.values.len() / self.count.max(1);
         &self.values[k * dofs..(k + 1) * dofs]
     }
+
+    /// Whether all configurations are one and the same: those of a robot without DOFs.
+    pub fn is_one(&self) -> bool {
+        self.values.is_empty()
+    }
 }
 
 /// The values of an array, row after row.
-pub fn copy(array: &PyReadonlyArray2<'_, f64>) -> Vec<f64> {
-    array.as_array().iter().copied().collect()
+pub fn copy<T: Element + Copy, D: Dimension>(
+    array: &PyReadonlyArray<'_, T, D>,
+) -> PyResult<Vec<T>> {
+    let values = array.as_slice()?;
+    let mut own = Vec::new();
+    let room = own.try_reserve_exact(values.len());
+    room.map_err(|_| no_memory(size_of_val(values)))?;
+    own.extend_from_slice(values);
+    Ok(own)
 }
 
-/// The values of an array, row after row.
-pub fn copy3(array: &PyReadonlyArray3<'_, f64>) -> Vec<f64> {
-    array.as_array().iter().copied().collect()
+/// Zeros of a shape that a caller decides: `MemoryError`, as numpy raises, where there is not enough memory.
+pub fn zeros<'py, T: Element, S: IntoDimension>(
+    py: Python<'py>,
+    shape: S,
+) -> PyResult<Bound<'py, PyArray<T, S::Dim>>> {
+    let shape = shape.into_dimension();
+    // numpy counts so too: an axis of length 0 hides no other.
+    let mut each = shape.slice().iter().map(|length| (*length).max(1));
+    let bytes = each.try_fold(size_of::<T>(), usize::checked_mul);
+    let bytes = bytes.filter(|bytes| isize::try_from(*bytes).is_ok());
+    if bytes.is_some_and(|bytes| bytes <= SMALL) {
+        return Ok(PyArray::zeros(py, shape, false));
+    }
+    if bytes.is_none() {
+        let shape = shape.slice();
+        let words = format!("an array of the shape {shape:?} is larger than any memory");
+        return Err(PyMemoryError::new_err(words));
+    }
+    let lengths = PyTuple::new(py, shape.slice())?;
+    let made = py
+        .import("numpy")?
+        .call_method1("zeros", (lengths, T::get_dtype(py)))?;
+    check_memory(BESIDES)?;
+    Ok(made.cast_into::<PyArray<T, S::Dim>>()?)
+}
+
+/// `MemoryError` where so many bytes are not there. It keeps none: another thread may take them.
+pub fn check_memory(bytes: usize) -> PyResult<()> {
+    let mut probe: Vec<u8> = Vec::new();
+    let room = probe.try_reserve_exact(bytes);
+    // Otherwise the compiler may leave out an allocation that nobody uses.
+    std::hint::black_box(&mut probe);
+    room.map_err(|_| no_memory(bytes))
+}
+
+fn no_memory(bytes: usize) -> PyErr {
+    let mebibytes = bytes.div_ceil(1 << 20);
+    let words = format!("cannot allocate {mebibytes} MiB: ask for less at once");
+    PyMemoryError::new_err(words)
+}
+
+/// The answers of many configurations, of a shape whose first axis is theirs. `one` writes those of one, by its number;
+/// it is asked on this thread, with the interpreter, for `few` or fewer, and once where all are `the_same`. `many` writes
+/// all, on the threads of the pool, until Ctrl-C.
+pub fn answers<'py, T: Element + Copy, S: IntoDimension>(
+    py: Python<'py>,
+    shape: S,
+    few: usize,
+    the_same: bool,
+    one: impl Fn(usize, &mut [T]) -> Result<(), RobotError>,
+    many: impl FnOnce(&Cancellation, &mut [T]) -> Result<(), RobotError> + Send,
+) -> PyResult<Bound<'py, PyArray<T, S::Dim>>> {
+    let array = zeros(py, shape)?;
+    let count = array.shape()[0];
+    let mut guard = array.readwrite();
+    let out = guard.as_slice_mut()?;
+    let width = out.len() / count.max(1);
+    let written = if count == 0 {
+        Ok(())
+    } else if the_same {
+        let (first, others) = out.split_at_mut(width);
+        let found = one(0, first);
+        let others = others.chunks_exact_mut(width.max(1));
+        others.for_each(|other| other.copy_from_slice(first));
+        found
+    } else if count <= few {
+        let mut rows = (0..count).zip(out.chunks_exact_mut(width.max(1)));
+        rows.try_for_each(|(k, row)| one(k, row))
+    } else {
+        work::run(py, |cancellation| many(cancellation, out))?
+    };
+    drop(guard);
+    written.map_err(|error| of_robot(py, &error))?;
+    Ok(array)
 }
 
 /// An array of this shape, which takes over the values.

@@ -1,64 +1,66 @@
 //! The learned self-collision model.
 
-use std::sync::Arc;
-
-use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
+use numpy::ndarray::IntoDimension;
+use numpy::{Element, PyArray, PyArray1, PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use rayon::prelude::*;
+use urdd::cancellation::Cancellation;
 use urdd::format::index::LinkIdx;
 use urdd::kinematics::ConfigurationError;
 use urdd::robot::RobotError;
 
-use crate::arrays::{Batch, shaped};
+use crate::arrays::{Batch, answers, shaped};
 use crate::errors::of_robot;
-use crate::work;
 
 /// Configurations that are looked at without other threads, whose waking takes longer.
 const FEW: usize = 16;
 /// Configurations between two looks whether to stop.
 const BETWEEN_LOOKS: usize = 16_384;
+/// Values of a block, at most; 16 MB besides the answers.
+const VALUES_AT_ONCE: usize = 1 << 20;
 
 type Model = urdd::robot::CollisionModel;
 type Answer<T> = Result<Vec<T>, ConfigurationError>;
 
 /// A network that estimates how near links are.
 #[pyclass(frozen, module = "urdd._urdd")]
-pub struct CollisionModel(Arc<Model>);
+pub struct CollisionModel(Model);
 
 impl CollisionModel {
     pub fn of(model: Model) -> Self {
-        CollisionModel(Arc::new(model))
+        CollisionModel(model)
     }
 
-    /// What each of many configurations gives, by `many` block after block; of a few by `one`, on this thread.
-    fn each<T: Send + 'static>(
+    /// The answers of many configurations, of this shape: by `many` block after block, of a few by `one`.
+    fn each<'py, T: Element + Copy, S: IntoDimension>(
         &self,
-        py: Python<'_>,
-        batch: Batch,
-        one: impl Fn(&Model, &[f64]) -> Answer<T> + Send,
-        many: impl Fn(&Model, &[f64]) -> Answer<T> + Send + 'static,
-    ) -> PyResult<Vec<T>> {
-        let answer = if batch.count <= FEW {
-            let own = &*self.0;
-            py.detach(move || -> Result<Vec<T>, RobotError> {
-                let mut all = Vec::new();
-                for k in 0..batch.count {
-                    all.extend(one(own, batch.row(k))?);
-                }
-                Ok(all)
-            })
-        } else {
-            let own = Arc::clone(&self.0);
-            work::run(py, move |cancellation| -> Result<Vec<T>, RobotError> {
-                let mut all = Vec::new();
-                for block in batch.values.chunks(BETWEEN_LOOKS * own.num_dofs().max(1)) {
-                    cancellation.check()?;
-                    all.extend(many(&own, block)?);
-                }
-                Ok(all)
-            })?
+        py: Python<'py>,
+        configurations: &PyReadonlyArray2<'py, f64>,
+        shape: S,
+        one: impl Fn(&Model, &[f64]) -> Answer<T> + Sync,
+        many: impl Fn(&Model, &[f64]) -> Answer<T> + Sync,
+    ) -> PyResult<Bound<'py, PyArray<T, S::Dim>>> {
+        let batch = Batch::new(configurations)?;
+        let (count, dofs) = (batch.count, self.0.num_dofs());
+        let write = |k: usize, out: &mut [T]| {
+            out.copy_from_slice(&py.detach(|| one(&self.0, batch.row(k)))?);
+            Ok(())
         };
-        answer.map_err(|error| of_robot(py, &error))
+        let all = |cancellation: &Cancellation, out: &mut [T]| {
+            let width = out.len() / count;
+            if width == 0 {
+                return Ok(());
+            }
+            // What a block takes besides its answers has to be little.
+            let block = (VALUES_AT_ONCE / width).clamp(1, BETWEEN_LOOKS);
+            let blocks = batch.values.chunks(block * dofs);
+            for (block, out) in blocks.zip(out.chunks_mut(block * width)) {
+                cancellation.check()?;
+                out.copy_from_slice(&many(&self.0, block)?);
+            }
+            Ok(())
+        };
+        answers(py, shape, FEW, batch.is_one(), write, all)
     }
 }
 
@@ -79,17 +81,26 @@ impl CollisionModel {
         self.0.clip_distance()
     }
 
-    /// The first configuration, and how many there are, collide, are missed, and are cleared.
+    /// How many configurations collide, are missed, are near contact, are missed of these, are free, and are cleared.
     #[getter]
-    fn held_out(&self) -> [u32; 5] {
-        let of = self.0.held_out();
+    fn evaluation(&self) -> [u32; 6] {
+        let of = self.0.evaluation();
         [
-            of.first_sample_idx.0,
-            of.num_configurations.0,
             of.num_colliding.0,
             of.num_missed.0,
+            of.num_near_contact.0,
+            of.num_near_contact_missed.0,
+            of.num_free.0,
             of.num_cleared.0,
         ]
+    }
+
+    /// (count, of, lower, upper) of the rates of misses, of misses near contact, and of cleared configurations.
+    #[getter]
+    fn rates(&self) -> [(u32, u32, f64, f64); 3] {
+        let of = self.0.evaluation();
+        let rates = [of.miss_rate(), of.near_contact_miss_rate(), of.clear_rate()];
+        rates.map(|rate| (rate.count, rate.of, rate.lower, rate.upper))
     }
 
     /// (pairs, 2): the links of each pair.
@@ -116,10 +127,9 @@ impl CollisionModel {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let batch = Batch::new(&configurations);
-        let count = batch.count;
-        let values = self.each(py, batch, Model::clearances, Model::clearances_batch)?;
-        shaped(py, values, [count, self.0.pairs().len()])
+        let shape = [configurations.shape()[0], self.0.pairs().len()];
+        let (one, many) = (Model::clearances, Model::clearances_batch);
+        self.each(py, &configurations, shape, one, many)
     }
 
     /// (count,).
@@ -128,11 +138,10 @@ impl CollisionModel {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let batch = Batch::new(&configurations);
         let one =
             |model: &Model, q: &[f64]| -> Answer<f64> { Ok(vec![least(&model.clearances(q)?)]) };
-        let values = self.each(py, batch, one, Model::least_batch)?;
-        Ok(PyArray1::from_vec(py, values))
+        let count = configurations.shape()[0];
+        self.each(py, &configurations, count, one, Model::least_batch)
     }
 
     /// (count,).
@@ -141,10 +150,9 @@ impl CollisionModel {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<bool>>> {
-        let batch = Batch::new(&configurations);
         let one = |model: &Model, q: &[f64]| -> Answer<bool> { Ok(vec![model.may_collide(q)?]) };
-        let values = self.each(py, batch, one, Model::may_collide_batch)?;
-        Ok(PyArray1::from_vec(py, values))
+        let count = configurations.shape()[0];
+        self.each(py, &configurations, count, one, Model::may_collide_batch)
     }
 
     /// (count, dofs): the derivative of the least clearance, or of that of a pair.
@@ -160,8 +168,7 @@ impl CollisionModel {
             let (what, count) = ("pair", self.0.pairs().len());
             return Err(of_robot(py, &RobotError::OutOfRange { what, index, count }));
         }
-        let batch = Batch::new(&configurations);
-        let (count, dofs) = (batch.count, self.0.num_dofs());
+        let dofs = self.0.num_dofs();
         let one = move |model: &Model, q: &[f64]| -> Answer<f64> {
             let found = match pair {
                 Some(pair) => model.gradient(q, pair)?,
@@ -174,8 +181,8 @@ impl CollisionModel {
             let rows: Vec<Vec<f64>> = each.collect::<Result<_, _>>()?;
             Ok(rows.concat())
         };
-        let values = self.each(py, batch, one, many)?;
-        shaped(py, values, [count, dofs])
+        let shape = [configurations.shape()[0], dofs];
+        self.each(py, &configurations, shape, one, many)
     }
 }
 

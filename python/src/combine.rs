@@ -33,7 +33,7 @@ pub fn combine<'py>(
             }
         };
         let find_errors = |part: &Path| find_errors(part, &settings.cancellation);
-        let distrusted = check_parts(&recipe, settings.force, find_errors)?;
+        let distrusted = check_parts(&recipe, settings, find_errors)?;
         urdd::combine::combine(&recipe, &target, settings, &distrusted, progress)
     })?;
     let made = made.map_err(|error| of_combine(py, &error))?;

@@ -7,6 +7,8 @@ use urdd::generate::GenerateError;
 use urdd::kinematics::ConfigurationError;
 use urdd::robot::RobotError;
 
+use crate::advice;
+
 /// An exception of this class. The message comes first.
 pub fn raise<'py>(
     py: Python<'py>,
@@ -38,17 +40,17 @@ pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
         RobotError::Missing(module) => raise(
             py,
             "ModuleMissingError",
-            error,
+            advice::of_robot(error),
             &[("module", text(py, module.name()))],
         ),
         RobotError::Unusable { module, .. } => raise(
             py,
             "ModuleUnusableError",
-            error,
+            advice::of_robot(error),
             &[("module", text(py, module.name()))],
         ),
         RobotError::MotionOpen | RobotError::Metadata(_) | RobotError::Kinematics(_) => {
-            raise(py, "ModuleUnusableError", error, &[])
+            raise(py, "ModuleUnusableError", advice::of_robot(error), &[])
         }
         RobotError::Unknown {
             what,
@@ -76,6 +78,7 @@ pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
             raise(py, "ObstacleError", error, &[("name", text(py, name))])
         }
         RobotError::Mesh { .. } => raise(py, "MeshError", error, &[]),
+        RobotError::Memory { .. } => pyo3::exceptions::PyMemoryError::new_err(error.to_string()),
         RobotError::Cancelled(_) => {
             pyo3::exceptions::PyKeyboardInterrupt::new_err(error.to_string())
         }
@@ -97,7 +100,7 @@ pub fn of_generate(py: Python<'_>, error: &GenerateError) -> PyErr {
     raise(
         py,
         "GenerateError",
-        error,
+        advice::of_generate(error),
         &[("code", code), ("places", places)],
     )
 }
@@ -128,7 +131,7 @@ pub fn of_combine(py: Python<'_>, error: &CombineError) -> PyErr {
         ("part", part),
         ("places", placed(py, places)),
     ];
-    raise(py, "CombineError", error, &more)
+    raise(py, "CombineError", advice::of_combine(error), &more)
 }
 
 /// A file, a line, a column, and what is wrong there.
@@ -147,7 +150,7 @@ fn places_of(error: &GenerateError) -> Vec<Place> {
                 file.clone(),
                 fault.line,
                 fault.column,
-                fault.fault.to_string(),
+                advice::of_fault(&fault.fault),
             )
         })),
         GenerateError::Outside { file, meshes } => places.extend(meshes.iter().map(|mesh| {
@@ -175,7 +178,7 @@ fn places_of(error: &GenerateError) -> Vec<Place> {
             file.display().to_string(),
             at.line,
             at.column,
-            fault.to_string(),
+            advice::of_edits(fault),
         )),
         _ => {}
     }

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use urdd::export::{Format, Options, SphereBudget};
 
+use crate::advice;
 use crate::errors::{of_robot, raise};
 use crate::generate::skipped_reason;
 use crate::robot::Robot;
@@ -24,8 +25,11 @@ pub fn export<'py>(
     format: &str,
     shapes: &str,
     reasons: Option<Vec<String>>,
+    keep_pairs: bool,
     spheres: Option<usize>,
     total_spheres: Option<usize>,
+    cover: bool,
+    samples: usize,
     visuals: bool,
     mesh_folder: String,
 ) -> PyResult<Made<'py>> {
@@ -50,11 +54,14 @@ pub fn export<'py>(
     let options = Options {
         shapes: shapes.parse().map_err(|error| of_robot(py, &error))?,
         reasons: reasons.transpose().map_err(PyValueError::new_err)?,
+        keep_pairs,
         spheres: match (total_spheres, spheres) {
             (Some(count), _) => SphereBudget::Total(count),
             (None, Some(count)) => SphereBudget::PerLink(count),
             (None, None) => SphereBudget::default(),
         },
+        cover,
+        samples,
         visuals,
         mesh_folder,
     };
@@ -62,7 +69,7 @@ pub fn export<'py>(
     let made = work::run(py, move |_| urdd::export::export(&robot, format, &options))?;
     let made = made.map_err(|error| match error {
         urdd::export::ExportError::Robot(error) => of_robot(py, &error),
-        error => raise(py, "ExportError", error, &[]),
+        error => raise(py, "ExportError", advice::of_export(&error), &[]),
     })?;
     let files = made.files.iter();
     Ok((

@@ -1,7 +1,7 @@
 //! Making URDDs.
 
 use std::path::PathBuf;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use pyo3::exceptions::PyValueError;
@@ -27,7 +27,7 @@ pub struct Options {
     allowed_folders: Vec<PathBuf>,
     geometry: String,
     mesh_formats: Vec<String>,
-    pieces: i64,
+    pieces: u8,
     piece_tolerance: Option<f64>,
     samples: u32,
     skip: Option<Vec<String>>,
@@ -57,16 +57,9 @@ impl Options {
                 return Err(format!("allow_folders: {folder} is not a folder"));
             }
         }
-        let most = u8::try_from(self.pieces).ok();
-        let Some(most) = most.filter(|most| (1..=64).contains(most)) else {
-            return Err("pieces must be from 1 to 64".to_owned());
-        };
         let length = |metres: f64| metres > 0.0 && metres.is_finite();
         if !self.piece_tolerance.is_none_or(length) {
             return Err("piece_tolerance must be a number of metres above 0".to_owned());
-        }
-        if !(1..=100_000).contains(&self.samples) {
-            return Err("samples must be from 1 to 100,000".to_owned());
         }
         if !(self.xacro_timeout > 0.0 && self.xacro_timeout < 1e9) {
             return Err("xacro_timeout must be a number of seconds above 0".to_owned());
@@ -103,7 +96,7 @@ impl Options {
             },
             allowed_folders: self.allowed_folders,
             pieces: Pieces {
-                most,
+                most: self.pieces,
                 tolerance: self.piece_tolerance,
             },
             num_samples: self.samples,
@@ -143,33 +136,47 @@ pub fn skipped_reason(word: &str) -> Result<SkippedReason, String> {
 /// A module is begun, or a step of one is done: its name, how many are done, and how many there are.
 type Begun = (String, usize, usize);
 
-struct Told<'a, T>(Mutex<&'a Teller<T, Begun>>);
+/// Tells how far a job is.
+struct Told<'a, T> {
+    teller: &'a Teller<T, Begun>,
+    /// The module that was begun last, and how many there are.
+    last: Mutex<Option<(ModuleKind, usize)>>,
+}
 
 impl<T: Send> Progress for Told<'_, T> {
     fn module(&self, kind: ModuleKind, done: usize, total: usize) {
-        self.tell(kind.name().to_owned(), done, total);
+        // The first of another URDD, of several that are put together.
+        if done == 0 {
+            self.end();
+        }
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        *last = Some((kind, total));
+        self.teller.tell((kind.name().to_owned(), done, total));
     }
 
     fn part(&self, kind: ModuleKind, done: usize, total: usize) {
-        self.tell(format!("{}: step", kind.name()), done, total);
+        let step = format!("{}: step", kind.name());
+        self.teller.tell((step, done, total));
     }
 }
 
 impl<T> Told<'_, T> {
-    fn tell(&self, what: String, done: usize, total: usize) {
-        if let Ok(teller) = self.0.lock() {
-            teller.tell((what, done, total));
+    /// All modules are done.
+    fn end(&self) {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((kind, total)) = last.take() {
+            self.teller.tell((kind.name().to_owned(), total, total));
         }
     }
 }
 
 /// What comes of making something, while `progress` is called with how far it is.
-pub fn with_progress<T: Send + 'static>(
+pub fn with_progress<T: Send, E: Send>(
     py: Python<'_>,
     options: Options,
     progress: Option<Bound<'_, PyAny>>,
-    make: impl FnOnce(&Settings, &dyn Progress) -> T + Send + 'static,
-) -> PyResult<T> {
+    make: impl FnOnce(&Settings, &dyn Progress) -> Result<T, E> + Send,
+) -> PyResult<Result<T, E>> {
     let mut settings = options.settings().map_err(PyValueError::new_err)?;
     let hear = |begun: Begun| match &progress {
         Some(progress) => progress.call1(begun).map(drop),
@@ -177,7 +184,15 @@ pub fn with_progress<T: Send + 'static>(
     };
     work::run_and_tell(py, hear, move |cancellation, teller| {
         settings.cancellation = cancellation.clone();
-        make(&settings, &Told(Mutex::new(teller)))
+        let told = Told {
+            teller,
+            last: Mutex::default(),
+        };
+        let made = make(&settings, &told);
+        if made.is_ok() {
+            told.end();
+        }
+        made
     })
 }
 

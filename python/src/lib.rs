@@ -3,6 +3,7 @@
 //! Arrays that come in are contiguous and of binary64: `urdd._arrays` makes them so. They are copied before the
 //! interpreter is let go, so that no other thread changes them under the work.
 
+mod advice;
 mod arrays;
 mod collision_model;
 mod combine;

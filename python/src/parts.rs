@@ -11,7 +11,8 @@ use urdd::document::load::Loaded;
 use urdd::document::urdd::Urdd;
 use urdd::format::registry::{ModuleKind, Profile};
 
-use crate::errors::raise;
+use crate::advice;
+use crate::errors::{of_robot, raise};
 use crate::robot::Robot;
 use crate::work;
 
@@ -81,11 +82,11 @@ impl Robot {
             Read::NotListed(error) => Err(raise(py, "OpenError", error, &[])),
             Read::Missing => {
                 let error = urdd::robot::RobotError::Missing(kind);
-                Err(raise(py, "ModuleMissingError", error, &name()))
+                Err(of_robot(py, &error))
             }
             Read::Unusable(fault) => {
                 let fault = fault.escape_debug();
-                let message = format!("{}: {fault}: `urdd validate` says more", kind.name());
+                let message = format!("{}: {fault}: {}", kind.name(), advice::SAYS_MORE);
                 Err(raise(py, "ModuleUnusableError", message, &name()))
             }
         }

@@ -2,13 +2,16 @@
 
 use std::sync::Arc;
 
-use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
+use numpy::ndarray::IntoDimension;
+use numpy::{
+    Element, PyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
+use urdd::cancellation::Cancellation;
 use urdd::robot::{PairDistance, RobotError, Until};
 
-use crate::arrays::{Batch, shaped};
+use crate::arrays::{Batch, answers, shaped};
 use crate::errors::of_robot;
-use crate::work;
 
 /// The indices of the two links and their pieces, the distance, the same over the pair's mean, and two points.
 type Near = ([usize; 2], [usize; 2], f64, Option<f64>, [[f64; 3]; 2]);
@@ -26,17 +29,21 @@ impl Proximity {
         Arc::clone(&self.0)
     }
 
-    /// What each of many configurations gives.
-    fn each<T: Copy + Send + 'static>(
+    /// The answers of many configurations, of this shape.
+    fn each<'py, T: Element + Copy, S: IntoDimension>(
         &self,
-        py: Python<'_>,
-        batch: Batch,
-        one: impl FnOnce(&urdd::robot::Proximity, &[f64]) -> Result<Vec<T>, RobotError> + Send,
-        many: impl FnOnce(&Until<'_>, &[f64]) -> Result<Vec<T>, RobotError> + Send + 'static,
-    ) -> PyResult<Vec<T>> {
-        work::ask(py, &self.0, batch, one, |own, cancellation, batch| {
-            many(&own.until(cancellation), &batch.values)
-        })
+        py: Python<'py>,
+        configurations: &PyReadonlyArray2<'py, f64>,
+        shape: S,
+        one: impl Fn(&urdd::robot::Proximity, &[f64], &mut [T]) -> Result<(), RobotError> + Sync,
+        many: impl FnOnce(&Until<'_>, &[f64], &mut [T]) -> Result<(), RobotError> + Send,
+    ) -> PyResult<Bound<'py, PyArray<T, S::Dim>>> {
+        let batch = Batch::new(configurations)?;
+        let one = |k: usize, out: &mut [T]| py.detach(|| one(&self.0, batch.row(k), out));
+        let many = |cancellation: &Cancellation, out: &mut [T]| {
+            many(&self.0.until(cancellation), &batch.values, out)
+        };
+        answers(py, shape, 1, batch.is_one(), one, many)
     }
 }
 
@@ -73,15 +80,17 @@ impl Proximity {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let batch = Batch::new(&configurations);
-        let count = batch.count;
-        let values = self.each(
+        let shape = [configurations.shape()[0], self.0.num_pairs()];
+        self.each(
             py,
-            batch,
-            |proximity, q| proximity.distance_values(q),
-            |proximity, all| proximity.distances_batch(all),
-        )?;
-        shaped(py, values, [count, self.0.num_pairs()])
+            &configurations,
+            shape,
+            |proximity, q, out| {
+                out.copy_from_slice(&proximity.distance_values(q)?);
+                Ok(())
+            },
+            |proximity, all, out| proximity.distances_batch_into(all, out),
+        )
     }
 
     /// (count,); infinite where there is no pair.
@@ -90,13 +99,16 @@ impl Proximity {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let values = self.each(
+        self.each(
             py,
-            Batch::new(&configurations),
-            |proximity, q| Ok(vec![proximity.self_distance(q)?.unwrap_or(f64::INFINITY)]),
-            |proximity, all| proximity.self_distance_batch(all),
-        )?;
-        Ok(PyArray1::from_vec(py, values))
+            &configurations,
+            configurations.shape()[0],
+            |proximity, q, out| {
+                out[0] = proximity.self_distance(q)?.unwrap_or(f64::INFINITY);
+                Ok(())
+            },
+            |proximity, all, out| proximity.self_distance_batch_into(all, out),
+        )
     }
 
     /// (count,).
@@ -105,13 +117,16 @@ impl Proximity {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<bool>>> {
-        let values = self.each(
+        self.each(
             py,
-            Batch::new(&configurations),
-            |proximity, q| Ok(vec![proximity.in_collision(q)?]),
-            |proximity, all| proximity.in_collision_batch(all),
-        )?;
-        Ok(PyArray1::from_vec(py, values))
+            &configurations,
+            configurations.shape()[0],
+            |proximity, q, out| {
+                out[0] = proximity.in_collision(q)?;
+                Ok(())
+            },
+            |proximity, all, out| proximity.in_collision_batch_into(all, out),
+        )
     }
 
     /// The nearest pairs in one configuration, nearest first.
@@ -121,7 +136,7 @@ impl Proximity {
         configuration: PyReadonlyArray2<'_, f64>,
         k: usize,
     ) -> PyResult<Vec<Near>> {
-        let batch = Batch::new(&configuration);
+        let batch = Batch::new(&configuration)?;
         let found = py.detach(|| self.0.nearest(&batch.values, k));
         found
             .map(|pairs| pairs.iter().map(near).collect())
@@ -134,7 +149,7 @@ impl Proximity {
         py: Python<'_>,
         configuration: PyReadonlyArray2<'_, f64>,
     ) -> PyResult<Vec<Near>> {
-        let batch = Batch::new(&configuration);
+        let batch = Batch::new(&configuration)?;
         let found = py.detach(|| self.0.collisions(&batch.values));
         found
             .map(|pairs| pairs.iter().map(near).collect())

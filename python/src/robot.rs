@@ -6,15 +6,17 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
 use nalgebra::Isometry3;
-use numpy::{PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{
+    PyArray1, PyArray2, PyArray3, PyArray4, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3,
+    PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
-use rayon::prelude::*;
 use urdd::cancellation::Cancellation;
 use urdd::directory::root::Root;
 use urdd::directory::source::is_urdd;
-use urdd::robot::{Inverse, InverseSettings, RobotError, ShapeKind, Target};
+use urdd::robot::{InverseSettings, RobotError, ShapeKind, Target, fill};
 
-use crate::arrays::{Batch, copy3, matrix, pose, shaped, write_matrix};
+use crate::arrays::{Batch, answers, copy, pose, shaped, write_matrix};
 use crate::collision_model::CollisionModel;
 use crate::errors::{of_robot, raise};
 use crate::proximity::Proximity;
@@ -24,8 +26,6 @@ use crate::work;
 const FEW: usize = 16;
 /// Configurations that one thread works on at once.
 const BLOCK: usize = 64;
-/// Jacobians between two looks whether to stop.
-const BETWEEN_LOOKS: usize = 4096;
 
 /// A robot, as its URDD describes it.
 #[pyclass(frozen, module = "urdd._urdd")]
@@ -46,10 +46,9 @@ impl Robot {
     pub fn read(&self, py: Python<'_>) -> PyResult<&Arc<urdd::robot::Robot>> {
         if !self.is_read.load(Ordering::Acquire) {
             let _reading = work::lock(py, &self.reading)?;
-            let robot = Arc::clone(&self.robot);
-            work::run(py, move |_| {
-                let _ = robot.links();
-                let _ = robot.configurations();
+            work::run(py, |_| {
+                let _ = self.robot.links();
+                let _ = self.robot.configurations();
             })?;
             self.is_read.store(true, Ordering::Release);
         }
@@ -57,15 +56,13 @@ impl Robot {
     }
 
     /// What a question about the robot gives.
-    pub fn ask<T: Send + 'static>(
+    pub fn ask<T: Send>(
         &self,
         py: Python<'_>,
-        question: impl FnOnce(&urdd::robot::Robot, &Cancellation) -> Result<T, RobotError>
-        + Send
-        + 'static,
+        question: impl FnOnce(&urdd::robot::Robot, &Cancellation) -> Result<T, RobotError> + Send,
     ) -> PyResult<T> {
-        let robot = Arc::clone(self.read(py)?);
-        work::run(py, move |cancellation| question(&robot, cancellation))?
+        let robot = self.read(py)?;
+        work::run(py, |cancellation| question(robot, cancellation))?
             .map_err(|error| of_robot(py, &error))
     }
 
@@ -168,13 +165,13 @@ impl Robot {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let space = self.names(py, |robot| robot.configurations())?;
         let dofs = space.num_dofs();
-        let values = py.detach(|| {
-            let numbers = (0..count as u64).map(|k| first.wrapping_add(k));
-            let mut values = Vec::with_capacity(count * dofs);
-            numbers.for_each(|k| values.extend(space.random(k)));
-            values
-        });
-        shaped(py, values, [count, dofs])
+        let one = |k: usize, out: &mut [f64]| {
+            out.copy_from_slice(&space.random(first.wrapping_add(k as u64)));
+            Ok(())
+        };
+        answers(py, [count, dofs], BLOCK, dofs == 0, one, |on, out| {
+            each(on, out, dofs, || (), |(), k, out| one(k, out))
+        })
     }
 
     /// Each value at the nearest bound where it is out of bounds.
@@ -184,13 +181,15 @@ impl Robot {
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let space = self.names(py, |robot| robot.configurations())?;
-        let mut batch = Batch::new(&configurations);
-        let dofs = space.num_dofs();
-        if dofs > 0 {
-            let each = batch.values.chunks_mut(dofs);
-            each.for_each(|configuration| space.clamp(configuration));
-        }
-        shaped(py, batch.values, [batch.count, dofs])
+        let (batch, dofs) = (Batch::new(&configurations)?, space.num_dofs());
+        let one = |k: usize, out: &mut [f64]| {
+            out.copy_from_slice(batch.row(k));
+            space.clamp(out);
+            Ok(())
+        };
+        answers(py, [batch.count, dofs], BLOCK, dofs == 0, one, |on, out| {
+            each(on, out, dofs, || (), |(), k, out| one(k, out))
+        })
     }
 
     /// (count, links, 4, 4); of one link (count, 1, 4, 4).
@@ -203,29 +202,16 @@ impl Robot {
     ) -> PyResult<Bound<'py, PyArray4<f64>>> {
         let links = self.names(py, |robot| robot.links())?.len();
         let shown = link.map_or(links, |_| 1);
-        let batch = Batch::new(&configurations);
-        let count = batch.count;
-        let values = if count <= FEW {
-            let mut values = vec![0.0; count * shown * 16];
-            write_poses(&self.robot, &batch, 0, link, shown, &mut values)
-                .map_err(|error| of_robot(py, &error))?;
-            values
-        } else {
-            self.ask(py, move |robot, cancellation| {
-                let mut values = vec![0.0; count * shown * 16];
-                let blocks = values.par_chunks_mut(BLOCK * shown * 16).enumerate();
-                let faults: Vec<RobotError> = blocks
-                    .filter_map(|(block, out)| {
-                        let stopped = cancellation.check().map_err(RobotError::from);
-                        let first = block * BLOCK;
-                        let write = |()| write_poses(robot, &batch, first, link, shown, out);
-                        stopped.and_then(write).err()
-                    })
-                    .collect();
-                faults.into_iter().next().map_or(Ok(values), Err)
-            })?
+        let batch = Batch::new(&configurations)?;
+        let write = |poses: &mut Vec<Isometry3<f64>>, k: usize, out: &mut [f64]| {
+            self.robot.link_poses_into(batch.row(k), poses)?;
+            write_poses(poses, link, out)
         };
-        shaped(py, values, [count, shown, 4, 4])
+        let one = |k: usize, out: &mut [f64]| write(&mut Vec::new(), k, out);
+        let shape = [batch.count, shown, 4, 4];
+        answers(py, shape, FEW, batch.is_one(), one, |on, out| {
+            each(on, out, shown * 16, Vec::new, write)
+        })
     }
 
     /// (count, 6, dofs), of a point of the link in the link's frame. In memory the DOFs come before the rows.
@@ -237,38 +223,23 @@ impl Robot {
         point: Option<[f64; 3]>,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let dofs = self.names(py, |robot| robot.dofs())?.len();
-        let batch = Batch::new(&configurations);
-        let count = batch.count;
-        let ask = move |robot: &urdd::robot::Robot, cancellation: &Cancellation| match point {
-            None if dofs > 0 => {
-                let mut values = Vec::with_capacity(count * 6 * dofs);
-                for some in batch.values.chunks(BETWEEN_LOOKS * dofs) {
-                    cancellation.check()?;
-                    values.extend(robot.jacobian_batch(some, link)?);
-                }
-                Ok(values)
-            }
-            point => {
-                let point = point.unwrap_or_default();
-                let one = |k: usize| {
-                    cancellation.check()?;
-                    let jacobian = robot.jacobian_at(batch.row(k), link, point)?;
-                    Ok(jacobian.as_slice().to_vec())
-                };
-                let each = (0..count).into_par_iter().map(one);
-                let rows: Vec<Vec<f64>> = each.collect::<Result<_, RobotError>>()?;
-                Ok(rows.concat())
-            }
+        let (batch, point) = (Batch::new(&configurations)?, point.unwrap_or_default());
+        let one = |k: usize, out: &mut [f64]| {
+            let jacobian = self.robot.jacobian_at(batch.row(k), link, point)?;
+            out.copy_from_slice(jacobian.as_slice());
+            Ok(())
         };
-        let values = self.ask(py, ask)?;
-        let columns = shaped(py, values, [count, dofs, 6])?;
-        use numpy::PyArrayMethods;
+        let shape = [batch.count, dofs, 6];
+        let columns = answers(py, shape, FEW, batch.is_one(), one, |on, out| {
+            let robot = &self.robot;
+            robot.jacobian_batch_into(&batch.values, link, point, on, out)
+        })?;
         columns.permute(Some([0, 2, 1]))
     }
 
-    /// For targets (count, 4, 4) of poses or (count, 1, 3) of places: the configurations (count, dofs), and of each
-    /// whether it is reached, the position's and the rotation's error, restarts and iterations.
-    #[allow(clippy::too_many_arguments, clippy::type_complexity)]
+    /// For targets (count, 4, 4) of poses or (count, 1, 3) of places, each a row (dofs + 5): the configuration, whether
+    /// it is reached (0 or 1), the position's and the rotation's error, restarts and iterations.
+    #[allow(clippy::too_many_arguments)]
     fn inverse<'py>(
         &self,
         py: Python<'py>,
@@ -281,21 +252,12 @@ impl Robot {
         restarts: usize,
         seed: u64,
         bounds: Option<PyReadonlyArray2<'py, f64>>,
-    ) -> PyResult<(
-        Bound<'py, PyArray2<f64>>,
-        Vec<bool>,
-        Vec<[f64; 2]>,
-        Vec<[usize; 2]>,
-    )> {
-        use numpy::PyUntypedArrayMethods;
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let dofs = self.names(py, |robot| robot.dofs())?.len();
         let (count, is_pose) = (targets.shape()[0], targets.shape()[1] == 4);
-        let (targets, starts) = (copy3(&targets), Batch::new(&starts));
+        let (targets, starts) = (copy(&targets)?, Batch::new(&starts)?);
         let pairs = |bounds: &PyReadonlyArray2<'_, f64>| {
-            let values = Batch::new(bounds);
-            (0..values.count)
-                .map(|dof| [values.row(dof)[0], values.row(dof)[1]])
-                .collect()
+            Ok::<_, PyErr>(copy(bounds)?.as_chunks().0.to_vec())
         };
         let settings = InverseSettings {
             position_tolerance: tolerances[0],
@@ -303,36 +265,40 @@ impl Robot {
             iterations,
             restarts,
             seed,
-            bounds: bounds.as_ref().map(pairs),
+            bounds: bounds.as_ref().map(pairs).transpose()?,
         };
-        let found = self.ask(py, move |robot, cancellation| {
-            let one = |k: usize| {
-                cancellation.check()?;
-                let target = match is_pose {
-                    true => Target::pose(link, pose(&targets[16 * k..16 * k + 16])),
-                    false => {
-                        let place = &targets[3 * k..3 * k + 3];
-                        Target::position(link, [place[0], place[1], place[2]])
-                    }
-                };
-                let start = starts.row(if starts.count == 1 { 0 } else { k });
-                robot.inverse_kinematics(&target.of_point(point), start, &settings)
+        let write = |on: &Cancellation, k: usize, out: &mut [f64]| -> Result<(), RobotError> {
+            let target = match is_pose {
+                true => Target::pose(link, pose(&targets[16 * k..16 * k + 16])),
+                false => {
+                    let place = &targets[3 * k..3 * k + 3];
+                    Target::position(link, [place[0], place[1], place[2]])
+                }
             };
-            let each = (0..count).into_par_iter().map(one);
-            each.collect::<Result<Vec<Inverse>, RobotError>>()
-        })?;
-        let nearest = || found.iter().map(Inverse::nearest);
-        let configurations = nearest().flat_map(|one| one.configuration.clone());
-        Ok((
-            shaped(py, configurations.collect(), [count, dofs])?,
-            found.iter().map(Inverse::is_reached).collect(),
-            nearest()
-                .map(|one| [one.position_error, one.rotation_error])
-                .collect(),
-            nearest()
-                .map(|one| [one.restarts, one.iterations])
-                .collect(),
-        ))
+            let (target, start) = (
+                target.of_point(point),
+                if starts.count == 1 { 0 } else { k },
+            );
+            let start = starts.row(start);
+            let robot = &self.robot;
+            let found = robot.inverse_kinematics_until(&target, start, &settings, on)?;
+            let nearest = found.nearest();
+            let (configuration, told) = out.split_at_mut(dofs);
+            configuration.copy_from_slice(&nearest.configuration);
+            told.copy_from_slice(&[
+                f64::from(u8::from(found.is_reached())),
+                nearest.position_error,
+                nearest.rotation_error,
+                nearest.restarts as f64,
+                nearest.iterations as f64,
+            ]);
+            Ok(())
+        };
+        // One may take long too: none is asked for on this thread, where Ctrl-C is not heard.
+        let one = |k: usize, out: &mut [f64]| write(&Cancellation::default(), k, out);
+        answers(py, [count, dofs + 5], 0, false, one, |on, out| {
+            fill(out, dofs + 5, 1, || (), |(), k, out| write(on, k, out))
+        })
     }
 
     /// The shapes of a kind, prepared for distances.
@@ -359,31 +325,36 @@ impl Robot {
     }
 }
 
-/// The poses of a block of configurations, from number `first` on, as matrices.
+/// Asks for each of many configurations, until Ctrl-C.
+fn each<S>(
+    on: &Cancellation,
+    out: &mut [f64],
+    width: usize,
+    start: impl Fn() -> S + Sync,
+    write: impl Fn(&mut S, usize, &mut [f64]) -> Result<(), RobotError> + Sync,
+) -> Result<(), RobotError> {
+    fill(out, width, BLOCK, start, |shared, k, out| {
+        on.check()?;
+        write(shared, k, out)
+    })
+}
+
+/// The poses of all links, or of one, as matrices.
 fn write_poses(
-    robot: &urdd::robot::Robot,
-    batch: &Batch,
-    first: usize,
+    poses: &[Isometry3<f64>],
     link: Option<usize>,
-    shown: usize,
     out: &mut [f64],
 ) -> Result<(), RobotError> {
-    let mut poses: Vec<Isometry3<f64>> = Vec::new();
-    for (k, out) in out.chunks_mut(16 * shown).enumerate() {
-        robot.link_poses_into(batch.row(first + k), &mut poses)?;
-        match link {
-            Some(link) => {
-                let (what, index, count) = ("link", link, poses.len());
-                let found = poses.get(link);
-                let found = found.ok_or(RobotError::OutOfRange { what, index, count })?;
-                out.copy_from_slice(&matrix(found));
-            }
-            None => {
-                for (pose, out) in poses.iter().zip(out.chunks_mut(16)) {
-                    write_matrix(pose, out);
-                }
-            }
+    let shown = match link {
+        None => poses,
+        Some(link) => {
+            let (what, index, count) = ("link", link, poses.len());
+            let found = poses.get(link..=link);
+            found.ok_or(RobotError::OutOfRange { what, index, count })?
         }
+    };
+    for (pose, out) in shown.iter().zip(out.chunks_exact_mut(16)) {
+        write_matrix(pose, out);
     }
     Ok(())
 }

@@ -35,7 +35,10 @@ pub fn pool() -> PyResult<Arc<ThreadPool>> {
         builder = builder.num_threads(wanted);
     }
     let pool = builder.build();
-    let pool = Arc::new(pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?);
+    let pool = Arc::new(pool.map_err(|error| {
+        let count = wanted.map_or_else(String::new, |count| format!("{count} "));
+        PyRuntimeError::new_err(format!("{count}threads cannot be started: {error}"))
+    })?);
     let old = made.replace(Made {
         process,
         wanted,
@@ -53,14 +56,21 @@ pub fn pool() -> PyResult<Arc<ThreadPool>> {
 /// Sets how many threads work; `None`: one for each processor, or as `RAYON_NUM_THREADS` says.
 #[pyfunction]
 #[pyo3(signature = (count=None))]
-pub fn set_num_threads(count: Option<usize>) -> PyResult<()> {
+pub fn set_num_threads(count: Option<isize>) -> PyResult<()> {
+    let count = count.map(|count| usize::try_from(count).unwrap_or(0));
     if count == Some(0) {
         return Err(pyo3::exceptions::PyValueError::new_err(
             "the number of threads must be at least 1; None is one for each processor",
         ));
     }
-    *WANTED.lock().unwrap_or_else(PoisonError::into_inner) = count;
-    Ok(())
+    let wanted = || WANTED.lock().unwrap_or_else(PoisonError::into_inner);
+    let before = std::mem::replace(&mut *wanted(), count);
+    // Now, where it can be said, and not when work begins.
+    let made = pool();
+    if made.is_err() {
+        *wanted() = before;
+    }
+    made.map(drop)
 }
 
 /// How many threads work.

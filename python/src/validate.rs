@@ -103,7 +103,7 @@ pub fn explain(
         )),
         None => {
             let message = format!(
-                "there is no rule `{}`; `urdd explain` lists them",
+                "there is no rule `{}`; a finding says the code of its rule, such as DOF003",
                 code.escape_debug()
             );
             Err(raise(py, "UnknownNameError", message, &[]))

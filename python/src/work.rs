@@ -3,17 +3,14 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::panic::PanicException;
 use pyo3::prelude::*;
 use urdd::cancellation::Cancellation;
-use urdd::robot::RobotError;
 
-use crate::arrays::Batch;
-use crate::errors::of_robot;
 use crate::threads::pool;
 
 /// How often it is looked whether Ctrl-C was pressed.
@@ -35,10 +32,7 @@ impl<T, M> Teller<T, M> {
 }
 
 /// Runs a job. Ctrl-C asks it to stop, and is raised when it has.
-pub fn run<T: Send + 'static>(
-    py: Python<'_>,
-    job: impl FnOnce(&Cancellation) -> T + Send + 'static,
-) -> PyResult<T> {
+pub fn run<T: Send>(py: Python<'_>, job: impl FnOnce(&Cancellation) -> T + Send) -> PyResult<T> {
     run_and_tell(
         py,
         |(): ()| Ok(()),
@@ -46,62 +40,42 @@ pub fn run<T: Send + 'static>(
     )
 }
 
-/// What each of many configurations gives, by `many`; of a single one by `one`, on this thread. Those of a robot without
-/// DOFs are all the same one.
-pub fn ask<S: Send + Sync + 'static, T: Copy + Send + 'static>(
-    py: Python<'_>,
-    subject: &Arc<S>,
-    batch: Batch,
-    one: impl FnOnce(&S, &[f64]) -> Result<Vec<T>, RobotError> + Send,
-    many: impl FnOnce(&S, &Cancellation, &Batch) -> Result<Vec<T>, RobotError> + Send + 'static,
-) -> PyResult<Vec<T>> {
-    let answer = match batch.count {
-        0 => Ok(Vec::new()),
-        count if count == 1 || batch.values.is_empty() => {
-            let found = py.detach(|| one(subject, &batch.values));
-            found.map(|found| found.repeat(count))
-        }
-        _ => {
-            let own = Arc::clone(subject);
-            run(py, move |cancellation| many(&own, cancellation, &batch))?
-        }
-    };
-    answer.map_err(|error| of_robot(py, &error))
-}
-
 /// As [`run`]; `hear` is called on the caller's thread with what the job tells. An error of it stops the job too.
-pub fn run_and_tell<T: Send + 'static, M: Send + 'static>(
+pub fn run_and_tell<T: Send, M: Send>(
     py: Python<'_>,
     mut hear: impl FnMut(M) -> PyResult<()>,
-    job: impl FnOnce(&Cancellation, &Teller<T, M>) -> T + Send + 'static,
+    job: impl FnOnce(&Cancellation, &Teller<T, M>) -> T + Send,
 ) -> PyResult<T> {
     let cancellation = Cancellation::default();
     let (sender, receiver) = channel();
     let own = cancellation.clone();
-    pool()?.spawn(move || {
-        let teller = Teller(sender);
-        let outcome = catch_unwind(AssertUnwindSafe(|| job(&own, &teller)));
-        let _ = teller.0.send(Word::Done(outcome));
-    });
     // A receiver may be moved between threads, but not shared; the lock is always free.
     let receiver = Mutex::new(receiver);
-    let mut stopped: Option<PyErr> = None;
-    loop {
-        let word = py.detach(|| next(&receiver));
-        let heard = match word {
-            Ok(Word::Done(Ok(value))) => return stopped.map_or(Ok(value), Err),
-            Ok(Word::Done(Err(panic))) => return Err(crash(&*panic)),
-            Ok(Word::Told(message)) if stopped.is_none() => hear(message),
-            Ok(Word::Told(_)) | Err(RecvTimeoutError::Timeout) => Ok(()),
-            Err(RecvTimeoutError::Disconnected) => {
-                return Err(PyRuntimeError::new_err("the work ended without an answer"));
+    let pool = pool()?;
+    pool.in_place_scope(|scope| {
+        scope.spawn(move |_| {
+            let teller = Teller(sender);
+            let outcome = catch_unwind(AssertUnwindSafe(|| job(&own, &teller)));
+            let _ = teller.0.send(Word::Done(outcome));
+        });
+        let mut stopped: Option<PyErr> = None;
+        loop {
+            let word = py.detach(|| next(&receiver));
+            let heard = match word {
+                Ok(Word::Done(Ok(value))) => return stopped.map_or(Ok(value), Err),
+                Ok(Word::Done(Err(panic))) => return Err(crash(&*panic)),
+                Ok(Word::Told(message)) if stopped.is_none() => hear(message),
+                Ok(Word::Told(_)) | Err(RecvTimeoutError::Timeout) => Ok(()),
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(PyRuntimeError::new_err("the work ended without an answer"));
+                }
+            };
+            if let Err(error) = heard.and_then(|()| py.check_signals()) {
+                cancellation.cancel();
+                stopped.get_or_insert(error);
             }
-        };
-        if let Err(error) = heard.and_then(|()| py.check_signals()) {
-            cancellation.cancel();
-            stopped.get_or_insert(error);
         }
-    }
+    })
 }
 
 fn next<W>(receiver: &Mutex<Receiver<W>>) -> Result<W, RecvTimeoutError> {

@@ -2,16 +2,27 @@
 
 use std::sync::Arc;
 
-use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
+use numpy::ndarray::{Dimension, IntoDimension};
+use numpy::{
+    Element, PyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
-use rayon::prelude::*;
+use urdd::cancellation::Cancellation;
 use urdd::geometry::Mesh;
-use urdd::robot::{ObstacleDistance, RobotError, World};
+use urdd::robot::{ObstacleDistance, RobotError, World, fill};
 
-use crate::arrays::{Batch, copy, pose, shaped};
+use crate::arrays::{Batch, answers, check_memory, copy, pose, zeros};
 use crate::errors::of_robot;
 use crate::proximity::Proximity;
+use crate::threads::num_threads;
 use crate::work;
+
+/// What making an obstacle takes of memory at most, as for meshes of files (docs/security.md).
+const BYTES_A_VERTEX: usize = 200;
+const BYTES_A_TRIANGLE: usize = 600;
+/// What a configuration takes of memory for each pair of a shape and a part of an obstacle: four lists of them, which
+/// grow by doubling.
+const BYTES_A_PAIR: usize = 256;
 
 /// The index of a link and its piece, that of an obstacle, the distance, and two points.
 type Near = ([usize; 2], usize, f64, [[f64; 3]; 2]);
@@ -26,13 +37,15 @@ fn obstacle(
     at: &PyReadonlyArray2<'_, f64>,
     make: impl FnOnce(nalgebra::Isometry3<f64>) -> Result<urdd::robot::Obstacle, RobotError>,
 ) -> PyResult<Obstacle> {
-    let made = make(pose(&copy(at)));
+    let made = make(pose(&copy(at)?));
     made.map(Obstacle).map_err(|error| of_robot(py, &error))
 }
 
 /// The rows of an array (n, 3).
-fn rows(array: &PyReadonlyArray2<'_, f64>) -> Vec<[f64; 3]> {
-    copy(array).as_chunks().0.to_vec()
+fn rows(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; 3]>> {
+    let values = copy(array)?;
+    check_memory(size_of_val(values.as_slice()))?;
+    Ok(values.as_chunks().0.to_vec())
 }
 
 #[pymethods]
@@ -86,7 +99,8 @@ impl Obstacle {
         pose: PyReadonlyArray2<'_, f64>,
         points: PyReadonlyArray2<'_, f64>,
     ) -> PyResult<Self> {
-        let points = rows(&points);
+        let points = rows(&points)?;
+        check_memory(points.len().saturating_mul(BYTES_A_VERTEX))?;
         let make = |pose| urdd::robot::Obstacle::hull(name, pose, &points);
         obstacle(py, &pose, make)
     }
@@ -100,14 +114,15 @@ impl Obstacle {
         vertices: PyReadonlyArray2<'_, f64>,
         faces: PyReadonlyArray2<'_, u32>,
     ) -> PyResult<Self> {
-        let faces: Vec<u32> = faces.as_array().iter().copied().collect();
+        let (vertices, faces) = (rows(&vertices)?, copy(&faces)?);
+        let of_vertices = vertices.len().saturating_mul(BYTES_A_VERTEX);
+        check_memory(of_vertices.saturating_add(faces.len() / 3 * BYTES_A_TRIANGLE))?;
         let mesh = Mesh {
-            vertices: rows(&vertices),
+            vertices,
             triangles: faces.as_chunks().0.to_vec(),
         };
-        let pose = crate::arrays::pose(&copy(&pose));
-        let make = move |_: &_| urdd::robot::Obstacle::mesh(&name, pose, &mesh);
-        let made = work::run(py, make)?;
+        let pose = crate::arrays::pose(&copy(&pose)?);
+        let made = work::run(py, |_| urdd::robot::Obstacle::mesh(&name, pose, &mesh))?;
         made.map(Obstacle).map_err(|error| of_robot(py, &error))
     }
 
@@ -120,27 +135,46 @@ impl Obstacle {
 
 /// The shapes of a robot among obstacles.
 #[pyclass(frozen, module = "urdd._urdd")]
-pub struct Among(Arc<urdd::robot::Among<Arc<urdd::robot::Proximity>>>);
+pub struct Among {
+    among: urdd::robot::Among<Arc<urdd::robot::Proximity>>,
+    /// Pairs of a shape and a part of an obstacle, at most: one configuration takes memory for all of them.
+    num_tested: usize,
+}
 
 type Asked = urdd::robot::Among<Arc<urdd::robot::Proximity>>;
 
 impl Among {
-    /// What each of many configurations gives.
-    fn each<T: Copy + Send + 'static>(
+    /// The answers of many configurations, of this shape.
+    fn each<'py, T: Element + Copy, S: IntoDimension>(
         &self,
-        py: Python<'_>,
-        batch: Batch,
-        one: impl Fn(&Asked, &[f64]) -> Result<Vec<T>, RobotError> + Copy + Send + Sync + 'static,
-    ) -> PyResult<Vec<T>> {
-        work::ask(py, &self.0, batch, one, move |own, cancellation, batch| {
-            let row = |k: usize| {
+        py: Python<'py>,
+        configurations: &PyReadonlyArray2<'py, f64>,
+        shape: S,
+        one: impl Fn(&Asked, &[f64], &mut [T]) -> Result<(), RobotError> + Sync,
+    ) -> PyResult<Bound<'py, PyArray<T, S::Dim>>> {
+        let batch = Batch::new(configurations)?;
+        let threads = match batch.count {
+            0 | 1 => 1,
+            count => count.min(num_threads()?),
+        };
+        self.check_memory(threads)?;
+        let shape = shape.into_dimension();
+        let width = shape.slice().iter().skip(1).product();
+        let many = |cancellation: &Cancellation, out: &mut [T]| {
+            let start = || ();
+            fill(out, width, 1, start, |(), k, out| {
                 cancellation.check()?;
-                one(own, batch.row(k))
-            };
-            let found = (0..batch.count).into_par_iter().map(row);
-            let found: Vec<Vec<T>> = found.collect::<Result<_, RobotError>>()?;
-            Ok(found.concat())
-        })
+                one(&self.among, batch.row(k), out)
+            })
+        };
+        let alone = |k: usize, out: &mut [T]| py.detach(|| one(&self.among, batch.row(k), out));
+        answers(py, shape, 1, batch.is_one(), alone, many)
+    }
+
+    /// `MemoryError` where there is none for so many configurations at once.
+    fn check_memory(&self, configurations: usize) -> PyResult<()> {
+        let each = self.num_tested.saturating_mul(BYTES_A_PAIR);
+        check_memory(each.saturating_mul(configurations))
     }
 }
 
@@ -157,19 +191,26 @@ impl Among {
             let links = ignored.iter();
             links.fold(obstacle.get().0.clone(), |one, link| one.ignoring(link))
         });
-        let world = World::new(each);
-        let among = Asked::new(proximity.shared(), &world);
+        let parts = obstacles
+            .iter()
+            .map(|(obstacle, _)| obstacle.get().0.num_parts());
+        let proximity = proximity.shared();
+        let num_tested = proximity.num_shapes().saturating_mul(parts.sum());
+        let among = Asked::new(proximity, &World::new(each));
         let among = among.map_err(|error| of_robot(py, &error))?;
-        Ok(Among(Arc::new(among)))
+        Ok(Among { among, num_tested })
     }
 
     /// (pairs, 3): of each pair the link, the piece and the obstacle.
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<usize>>> {
-        let pairs = self.0.pairs();
-        let numbers = pairs.flat_map(|([link, piece], obstacle)| [link, piece, obstacle]);
-        let numbers: Vec<usize> = numbers.collect();
-        let count = numbers.len() / 3;
-        shaped(py, numbers, [count, 3])
+        let array = zeros(py, [self.among.pairs().count(), 3])?;
+        let mut guard = array.readwrite();
+        let rows = guard.as_slice_mut()?.chunks_exact_mut(3);
+        for (row, ([link, piece], obstacle)) in rows.zip(self.among.pairs()) {
+            row.copy_from_slice(&[link, piece, obstacle]);
+        }
+        drop(guard);
+        Ok(array)
     }
 
     /// (count, pairs).
@@ -178,10 +219,11 @@ impl Among {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let batch = Batch::new(&configurations);
-        let count = batch.count;
-        let values = self.each(py, batch, |among, q| among.distance_values(q))?;
-        shaped(py, values, [count, self.0.pairs().count()])
+        let shape = [configurations.shape()[0], self.among.pairs().count()];
+        self.each(py, &configurations, shape, |among, q, out| {
+            out.copy_from_slice(&among.distance_values(q)?);
+            Ok(())
+        })
     }
 
     /// (count,); infinite where there is no pair.
@@ -190,10 +232,11 @@ impl Among {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let values = self.each(py, Batch::new(&configurations), |among, q| {
-            Ok(vec![among.least_distance(q)?.unwrap_or(f64::INFINITY)])
-        })?;
-        Ok(PyArray1::from_vec(py, values))
+        let count = configurations.shape()[0];
+        self.each(py, &configurations, count, |among, q, out| {
+            out[0] = among.least_distance(q)?.unwrap_or(f64::INFINITY);
+            Ok(())
+        })
     }
 
     /// (count,).
@@ -202,10 +245,11 @@ impl Among {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<bool>>> {
-        let values = self.each(py, Batch::new(&configurations), |among, q| {
-            Ok(vec![among.in_collision(q)?])
-        })?;
-        Ok(PyArray1::from_vec(py, values))
+        let count = configurations.shape()[0];
+        self.each(py, &configurations, count, |among, q, out| {
+            out[0] = among.in_collision(q)?;
+            Ok(())
+        })
     }
 
     /// The nearest pairs in one configuration, nearest first.
@@ -215,8 +259,9 @@ impl Among {
         configuration: PyReadonlyArray2<'_, f64>,
         k: usize,
     ) -> PyResult<Vec<Near>> {
-        let batch = Batch::new(&configuration);
-        let found = py.detach(|| self.0.nearest(&batch.values, k));
+        let batch = Batch::new(&configuration)?;
+        self.check_memory(1)?;
+        let found = py.detach(|| self.among.nearest(&batch.values, k));
         let near = |pair: &ObstacleDistance| {
             let shape = [pair.link_idx, pair.piece];
             (shape, pair.obstacle_idx, pair.distance, pair.points)

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import json
+import pickle
+import re
 import shutil
 import signal
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -101,9 +105,8 @@ def test_no_urdds(tmp_path: Path, urdds: Path) -> None:
     (tmp_path / "empty").mkdir()
     with pytest.raises(OSError, match="there is no URDD in this folder"):
         urdd.load(tmp_path / "empty")
-    with pytest.raises(urdd.OpenError, match="urdd generate") as caught:
+    with pytest.raises(urdd.OpenError, match=r"urdd\.generate\("):
         urdd.load(ROBOTS / "welding_arm.urdf")
-    assert "urdd.generate(" in str(caught.value)
     with pytest.raises(urdd.OpenError, match="folder that it lies in"):
         urdd.load(urdds / "welding_arm" / "urdd.json")
     (tmp_path / "bad.zip").write_bytes(b"PK\x03\x04 and nothing else")
@@ -120,7 +123,7 @@ def test_a_urdd_that_fails_validation(urdds: Path, tmp_path: Path) -> None:
     document["num_dofs"] = "one"
     file.write_text(json.dumps(document))
     robot = urdd.load(tmp_path / "gripper")
-    with pytest.raises(urdd.ModuleUnusableError, match=r"dof_module.*module\.json.*urdd validate") as caught:
+    with pytest.raises(urdd.ModuleUnusableError, match=r"dof_module.*module\.json.*urdd\.validate") as caught:
         robot.fk([0.0])
     assert caught.value.module == "dof_module"
     assert "dof_module" in repr(robot)
@@ -129,6 +132,65 @@ def test_a_urdd_that_fails_validation(urdds: Path, tmp_path: Path) -> None:
     (one,) = urdd.validate(tmp_path / "gripper").urdds
     assert one.verdict == "fail"
     assert any(finding.pointer == "/num_dofs" and finding.line is not None for finding in one.findings)
+    with pytest.raises(
+        urdd.ValidationError, match=r"(?s)does not pass validation.*dof_module/module.json#/num_dofs"
+    ) as failed:
+        urdd.load(tmp_path / "gripper", validate=True)
+    assert failed.value.findings == one.findings
+    again: urdd.ValidationError = pickle.loads(pickle.dumps(failed.value))
+    assert (str(again), again.findings) == (str(failed.value), one.findings)
+    assert urdd.load(urdds / "gripper", validate=True).num_dofs == 1
+
+
+def test_advice_is_for_python(urdds: Path, tmp_path: Path) -> None:
+    """No error sends people to the command line: neither its commands nor its flags."""
+    core = urdd.generate(ROBOTS / "gripper.urdf", tmp_path / "core", modules=["core"]).load()
+    (tmp_path / "away.stl").write_bytes((ROBOTS / "meshes" / "welding_arm" / "flange.stl").read_bytes())
+    folder = tmp_path / "a" / "b"
+    folder.mkdir(parents=True)
+    away, thin, lost = (folder / f"{name}.urdf" for name in ("away", "thin", "lost"))
+    named = '<robot name="a"><link name="l"><visual><geometry><mesh filename="{}"/></geometry></visual></link></robot>'
+    away.write_text(named.format("../../away.stl"))
+    shape = '<origin xyz="1e9 0 0"/><geometry><box size="1 1 1"/></geometry>'
+    box = f'<robot name="a"><link name="l"><visual>{shape}</visual></link></robot>'
+    thin.write_text(box)
+    lost.write_text(named.format("nowhere.stl"))
+    occupied = tmp_path / "occupied"
+    occupied.mkdir()
+    (occupied / "mine.txt").write_text("kept")
+    edited = tmp_path / "edited"
+    shutil.copytree(urdds / "gripper", edited)
+    module = edited / "link_shapes_modules" / "link_shapes_skips_module" / "module.json"
+    document = json.loads(module.read_text())
+    a, b = core.link_names[:2]
+    document["edits"] = [{"link_a": a, "link_b": b, "skip": True, "reason": "mine"}]
+    module.write_text(json.dumps(document))
+    module.with_suffix(".yaml").unlink()
+    broken = tmp_path / "broken"
+    shutil.copytree(urdds / "gripper", broken)
+    (broken / "dof_module" / "module.json").write_text("{}")
+    new, gripper = tmp_path / "new", ROBOTS / "gripper.urdf"
+    for ask, words in (
+        (lambda: core.in_collision(core.zero), r"_module is missing: make it with urdd\.generate"),
+        (lambda: core.collision_model(), r"modules=\["),
+        (lambda: core.modules.convex_hull_meshes, r"is missing: make it with urdd\.generate"),
+        (lambda: urdd.load(broken).fk([0.0]), r"urdd\.validate\(path\) says more"),
+        (lambda: urdd.generate(gripper, occupied), "force=True"),
+        (lambda: urdd.generate(away, new), r"allowed_folders=\[folder\]"),
+        (lambda: urdd.generate(thin, new), r"modules=\[\"core\"\]"),
+        (lambda: urdd.generate(lost, new, strict=True), "strict=True"),
+        (lambda: urdd.generate(gripper, edited, modules=["core"]), '"link_shapes_skips" to modules.*drop_edits=True'),
+        (lambda: urdd.combine([broken, urdds / "gripper"], new, at=a), r"does not pass urdd\.validate.*force=True"),
+        (lambda: urdd.combine([away, gripper], new, at="l"), r"allowed_folders"),
+        (lambda: urdd.combine(tmp_path / "core", new), r"urdd\.combine\("),
+        (lambda: urdd.explain("XYZ999"), "DOF003"),
+        (lambda: urdd.load(gripper), r"urdd\.generate\("),
+    ):
+        with pytest.raises(urdd.UrddError, match=words) as caught:
+            ask()
+        said = [str(caught.value), *(place.problem for place in getattr(caught.value, "places", []))]
+        for text in said:
+            assert not re.search(r"--[a-z]|`urdd ", text), text
 
 
 def test_a_urdd_of_before_version_1() -> None:
@@ -168,6 +230,36 @@ def test_no_sources(tmp_path: Path) -> None:
         urdd.generate(ROBOTS / "gripper.urdf", tmp_path / "out", modules="core")
 
 
+def test_a_number_of_threads_that_cannot_be(arm: urdd.Robot) -> None:
+    code = (
+        "import resource, sys, urdd\n"
+        "robot = urdd.load(sys.argv[1])\n"
+        "expected = robot.in_collision(robot.sample(50))\n"
+        "resource.setrlimit(resource.RLIMIT_AS, (4 << 30,) * 2)\n"
+        "try:\n"
+        "    urdd.set_num_threads(50_000)\n"
+        "except RuntimeError as error:\n"
+        "    print(error)\n"
+        "assert (robot.in_collision(robot.sample(50)) == expected).all()\n"
+    )
+    if sys.platform == "linux":
+        words = [sys.executable, "-c", code, str(arm.path)]
+        found = subprocess.run(words, capture_output=True, text=True, check=True, timeout=120)
+        assert found.stdout.startswith("50000 threads cannot be started")
+
+
+def test_names_that_are_nearly_right_bring_the_right_one() -> None:
+    """What Python's interpreter looks for a suggestion in."""
+    for name in urdd.__all__:
+        assert name in dir(urdd)
+    with pytest.raises(AttributeError) as caught:
+        _ = urdd.modulez
+    assert (caught.value.name, caught.value.obj) == ("modulez", urdd)
+    options: dict[str, Any] = {"sample": 3}
+    with pytest.raises(TypeError, match=r"generate_text\(\) got .* 'sample'. Did you mean 'samples'\?"):
+        urdd.generate_text("<robot/>", "nowhere", **options)
+
+
 def _press_after(seconds: float) -> threading.Timer:
     timer = threading.Timer(seconds, signal.raise_signal, [signal.SIGINT])
     timer.start()
@@ -185,6 +277,20 @@ def test_control_c_in_a_batch(arm: urdd.Robot) -> None:
     timer.join()
     assert time.monotonic() - begin < 30
     assert arm.fk(q[:3]).shape == (3, arm.num_links, 4, 4)
+
+
+def test_control_c_in_inverse_kinematics(arm: urdd.Robot) -> None:
+    for ask in (
+        lambda: arm.ik("torch", [9.0, 9.0, 9.0], restarts=10**9),
+        lambda: arm.ik_batch("torch", [[9.0, 9.0, 9.0]] * 3, restarts=10**9),
+    ):
+        timer = _press_after(0.3)
+        begin = time.monotonic()
+        with pytest.raises(KeyboardInterrupt):
+            ask()
+        timer.join()
+        assert time.monotonic() - begin < 30
+    assert arm.ik("torch", arm.fk(arm.middle, "torch")).reached
 
 
 def test_control_c_in_generate(tmp_path: Path) -> None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,7 @@ import pytest
 
 import urdd
 from conftest import NAMES
+from sockets import listening
 
 KINDS: list[urdd.ShapeKind] = ["hulls", "boxes", "spheres", "pieces", "piece-boxes", "piece-spheres"]
 
@@ -87,8 +90,8 @@ def test_mujoco_moves_alike(name: str, urdds: Path, mujoco: Any) -> None:
     peer = robot.to_mujoco()
     data = mujoco.MjData(peer.model)
     q = robot.sample(20, seed=3)
-    np.testing.assert_allclose(peer.dofs(peer.qpos(q)), q, atol=1e-12)
-    for ours, own in zip(q, peer.qpos(q), strict=True):
+    np.testing.assert_allclose(peer.dofs(peer.q(q)), q, atol=1e-12)
+    for ours, own in zip(q, peer.q(q), strict=True):
         data.qpos[:] = own
         mujoco.mj_kinematics(peer.model, data)
         for link, pose in robot.link_poses(ours).items():
@@ -105,7 +108,7 @@ def test_mujoco_collides_where_we_do(arm: urdd.Robot, mujoco: Any) -> None:
     clear = np.abs(distances) > 1e-6
     assert 0 < (distances == 0).sum() < 200
     for k in np.flatnonzero(clear | (distances == 0)):
-        data.qpos[:] = peer.qpos(q[k])
+        data.qpos[:] = peer.q(q[k])
         mujoco.mj_forward(peer.model, data)
         if distances[k] > 1e-4:
             assert data.ncon == 0
@@ -133,7 +136,10 @@ def test_the_page_is_served_until_it_is_closed(arm: urdd.Robot) -> None:
     import urllib.error
     import urllib.request
 
+    before = listening() if sys.platform == "linux" else set[tuple[str, int]]()
     with arm.show(arm.zero, open_browser=False) as shown:
+        if sys.platform == "linux":
+            assert [address for address, _ in listening() - before] == ["127.0.0.1"]
         address, fragment = shown.address.split("#")
         assert "token=" in fragment
         assert "q=0.0," in fragment
@@ -151,11 +157,35 @@ def test_a_notebook_gets_the_page_in_a_frame(arm: urdd.Robot) -> None:
     assert text.startswith("<iframe")
     assert "123px" in text
     assert '"robot.zip"' in frame.text
+    # The frame has an origin of its own: its scripts reach neither the notebook nor its server.
+    assert 'sandbox="allow-scripts allow-downloads"' in text
+
+
+def test_viser_is_told_to_listen_to_this_machine_alone(arm: urdd.Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By a stand-in; `peers/test_viser.py` looks at the socket of viser itself."""
+    told: list[dict[str, Any]] = []
+
+    class Server:
+        def __init__(self, **options: Any) -> None:
+            told.append(options)
+            self.scene = self
+
+        def add_mesh_trimesh(self, name: str, mesh: object) -> SimpleNamespace:
+            return SimpleNamespace(name=name, mesh=mesh)
+
+        def get_port(self) -> int:
+            return 8080
+
+        def stop(self) -> None:
+            told.append({})
+
+    monkeypatch.setitem(sys.modules, "viser", SimpleNamespace(ViserServer=Server))
+    with arm.show(backend="viser", open_browser=False) as shown:
+        assert shown.address == "http://127.0.0.1:8080"
+    assert told == [{"host": "127.0.0.1"}, {}]
 
 
 def test_what_is_not_installed_is_named(arm: urdd.Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    import sys
-
     monkeypatch.setitem(sys.modules, "mujoco", None)
     with pytest.raises(ModuleNotFoundError, match=r"needs the package `mujoco`.*pip install 'urdd\[mujoco\]'"):
         arm.to_mujoco()

@@ -79,7 +79,7 @@ def test_obstacles(arm: urdd.Robot) -> None:
 def found_share(robot: urdd.Robot, q: Any) -> str:
     """How many configurations touch the obstacles of the example, with each distance worked out."""
     world = urdd.World()
-    world.add_box("table", [2.0, 2.0, 0.1], [0.0, 0.0, -0.05], ignore=[robot.link_names[0]])
+    world.add_box("table", [2.0, 2.0, 0.1], [0.0, 0.0, -0.05], ignore=[robot.root_link])
     world.add_capsule("lamp", 0.05, 1.0, [0.5, 0.5, 0.5])
     world.add_sphere("ball", 0.1, [0.6, 0.0, 0.4])
     return f"{np.mean((robot.among(world).distances(q) == 0).any(axis=1)):.1%}"

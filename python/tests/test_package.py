@@ -23,8 +23,8 @@ from urdd._options import MakingOptions, options_of
 PYTHON = REPOSITORY / "python"
 
 
-def version_of(manifest: Path) -> str:
-    found = re.search(r'^version = "(.+)"$', manifest.read_text(encoding="utf-8"), re.MULTILINE)
+def version_of(manifest: Path, key: str = "version") -> str:
+    found = re.search(rf'^{key} = "(.+)"$', manifest.read_text(encoding="utf-8"), re.MULTILINE)
     assert found is not None
     return found[1]
 
@@ -79,12 +79,11 @@ def test_examples_in_the_documentation(module: object, urdds: Path, monkeypatch:
     assert results.failed == 0
 
 
-def test_the_readme(learned: urdd.Robot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each block of Python is run as it stands, one after the other, where a URDD and a URDF lie."""
-    (tmp_path / "my_robot").symlink_to(learned.path)
-    robots = REPOSITORY / "conformance" / "robots"
-    for name in ("welding_arm.urdf", "gripper.urdf", "meshes", "package.xml"):
-        (tmp_path / name).symlink_to(robots / name)
+def test_the_readme(learned: urdd.Robot, urdds: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each block of Python is run as it stands, one after the other, as in a clone in which its robots were made."""
+    (tmp_path / "welding_arm").symlink_to(urdds / "welding_arm")
+    (tmp_path / learned.path.name).symlink_to(learned.path)
+    (tmp_path / "conformance").symlink_to(REPOSITORY / "conformance")
     monkeypatch.chdir(tmp_path)
     text = (PYTHON / "README.md").read_text(encoding="utf-8")
     blocks = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
@@ -92,6 +91,39 @@ def test_the_readme(learned: urdd.Robot, tmp_path: Path, monkeypatch: pytest.Mon
     names: dict[str, object] = {}
     for block in blocks:
         exec(compile(block, "README.md", "exec"), names)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for rustc is a script of a shell")
+@pytest.mark.parametrize(
+    ("rustc", "words"),
+    [
+        (None, "there is none on the PATH"),
+        ("echo 'rustc 1.63.0 (4b91a6ea7 2022-08-08)'", "this is rustc 1.63.0"),
+        ("echo 'error: rustup has no default toolchain' >&2; exit 1", "there is none on the PATH"),
+        ("echo 'rustc 9.0.0-nightly (abc 2030-01-01)'", None),
+    ],
+)
+def test_pip_says_that_it_needs_rust(rustc: str | None, words: str | None, tmp_path: Path) -> None:
+    if rustc is not None:
+        (tmp_path / "rustc").write_text(f"#!/bin/sh\n{rustc}\n", encoding="utf-8")
+        (tmp_path / "rustc").chmod(0o755)
+    code = "import sys; sys.path.insert(0, 'scripts'); import backend; backend.get_requires_for_build_wheel()"
+    found = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=PYTHON,
+        env={"PATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if words is None:
+        assert found.returncode == 0, found.stderr
+    else:
+        assert found.returncode == 1
+        # No trace: one sentence.
+        assert found.stderr.strip().count("\n") == 0
+        needed = version_of(PYTHON / "Cargo.toml", "rust-version").removesuffix(".0")
+        assert found.stderr.strip().startswith(f"urdd is compiled here, which needs Rust {needed} or later: {words}")
 
 
 def test_options_are_as_usual() -> None:

@@ -23,6 +23,7 @@ def test_it_says_what_it_is(arm: urdd.Robot) -> None:
         assert word in text
     assert len(arm.joint_names) == arm.num_links - 1
     assert arm.link_names[arm.link("torch")] == "torch"
+    assert arm.root_link == "base"
     assert "pairs" in repr(arm.proximity())
     assert "dof_module" in repr(arm.modules)
     assert arm.urdf_path.is_file()
@@ -153,3 +154,30 @@ def test_the_number_of_threads_changes_no_answer(arm: urdd.Robot) -> None:
     assert urdd.num_threads() == before
     with pytest.raises(ValueError, match="at least 1"):
         urdd.set_num_threads(0)
+
+
+@pytest.mark.parametrize("method", ["spawn", "fork"])
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no fork")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_all_that_answers_can_be_sent_to_other_processes(method: str, learned: urdd.Robot) -> None:
+    world = urdd.World()
+    world.add_box("table", [2.0, 2.0, 0.1], [0.0, 0.0, -0.05], ignore=["base"])
+    q = learned.sample(60)
+    asked = [
+        learned.fk,
+        learned.proximity().distances,
+        learned.proximity("hulls").in_collision,
+        learned.among(world).distances,
+        learned.collision_model().least,
+    ]
+    with multiprocessing.get_context(method).Pool(2) as pool:
+        for ask in asked:
+            found = np.concatenate(pool.map(ask, np.split(q, 3)))
+            np.testing.assert_array_equal(found, ask(q))
+
+
+def test_a_copy_of_what_was_prepared_is_of_the_same_kind(arm: urdd.Robot) -> None:
+    for kind in urdd.ShapeKind.__args__:  # type: ignore[attr-defined]
+        proximity = arm.proximity(kind)
+        again: urdd.Proximity = pickle.loads(pickle.dumps(proximity))
+        assert (again.kind, again.pairs) == (kind, proximity.pairs)

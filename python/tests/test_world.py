@@ -224,8 +224,11 @@ def test_a_world_is_a_collection(arm: urdd.Robot) -> None:
     assert arm.among(again).pairs == before.pairs
     world.remove("a")
     assert world.names == ("b",)
-    # What was prepared stays as it was.
+    # What was prepared stays as it was, also when it is pickled.
     assert before.obstacle_names == ("a", "b")
+    same: urdd.Among = pickle.loads(pickle.dumps(before))
+    assert (same.kind, same.obstacle_names, same.pairs) == (before.kind, before.obstacle_names, before.pairs)
+    np.testing.assert_array_equal(same.distances(q), before.distances(q))
     assert repr(before) == f"<urdd.Among: pieces and 2 obstacles, {before.num_pairs} pairs>"
     with pytest.raises(KeyError):
         world.remove("a")

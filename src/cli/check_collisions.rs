@@ -1,5 +1,6 @@
 //! `urdd check-collisions`.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -8,10 +9,11 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
+use super::configurations::{self, Listed};
+use super::output;
 use super::shapes::{self, Shapes};
-use super::{configurations, output};
 use crate::format::escape;
-use crate::robot::{PairDistance, Proximity, RobotError};
+use crate::robot::{Configurations, PairDistance, Proximity, RobotError};
 
 /// Arguments of `urdd check-collisions`.
 ///
@@ -29,7 +31,7 @@ pub struct CheckCollisionsArguments {
     configurations: Option<PathBuf>,
 
     /// So many random configurations within the bounds, the same in each run.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_RANDOM))]
     random: Option<u64>,
 
     /// Which shapes stand for the links.
@@ -51,59 +53,107 @@ enum Format {
     Json,
 }
 
+/// Most random configurations: some hours.
+const MAX_RANDOM: u64 = 1_000_000_000;
+
+/// Configurations that are asked about at a time, so that memory does not grow with their number.
+const CHUNK: u64 = 4096;
+
 /// More random configurations than this are summed up in text.
 const FEW: u64 = 10;
+
+/// How much text is kept before it is printed, bytes.
+const MAX_UNPRINTED: usize = 1 << 16;
 
 /// Pairs of links shown in a sum.
 const WORST: usize = 10;
 
+/// The configurations that are asked about.
+enum Chosen<'a> {
+    Listed(Listed),
+    Random(&'a Configurations, u64),
+}
+
+impl Chosen<'_> {
+    fn count(&self) -> u64 {
+        match self {
+            Chosen::Listed(list) => list.count,
+            Chosen::Random(_, count) => *count,
+        }
+    }
+
+    /// A configuration, for a robot with so many DOFs.
+    fn at(&self, number: u64, dofs: usize) -> Cow<'_, [f64]> {
+        match self {
+            Chosen::Listed(list) => {
+                let start = usize::try_from(number)
+                    .unwrap_or(usize::MAX)
+                    .saturating_mul(dofs);
+                list.values
+                    .get(start..start + dofs)
+                    .unwrap_or_default()
+                    .into()
+            }
+            Chosen::Random(space, _) => space.random(number).into(),
+        }
+    }
+}
+
 /// Runs `urdd check-collisions`.
 pub fn run(arguments: &CheckCollisionsArguments) -> ExitCode {
     match check(arguments) {
-        Ok((text, collides)) => match output::print(&text) {
-            Ok(()) if collides => ExitCode::from(1),
-            result => super::printed(result),
-        },
+        Ok(true) => ExitCode::from(1),
+        Ok(false) => ExitCode::SUCCESS,
         Err(message) => super::printed(Err(message)),
     }
 }
 
-fn check(arguments: &CheckCollisionsArguments) -> Result<(String, bool), String> {
+/// Prints the answers; whether the robot collides in any configuration.
+fn check(arguments: &CheckCollisionsArguments) -> Result<bool, String> {
     let path = &arguments.path;
     let robot = shapes::open(path)?;
     let in_urdd =
         |error: RobotError| format!("{}: {error}", escape::line(&path.display().to_string()));
     let space = robot.configurations().map_err(in_urdd)?;
+    let dofs = robot.dofs().map_err(in_urdd)?.len();
     let chosen = match (&arguments.configurations, arguments.random) {
-        (Some(file), _) => configurations::read(&robot, file)?,
-        (None, Some(count)) => (0..count).map(|k| space.random(k)).collect(),
-        (None, None) => vec![space.zero()],
+        (Some(file), _) => Chosen::Listed(configurations::read(&robot, file)?),
+        (None, Some(count)) => Chosen::Random(space, count),
+        (None, None) => Chosen::Listed(Listed {
+            values: space.zero(),
+            count: 1,
+        }),
     };
     let proximity = robot.proximity(arguments.shapes.kind()).map_err(in_urdd)?;
     let sum = arguments.random.is_some_and(|count| count > FEW);
     if arguments.format == Format::Text && sum {
-        return sum_up(&proximity, &chosen).map_err(in_urdd);
+        let (text, any) = sum_up(&proximity, &chosen, dofs).map_err(in_urdd)?;
+        return output::print(&text).map(|()| any);
     }
     let of_pieces = proximity.kind().is_of_pieces();
     let (mut text, mut any) = (String::new(), false);
-    for (number, configuration) in chosen.iter().enumerate() {
-        let touching = proximity.collisions(configuration).map_err(in_urdd)?;
+    for number in 0..chosen.count() {
+        let configuration = chosen.at(number, dofs);
+        let touching = proximity.collisions(&configuration).map_err(in_urdd)?;
         let nearest = proximity
-            .nearest(configuration, arguments.nearest)
+            .nearest(&configuration, arguments.nearest)
             .map_err(in_urdd)?;
         any |= !touching.is_empty();
         match arguments.format {
             Format::Text => as_text(&mut text, number, &touching, &nearest, of_pieces),
-            Format::Json => as_json(&mut text, number, configuration, &touching, &nearest),
+            Format::Json => as_json(&mut text, number, &configuration, &touching, &nearest),
+        }
+        if text.len() > MAX_UNPRINTED && !output::print_some(&std::mem::take(&mut text))? {
+            return Ok(any);
         }
     }
     if arguments.format == Format::Text {
-        text.push_str(&totals(&proximity, chosen.len()));
+        text.push_str(&totals(&proximity, chosen.count()));
     }
-    Ok((text, any))
+    output::print(&text).map(|()| any)
 }
 
-fn totals(proximity: &Proximity, count: usize) -> String {
+fn totals(proximity: &Proximity, count: u64) -> String {
     let configurations = match count {
         1 => "1 configuration".to_owned(),
         count => format!("{count} configurations"),
@@ -130,7 +180,7 @@ fn label(pair: &PairDistance, of_pieces: bool) -> String {
 
 fn as_text(
     text: &mut String,
-    number: usize,
+    number: u64,
     touching: &[PairDistance],
     nearest: &[PairDistance],
     of_pieces: bool,
@@ -173,7 +223,7 @@ fn links_of(touching: &[PairDistance]) -> Vec<(String, usize)> {
 
 fn as_json(
     text: &mut String,
-    number: usize,
+    number: u64,
     configuration: &[f64],
     touching: &[PairDistance],
     nearest: &[PairDistance],
@@ -198,20 +248,40 @@ fn as_json(
 }
 
 /// How many of many configurations collide, and which links most often.
-fn sum_up(proximity: &Proximity, chosen: &[Vec<f64>]) -> Result<(String, bool), RobotError> {
-    let answers = proximity.in_collision_batch(&chosen.concat())?;
-    let mut colliding = 0;
+fn sum_up(
+    proximity: &Proximity,
+    chosen: &Chosen,
+    dofs: usize,
+) -> Result<(String, bool), RobotError> {
+    let count = chosen.count();
+    let mut colliding: u64 = 0;
     let mut often: BTreeMap<String, usize> = BTreeMap::new();
-    for (configuration, _) in chosen.iter().zip(answers).filter(|(_, collides)| *collides) {
-        colliding += 1;
-        for (links, _) in links_of(&proximity.collisions(configuration)?) {
-            *often.entry(links).or_default() += 1;
+    for start in (0..count).step_by(CHUNK as usize) {
+        let numbers = start..count.min(start + CHUNK);
+        let values: Vec<f64> = numbers
+            .clone()
+            .flat_map(|number| chosen.at(number, dofs).into_owned())
+            .collect();
+        let answers = match dofs {
+            // Nothing says how many there are.
+            0 => {
+                let answer = proximity.in_collision(&[])?;
+                numbers.clone().map(|_| answer).collect()
+            }
+            _ => proximity.in_collision_batch(&values)?,
+        };
+        for (number, _) in numbers.zip(answers).filter(|(_, collides)| *collides) {
+            colliding += 1;
+            let touching = proximity.collisions(&chosen.at(number, dofs))?;
+            for (links, _) in links_of(&touching) {
+                *often.entry(links).or_default() += 1;
+            }
         }
     }
-    let share = 100.0 * colliding as f64 / chosen.len() as f64;
+    let share = 100.0 * colliding as f64 / count as f64;
     let mut text = format!(
         "{colliding} of {} configurations collide ({share:.1} %)\n",
-        chosen.len()
+        count
     );
     let mut often: Vec<(String, usize)> = often.into_iter().collect();
     often.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
@@ -221,6 +291,6 @@ fn sum_up(proximity: &Proximity, chosen: &[Vec<f64>]) -> Result<(String, bool), 
     if often.len() > WORST {
         let _ = writeln!(text, "  and {} more pairs of links", often.len() - WORST);
     }
-    text.push_str(&totals(proximity, chosen.len()));
+    text.push_str(&totals(proximity, count));
     Ok((text, colliding > 0))
 }

@@ -12,6 +12,7 @@ use super::output;
 use super::signals::Signals;
 use crate::combine::{Recipe, check_parts, combine};
 use crate::generate::batch::Job;
+use crate::process;
 use crate::validate;
 
 /// Exit status: the robots could not be put together.
@@ -25,7 +26,9 @@ const FAILED: u8 = 1;
     source = \"gripper.urdf\"\n  attach = { to = \"arm/tool0\", xyz = [0, 0, 0.1] }\n\n\
     A part is a URDD (a folder or a zip archive), or a URDF or xacro file. URDDs are validated first, and one with errors is \
     refused.\n\n\
-    Exit status: 0 made; 1 not made; 2 wrong usage, or results could not be written; 130 or 143 stopped by a signal."
+    Parts are in the folder of the recipe, or in one that --allow-folder names; a xacro file that a recipe names runs only \
+    with --xacro.\n\n\
+    Exit status: 0 made; 1 not made; 2 wrong usage, or results could not be written; 129, 130 or 143 stopped by a signal."
 )]
 pub struct CombineArguments {
     /// A recipe; or two robots, the second of which hangs on the link `--at` of the first.
@@ -74,6 +77,7 @@ pub fn run(arguments: &CombineArguments) -> ExitCode {
 
 fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
     let signals = Signals::listen().map_err(|error| error.to_string())?;
+    process::adopt_orphans();
     let mut settings = arguments.making.settings(Vec::new(), &signals)?;
     let pool = arguments.making.pool()?;
     let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
@@ -117,7 +121,7 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
         pool.install(|| {
             settings.cancellation = signals.cancellation();
             let find_errors = |part: &Path| validate::find_errors(part, &settings.cancellation);
-            let distrusted = check_parts(&recipe, settings.force, find_errors)?;
+            let distrusted = check_parts(&recipe, &settings, find_errors)?;
             let mut made = combine(&recipe, &target, &settings, &distrusted, &*progress)?;
             made.notes.splice(..0, unsaid);
             Ok(made)

@@ -10,7 +10,23 @@ use crate::format::escape;
 use crate::robot::Robot;
 
 /// More than this is not read, bytes.
-const MOST: u64 = 1 << 30;
+const MAX_BYTES: u64 = 1 << 30;
+
+/// Configurations, one after the other.
+#[derive(Debug, Default)]
+pub struct Listed {
+    /// The values of all of them.
+    pub values: Vec<f64>,
+    /// How many there are: a robot may have no DOF.
+    pub count: u64,
+}
+
+impl Listed {
+    fn push(&mut self, values: &[f64]) {
+        self.values.extend(values);
+        self.count += 1;
+    }
+}
 
 /// Reads configurations. Each line is a JSON list with a value for each DOF, a JSON object of DOF names and values (the
 /// rest is 0, or the bound nearest to it), or values with commas between them; of the latter the first line may be the
@@ -18,7 +34,7 @@ const MOST: u64 = 1 << 30;
 ///
 /// # Errors
 /// A message with the line.
-pub fn read(robot: &Robot, file: &Path) -> Result<Vec<Vec<f64>>, String> {
+pub fn read(robot: &Robot, file: &Path) -> Result<Listed, String> {
     let name = match file.to_str() {
         Some("-") => "standard input".to_owned(),
         _ => escape::line(&file.display().to_string()).into_owned(),
@@ -27,13 +43,14 @@ pub fn read(robot: &Robot, file: &Path) -> Result<Vec<Vec<f64>>, String> {
     let dofs = robot.dofs().map_err(|error| error.to_string())?;
     let is_json = text.trim_start().starts_with(['[', '{']);
     if is_json {
-        let lines = text.lines().enumerate();
-        let lines = lines.filter(|(_, line)| !line.trim().is_empty());
-        lines
-            .map(|(number, line)| {
-                of_json(robot, dofs, line).map_err(|why| format!("{name}:{}: {why}", number + 1))
-            })
-            .collect()
+        let mut found = Listed::default();
+        for (number, line) in text.lines().enumerate() {
+            if !line.trim().is_empty() {
+                let values = of_json(robot, dofs, line);
+                found.push(&values.map_err(|why| format!("{name}:{}: {why}", number + 1))?);
+            }
+        }
+        Ok(found)
     } else {
         of_csv(robot, dofs, &text).map_err(|(line, why)| format!("{name}:{line}: {why}"))
     }
@@ -42,15 +59,18 @@ pub fn read(robot: &Robot, file: &Path) -> Result<Vec<Vec<f64>>, String> {
 fn text(file: &Path) -> Result<String, String> {
     let mut bytes = Vec::new();
     let read = if file.as_os_str() == "-" {
-        std::io::stdin().lock().take(MOST).read_to_end(&mut bytes)
+        std::io::stdin()
+            .lock()
+            .take(MAX_BYTES)
+            .read_to_end(&mut bytes)
     } else {
         let file = regular::open(file).map_err(|error| error.to_string())?;
-        file.take(MOST).read_to_end(&mut bytes)
+        file.take(MAX_BYTES).read_to_end(&mut bytes)
     };
     read.map_err(|error| error.to_string())?;
-    if bytes.len() as u64 == MOST {
+    if bytes.len() as u64 == MAX_BYTES {
         return Err(format!(
-            "it has more than {MOST} bytes: give less at a time"
+            "it has more than {MAX_BYTES} bytes: give less at a time"
         ));
     }
     String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
@@ -86,7 +106,7 @@ fn of_json(robot: &Robot, dofs: &[String], line: &str) -> Result<Vec<f64>, Strin
     }
 }
 
-fn of_csv(robot: &Robot, dofs: &[String], text: &str) -> Result<Vec<Vec<f64>>, (u64, String)> {
+fn of_csv(robot: &Robot, dofs: &[String], text: &str) -> Result<Listed, (u64, String)> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -94,7 +114,7 @@ fn of_csv(robot: &Robot, dofs: &[String], text: &str) -> Result<Vec<Vec<f64>>, (
         .comment(Some(b'#'))
         .from_reader(text.as_bytes());
     let mut columns: Option<Vec<usize>> = None;
-    let mut configurations = Vec::new();
+    let mut configurations = Listed::default();
     for (number, record) in reader.records().enumerate() {
         let record = record.map_err(|error| {
             let line = error.position().map_or(0, csv::Position::line);
@@ -128,7 +148,7 @@ fn of_csv(robot: &Robot, dofs: &[String], text: &str) -> Result<Vec<Vec<f64>>, (
                 .zip(given)
                 .for_each(|(dof, value)| values[*dof] = value);
         }
-        configurations.push(values);
+        configurations.push(&values);
     }
     Ok(configurations)
 }

@@ -9,7 +9,8 @@ use clap::{Args, ValueEnum};
 use super::making::Skip;
 use super::output;
 use super::shapes::{self, Shapes};
-use crate::export::{Export, Format, Options, SphereBudget, export, merge_srdf};
+use crate::directory::regular;
+use crate::export::{Export, Format, Note, Options, SphereBudget, export, merge_srdf};
 use crate::format::escape;
 use crate::format::link_shapes_skips::SkippedReason;
 
@@ -44,19 +45,34 @@ pub struct ExportArguments {
     #[arg(long, value_enum, value_name = "REASONS", value_delimiter = ',')]
     reasons: Option<Vec<Skip>>,
 
-    /// At most so many spheres for each link.
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=1000))]
-    spheres: u16,
+    /// Checks a pair of links of which the URDD skips some pieces and checks others, in formats that know links only.
+    /// Without it, such a pair is disabled. MJCF has each piece as the URDD has it, in either case.
+    #[arg(long)]
+    keep_pairs: bool,
+
+    /// At most so many spheres for each link. Without it, 12 on average and at most 150 in all; with `--cover`, 8.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    spheres: Option<u16>,
 
     /// At most so many spheres for all links together, but at least one for each.
     #[arg(long, value_name = "N", conflicts_with = "spheres", value_parser = clap::value_parser!(u16).range(1..))]
     total_spheres: Option<u16>,
 
+    /// Spheres hold all of each link. No collision is missed then, but often every configuration is in contact: the file
+    /// says how often. Without it, spheres are fitted such that they answer as the shapes do.
+    #[arg(long)]
+    cover: bool,
+
+    /// In how many sampled configurations spheres are measured, or fewer where that is much work.
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
+    samples: u32,
+
     /// Leaves out what links look like: the file has collision geometry only.
     #[arg(long)]
     no_visuals: bool,
 
-    /// Replaces the pairs of links in an SRDF that is there, and leaves everything else in it as it is.
+    /// Replaces the pairs of links in an SRDF that is there, but those that a person wrote (their reason is `User`, or a
+    /// text), and leaves everything else in it as it is.
     #[arg(long, conflicts_with = "force")]
     update: bool,
 
@@ -119,10 +135,14 @@ fn write(arguments: &ExportArguments) -> Result<(), String> {
     let options = Options {
         shapes: arguments.shapes.kind(),
         reasons: reasons.map(|skip| skip.iter().copied().map(SkippedReason::from).collect()),
-        spheres: match arguments.total_spheres {
-            Some(count) => SphereBudget::Total(count.into()),
-            None => SphereBudget::PerLink(arguments.spheres.into()),
+        keep_pairs: arguments.keep_pairs,
+        spheres: match (arguments.total_spheres, arguments.spheres) {
+            (Some(count), _) => SphereBudget::Total(count.into()),
+            (None, Some(count)) => SphereBudget::PerLink(count.into()),
+            (None, None) => SphereBudget::Auto,
         },
+        cover: arguments.cover,
+        samples: arguments.samples as usize,
         visuals: !arguments.no_visuals,
         mesh_folder: folder,
     };
@@ -131,6 +151,10 @@ fn write(arguments: &ExportArguments) -> Result<(), String> {
         .map_err(|error| format!("{shown}: {error}"))?;
     for note in &made.notes {
         output::error(&format!("note: {note}"));
+    }
+    let is_disabled = |note: &Note| matches!(note, Note::Mixed { disabled: true, .. });
+    if made.notes.iter().any(is_disabled) {
+        output::error("note: --keep-pairs checks these pairs of links as a whole");
     }
     if to_standard_output {
         return output::print_raw(&made.text);
@@ -142,30 +166,40 @@ fn write(arguments: &ExportArguments) -> Result<(), String> {
     if !arguments.force {
         refuse_existing(arguments, &made, place)?;
     }
-    for (path, bytes) in &made.files {
-        let file = place.join(path);
-        if let Some(folder) = file.parent() {
-            fs::create_dir_all(folder).map_err(|error| {
-                let folder = folder.display().to_string();
-                format!("{}: cannot be made: {error}", escape::line(&folder))
-            })?;
-        }
-        output::write_bytes(&file, bytes)?;
-    }
-    output::write_file(output, &made.text)
+    // The file that names the others last.
+    let files = made.files.iter();
+    let files = files.map(|(path, bytes)| (place.join(path), bytes.as_slice()));
+    let own = (output.clone(), made.text.as_bytes());
+    let files: Vec<(PathBuf, &[u8])> = files.chain([own]).collect();
+    output::write_files(&files)
 }
 
 /// The SRDF that is there, with other pairs.
 fn merged(file: &Path, new: &str) -> Result<String, String> {
     let shown = escape::line(&file.display().to_string()).into_owned();
-    let size = fs::metadata(file).map(|metadata| metadata.len());
-    if size.as_ref().is_ok_and(|size| *size > MAX_SRDF_BYTES) {
-        return Err(format!("{shown}: larger than {MAX_SRDF_BYTES} bytes"));
-    }
-    let old = fs::read_to_string(file).map_err(|error| {
-        format!("{shown}: cannot be read: {error}; leave --update out to write a new file")
+    let failed = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
+    let old = regular::read(file, MAX_SRDF_BYTES).map_err(|error| {
+        failed(&format!(
+            "cannot be read: {error}; leave --update out to write a new file"
+        ))
     })?;
-    merge_srdf(&old, new).map_err(|error| format!("{shown}: {error}"))
+    let old = String::from_utf8(old).map_err(|_| failed(&"it is not UTF-8"))?;
+    let merged = merge_srdf(&old, new).map_err(|error| failed(&error))?;
+    let pairs = |count: usize| match count {
+        1 => "1 pair of links".to_owned(),
+        _ => format!("{count} pairs of links"),
+    };
+    if merged.kept > 0 {
+        let pairs = pairs(merged.kept);
+        output::error(&format!(
+            "note: {pairs} kept that a person disabled: their reason is none of Adjacent, Always, Default, Never"
+        ));
+    }
+    if merged.enabled > 0 {
+        let pairs = pairs(merged.enabled);
+        output::error(&format!("note: {pairs} not disabled that a person enabled"));
+    }
+    Ok(merged.text)
 }
 
 /// An error where a file is there that says something else.
@@ -173,10 +207,14 @@ fn refuse_existing(arguments: &ExportArguments, made: &Export, place: &Path) -> 
     let own = (!arguments.update).then(|| (arguments.output.clone(), made.text.as_bytes()));
     let meshes = made.files.iter();
     let meshes = meshes.map(|(path, bytes)| (place.join(path), bytes.as_slice()));
-    let differs = |(file, bytes): &(PathBuf, &[u8])| {
-        let size = fs::symlink_metadata(file).map(|metadata| metadata.len());
-        size.is_ok_and(|size| size != bytes.len() as u64)
-            || fs::read(file).is_ok_and(|there| there != *bytes)
+    let differs = |(file, bytes): &(PathBuf, &[u8])| match fs::metadata(file) {
+        Ok(there) if there.is_file() => {
+            let read = regular::read(file, bytes.len() as u64);
+            !read.is_ok_and(|there| there == *bytes)
+        }
+        // Devices and pipes are written to.
+        Ok(there) => there.is_dir(),
+        Err(_) => fs::symlink_metadata(file).is_ok(),
     };
     let Some((there, _)) = own.into_iter().chain(meshes).find(differs) else {
         return Ok(());

@@ -13,6 +13,7 @@ use super::signals::Signals;
 use crate::format::escape;
 use crate::generate::batch::{self, Job, Shard};
 use crate::generate::{MAX_SOURCE_BYTES, Settings, generate_text};
+use crate::process;
 
 /// Exit status: a robot could not be made.
 const FAILED: u8 = 1;
@@ -65,6 +66,7 @@ pub fn run(arguments: &GenerateArguments) -> ExitCode {
 /// Gives the exit status.
 fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
     let signals = Signals::listen().map_err(|error| error.to_string())?;
+    process::adopt_orphans();
     let (robots, xacro_arguments) = split(&arguments.robots);
     let settings = arguments.making.settings(xacro_arguments, &signals)?;
     let pool = arguments.making.pool()?;

@@ -25,7 +25,8 @@ pub(super) struct MakingArguments {
     #[arg(long = "package", value_name = "NAME=PATH")]
     packages: Vec<String>,
 
-    /// A folder besides those of the robot and its packages from which mesh files may be taken; may be given again.
+    /// A folder besides those of the robot and its packages from which mesh files may be taken, and the parts of a recipe
+    /// besides its own folder; may be given again.
     #[arg(long = "allow-folder", value_name = "DIR")]
     allowed_folders: Vec<PathBuf>,
 
@@ -70,7 +71,7 @@ pub(super) struct MakingArguments {
     #[arg(long)]
     strict: bool,
 
-    /// Expands macros in .urdf files too.
+    /// Expands macros in .urdf files too, and the xacro files that a recipe names.
     #[arg(long)]
     pub(super) xacro: bool,
 

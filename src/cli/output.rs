@@ -3,10 +3,11 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::ValueEnum;
+use tempfile::TempPath;
 
 use crate::directory::discover::ROOT_METADATA;
 use crate::format::escape;
@@ -29,10 +30,19 @@ pub fn standard_output_is_closed() {
 /// # Errors
 /// Where it cannot be written: a message.
 pub fn print(text: &str) -> Result<(), String> {
+    write(&safe(text)).map(|_| ())
+}
+
+/// As [`print`], for text of which more follows: whether anybody still reads it.
+///
+/// # Errors
+/// As for [`print`].
+pub fn print_some(text: &str) -> Result<bool, String> {
     write(&safe(text))
 }
 
-fn write(text: &str) -> Result<(), String> {
+/// Whether a pipe is still open, or there is none.
+fn write(text: &str) -> Result<bool, String> {
     let failed = |reason: &str| Err(format!("standard output cannot be written: {reason}"));
     if CLOSED.load(Ordering::Relaxed) {
         return failed("it is closed");
@@ -40,8 +50,9 @@ fn write(text: &str) -> Result<(), String> {
     let mut out = io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
     match written {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => failed(&reason(&error)),
-        _ => Ok(()),
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(false),
+        Err(error) => failed(&reason(&error)),
     }
 }
 
@@ -50,7 +61,7 @@ fn write(text: &str) -> Result<(), String> {
 /// # Errors
 /// As for [`print`].
 pub fn print_raw(text: &str) -> Result<(), String> {
-    write(&escape::lines(text))
+    write(&escape::lines(text)).map(|_| ())
 }
 
 /// Prints an error to standard error.
@@ -64,7 +75,7 @@ pub fn error(message: &str) {
 /// # Errors
 /// As for [`print`].
 pub fn print_commands(text: &str) -> Result<(), String> {
-    write(&escape::lines(text))
+    write(&escape::lines(text)).map(|_| ())
 }
 
 /// Lines that no terminal acts upon, and no runner of GitHub Actions: it takes a line that begins
@@ -159,29 +170,114 @@ pub fn write_file(file: &Path, text: &str) -> Result<(), String> {
 /// As for [`write_file`].
 pub fn write_bytes(file: &Path, bytes: &[u8]) -> Result<(), String> {
     check_name(file)?;
-    let failed = |error: io::Error| {
-        let shown = file.display().to_string();
-        format!(
-            "{}: cannot be written: {}",
-            escape::line(&shown),
-            reason(&error)
-        )
+    let failed = |error| cannot_write(file, &error);
+    stage(file, bytes).and_then(Staged::put).map_err(failed)
+}
+
+/// Writes files that belong together, and the folders that they are in: all of them or, where one cannot be written, none,
+/// and then no new folder stays either.
+///
+/// # Errors
+/// As for [`write_file`].
+pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<(), String> {
+    let mut folders = NewFolders(Vec::new());
+    let mut staged = Vec::new();
+    for (file, bytes) in files {
+        check_name(file)?;
+        let failed = |error| cannot_write(file, &error);
+        folders.make(folder_of(file)).map_err(failed)?;
+        staged.push((file, stage(file, bytes).map_err(failed)?));
+    }
+    for (file, staged) in staged {
+        staged.put().map_err(|error| cannot_write(file, &error))?;
+    }
+    folders.0.clear();
+    Ok(())
+}
+
+fn cannot_write(file: &Path, error: &io::Error) -> String {
+    format!(
+        "{}: cannot be written: {}",
+        escape::line(&file.display().to_string()),
+        reason(error)
+    )
+}
+
+/// Folders that were made, which go when this is dropped, as far as they are empty.
+struct NewFolders(Vec<PathBuf>);
+
+impl NewFolders {
+    fn make(&mut self, folder: &Path) -> io::Result<()> {
+        let missing = folder.ancestors().take_while(|folder| {
+            !folder.as_os_str().is_empty() && fs::symlink_metadata(folder).is_err()
+        });
+        let missing: Vec<PathBuf> = missing.map(Path::to_owned).collect();
+        for folder in missing.into_iter().rev() {
+            fs::create_dir(&folder)?;
+            self.0.push(folder);
+        }
+        Ok(())
+    }
+}
+
+impl Drop for NewFolders {
+    fn drop(&mut self) {
+        for folder in self.0.iter().rev() {
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// What will be in a file.
+enum Staged<'a> {
+    /// A new file beside the place that it takes.
+    Beside(TempPath, PathBuf),
+    /// A device, or a pipe: nothing to keep.
+    Device(PathBuf, &'a [u8]),
+}
+
+impl Staged<'_> {
+    fn put(self) -> io::Result<()> {
+        match self {
+            Staged::Beside(path, target) => path.persist(target).map_err(|error| error.error),
+            Staged::Device(file, bytes) => {
+                let mut out = fs::OpenOptions::new().write(true).open(file)?;
+                out.write_all(bytes)
+            }
+        }
+    }
+}
+
+/// Writes what will be in a file beside it; the file itself stays as it is.
+fn stage<'a>(file: &Path, bytes: &'a [u8]) -> io::Result<Staged<'a>> {
+    let (target, permissions) = match fs::metadata(file) {
+        Ok(metadata) if metadata.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
+        Ok(metadata) if !metadata.is_file() => return Ok(Staged::Device(file.to_owned(), bytes)),
+        // A link stays one: what it leads to is replaced.
+        Ok(metadata) => (fs::canonicalize(file)?, Some(metadata.permissions())),
+        Err(_) => (file.to_owned(), None),
     };
-    match fs::metadata(file) {
-        // A device, or a pipe: nothing to keep.
-        Ok(metadata) if !metadata.is_file() && !metadata.is_dir() => {
-            let mut out = fs::OpenOptions::new()
-                .write(true)
-                .open(file)
-                .map_err(failed)?;
-            out.write_all(bytes).map_err(failed)
-        }
-        Ok(metadata) => {
-            // A link stays one: what it leads to is replaced.
-            let target = fs::canonicalize(file).map_err(failed)?;
-            replace(&target, bytes, Some(metadata.permissions())).map_err(failed)
-        }
-        Err(_) => replace(file, bytes, None).map_err(failed),
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".urdd-report-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // As any new file has them: what the umask leaves.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut beside = builder.tempfile_in(folder_of(&target))?;
+    beside.write_all(bytes)?;
+    if let Some(permissions) = permissions {
+        beside.as_file().set_permissions(permissions)?;
+    }
+    beside.as_file().sync_all()?;
+    Ok(Staged::Beside(beside.into_temp_path(), target))
+}
+
+fn folder_of(file: &Path) -> &Path {
+    match file.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
     }
 }
 
@@ -200,34 +296,6 @@ pub fn check_name(file: &Path) -> Result<(), String> {
             escape::line(&file.display().to_string())
         )),
         false => Ok(()),
-    }
-}
-
-fn replace(target: &Path, bytes: &[u8], permissions: Option<fs::Permissions>) -> io::Result<()> {
-    let folder = match target.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".urdd-report-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As any new file has them: what the umask leaves.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let mut beside = builder.tempfile_in(folder)?;
-    beside.write_all(bytes)?;
-    if let Some(permissions) = permissions {
-        beside.as_file().set_permissions(permissions)?;
-    }
-    beside.as_file().sync_all()?;
-    match target.is_dir() {
-        true => Err(io::ErrorKind::IsADirectory.into()),
-        false => beside
-            .persist(target)
-            .map(|_| ())
-            .map_err(|error| error.error),
     }
 }
 

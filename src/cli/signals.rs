@@ -4,6 +4,8 @@ use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+#[cfg(unix)]
+use signal_hook::consts::SIGHUP;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
@@ -11,6 +13,27 @@ use crate::cancellation::Cancellation;
 
 /// What a shell adds to the number of a signal to make an exit status of it.
 const BY_SIGNAL: i32 = 128;
+
+/// The signals that ask to stop; a terminal that is closed too, but not where the user had that ignored (`nohup`).
+fn asking() -> Vec<i32> {
+    let mut signals = vec![SIGINT, SIGTERM];
+    #[cfg(unix)]
+    if is_default(SIGHUP) {
+        signals.push(SIGHUP);
+    }
+    signals
+}
+
+/// Whether a signal does to this process what it usually does, as far as Linux says so.
+#[cfg(unix)]
+fn is_default(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mut masks = ["SigIgn:", "SigCgt:"].iter().map(|key| {
+        let line = status.lines().find_map(|line| line.strip_prefix(key))?;
+        u64::from_str_radix(line.trim(), 16).ok()
+    });
+    masks.all(|mask| mask.is_some_and(|mask| mask & (1 << (signal - 1)) == 0))
+}
 
 /// The signals that ask this process to stop. The first is a wish, and work stops where it leaves
 /// nothing half done; the second ends the process at once.
@@ -29,7 +52,7 @@ impl Signals {
             flag: Arc::default(),
             number: Arc::default(),
         };
-        for signal in [SIGINT, SIGTERM] {
+        for signal in asking() {
             // In this order: the first signal finds the flag not set yet.
             flag::register_conditional_shutdown(
                 signal,

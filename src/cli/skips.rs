@@ -6,10 +6,18 @@ use std::process::ExitCode;
 use clap::{Args, Subcommand};
 
 use super::{output, shapes};
+use crate::directory::discover::ROOT_METADATA;
+use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::directory::read_error::ReadError;
 use crate::directory::regular;
 use crate::directory::replacement::Replacement;
-use crate::export::import_srdf;
+use crate::directory::root::Root;
+use crate::export::{ImportedSkips, import_srdf};
 use crate::format::escape;
+use crate::format::registry::ModuleKind;
+
+/// How often edits are made again, since another program wrote into the URDD meanwhile.
+const MAX_TRIES: usize = 5;
 
 /// Largest SRDF that is read, bytes.
 const MAX_SRDF_BYTES: u64 = 16 << 20;
@@ -61,26 +69,49 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
             &"this is no folder; edits are written into the folder of a URDD",
         ));
     }
-    let replacement = Replacement::begin(urdd).map_err(|error| error.to_string())?;
-    let robot = shapes::open(urdd)?;
-    let imported = import_srdf(&robot, &text, force).map_err(|error| of_srdf(&error))?;
-    let mut model_is_stale = false;
-    if imported.added > 0 {
-        let edited = robot.with_skip_edits(imported.edits, None);
+    for _ in 0..MAX_TRIES {
+        let before = state(urdd).map_err(|error| of_urdd(&error))?;
+        let robot = shapes::open(urdd)?;
+        let imported = import_srdf(&robot, &text, force).map_err(|error| of_srdf(&error))?;
+        if imported.added == 0 {
+            return Ok(told(&shown(urdd), &imported, false));
+        }
+        let edited = robot.with_skip_edits(imported.edits.clone(), None);
         let edited = edited.map_err(|error| of_urdd(&error))?;
-        model_is_stale = edited.model_is_stale;
+        // Others wait from here on only, and may have written until here.
+        let replacement = Replacement::begin(urdd).map_err(|error| error.to_string())?;
+        if state(urdd).map_err(|error| of_urdd(&error))? != before {
+            continue;
+        }
         replacement
             .stage(&edited.files)
             .map_err(|error| error.to_string())?;
         replacement.commit().map_err(|error| error.to_string())?;
+        return Ok(told(&shown(urdd), &imported, edited.model_is_stale));
     }
+    Err(of_urdd(
+        &"another program writes into this folder again and again; nothing was written",
+    ))
+}
+
+/// The files on which edits rest.
+fn state(urdd: &Path) -> Result<Vec<Vec<u8>>, ReadError> {
+    let root = Root::open_folder(urdd)?;
+    let module = format!("{}/module.json", ModuleKind::LinkShapesSkips.folder());
+    let read = |path: &str| match root.read(path, MAX_DOCUMENT_BYTES) {
+        Err(ReadError::Missing) => Ok(Vec::new()),
+        read => read,
+    };
+    [ROOT_METADATA, &module].map(read).into_iter().collect()
+}
+
+fn told(urdd: &str, imported: &ImportedSkips, model_is_stale: bool) -> String {
     let count = |number: usize, what: &str| match number {
         1 => format!("1 {what}"),
         _ => format!("{number} {what}s"),
     };
     let mut told = format!(
-        "{}: {} added; {} of the SRDF as they were\n",
-        shown(urdd),
+        "{urdd}: {} added; {} of the SRDF as they were\n",
         count(imported.added, "edit"),
         count(imported.already, "pair")
     );
@@ -93,5 +124,5 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
     if model_is_stale {
         told += "  the self-collision model was trained with the skips before: `urdd generate` with `--modules all,self_collision_model` makes another\n";
     }
-    Ok(told)
+    told
 }

@@ -16,7 +16,7 @@ use crate::format::escape;
 use crate::format::registry::ModuleKind;
 use crate::generate::batch::{Job, Observer, caught};
 use crate::generate::{self, Packages, Progress, Settings};
-use crate::view::{Collection, Making, Server, Shown, export, may_hold_page, page_with};
+use crate::view::{Collection, Making, Server, Shown, Temporary, export, may_hold_page, page_with};
 
 /// Arguments of `urdd view`.
 #[derive(Args)]
@@ -77,10 +77,7 @@ fn usage(message: impl ToString) -> Failure {
 fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     let signals = Signals::listen().map_err(usage)?;
     // Generated URDDs live as long as this.
-    let temporary = tempfile::Builder::new()
-        .prefix("urdd-view-")
-        .tempdir()
-        .map_err(usage)?;
+    let temporary = Temporary::begin(&std::env::temp_dir()).map_err(usage)?;
     let mut collection = Collection::default();
     let mut wanted = Vec::new();
     for path in &arguments.paths {
@@ -310,7 +307,13 @@ fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<
         output::write_file(folder, &page).map_err(usage)?;
         return Ok(0);
     }
-    export(collection, folder, &signals.cancellation(), &mut tell).map_err(usage)?;
+    let stay = export(collection, folder, &signals.cancellation(), &mut tell).map_err(usage)?;
+    for file in stay {
+        output::error(&escape::line(&format!(
+            "{}: changed since the last export, and the site does not need it any more: it stays",
+            file.display()
+        )));
+    }
     let shown = folder.display();
     let told = format!(
         "{shown}: a site of {} robots. Browsers fetch nothing from file://: put it on a web server, or try\n  \

@@ -1,12 +1,14 @@
 //! One URDF of all parts.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
-use super::error::{CombineError, RecipeFault};
+use super::error::CombineError;
 use super::frozen::{numbers, origin_text};
 use super::names::escaped;
 use super::part::Loaded;
-use super::recipe::{JointDescription, Part, Recipe, Word, word_of};
+use super::recipe::{JointDescription, Part, Recipe, Word};
+use super::recipe_fault::{RecipeFault, joint_type_word};
 use super::rewrite::Rewritten;
 use super::trim::Trim;
 use crate::format::urdf::Material;
@@ -15,14 +17,15 @@ use crate::generate::has_quaternions;
 /// Parts as they were taken up, with what of them comes along.
 pub(super) struct Taken<'a> {
     pub part: &'a Part,
-    pub loaded: Loaded,
+    /// Shared by the parts of one source.
+    pub loaded: Rc<Loaded>,
     pub trim: Trim,
 }
 
 impl Taken<'_> {
     /// A name of the part as it is in the robot that is made.
     pub fn renamed(&self, name: &str) -> String {
-        format!("{}{name}", self.part.prefix)
+        format!("{}{name}", self.part.prefix.text)
     }
 
     /// The name of its root link in the robot that is made.
@@ -207,7 +210,7 @@ pub(super) fn urdf(
     }
     let mut text =
         String::from("<?xml version=\"1.0\"?>\n<!-- Put together by urdd combine. -->\n");
-    text += &format!("<robot name=\"{}\"", escaped(&recipe.name));
+    text += &format!("<robot name=\"{}\"", escaped(&recipe.name.text));
     if let Some(version) = version(parts) {
         text += &format!(" version=\"{}\"", escaped(&version));
     }
@@ -243,7 +246,7 @@ fn joint(described: &JointDescription, parent: &str, child: &str) -> String {
     let mut text = format!(
         "  <joint name=\"{}\" type=\"{}\">\n    <parent link=\"{}\"/>\n    <child link=\"{}\"/>\n    {}\n",
         escaped(&described.name.text),
-        word_of(described.joint_type),
+        joint_type_word(described.joint_type),
         escaped(parent),
         escaped(child),
         origin_text(described.xyz, described.rpy),

@@ -1,12 +1,13 @@
 //! How a published URDD of before version 1 was put together, as a recipe, as far as it says it.
 
-use std::path::Path;
+use std::collections::HashSet;
+use std::path::{Component, Path};
 
 use serde::de::DeserializeOwned;
 
 use super::error::{CombineError, PartFault};
 use super::note::Note;
-use super::recipe::{Attachment, BASE, Base, JointDescription, Part, Recipe, Word};
+use super::recipe::{Attachment, BASE, Base, JointDescription, Part, Recipe, Sources, Word};
 use crate::directory::json;
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
 use crate::directory::root::Root;
@@ -46,10 +47,12 @@ impl Recipe {
             notes: Vec::new(),
             recipe: Recipe {
                 shown: shown.clone(),
-                name: String::new(),
+                name: Word::default(),
                 base: None,
                 parts: Vec::new(),
+                sources: Sources::In(beside.clone()),
             },
+            ids: HashSet::new(),
             beside: &beside,
         };
         if let Some(module) = read(&root, ModuleKind::CombinedRobot).map_err(refused)? {
@@ -65,9 +68,29 @@ impl Recipe {
             let said = reader.notes.iter().map(ToString::to_string);
             return Err(refused(PartFault::SaysNothing(said.collect())));
         }
+        for part in &reader.recipe.parts {
+            if !is_folder_name(&part.source, &beside) {
+                return Err(CombineError::Part {
+                    id: part.id.text.clone(),
+                    source_path: part.source.display().to_string(),
+                    fault: PartFault::NotBeside,
+                });
+            }
+        }
         reader.recipe.check()?;
         Ok((reader.recipe, reader.notes))
     }
+}
+
+/// Whether a source is a folder directly in `beside`, or nothing yet; not a file, which might be a program.
+fn is_folder_name(source: &Path, beside: &Path) -> bool {
+    let name = source.strip_prefix(beside);
+    let mut parts = name.iter().flat_map(|name| name.components());
+    let is_name = matches!(
+        (parts.next(), parts.next()),
+        (Some(Component::Normal(_)), None)
+    );
+    is_name && !source.is_file()
 }
 
 /// The same type in version 1.
@@ -96,6 +119,8 @@ fn read<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Result<Option<T>,
 struct Reader<'a> {
     recipe: Recipe,
     notes: Vec<Note>,
+    /// The ids of the parts, in lower case.
+    ids: HashSet<String>,
     beside: &'a Path,
 }
 
@@ -109,18 +134,13 @@ impl Reader<'_> {
             |c: char| !c.is_ascii_alphanumeric() && c != '_' && c != '-',
             "_",
         );
-        while self
-            .recipe
-            .parts
-            .iter()
-            .any(|part| part.id.text.eq_ignore_ascii_case(&id))
-        {
+        while !self.ids.insert(id.to_ascii_lowercase()) {
             id += &format!("_{}", self.recipe.parts.len());
         }
         self.recipe.parts.push(Part {
             id: Word::new(id),
             source: self.beside.join(robot),
-            prefix,
+            prefix: Word::new(prefix),
             drop: Vec::new(),
             freeze: Vec::new(),
             attach,
@@ -132,7 +152,7 @@ impl Reader<'_> {
     }
 
     fn combined(&mut self, module: &CombinedRobotModule) {
-        self.recipe.name.clone_from(&module.name);
+        self.recipe.name = Word::new(&module.name);
         for (idx, robot) in module.attached_robots.iter().enumerate() {
             let joint = self.joint(idx, robot);
             let prefix = format!("robot_{idx}_");
@@ -198,7 +218,7 @@ impl Reader<'_> {
     }
 
     fn adjusted(&mut self, module: &AdjustedRobotModule) {
-        self.recipe.name.clone_from(&module.name);
+        self.recipe.name = Word::new(&module.name);
         let part = self.part(&module.base_robot_name, String::new(), None);
         part.drop = module.dead_end_link_names.iter().map(Word::new).collect();
         let fixed = module.fixed_base_joints.iter();
@@ -210,7 +230,7 @@ impl Reader<'_> {
     }
 
     fn created(&mut self, module: &CreatorModule) {
-        self.recipe.name.clone_from(&module.name);
+        self.recipe.name = Word::new(&module.name);
         for (idx, action) in module.actions.iter().enumerate() {
             match action {
                 Action::AddAlreadyExistingChain(chain)

@@ -2,7 +2,7 @@
 
 use toml::de::{DeTable, DeValue};
 
-use super::error::RecipeFault;
+use super::recipe_fault::RecipeFault;
 use crate::format::nearest::nearest;
 
 const RECIPE: &[&str] = &["name", "base", "part"];

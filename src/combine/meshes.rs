@@ -2,33 +2,47 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
 use super::error::{CombineError, PartFault};
 use super::part::{Loaded, MeshFile};
 use super::recipe::Part;
+use crate::cancellation::Cancellation;
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
 use crate::format::hexadecimal::hexadecimal;
 use crate::format::registry::ModuleKind;
 
-/// The meshes of all parts.
-#[derive(Default)]
-pub(super) struct Meshes {
+/// The meshes of all parts. Each is written as soon as it was read, and put in its place at the end: no more than one mesh
+/// with its side files is in memory.
+pub(super) struct Meshes<'a> {
     /// By the content of a mesh and the files that it names, where it is carried: below `meshes`.
     places: BTreeMap<String, String>,
-    files: BTreeMap<String, Vec<u8>>,
+    /// For each place, the file in `store`.
+    files: BTreeMap<String, PathBuf>,
+    store: PathBuf,
+    cancellation: &'a Cancellation,
 }
 
 /// The meshes of a part: by the names in its URDF, where they are carried, below `meshes`.
 pub(super) type Placed = BTreeMap<String, String>;
 
-impl Meshes {
+impl<'a> Meshes<'a> {
+    /// None yet; files are kept in the folder `store`, which is there.
+    pub fn new(store: PathBuf, cancellation: &'a Cancellation) -> Self {
+        Meshes {
+            places: BTreeMap::new(),
+            files: BTreeMap::new(),
+            store,
+            cancellation,
+        }
+    }
+
     /// Takes in the meshes of a part.
     ///
     /// # Errors
-    /// Where one cannot be read.
+    /// Where one cannot be read or written, and where it is asked to stop.
     pub fn add(
         &mut self,
         part: &Part,
@@ -41,6 +55,7 @@ impl Meshes {
             .iter()
             .filter(|(name, _)| used.contains(*name))
         {
+            self.cancellation.check().map_err(super::cancelled)?;
             let read = |path: &String| {
                 let bytes = loaded.root.read(path, MAX_DOCUMENT_BYTES);
                 bytes.map_err(|error| CombineError::Part {
@@ -80,20 +95,29 @@ impl Meshes {
         }
         let place = format!("{id}/{}", below_meshes(&mesh.path));
         for (side, bytes) in sides {
-            self.files
-                .insert(format!("{id}/{}", below_meshes(side)), bytes);
+            self.store(format!("{id}/{}", below_meshes(side)), &bytes)?;
         }
-        self.files.insert(place.clone(), own);
+        self.store(place.clone(), &own)?;
         self.places.insert(content, place.clone());
         Ok(place)
     }
 
-    /// Writes the files where the URDF names them, below `folder`, and gives what of a place is left out
+    fn store(&mut self, place: String, bytes: &[u8]) -> Result<(), CombineError> {
+        let path = self.store.join(self.files.len().to_string());
+        fs::write(&path, bytes).map_err(|error| CombineError::Unwritable {
+            path: path.clone(),
+            reason: error.to_string(),
+        })?;
+        self.files.insert(place, path);
+        Ok(())
+    }
+
+    /// Puts the files where the URDF names them, below `folder`, and returns what of a place is left out
     /// there: the folders that all files share.
     ///
     /// # Errors
-    /// Where a file cannot be written, in words.
-    pub fn write(&self, folder: &Path) -> Result<String, String> {
+    /// Where a file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<String, CombineError> {
         let mut shared: Option<Vec<&str>> = None;
         for place in self.files.keys() {
             let mut folders: Vec<&str> = place.split('/').collect();
@@ -110,13 +134,14 @@ impl Meshes {
         if !shared.is_empty() {
             shared.push('/');
         }
-        for (place, bytes) in &self.files {
+        for (place, stored) in &self.files {
             let path = folder.join(carried(place, &shared));
-            let words = |error: std::io::Error| format!("{}: {error}", path.display());
-            if let Some(folder) = path.parent() {
-                fs::create_dir_all(folder).map_err(words)?;
-            }
-            fs::write(&path, bytes).map_err(words)?;
+            let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+            let put = made.and_then(|()| fs::rename(stored, &path));
+            put.map_err(|error| CombineError::Unwritable {
+                reason: error.to_string(),
+                path,
+            })?;
         }
         Ok(shared)
     }

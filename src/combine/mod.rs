@@ -16,16 +16,20 @@ mod names;
 mod note;
 mod part;
 mod recipe;
+mod recipe_check;
+mod recipe_fault;
 mod recipe_file;
 mod record;
 mod rewrite;
 mod skips;
+mod sources;
 mod toml_file;
 mod toml_text;
 mod trim;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use self::compose::Taken;
 use self::meshes::Meshes;
@@ -35,16 +39,19 @@ use crate::format::registry::ModuleKind;
 use crate::format::urdf::Geometry;
 use crate::generate::note::{self as generated, NoteKind};
 use crate::generate::{
-    Composed, GenerateError, Generated, Progress, Settings, generate_composed, has_quaternions,
-    read_urdf,
+    Composed, GenerateError, Generated, MAX_SOURCE_BYTES, MOST_LINKS, Progress, Settings,
+    generate_composed, has_quaternions, read_urdf,
 };
 
 pub use check_parts::check_parts;
-pub use error::{CombineError, PartFault, RecipeFault};
+pub use error::{CombineError, PartFault};
 pub use names::LeftAlone;
 pub use note::Note;
-pub use part::{SourceKind, source_kind};
-pub use recipe::{Attachment, Base, JointDescription, MAX_RECIPE_BYTES, Part, Recipe, Word};
+pub use recipe::{
+    Attachment, Base, JointDescription, MAX_RECIPE_BYTES, Part, Recipe, Sources, Word,
+};
+pub use recipe_fault::RecipeFault;
+pub use sources::{SourceKind, source_kind};
 
 /// A robot that was put together.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,16 +84,14 @@ pub fn combine(
             reason,
         },
     };
-    let workplace = tempfile::tempdir().map_err(|error| internal(error.to_string()))?;
+    let unwritable = |path: &Path, error: std::io::Error| CombineError::Unwritable {
+        path: path.to_owned(),
+        reason: error.to_string(),
+    };
+    let workplace = tempfile::tempdir();
+    let workplace = workplace.map_err(|error| unwritable(&std::env::temp_dir(), error))?;
     let mut notes = Vec::new();
-    let mut parts = Vec::new();
-    for (idx, part) in recipe.parts.iter().enumerate() {
-        settings.cancellation.check().map_err(cancelled)?;
-        let place = workplace.path().join(format!("part_{idx}"));
-        let loaded = part::load(recipe, part, &place, settings)?;
-        let trim = trim::trim(recipe, part, &loaded.robot)?;
-        parts.push(Taken { part, loaded, trim });
-    }
+    let parts = take_up(recipe, workplace.path(), settings)?;
     said(&parts, &mut notes);
     for taken in &parts {
         if let Some(attach) = &taken.part.attach {
@@ -99,24 +104,27 @@ pub fn combine(
     let repeated = compose::check_names(recipe, &parts)?;
     let (edits, skipped_reasons) = skips::decisions(recipe, &parts, &mut notes)?;
 
-    let folder = workplace.path().join("whole");
-    let mut files = Meshes::default();
+    let [folder, store] = ["whole", "store"].map(|name| workplace.path().join(name));
+    for folder in [&folder, &store] {
+        std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;
+    }
+    let mut files = Meshes::new(store, &settings.cancellation);
     let mut placed = Vec::new();
     for taken in &parts {
         placed.push(files.add(taken.part, &taken.loaded, &used_meshes(taken))?);
     }
-    std::fs::create_dir_all(&folder).map_err(|error| internal(error.to_string()))?;
-    let shared = files.write(&folder).map_err(internal)?;
+    let shared = files.write(&folder)?;
 
     let quaternions = has_quaternions(compose::version(&parts).as_deref());
-    let mut rewritten = Vec::new();
+    let (mut rewritten, mut length) = (Vec::new(), 0);
     for ((taken, placed), repeated) in parts.iter().zip(placed).zip(&repeated) {
+        settings.cancellation.check().map_err(cancelled)?;
         let carried = placed.into_iter();
         let carried = carried.map(|(name, place)| (name, meshes::carried(&place, &shared)));
         let text = Rewrite {
             loaded: &taken.loaded,
             trim: &taken.trim,
-            prefix: &taken.part.prefix,
+            prefix: &taken.part.prefix.text,
             names: &names_told(recipe, taken.part)?,
             meshes: &carried.collect::<BTreeMap<_, _>>(),
             repeated_materials: repeated,
@@ -124,10 +132,13 @@ pub fn combine(
         };
         let text = text.run().map_err(internal)?;
         said_of_text(taken, &text, &mut notes);
+        length += text.inner.len();
+        check_length(recipe, taken.part, "the URDFs", length)?;
         rewritten.push(text);
     }
     let urdf = compose::urdf(recipe, &parts, &rewritten)?;
-    let robot = read_urdf(urdf.as_bytes(), &recipe.name);
+    settings.cancellation.check().map_err(cancelled)?;
+    let robot = read_urdf(urdf.as_bytes(), &recipe.name.text);
     let robot = robot.map_err(|error| CombineError::Generate { id: None, error })?;
     let composition = record::composition(recipe, &parts, &robot.robot)?;
 
@@ -136,9 +147,11 @@ pub fn combine(
         let is_urdd = matches!(taken.loaded.source, PartSource::Urdd(_));
         is_urdd && !distrusted.contains(&taken.part.id.text)
     });
+    let mut reused = BTreeSet::new();
+    let trusted = trusted.filter(|taken| reused.insert(Rc::as_ptr(&taken.loaded)));
     settings.reuse = trusted.map(|taken| taken.loaded.root.clone()).collect();
     let composed = Composed {
-        shown: format!("{}.urdf", recipe.name),
+        shown: format!("{}.urdf", recipe.name.text),
         folder,
         edits,
         skipped_reasons,
@@ -154,6 +167,61 @@ pub fn combine(
         composition,
         notes,
     })
+}
+
+/// Reads the parts, each source once, up to the limits of a robot.
+fn take_up<'a>(
+    recipe: &'a Recipe,
+    workplace: &Path,
+    settings: &Settings,
+) -> Result<Vec<Taken<'a>>, CombineError> {
+    let mut parts = Vec::new();
+    let mut known: BTreeMap<PathBuf, Rc<part::Loaded>> = BTreeMap::new();
+    let (mut links, mut length, mut composition_length) = (0, 0, 0);
+    for (idx, part) in recipe.parts.iter().enumerate() {
+        settings.cancellation.check().map_err(cancelled)?;
+        let source = recipe.source(part, settings)?;
+        let loaded = match known.get(&source.path) {
+            Some(loaded) => loaded.clone(),
+            None => {
+                let place = workplace.join(format!("part_{idx}"));
+                Rc::new(part::load(&source, &part.id.text, &place, settings)?)
+            }
+        };
+        known.insert(source.path, loaded.clone());
+        let trim = trim::trim(recipe, part, &loaded)?;
+        links += (0..trim.dropped_links.len())
+            .filter(|link| trim.keeps_link(*link))
+            .count();
+        if links > MOST_LINKS {
+            let fault = RecipeFault::TooManyLinks {
+                found: links,
+                limit: MOST_LINKS,
+            };
+            return Err(recipe.refused(&part.id, fault));
+        }
+        length += loaded.text.len();
+        check_length(recipe, part, "the URDFs", length)?;
+        composition_length += loaded.composition_length;
+        let what = "the composition modules";
+        check_length(recipe, part, what, composition_length)?;
+        parts.push(Taken { part, loaded, trim });
+    }
+    Ok(parts)
+}
+
+/// Refuses parts that together have more text than a URDF may have.
+fn check_length(
+    recipe: &Recipe,
+    part: &Part,
+    what: &'static str,
+    length: usize,
+) -> Result<(), CombineError> {
+    let limit = MAX_SOURCE_BYTES;
+    match length as u64 > limit {
+        true => Err(recipe.refused(&part.id, RecipeFault::TooLong { what, limit })),
+        false => Ok(()),
+    }
 }
 
 fn cancelled(error: crate::cancellation::Cancelled) -> CombineError {
@@ -220,6 +288,19 @@ fn said(parts: &[Taken], notes: &mut Vec<Note>) {
                 note: note.clone(),
             });
         }
+        for link in &taken.loaded.plain_meshes {
+            if taken
+                .loaded
+                .links
+                .get(link)
+                .is_some_and(|idx| taken.trim.keeps_link(*idx))
+            {
+                notes.push(Note::PlainMesh {
+                    part: part.clone(),
+                    link: link.clone(),
+                });
+            }
+        }
         for joint in &taken.trim.following {
             notes.push(Note::Following {
                 part: part.clone(),
@@ -260,7 +341,7 @@ fn said(parts: &[Taken], notes: &mut Vec<Note>) {
 /// What there is to say of a part's text.
 fn said_of_text(taken: &Taken, text: &Rewritten, notes: &mut Vec<Note>) {
     let part = &taken.part.id.text;
-    let is_renamed = !taken.part.prefix.is_empty();
+    let is_renamed = !taken.part.prefix.text.is_empty();
     for left in text.left_alone.iter().filter(|_| is_renamed) {
         notes.push(Note::LeftAlone {
             part: part.clone(),

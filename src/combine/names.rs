@@ -272,7 +272,7 @@ pub(super) fn mesh_edits(
     text: &str,
     names: &BTreeMap<String, String>,
 ) -> Result<Vec<Edit>, String> {
-    let document = parse(text, Kind::Robot).map_err(|error| error.words())?;
+    let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
     let mut edits = Vec::new();
     for (_, link) in children(document.root_element()).filter(|(tag, _)| *tag == "link") {
         let shapes = children(link).filter(|(tag, _)| matches!(*tag, "visual" | "collision"));

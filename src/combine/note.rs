@@ -23,6 +23,13 @@ pub enum Note {
         /// The mesh, as the URDF names it.
         name: String,
     },
+    /// A legacy URDD lacks the original mesh of a link, and its plain mesh was taken.
+    PlainMesh {
+        /// The part.
+        part: String,
+        /// The link.
+        link: String,
+    },
     /// A material names a file of a texture. URDDs carry the textures that meshes name, not those that materials do.
     Texture {
         /// The part.
@@ -82,6 +89,7 @@ impl Note {
         match self {
             Note::Part { note, .. } => note.kind.as_str(),
             Note::NoMesh { .. } => "mesh-not-found",
+            Note::PlainMesh { .. } => "plain-mesh",
             Note::Texture { .. } => "texture",
             Note::LeftAlone { .. } => "left-alone",
             Note::Gone { .. } => "gone",
@@ -104,6 +112,12 @@ impl fmt::Display for Note {
                 "part `{}`: its URDD has no file for mesh `{}`: not carried; the element has no surface",
                 line(part),
                 line(name)
+            ),
+            Note::PlainMesh { part, link } => write!(
+                f,
+                "part `{}`: its URDD lacks the original mesh of link `{}`, and the plain one is taken: its colours are lost",
+                line(part),
+                line(link)
             ),
             Note::Texture { part, name } => write!(
                 f,

@@ -1,8 +1,8 @@
 //! A part as it is taken up: its URDF, its meshes, what a person decided about its skips, and how it was
 //! put together itself.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
 
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -10,51 +10,21 @@ use sha2::{Digest, Sha256};
 
 use super::error::{CombineError, PartFault};
 use super::legacy;
-use super::recipe::{Part, Recipe};
+use super::sources::{Source, SourceKind};
 use crate::directory::discover::ROOT_METADATA;
 use crate::directory::json;
 use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::directory::regular;
 use crate::directory::root::Root;
-use crate::directory::source::{is_archive, is_urdd};
 use crate::directory::writer::sha256;
 use crate::format::composition::{CompositionModule, PartSource};
 use crate::format::link_shapes_skips::{SkipEdit, SkippedReason};
 use crate::format::original_meshes::OriginalMeshesModule;
 use crate::format::registry::ModuleKind;
-use crate::format::root_metadata::{RootMetadata, Source};
+use crate::format::root_metadata::{self, RootMetadata};
 use crate::format::urdf::UrdfModule;
 use crate::generate::note::Note;
-use crate::generate::{Selection, Settings, generate, generate_text, read_urdf};
-
-/// What a source is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SourceKind {
-    /// A URDD of version 1: a folder or an archive.
-    Urdd,
-    /// A URDD of before version 1, which is taken up by the URDF that it carries.
-    Legacy,
-    /// A URDF or xacro file.
-    Urdf,
-}
-
-/// What the source of a part is.
-///
-/// # Errors
-/// Where there is nothing.
-pub fn source_kind(path: &Path) -> Result<SourceKind, PartFault> {
-    if path.is_dir() {
-        return match (is_urdd(path), path.join(ROOT_METADATA).is_file()) {
-            (_, true) => Ok(SourceKind::Urdd),
-            (true, false) => Ok(SourceKind::Legacy),
-            (false, false) => Err(PartFault::Missing("this folder holds none".to_owned())),
-        };
-    }
-    match (path.is_file(), is_archive(path)) {
-        (true, true) => Ok(SourceKind::Urdd),
-        (true, false) => Ok(SourceKind::Urdf),
-        (false, _) => Err(PartFault::Missing("nothing is there".to_owned())),
-    }
-}
+use crate::generate::{MAX_SOURCE_BYTES, Selection, Settings, generate, generate_text, read_urdf};
 
 /// A part that was taken up.
 #[derive(Debug)]
@@ -65,6 +35,10 @@ pub(super) struct Loaded {
     pub text: String,
     /// What that says.
     pub robot: UrdfModule,
+    /// The indices of its links, by name.
+    pub links: HashMap<String, usize>,
+    /// The indices of its joints, by name.
+    pub joints: HashMap<String, usize>,
     /// Where the files of its meshes are in the URDD, by the names in the URDF.
     pub meshes: BTreeMap<String, MeshFile>,
     /// What a person decided about its skips.
@@ -73,8 +47,12 @@ pub(super) struct Loaded {
     pub source: PartSource,
     /// How it was put together.
     pub composition: Option<CompositionModule>,
+    /// How long the document is that says so, bytes.
+    pub composition_length: usize,
     /// What was odd in a URDF.
     pub notes: Vec<Note>,
+    /// Links whose mesh is the plain one of a legacy URDD, since it lacks the original.
+    pub plain_meshes: Vec<String>,
     /// The classes' modules that it has.
     pub modules: Vec<String>,
 }
@@ -93,77 +71,69 @@ pub(super) struct Skips {
     pub edits: Vec<SkipEdit>,
 }
 
-/// Takes up a part. What has to be made of a URDF is made in `workplace`, a folder that is not there yet.
+/// Takes up a part. What has to be made of a URDF is made in `workplace`, a folder that is not there yet. `id` names a
+/// robot that has no name.
 ///
 /// # Errors
 /// Where it cannot be read, or is no robot.
 pub(super) fn load(
-    recipe: &Recipe,
-    part: &Part,
+    source: &Source,
+    id: &str,
     workplace: &Path,
     settings: &Settings,
 ) -> Result<Loaded, CombineError> {
-    let shown = part.source.display().to_string();
+    let shown = source.path.display().to_string();
     let refused = |fault| CombineError::Part {
-        id: part.id.text.clone(),
+        id: id.to_owned(),
         source_path: shown.clone(),
         fault,
     };
-    let kind = source_kind(&part.source).map_err(refused)?;
-    let urdf = match kind {
-        SourceKind::Urdd => None,
-        SourceKind::Urdf => Some(part.source.clone()),
-        SourceKind::Legacy => {
-            Some(carried(&part.source).ok_or_else(|| refused(PartFault::NoUrdf))?)
-        }
+    let unreadable = |file: &str, reason: String| {
+        let file = file.to_owned();
+        refused(PartFault::Unreadable { file, reason })
     };
-    let Some(urdf) = urdf else {
-        let root = Root::open(&part.source).map_err(|error| {
-            let file = String::new();
-            let reason = error.to_string();
-            refused(PartFault::Unreadable { file, reason })
-        })?;
-        return read(root, None, &part.id.text).map_err(refused);
-    };
+    if source.kind == SourceKind::Urdd {
+        let root = Root::open(&source.path).map_err(|error| unreadable("", error.to_string()))?;
+        return read(root, None, id).map_err(refused);
+    }
     let mut settings = settings.clone();
     // What is made of links is made once, of what is put together.
     settings.selection = Selection::parse(["original_meshes"]).unwrap_or_else(|_| Selection::all());
     settings.reuse.clear();
-    let made = match kind {
+    let (made, digest, plain_meshes) = match source.kind {
         SourceKind::Legacy => {
-            let text = legacy::with_carried_meshes(&urdf, &part.source).map_err(refused)?;
-            let shown = urdf.display().to_string();
-            generate_text(text, &shown, &part.source, workplace, &settings, &())
+            let carried = legacy::read(&source.path).map_err(refused)?;
+            let digest = sha256(&Sha256::digest(&carried.found));
+            let shown = source.path.join(&carried.file).display().to_string();
+            let made = generate_text(
+                carried.text,
+                &shown,
+                &source.path,
+                workplace,
+                &settings,
+                &(),
+            );
+            (made, digest, carried.plain_meshes)
         }
-        _ => generate(&urdf, workplace, &settings, &()),
+        _ => {
+            let bytes = regular::read(&source.path, MAX_SOURCE_BYTES);
+            let bytes = bytes.map_err(|error| unreadable("", error.to_string()))?;
+            let digest = sha256(&Sha256::digest(&bytes));
+            let made = generate(&source.path, workplace, &settings, &());
+            (made, digest, Vec::new())
+        }
     };
     let made = made.map_err(|error| CombineError::Generate {
-        id: Some(part.id.text.clone()),
+        id: Some(id.to_owned()),
         error,
     })?;
-    let unreadable = |reason: String| {
-        let file = recipe.shown.clone();
-        CombineError::Unreadable { file, reason }
-    };
-    let bytes = std::fs::read(&urdf).map_err(|error| unreadable(error.to_string()))?;
-    let root = Root::open_folder(workplace).map_err(|error| unreadable(error.to_string()))?;
-    let digest = sha256(&Sha256::digest(&bytes));
-    let loaded = read(root, Some(PartSource::Urdf(digest)), &part.id.text).map_err(refused)?;
+    let root = Root::open_folder(workplace).map_err(|error| unreadable("", error.to_string()))?;
+    let loaded = read(root, Some(PartSource::Urdf(digest)), id).map_err(refused)?;
     Ok(Loaded {
         notes: made.notes,
+        plain_meshes,
         ..loaded
     })
-}
-
-/// The one URDF in the folder of a legacy URDD.
-fn carried(folder: &Path) -> Option<PathBuf> {
-    let entries = std::fs::read_dir(folder).ok()?;
-    let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    let is_urdf = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "urdf");
-    let mut urdfs: Vec<PathBuf> = files.filter(is_urdf).collect();
-    urdfs.sort();
-    let first = urdfs.pop()?;
-    urdfs.is_empty().then_some(first)
 }
 
 /// Takes up a URDD of version 1.
@@ -180,7 +150,7 @@ fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, Part
     let value = json::read(&text).map_err(|error| unreadable(ROOT_METADATA, error.to_string()))?;
     let metadata: RootMetadata = serde_json::from_value(value.value)
         .map_err(|error| unreadable(ROOT_METADATA, error.to_string()))?;
-    let Some(Source::Urdf(urdf)) = &metadata.source else {
+    let Some(root_metadata::Source::Urdf(urdf)) = &metadata.source else {
         return Err(PartFault::NoUrdf);
     };
     let robot = read_urdf(&bytes(&urdf.path)?, id)
@@ -204,10 +174,15 @@ fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, Part
             edits: serde_json::from_value(of("edits")).map_err(wrong)?,
         })
     });
+    let (composition, composition_length) = match modules.document(ModuleKind::Composition)? {
+        Some((composition, length)) => (Some(composition), length),
+        None => (None, 0),
+    };
     Ok(Loaded {
         meshes: original.map(meshes).unwrap_or_default(),
         skips: skips.transpose()?,
-        composition: modules.read(ModuleKind::Composition)?,
+        composition,
+        composition_length,
         source: source.unwrap_or_else(|| PartSource::Urdd(sha256(&Sha256::digest(&text)))),
         modules: metadata
             .modules
@@ -215,10 +190,17 @@ fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, Part
             .map(|module| module.name.clone())
             .collect(),
         text: text_of_urdf,
+        links: indices(robot.robot.links.iter().map(|link| &link.name)),
+        joints: indices(robot.robot.joints.iter().map(|joint| &joint.name)),
         robot: robot.robot,
         notes: Vec::new(),
+        plain_meshes: Vec::new(),
         root,
     })
+}
+
+fn indices<'a>(names: impl Iterator<Item = &'a String>) -> HashMap<String, usize> {
+    names.cloned().zip(0..).collect()
 }
 
 /// The files of meshes, by the names in the URDF.
@@ -249,6 +231,15 @@ struct Modules<'a> {
 impl Modules<'_> {
     /// The document of a module, where the URDD lists it.
     fn read<T: DeserializeOwned>(&self, kind: ModuleKind) -> Result<Option<T>, PartFault> {
+        let document = self.document(kind)?;
+        Ok(document.map(|(document, _)| document))
+    }
+
+    /// The same, with its length in bytes.
+    fn document<T: DeserializeOwned>(
+        &self,
+        kind: ModuleKind,
+    ) -> Result<Option<(T, usize)>, PartFault> {
         let mut listed = self.metadata.modules.iter();
         let Some(module) = listed.find(|module| module.name == kind.name()) else {
             return Ok(None);
@@ -263,7 +254,7 @@ impl Modules<'_> {
         let value = json::read(&bytes).map_err(|error| unreadable(error.to_string()))?;
         let document = serde_json::from_value(value.value);
         document
-            .map(Some)
+            .map(|document| Some((document, bytes.len())))
             .map_err(|error| unreadable(error.to_string()))
     }
 }

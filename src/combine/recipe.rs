@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::error::{CombineError, RecipeFault};
+use super::error::CombineError;
+use super::recipe_fault::RecipeFault;
 use crate::directory::path::portable;
 use crate::directory::position::Position;
 use crate::format::nearest::nearest;
@@ -39,11 +40,26 @@ pub struct Recipe {
     /// Where it stands, for messages; what it came from, where that is no file.
     pub shown: String,
     /// Name of the robot that is made.
-    pub name: String,
+    pub name: Word,
     /// A link of its own below the first part, and the joint between them.
     pub base: Option<Base>,
     /// The parts, in the order in which they stand in the URDF that is made.
     pub parts: Vec<Part>,
+    /// Where the sources of its parts may be.
+    pub sources: Sources,
+}
+
+/// Where the sources of a recipe's parts may be, which decides whether a xacro file among them runs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Sources {
+    /// The user named each of them: they may be anywhere, and a xacro file is expanded.
+    Named,
+    /// A file names them: they are in this folder, after links are resolved, or in one of
+    /// [`Settings::allowed_folders`]; a xacro file is expanded only with [`XacroSettings::expand_urdf`].
+    ///
+    /// [`Settings::allowed_folders`]: crate::generate::Settings::allowed_folders
+    /// [`XacroSettings::expand_urdf`]: crate::generate::XacroSettings::expand_urdf
+    In(PathBuf),
 }
 
 /// A robot that becomes a part of another.
@@ -54,7 +70,7 @@ pub struct Part {
     /// A URDD (a folder or a zip archive), or a URDF or xacro file.
     pub source: PathBuf,
     /// What stands before its names in the robot that is made; empty for nothing.
-    pub prefix: String,
+    pub prefix: Word,
     /// Links that are left out, each with all that hangs on it.
     pub drop: Vec<Word>,
     /// Joints that become fixed, each at a value for each of its DOFs, rad or m.
@@ -124,7 +140,7 @@ impl Recipe {
         let part = |id: &str, source: &Path, prefix: String| Part {
             id: Word::new(id),
             source: source.to_owned(),
-            prefix,
+            prefix: Word::new(prefix),
             drop: Vec::new(),
             freeze: Vec::new(),
             attach: None,
@@ -146,9 +162,10 @@ impl Recipe {
         let name = name.map_or_else(|| format!("{first}_{second}"), str::to_owned);
         let recipe = Recipe {
             shown: "command line".to_owned(),
-            name,
+            name: Word::new(name),
             base: None,
             parts: vec![part(&first, holder, String::new()), held],
+            sources: Sources::Named,
         };
         recipe.check()?;
         Ok(recipe)
@@ -201,66 +218,6 @@ impl Recipe {
         };
         Ok((Some(part), link))
     }
-
-    /// What can be said before any part is read: names, and who hangs on whom.
-    pub(super) fn check(&self) -> Result<(), CombineError> {
-        if self.parts.is_empty() {
-            return Err(self.refused(&Word::default(), RecipeFault::NoParts));
-        }
-        for (idx, part) in self.parts.iter().enumerate() {
-            let id = &part.id;
-            let is_of_id = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
-            if id.text.is_empty() || !id.text.chars().all(is_of_id) {
-                return Err(self.refused(id, RecipeFault::BadId(id.text.clone())));
-            }
-            let mut before = self.parts[..idx].iter();
-            if let Some(first) = before.find(|of| of.id.text.eq_ignore_ascii_case(&id.text)) {
-                let fault = RecipeFault::IdTwice {
-                    id: id.text.clone(),
-                    first: first.id.at,
-                };
-                return Err(self.refused(id, fault));
-            }
-        }
-        let mut roots = self.parts.iter().filter(|part| part.attach.is_none());
-        let first = roots.next();
-        if let (Some(first), Some(second)) = (first, roots.next()) {
-            let fault = RecipeFault::TwoRoots {
-                first: first.id.text.clone(),
-                second: second.id.text.clone(),
-            };
-            return Err(self.refused(&second.id, fault));
-        }
-        for part in &self.parts {
-            self.check_attachment(part)?;
-        }
-        Ok(())
-    }
-
-    /// Follows a part to the one that holds all.
-    fn check_attachment(&self, part: &Part) -> Result<(), CombineError> {
-        let (mut path, mut now) = (vec![part.id.text.as_str()], part);
-        while let Some(attachment) = &now.attach {
-            let (Some(next), _) = self.target(&attachment.to)? else {
-                break;
-            };
-            now = &self.parts[next];
-            if now.id == part.id {
-                let fault = match path.len() {
-                    1 => RecipeFault::OnItself(part.id.text.clone()),
-                    _ => RecipeFault::Ring(path.iter().map(|id| (*id).to_owned()).collect()),
-                };
-                let attach = part.attach.as_ref().unwrap_or(attachment);
-                return Err(self.refused(&attach.to, fault));
-            }
-            // A ring further on is told of by its own parts.
-            if path.contains(&now.id.text.as_str()) {
-                break;
-            }
-            path.push(&now.id.text);
-        }
-        Ok(())
-    }
 }
 
 /// An id of the name of a file.
@@ -273,9 +230,4 @@ fn id_of(path: &Path) -> String {
     }
     let id = portable(stem).replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "_");
     if id.is_empty() { "part".to_owned() } else { id }
-}
-
-/// The word of a joint type, as URDFs and recipes write it.
-pub(super) fn word_of(joint_type: JointType) -> String {
-    joint_type.as_str().to_ascii_lowercase()
 }

@@ -3,11 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use super::error::{CombineError, RecipeFault};
+use super::error::CombineError;
 use super::keys;
 use super::recipe::{
-    Attachment, Base, JointDescription, MAX_RECIPE_BYTES, Part, Recipe, Word, word_of,
+    Attachment, Base, JointDescription, MAX_RECIPE_BYTES, Part, Recipe, Sources, Word,
 };
+use super::recipe_fault::{RecipeFault, joint_type_word};
 use super::toml_file::{FreezeValue, JointFile, PartFile, RecipeFile};
 use crate::directory::position::LineIndex;
 use crate::directory::regular;
@@ -15,7 +16,7 @@ use crate::format::nearest::nearest;
 use crate::format::urdf::{JointType, Limit};
 
 impl Recipe {
-    /// Reads a recipe from its file. Sources are relative to the folder that the file lies in.
+    /// Reads a recipe from its file. Sources are relative to the folder that the file is in.
     ///
     /// # Errors
     /// As [`Recipe::from_toml`], and where the file cannot be read.
@@ -42,7 +43,7 @@ impl Recipe {
         Recipe::from_toml(&text, &shown, &folder)
     }
 
-    /// Reads a recipe from the text of a TOML file in a folder; sources are relative to that.
+    /// Reads a recipe from the text of a TOML file in a folder; sources are relative to that, and not outside of it.
     ///
     /// # Errors
     /// Where it is no recipe: what, where, and what to do.
@@ -64,9 +65,13 @@ impl Recipe {
         let reader = Reader { lines: &lines };
         let mut recipe = Recipe {
             shown: shown.to_owned(),
-            name: file.name.unwrap_or_else(|| stem.into_owned()),
+            name: match &file.name {
+                Some(name) => reader.word(name),
+                None => Word::new(stem),
+            },
             base: None,
             parts: Vec::new(),
+            sources: Sources::In(folder.to_owned()),
         };
         if let Some(base) = file.base {
             let link = base.link.as_ref().map(|link| reader.word(link));
@@ -133,7 +138,10 @@ impl Reader<'_> {
         let skip = file.skip.iter().map(|[a, b]| [self.word(a), self.word(b)]);
         Ok(Part {
             source: folder.join(source.get_ref()),
-            prefix: file.prefix.unwrap_or_else(|| format!("{}_", id.text)),
+            prefix: match &file.prefix {
+                Some(prefix) => self.word(prefix),
+                None => Word::new(format!("{}_", id.text)),
+            },
             drop: words(&file.drop),
             freeze,
             attach,
@@ -153,7 +161,7 @@ impl Reader<'_> {
             None => usual,
             Some(word) => {
                 let known = JointType::ALL.iter().copied();
-                let words: Vec<String> = known.clone().map(word_of).collect();
+                let words: Vec<String> = known.clone().map(joint_type_word).collect();
                 let mut found = known.zip(&words).filter(|(_, of)| *of == word.get_ref());
                 let fault = || RecipeFault::UnknownJointType {
                     found: word.get_ref().clone(),

@@ -66,7 +66,7 @@ pub(super) fn composition(
             id: part.id.text.clone(),
             name: of.name.clone(),
             source: taken.loaded.source.clone(),
-            prefix: part.prefix.clone(),
+            prefix: part.prefix.text.clone(),
             links: (kept.into_iter())
                 .map(|(_, name)| PartLink {
                     name: name.clone(),

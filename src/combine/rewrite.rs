@@ -51,7 +51,7 @@ impl Rewrite<'_> {
     /// Where the text cannot be parsed, in words.
     pub fn run(&self) -> Result<Rewritten, String> {
         let text = self.loaded.text.trim_start_matches('\u{feff}');
-        let document = parse(text, Kind::Robot).map_err(|error| error.words())?;
+        let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
         let found = names::find(&document, &self.loaded.robot, self.names);
         let mut edits = mesh_edits(text, self.meshes)?;
         let dropped = self.structure(text, &document, &mut edits);
@@ -104,14 +104,8 @@ impl Rewrite<'_> {
         if !place.unknown {
             return false;
         }
-        let robot = &self.loaded.robot;
-        let link = || robot.links.iter().position(|link| link.name == place.name);
-        let joint = || {
-            robot
-                .joints
-                .iter()
-                .position(|joint| joint.name == place.name)
-        };
+        let link = || self.loaded.links.get(&place.name).copied();
+        let joint = || self.loaded.joints.get(&place.name).copied();
         let no_link = || link().is_none_or(|link| !self.trim.keeps_link(link));
         let no_joint = || joint().is_none_or(|joint| !self.trim.keeps_joint(joint));
         // What moves a joint, and one that does not move any more.
@@ -223,7 +217,7 @@ fn removal(text: &str, range: &Range<usize>) -> Edit {
 
 /// All that stands within `<robot>`.
 fn inner(text: &str) -> Result<String, String> {
-    let document = parse(text, Kind::Robot).map_err(|error| error.words())?;
+    let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
     let root = document.root_element();
     let (Some(first), Some(last)) = (root.first_child(), root.last_child()) else {
         return Ok(String::new());

@@ -1,9 +1,12 @@
 //! What people decided about the skips of the parts, and what the recipe says of pairs across them.
 
+use std::collections::HashMap;
+
 use super::compose::Taken;
-use super::error::{CombineError, RecipeFault};
+use super::error::CombineError;
 use super::note::Note;
 use super::recipe::{Recipe, Word};
+use super::recipe_fault::RecipeFault;
 use crate::format::link_shapes_skips::{SkipEdit, SkippedReason};
 use crate::format::nearest::nearest;
 
@@ -19,7 +22,7 @@ pub(super) fn decisions(
     parts: &[Taken],
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<SkipEdit>, Option<Vec<SkippedReason>>), CombineError> {
-    let mut edits = Vec::new();
+    let (mut edits, mut length) = (Vec::new(), 0);
     let mut reasons: Vec<&Vec<SkippedReason>> = Vec::new();
     for taken in parts {
         let Some(skips) = &taken.loaded.skips else {
@@ -27,11 +30,12 @@ pub(super) fn decisions(
         };
         reasons.push(&skips.reasons);
         let kept = |name: &String| {
-            let mut links = taken.loaded.robot.links.iter();
-            let idx = links.position(|link| link.name == *name);
-            idx.is_some_and(|idx| taken.trim.keeps_link(idx))
+            let idx = taken.loaded.links.get(name);
+            idx.is_some_and(|idx| taken.trim.keeps_link(*idx))
         };
         for edit in &skips.edits {
+            length += edit.link_a.len() + edit.link_b.len() + edit.reason.len();
+            super::check_length(recipe, taken.part, "the edits of skips", length)?;
             if kept(&edit.link_a) && kept(&edit.link_b) {
                 edits.push(SkipEdit {
                     link_a: taken.renamed(&edit.link_a),
@@ -47,11 +51,15 @@ pub(super) fn decisions(
             }
         }
     }
-    for (idx, taken) in parts.iter().enumerate() {
+    let by_id: HashMap<&str, &Taken> = parts
+        .iter()
+        .map(|taken| (taken.part.id.text.as_str(), taken))
+        .collect();
+    for taken in parts {
         for [a, b] in &taken.part.skip {
             edits.push(SkipEdit {
-                link_a: link(recipe, parts, idx, a)?,
-                link_b: link(recipe, parts, idx, b)?,
+                link_a: link(recipe, &by_id, taken, a)?,
+                link_b: link(recipe, &by_id, taken, b)?,
                 skip: true,
                 reason: REASON.to_owned(),
             });
@@ -65,18 +73,18 @@ pub(super) fn decisions(
     Ok((edits, first))
 }
 
-/// The link that a word of part `idx` means, by its name in the robot that is made.
-fn link(recipe: &Recipe, parts: &[Taken], idx: usize, word: &Word) -> Result<String, CombineError> {
-    let is_own = |name: &str| {
-        let mut links = parts[idx].loaded.robot.links.iter();
-        links.any(|link| link.name == name)
-    };
-    match word.text.split_once('/') {
-        Some((id, name)) if !is_own(&word.text) && recipe.part(id).is_some() => {
-            let part = recipe.part(id).unwrap_or(idx);
-            existing(recipe, &parts[part], name, word)
-        }
-        _ => existing(recipe, &parts[idx], &word.text, word),
+/// The link that a word of the part `own` means, by its name in the robot that is made.
+fn link(
+    recipe: &Recipe,
+    by_id: &HashMap<&str, &Taken>,
+    own: &Taken,
+    word: &Word,
+) -> Result<String, CombineError> {
+    let is_own = own.loaded.links.contains_key(&word.text);
+    let other = word.text.split_once('/').filter(|_| !is_own);
+    match other.and_then(|(id, name)| Some((by_id.get(id)?, name))) {
+        Some((other, name)) => existing(recipe, other, name, word),
+        None => existing(recipe, own, &word.text, word),
     }
 }
 
@@ -90,30 +98,25 @@ pub(super) fn existing(
     name: &str,
     at: &Word,
 ) -> Result<String, CombineError> {
-    let links = taken
-        .loaded
-        .robot
-        .links
-        .iter()
-        .map(|link| link.name.as_str());
     let part = taken.part.id.text.clone();
-    let Some(idx) = links.clone().position(|link| link == name) else {
+    let Some(&idx) = taken.loaded.links.get(name) else {
+        let links = taken.loaded.robot.links.iter();
         let fault = RecipeFault::Unknown {
             what: "link",
             part,
             name: name.to_owned(),
-            nearest: nearest(links, name),
+            nearest: nearest(links.map(|link| link.name.as_str()), name),
         };
         return Err(recipe.refused(at, fault));
     };
-    match &taken.trim.dropped_links[idx] {
+    match taken.trim.dropped_links[idx] {
         None => Ok(taken.renamed(name)),
         Some(with) => {
             let fault = RecipeFault::Dropped {
                 what: "link",
                 part,
                 name: name.to_owned(),
-                with: with.clone(),
+                with: taken.part.drop[with].text.clone(),
             };
             Err(recipe.refused(at, fault))
         }

@@ -7,7 +7,7 @@ use toml::Spanned;
 
 #[derive(Deserialize)]
 pub(super) struct RecipeFile {
-    pub name: Option<String>,
+    pub name: Option<Spanned<String>>,
     pub base: Option<JointFile>,
     #[serde(default)]
     pub part: Vec<Spanned<PartFile>>,
@@ -17,7 +17,7 @@ pub(super) struct RecipeFile {
 pub(super) struct PartFile {
     pub id: Option<Spanned<String>>,
     pub source: Option<Spanned<String>>,
-    pub prefix: Option<String>,
+    pub prefix: Option<Spanned<String>>,
     #[serde(default)]
     pub drop: Vec<Spanned<String>>,
     #[serde(default)]

@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use super::recipe::{JointDescription, Recipe, Word, word_of};
+use super::recipe::{JointDescription, Recipe, Word};
+use super::recipe_fault::joint_type_word;
 use crate::format::urdf::JointType;
 
 impl Recipe {
     /// The text of a file in `folder` that says the same. Sources in or below `folder` are written relative to it.
     pub fn to_toml(&self, folder: &Path) -> String {
-        let mut text = format!("name = {}\n", string(&self.name));
+        let mut text = format!("name = {}\n", string(&self.name.text));
         if let Some(base) = &self.base {
             text += &format!("\n[base]\nlink = {}\n", string(&base.link.text));
             for (key, value) in joint(&base.joint) {
@@ -22,7 +23,7 @@ impl Recipe {
                 "\n[[part]]\nid = {}\nsource = {}\nprefix = {}\n",
                 string(&part.id.text),
                 string(&source),
-                string(&part.prefix)
+                string(&part.prefix.text)
             );
             let words = |words: &[Word]| {
                 let words: Vec<String> = words.iter().map(|word| string(&word.text)).collect();
@@ -77,7 +78,7 @@ fn numbers(values: &[f64]) -> String {
 fn joint(of: &JointDescription) -> Vec<(&'static str, String)> {
     let mut keys = vec![("name", string(&of.name.text))];
     if of.joint_type != JointType::Fixed {
-        keys.push(("joint", string(&word_of(of.joint_type))));
+        keys.push(("joint", string(&joint_type_word(of.joint_type))));
     }
     for (key, value) in [("xyz", of.xyz), ("rpy", of.rpy)] {
         if value != [0.0; 3] {

@@ -1,18 +1,20 @@
 //! What of a part comes along: links and joints that are dropped, joints that are made fixed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
-use super::error::{CombineError, RecipeFault};
+use super::error::CombineError;
+use super::part::Loaded;
 use super::recipe::{Part, Recipe, Word};
+use super::recipe_fault::RecipeFault;
 use crate::format::nearest::nearest;
-use crate::format::urdf::{Joint, JointType, UrdfModule};
+use crate::format::urdf::{Joint, JointType};
 
 /// What of a part comes along. Lists go with the part's own links and joints.
 #[derive(Debug)]
 pub(super) struct Trim {
-    /// For each link, the link of the recipe with which it is dropped.
-    pub dropped_links: Vec<Option<String>>,
-    pub dropped_joints: Vec<Option<String>>,
+    /// For each link, the link with which it is dropped, by its place in the part's `drop`.
+    pub dropped_links: Vec<Option<usize>>,
+    pub dropped_joints: Vec<Option<usize>>,
     /// Joints that become fixed, with a value for each of their DOFs.
     pub frozen: BTreeMap<usize, Vec<f64>>,
     /// Joints that become fixed because the joint that they follow does.
@@ -35,15 +37,21 @@ impl Trim {
 ///
 /// # Errors
 /// Where the recipe names what is not there, or what cannot be.
-pub(super) fn trim(recipe: &Recipe, part: &Part, robot: &UrdfModule) -> Result<Trim, CombineError> {
+pub(super) fn trim(recipe: &Recipe, part: &Part, loaded: &Loaded) -> Result<Trim, CombineError> {
     let trimmer = Trimmer {
         recipe,
         part,
-        robot,
+        loaded,
         id: part.id.text.clone(),
     };
-    let child = |link: &str| robot.joints.iter().any(|joint| joint.child.link == link);
-    let root = robot.links.iter().position(|link| !child(&link.name));
+    let robot = &loaded.robot;
+    let mut is_child = vec![false; robot.links.len()];
+    for joint in &robot.joints {
+        if let Some(child) = loaded.links.get(&joint.child.link) {
+            is_child[*child] = true;
+        }
+    }
+    let root = is_child.iter().position(|is_child| !is_child);
     let mut trim = Trim {
         dropped_links: vec![None; robot.links.len()],
         dropped_joints: vec![None; robot.joints.len()],
@@ -60,15 +68,15 @@ pub(super) fn trim(recipe: &Recipe, part: &Part, robot: &UrdfModule) -> Result<T
 struct Trimmer<'a> {
     recipe: &'a Recipe,
     part: &'a Part,
-    robot: &'a UrdfModule,
+    loaded: &'a Loaded,
     id: String,
 }
 
 impl Trimmer<'_> {
     fn drop(&self, trim: &mut Trim) -> Result<(), CombineError> {
-        for word in &self.part.drop {
-            let links = self.robot.links.iter().map(|link| link.name.as_str());
-            let link = self.find("link", links, word)?;
+        let robot = &self.loaded.robot;
+        for (with, word) in self.part.drop.iter().enumerate() {
+            let link = self.find("link", &self.loaded.links, word)?;
             if link == trim.root {
                 let fault = RecipeFault::DropsRoot {
                     part: self.id.clone(),
@@ -76,25 +84,23 @@ impl Trimmer<'_> {
                 };
                 return Err(self.recipe.refused(word, fault));
             }
-            trim.dropped_links[link].get_or_insert_with(|| word.text.clone());
+            trim.dropped_links[link].get_or_insert(with);
         }
-        // A joint goes with its child, and all that hangs on a link with the link.
-        let mut again = true;
-        while again {
-            again = false;
-            for (idx, joint) in self.robot.joints.iter().enumerate() {
-                let of = |name: &str| self.robot.links.iter().position(|link| link.name == name);
-                let (Some(parent), Some(child)) = (of(&joint.parent.link), of(&joint.child.link))
-                else {
-                    continue;
-                };
-                let with = trim.dropped_links[child].clone();
-                let with = with.or_else(|| trim.dropped_links[parent].clone());
-                if with.is_some() && trim.dropped_joints[idx].is_none() {
-                    trim.dropped_links[child] = with.clone();
-                    trim.dropped_joints[idx] = with;
-                    again = true;
-                }
+        // A joint goes with its child, and all that hangs on a link with the link: from the root outward.
+        let mut joints_on: Vec<Vec<(usize, usize)>> = vec![Vec::new(); robot.links.len()];
+        for (idx, joint) in robot.joints.iter().enumerate() {
+            let of = |name: &String| self.loaded.links.get(name).copied();
+            if let (Some(parent), Some(child)) = (of(&joint.parent.link), of(&joint.child.link)) {
+                joints_on[parent].push((idx, child));
+            }
+        }
+        let mut reached = vec![trim.root];
+        while let Some(parent) = reached.pop() {
+            for (joint, child) in std::mem::take(&mut joints_on[parent]) {
+                let with = trim.dropped_links[child].or(trim.dropped_links[parent]);
+                trim.dropped_links[child] = with;
+                trim.dropped_joints[joint] = with;
+                reached.push(child);
             }
         }
         Ok(())
@@ -102,14 +108,13 @@ impl Trimmer<'_> {
 
     fn freeze(&self, trim: &mut Trim) -> Result<(), CombineError> {
         for (word, values) in &self.part.freeze {
-            let joints = self.robot.joints.iter().map(|joint| joint.name.as_str());
-            let idx = self.find("joint", joints, word)?;
-            let joint = &self.robot.joints[idx];
+            let idx = self.find("joint", &self.loaded.joints, word)?;
+            let joint = &self.loaded.robot.joints[idx];
             let part = self.id.clone();
             let name = joint.name.clone();
             let refused = |fault| Err(self.recipe.refused(word, fault));
-            if let Some(with) = &trim.dropped_joints[idx] {
-                let (what, with) = ("joint", with.clone());
+            if let Some(with) = trim.dropped_joints[idx] {
+                let (what, with) = ("joint", self.part.drop[with].text.clone());
                 return refused(RecipeFault::Dropped {
                     what,
                     part,
@@ -148,55 +153,66 @@ impl Trimmer<'_> {
     /// What follows a joint that is frozen is frozen where it is then; what follows one that is dropped
     /// has nothing to follow.
     fn follow(&self, trim: &mut Trim) -> Result<(), CombineError> {
-        let joints = &self.robot.joints;
-        let mut again = true;
-        while again {
-            again = false;
-            for (idx, joint) in joints.iter().enumerate() {
-                let moves = joint.joint_type != JointType::Fixed;
-                let is_free = trim.keeps_joint(idx) && !trim.frozen.contains_key(&idx) && moves;
-                let Some(mimic) = joint.mimic.as_ref().filter(|_| is_free) else {
+        let joints = &self.loaded.robot.joints;
+        let mut followers: Vec<Vec<usize>> = vec![Vec::new(); joints.len()];
+        for (idx, joint) in joints.iter().enumerate() {
+            let moves = joint.joint_type != JointType::Fixed;
+            let is_free = trim.keeps_joint(idx) && !trim.frozen.contains_key(&idx) && moves;
+            let Some(mimic) = joint.mimic.as_ref().filter(|_| is_free) else {
+                continue;
+            };
+            let Some(&driver) = self.loaded.joints.get(&mimic.joint) else {
+                continue;
+            };
+            if let Some(with) = trim.dropped_joints[driver] {
+                let at = &self.part.drop[with];
+                let fault = RecipeFault::DriverDropped {
+                    part: self.id.clone(),
+                    joint: joint.name.clone(),
+                    driver: mimic.joint.clone(),
+                    with: at.text.clone(),
+                };
+                return Err(self.recipe.refused(at, fault));
+            }
+            followers[driver].push(idx);
+        }
+        let mut drivers: Vec<usize> = trim.frozen.keys().copied().collect();
+        let mut following = Vec::new();
+        while let Some(driver) = drivers.pop() {
+            let Some(&[value]) = trim.frozen.get(&driver).map(Vec::as_slice) else {
+                continue;
+            };
+            for idx in std::mem::take(&mut followers[driver]) {
+                let Some(mimic) = &joints[idx].mimic else {
                     continue;
                 };
-                let Some(driver) = joints.iter().position(|of| of.name == mimic.joint) else {
-                    continue;
-                };
-                if let Some(with) = &trim.dropped_joints[driver] {
-                    let fault = RecipeFault::DriverDropped {
-                        part: self.id.clone(),
-                        joint: joint.name.clone(),
-                        driver: mimic.joint.clone(),
-                        with: with.clone(),
-                    };
-                    let mut drops = self.part.drop.iter();
-                    let at = drops.find(|word| word.text == *with);
-                    return Err(self.recipe.refused(at.unwrap_or(&self.part.id), fault));
-                }
-                if let Some(&[value]) = trim.frozen.get(&driver).map(Vec::as_slice) {
-                    let (multiplier, offset) = (mimic.multiplier, mimic.offset);
-                    let value = multiplier.unwrap_or(1.0) * value + offset.unwrap_or(0.0);
-                    trim.frozen.insert(idx, vec![value]);
-                    trim.following.push(joint.name.clone());
-                    again = true;
-                }
+                let (multiplier, offset) = (mimic.multiplier, mimic.offset);
+                let value = multiplier.unwrap_or(1.0) * value + offset.unwrap_or(0.0);
+                trim.frozen.insert(idx, vec![value]);
+                following.push(idx);
+                drivers.push(idx);
             }
         }
+        following.sort_unstable();
+        let names = following.into_iter().map(|idx| joints[idx].name.clone());
+        trim.following = names.collect();
         Ok(())
     }
 
-    fn find<'a>(
+    fn find(
         &self,
         what: &'static str,
-        mut names: impl Iterator<Item = &'a str> + Clone,
+        indices: &HashMap<String, usize>,
         word: &Word,
     ) -> Result<usize, CombineError> {
-        let near = names.clone();
-        names.position(|name| name == word.text).ok_or_else(|| {
+        indices.get(&word.text).copied().ok_or_else(|| {
+            let mut names: Vec<&str> = indices.keys().map(String::as_str).collect();
+            names.sort_unstable_by_key(|name| indices[*name]);
             let fault = RecipeFault::Unknown {
                 what,
                 part: self.id.clone(),
                 name: word.text.clone(),
-                nearest: nearest(near, &word.text),
+                nearest: nearest(names.into_iter(), &word.text),
             };
             self.recipe.refused(word, fault)
         })

@@ -11,6 +11,7 @@ use super::data::{self, INVALID, ROBOTS, URDD, VALID, VECTORS};
 use super::suite::{CaseError, Suite, SuiteError};
 use super::tree::{Tree, TreeError};
 use super::valid;
+use crate::cancellation::Cancellation;
 use crate::format::registry::SPEC_VERSION;
 use crate::generate::GenerateError;
 
@@ -82,7 +83,8 @@ pub fn export(folder: &Path) -> Result<Exported, ExportError> {
     let robots = folder.join(ROBOTS);
     valid::write_robots(&robots)?;
     Tree::carried(VECTORS).write(&folder.join(VECTORS))?;
-    let other_bytes = write_valid(&valid::robots(), &robots, &folder.join(VALID))?;
+    let never = Cancellation::default();
+    let other_bytes = write_valid(&valid::robots(), &robots, &folder.join(VALID), &never)?;
     let left_out = write_cases(&suite, folder)?;
 
     let mut items = items(&suite);
@@ -122,13 +124,16 @@ pub fn write_valid(
     names: &[String],
     robots: &Path,
     folder: &Path,
+    cancellation: &Cancellation,
 ) -> Result<Vec<String>, ExportError> {
     let mut other_bytes = Vec::new();
     for robot in names {
         let target = folder.join(robot);
-        valid::make(robot, robots, &target).map_err(|error| ExportError::Generate {
-            robot: robot.clone(),
-            error: Box::new(error),
+        valid::make(robot, robots, &target, cancellation).map_err(|error| {
+            ExportError::Generate {
+                robot: robot.clone(),
+                error: Box::new(error),
+            }
         })?;
         let made = Tree::read(&target, &target)?;
         if valid::kept(&made) != valid::carried(robot) {

@@ -3,17 +3,16 @@
 use std::collections::VecDeque;
 use std::io::Read;
 use std::path::Path;
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::{Command, ExitStatus};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use process_wrap::std::{ChildWrapper, CommandWrap};
+use crate::cancellation::{Cancellation, Cancelled};
+use crate::process::{Ended, PAUSE, Running};
 
 /// How much of what a program prints is kept, from its end, bytes.
 const TAIL: usize = 2000;
-/// How often a running program is looked at.
-const PAUSE: Duration = Duration::from_millis(5);
 /// How long the last words of a program are waited for, where something holds its output open.
 const LAST_WORDS: Duration = Duration::from_millis(500);
 
@@ -94,55 +93,47 @@ impl Template {
     }
 
     /// Runs the command with these paths, for `limit` at most.
-    pub fn run(&self, paths: &[(&str, &Path)], limit: Duration) -> Ran {
+    ///
+    /// # Errors
+    /// Where it is asked to stop: the command has ended then, and all that it started.
+    pub fn run(
+        &self,
+        paths: &[(&str, &Path)],
+        limit: Duration,
+        cancellation: &Cancellation,
+    ) -> Result<Ran, Cancelled> {
+        cancellation.check()?;
         let filled = |word: &String| {
             paths.iter().fold(word.clone(), |word, (name, path)| {
                 word.replace(&format!("{{{name}}}"), &path.to_string_lossy())
             })
         };
         let mut words = self.words.iter();
-        let program = words.next().cloned().unwrap_or_default();
-        let mut command = Command::new(program);
-        command
-            .args(words.map(filled))
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
-        let mut command = CommandWrap::from(command);
-        #[cfg(unix)]
-        command.wrap(process_wrap::std::ProcessGroup::leader());
-        #[cfg(windows)]
-        command.wrap(process_wrap::std::JobObject);
-        match command.spawn() {
-            Ok(child) => wait(child, limit),
-            Err(error) => Ran {
-                end: End::NotStarted(error.to_string()),
-                stdout: String::new(),
-                stderr: String::new(),
-            },
-        }
-    }
-}
-
-fn wait(mut child: Box<dyn ChildWrapper>, limit: Duration) -> Ran {
-    let stdout = child.stdout().take().map(Tail::of);
-    let stderr = child.stderr().take().map(Tail::of);
-    let start = Instant::now();
-    let end = loop {
-        match child.try_wait() {
-            Ok(Some(status)) => break end(status),
-            Ok(None) if start.elapsed() >= limit => break End::TimeLimit,
-            Ok(None) => thread::sleep(PAUSE),
-            Err(error) => break End::Signal(error.to_string()),
-        }
-    };
-    // What it started goes too; there may be nothing left, which is no error.
-    let _ = child.start_kill();
-    let _ = child.wait();
-    Ran {
-        end,
-        stdout: stdout.map(Tail::text).unwrap_or_default(),
-        stderr: stderr.map(Tail::text).unwrap_or_default(),
+        let mut command = Command::new(words.next().cloned().unwrap_or_default());
+        command.args(words.map(filled));
+        let mut running = match Running::start(command) {
+            Ok(running) => running,
+            Err(error) => {
+                return Ok(Ran {
+                    end: End::NotStarted(error.to_string()),
+                    stdout: String::new(),
+                    stderr: String::new(),
+                });
+            }
+        };
+        let (stdout, stderr) = running.streams();
+        let (stdout, stderr) = (stdout.map(Tail::of), stderr.map(Tail::of));
+        let end = match running.wait(limit, cancellation, || false) {
+            Ok(Ended::Itself(status)) => end(status),
+            Ok(Ended::Cancelled) => return Err(Cancelled),
+            Ok(Ended::TimeLimit | Ended::Enough) => End::TimeLimit,
+            Err(error) => End::Signal(error.to_string()),
+        };
+        Ok(Ran {
+            end,
+            stdout: stdout.map(Tail::text).unwrap_or_default(),
+            stderr: stderr.map(Tail::text).unwrap_or_default(),
+        })
     }
 }
 
@@ -192,10 +183,11 @@ mod tests {
     fn run(script: &str, limit: u64) -> Ran {
         let words = ["sh", "-c", script, "sh", "{dir}"].map(str::to_owned);
         let template = Template::new(&words, &["dir"]).unwrap();
-        template.run(
-            &[("dir", Path::new("/some/where"))],
-            Duration::from_millis(limit),
-        )
+        let paths = [("dir", Path::new("/some/where"))];
+        let limit = Duration::from_millis(limit);
+        template
+            .run(&paths, limit, &Cancellation::default())
+            .unwrap()
     }
 
     #[test]
@@ -233,7 +225,7 @@ mod tests {
         assert_eq!(Template::new(&[], &[]).unwrap_err(), TemplateError::Empty);
         let missing = ["/no/such/program".to_owned()];
         let ran = Template::new(&missing, &[]).unwrap();
-        let end = ran.run(&[], Duration::from_secs(1)).end;
-        assert!(matches!(end, End::NotStarted(_)));
+        let ran = ran.run(&[], Duration::from_secs(1), &Cancellation::default());
+        assert!(matches!(ran.unwrap().end, End::NotStarted(_)));
     }
 }

@@ -12,6 +12,7 @@ use super::skips::{Skip, SkipError};
 use super::tree::TreeError;
 use super::valid;
 use super::workplace::{Workplace, WorkplaceError};
+use crate::cancellation::{Cancellation, Cancelled};
 use crate::format::conformance::{
     ClassScore, ModuleScore, ModuleStatus, ProducerResult, RobotModule, RobotScore, ScoreStatus,
 };
@@ -40,6 +41,8 @@ pub struct Plan {
     pub jobs: usize,
     /// A new folder in which robots and URDDs stay, a folder for each robot; `None` for temporary ones.
     pub keep: Option<PathBuf>,
+    /// Where it is asked to stop. What runs then ends, and all that it started.
+    pub cancellation: Cancellation,
 }
 
 /// What happens while a producer runs.
@@ -72,6 +75,9 @@ pub enum ProducerError {
     /// The robots cannot be written there.
     #[error(transparent)]
     Robots(#[from] TreeError),
+    /// It was asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// How a line of a producer's skip list is written.
@@ -80,7 +86,7 @@ pub const SKIP_FORM: &str = "`robot  # reason`, or `robot module  # reason`";
 /// Runs a producer on robots. `observe` hears of each as soon as it is done.
 ///
 /// # Errors
-/// Where a robot or a module does not exist, or there is no place to work in.
+/// Where a robot or a module does not exist, or there is no place to work in; where it is asked to stop.
 pub fn run(
     plan: &Plan,
     observe: &(dyn Fn(&Event) + Sync),
@@ -177,13 +183,13 @@ fn robot(
     valid::write_robots(&robots)?;
     let urdf = robots.join(format!("{name}.urdf"));
     let out = folder.join(name);
-    let ran = plan
-        .command
-        .run(&[("urdf", &urdf), ("out", &out)], plan.limit);
+    let paths: [(&str, &Path); 2] = [("urdf", &urdf), ("out", &out)];
+    let ran = plan.command.run(&paths, plan.limit, &plan.cancellation)?;
     let examined = match ran.end {
-        End::Status(0) => examine(&out, plan.class),
+        End::Status(0) => examine(&out, plan),
         _ => Err(None),
     };
+    plan.cancellation.check()?;
     let mut score = score(plan, name, &ran, examined);
     let used = apply_skips(plan, &mut score);
     if score.status == ScoreStatus::Passed {
@@ -193,12 +199,13 @@ fn robot(
 }
 
 /// What the validator says; the error is why it cannot say anything.
-fn examine(out: &PathBuf, class: ConformanceClass) -> Result<Urdd, Option<String>> {
+fn examine(out: &PathBuf, plan: &Plan) -> Result<Urdd, Option<String>> {
     if !out.is_dir() {
         return Err(Some("the command made no folder at {out}".to_owned()));
     }
     let settings = Settings {
-        class: Some(class),
+        class: Some(plan.class),
+        cancellation: plan.cancellation.clone(),
         ..Settings::default()
     };
     let run = validate(&[out], &settings).map_err(|error| {

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::data::{self, ROBOTS, VALID};
 use super::tree::{FilePath, Node, Tree, TreeError};
+use crate::cancellation::Cancellation;
 use crate::directory::discover::ROOT_METADATA;
 use crate::generate::{GenerateError, Settings, generate};
 
@@ -41,10 +42,16 @@ pub fn write_robots(folder: &Path) -> Result<(), TreeError> {
 /// Makes the valid URDD of a robot in the folder `target`; the robots are in the folder `robots`.
 ///
 /// # Errors
-/// Where the URDD cannot be written.
-pub fn make(robot: &str, robots: &Path, target: &Path) -> Result<(), GenerateError> {
+/// Where the URDD cannot be written, and where it is asked to stop.
+pub fn make(
+    robot: &str,
+    robots: &Path,
+    target: &Path,
+    cancellation: &Cancellation,
+) -> Result<(), GenerateError> {
     let settings = Settings {
         num_samples: NUM_SAMPLES,
+        cancellation: cancellation.clone(),
         ..Settings::default()
     };
     let source = robots.join(format!("{robot}.urdf"));

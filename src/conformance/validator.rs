@@ -22,6 +22,7 @@ use super::suite::{CaseError, Suite, SuiteError};
 use super::tree::TreeError;
 use super::valid;
 use super::workplace::{Workplace, WorkplaceError};
+use crate::cancellation::{Cancellation, Cancelled};
 use crate::format::conformance::{CaseFault, CaseScore, GroupScore, ValidatorResult, WrongCase};
 use crate::format::index::Count;
 use crate::format::registry::Profile;
@@ -48,6 +49,8 @@ pub struct Plan {
     pub jobs: Option<usize>,
     /// A new folder in which the URDDs stay; `None` for a temporary one.
     pub keep: Option<PathBuf>,
+    /// Where it is asked to stop. What runs then ends, and all that it started.
+    pub cancellation: Cancellation,
 }
 
 /// A URDD that was judged, as it is reported while others still run.
@@ -113,6 +116,9 @@ pub enum ValidatorError {
     /// A case cannot be written.
     #[error(transparent)]
     Tree(#[from] TreeError),
+    /// It was asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// How a line of a validator's skip list is written.
@@ -121,7 +127,7 @@ pub const SKIP_FORM: &str = "`case  # reason`, `code  # reason`, or `family  # r
 /// Runs a validator, on several URDDs at a time. `observe` hears of each as soon as it is judged.
 ///
 /// # Errors
-/// Where there is nothing to run, or no place to work in.
+/// Where there is nothing to run, or no place to work in; where it is asked to stop.
 pub fn run(
     plan: &Plan,
     observe: &(dyn Fn(&Event) + Sync),
@@ -146,7 +152,13 @@ pub fn run(
     if !names.is_empty() {
         let robots = folder.path().join(ROBOTS);
         valid::write_robots(&robots)?;
-        write_valid(&names, &robots, &folder.path().join(VALID))?;
+        let valid = folder.path().join(VALID);
+        write_valid(&names, &robots, &valid, &plan.cancellation).map_err(|error| {
+            match plan.cancellation.is_cancelled() {
+                true => ValidatorError::Cancelled(Cancelled),
+                false => error.into(),
+            }
+        })?;
     }
     let judge = |item: &Item| -> Result<Option<Ran>, ValidatorError> {
         let ran = judge(plan, &suite, item, folder.path())?;
@@ -187,6 +199,7 @@ fn judge(
     item: &Item,
     folder: &Path,
 ) -> Result<Option<Ran>, ValidatorError> {
+    plan.cancellation.check()?;
     let path = folder.join(&item.folder);
     let case = suite.cases.iter().find(|case| case.id() == item.id);
     if let Some(case) = case {
@@ -196,7 +209,9 @@ fn judge(
             Err(error) => return Err(error.into()),
         }
     }
-    let ran = plan.command.run(&[("dir", &path)], plan.limit);
+    let ran = plan
+        .command
+        .run(&[("dir", &path)], plan.limit, &plan.cancellation)?;
     if let (Some(_), Some(around), None) = (case, path.parent(), &plan.keep) {
         debug_assert!(path.ends_with(URDD));
         fs::remove_dir_all(around).map_err(|error| ValidatorError::Remove {

@@ -24,6 +24,11 @@ pub enum ArchiveFault {
         /// How many it lists.
         listed: usize,
     },
+    /// Bytes that belong to no entry, or to two: another program may show other files.
+    #[error(
+        "it holds bytes that belong to none of its entries, or to two of them, as two archives in one file do; pack the URDD again"
+    )]
+    OtherBytes,
     /// The archive inflates to more than is read.
     #[error(
         "its files are {size} bytes in all, and at most {limit} are read from an archive of its size; unpack it, and give the folder"
@@ -35,7 +40,7 @@ pub enum ArchiveFault {
         limit: u64,
     },
     /// An entry cannot be used.
-    #[error("its entry `{}` {fault}", name.escape_debug())]
+    #[error("its entry `{}` {fault}", start(name).escape_debug())]
     Entry {
         /// The entry's name.
         name: String,
@@ -60,12 +65,39 @@ pub enum ArchiveFault {
     },
 }
 
+/// The beginning of a name: it may have 65,535 bytes.
+fn start(name: &str) -> &str {
+    const LONGEST: usize = 200;
+    let end = name
+        .char_indices()
+        .nth(LONGEST)
+        .map_or(name.len(), |(at, _)| at);
+    &name[..end]
+}
+
 /// Why an entry of a zip archive cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum EntryFault {
     /// A name that leads out of the archive, or is no relative path.
     #[error("has a name that is not a path inside the archive")]
     Path,
+    /// A name longer than file systems allow.
+    #[error(
+        "has a name of {length} bytes, and at most {limit} are read, {part} between two slashes; rename it"
+    )]
+    LongName {
+        /// How long it is, bytes.
+        length: usize,
+        /// The limit, bytes.
+        limit: usize,
+        /// The limit of each part, bytes.
+        part: usize,
+    },
+    /// The list at the archive's end says something else than the entry's own header.
+    #[error(
+        "is described differently in its own header and in the archive's list; pack the URDD again"
+    )]
+    Header,
     /// The name of another entry, or of a folder and a file.
     #[error("is there twice")]
     Duplicate,
@@ -73,10 +105,10 @@ pub enum EntryFault {
     #[error("is encrypted; pack the URDD without a password")]
     Encrypted,
     /// A method of compression that is not read.
-    #[error("is compressed by {method}; pack the URDD with deflate")]
+    #[error("is compressed by method {method} of zip; pack the URDD with deflate")]
     Method {
-        /// Which.
-        method: String,
+        /// Its number.
+        method: u16,
     },
     /// Larger than what is read.
     #[error("is {size} bytes long, and at most {limit} are read")]

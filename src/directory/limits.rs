@@ -24,3 +24,9 @@ pub const MAX_INFLATION: u64 = 250;
 
 /// What the files of a zip archive may be in all, however small it is, bytes.
 pub const SMALL_ARCHIVE_BYTES: u64 = 64 << 20;
+
+/// Longest name of an entry of a zip archive, bytes: what Linux allows for a path.
+pub const MAX_NAME_BYTES: usize = 4096;
+
+/// Longest part of such a name between two slashes, bytes. 255 characters of up to four bytes: what file systems allow.
+pub const MAX_PART_BYTES: usize = 1020;

@@ -3,6 +3,7 @@
 
 pub mod archive_fault;
 pub mod canonical;
+pub mod carried;
 pub mod digest;
 pub mod discover;
 pub mod document;

@@ -102,3 +102,25 @@ impl Root {
         Some(Root { source })
     }
 }
+
+impl Source for Root {
+    fn folder_name(&self) -> String {
+        self.source.folder_name()
+    }
+
+    fn list(&self) -> Result<Listing, ReadError> {
+        self.source.list()
+    }
+
+    fn open(&self, path: &str) -> Result<(OpenFile, u64), ReadError> {
+        self.source.open(path)
+    }
+
+    fn sibling(&self, folder_name: &str) -> Option<Arc<dyn Source>> {
+        self.source.sibling(folder_name)
+    }
+
+    fn folder(&self) -> Option<&Path> {
+        self.source.folder()
+    }
+}

@@ -42,23 +42,35 @@ impl TargetLock {
     /// # Errors
     /// Where the wait was cancelled, or the file system cannot lock.
     pub fn acquire(target: &Path, cancellation: &Cancellation) -> Result<Self, LockError> {
-        let path = beside(target, ".lock");
         loop {
-            let file = open(&path).map_err(LockError::Io)?;
-            match file.try_lock() {
-                Ok(()) if is_at(&file, &path) => return Ok(TargetLock { path, _file: file }),
-                // The run before took the file away after this one opened it.
-                Ok(()) => continue,
-                Err(TryLockError::WouldBlock) => {}
-                Err(TryLockError::Error(error)) => {
-                    let _ = fs::remove_file(&path);
-                    return Err(LockError::Io(error));
-                }
+            if let Some(lock) = Self::at_once(target).map_err(LockError::Io)? {
+                return Ok(lock);
             }
             if cancellation.is_cancelled() {
                 return Err(LockError::Cancelled);
             }
             std::thread::sleep(PAUSE);
+        }
+    }
+
+    /// The right to write at `target`; `None` while another run has it.
+    ///
+    /// # Errors
+    /// Where the file system cannot lock.
+    pub fn at_once(target: &Path) -> io::Result<Option<Self>> {
+        let path = beside(target, ".lock");
+        loop {
+            let file = open(&path)?;
+            match file.try_lock() {
+                Ok(()) if is_at(&file, &path) => return Ok(Some(TargetLock { path, _file: file })),
+                // The run before took the file away after this one opened it.
+                Ok(()) => continue,
+                Err(TryLockError::WouldBlock) => return Ok(None),
+                Err(TryLockError::Error(error)) => {
+                    let _ = fs::remove_file(&path);
+                    return Err(error);
+                }
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The degrees of freedom that a robot has (SPEC 5.8).
 
+use std::f64::consts::PI;
 use std::ops::Range;
 
 use super::robot::{Joint, Robot};
@@ -70,6 +71,16 @@ pub fn describe(joint_type: JointType, place: usize) -> Option<(&'static str, Qu
         JointType::Spherical => &[("/rot_x", Angle), ("/rot_y", Angle), ("/rot_z", Angle)],
     };
     dofs.get(place).copied()
+}
+
+/// The bounds of a DOF that nothing limits (SPEC 6.5.3). `place` is the place among the joint's DOFs.
+pub fn bounds_without_limits(joint_type: JointType, place: usize) -> Option<[f64; 2]> {
+    let (_, quantity) = describe(joint_type, place)?;
+    let end = match quantity {
+        Quantity::Angle => PI,
+        Quantity::Length => 1.0,
+    };
+    Some([-end, end])
 }
 
 #[cfg(test)]

@@ -123,7 +123,7 @@ pub struct Module {
     pub violations: Vec<SchemaViolation>,
     /// The document, where it fits its schema.
     pub document: Option<ModuleDocument>,
-    /// Whether the document breaks its schema only as those of the draft do: see [`super::draft`].
+    /// Whether the document breaks its schema only as those of a draft do: see [`super::draft`].
     pub is_draft: bool,
 }
 
@@ -203,7 +203,7 @@ pub enum DocumentFault {
     NotJson,
     /// The module's version is not known, or it has none.
     UnknownVersion(Option<String>),
-    /// It follows the draft of urdd 0.1.0.
+    /// It follows the draft of urdd 0.1.0 or 0.2.0.
     IsDraft,
     /// It breaks its schema.
     BreaksSchema,
@@ -222,7 +222,7 @@ impl fmt::Display for Unusable {
             }
             DocumentFault::UnknownVersion(None) => write!(f, "the version of {name} is not known"),
             DocumentFault::IsDraft => {
-                write!(f, "{folder}/module.json follows the draft of urdd 0.1.0")
+                write!(f, "{folder}/module.json follows a draft of the format")
             }
             DocumentFault::BreaksSchema => write!(f, "{folder}/module.json breaks its schema"),
         }

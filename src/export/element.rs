@@ -62,7 +62,7 @@ impl Element {
     pub fn document(&self, comments: &[String]) -> String {
         let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");
         for comment in comments {
-            text += &format!("<!-- {} -->\n", quiet(comment));
+            text += &self::comment(comment);
         }
         self.write(&mut text, 0);
         text
@@ -72,7 +72,7 @@ impl Element {
         let margin = "  ".repeat(depth);
         *text += &format!("{margin}<{}", self.name);
         for (key, value) in &self.attributes {
-            *text += &format!(" {key}=\"{}\"", escape(value.as_str()));
+            *text += &format!(" {key}=\"{}\"", attribute(value));
         }
         if self.children.is_empty() {
             *text += "/>\n";
@@ -89,13 +89,30 @@ impl Element {
     }
 }
 
-/// Text that can stand in a comment: without `--`, and without what XML has no character for.
-fn quiet(text: &str) -> String {
-    let text = crate::format::escape::line(text).replace("--", "- -");
-    match text.ends_with('-') {
-        true => text + " ",
-        false => text,
+/// A comment on a line of its own, whatever the text: one without `--` (XML 1.0, production 15), without a `-` before its
+/// end, and without characters that XML cannot hold. What is not written as it is, is its escape, `\u{2d}`.
+pub(super) fn comment(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in crate::format::escape::line(text).chars() {
+        match (c, safe.ends_with('-')) {
+            ('-', true) => safe += "\\u{2d}",
+            (c, _) => safe.push(c),
+        }
     }
+    // The space keeps a `-` from the end.
+    format!("<!-- {safe} -->\n")
+}
+
+/// The value of an attribute, so that every reader of XML has the same text back: a reader turns white space other than
+/// a space into spaces, unless it is a reference.
+fn attribute(value: &str) -> String {
+    let text = escape(value).replace('\t', "&#9;");
+    text.replace('\n', "&#10;").replace('\r', "&#13;")
+}
+
+/// Whether XML 1.0 has the character (production 2).
+pub(super) fn is_character(c: char) -> bool {
+    matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }
 
 #[cfg(test)]
@@ -104,14 +121,53 @@ mod tests {
 
     #[test]
     fn text_from_anybody_stays_inside_its_place() {
-        let mut root = Element::new("robot").with("name", "a\"<b>&'");
+        let hostile = [
+            "a\"<b>&'",
+            "--",
+            "---",
+            "----",
+            "-",
+            "x--",
+            "--->",
+            "-->",
+            "--!>",
+            "<!-- x -->",
+            "--><!DOCTYPE robot [<!ENTITY x 'y'>]><robot name='other'/><!--",
+            "]]>",
+            "a\nb\tc\rd",
+            "\u{202e}\u{85}\u{2028}\u{feff}",
+            "-\n-",
+            "-\u{ad}-",
+            " - - ",
+        ];
+        for text in hostile {
+            let written = Element::new("robot")
+                .with("name", text)
+                .document(&[text.to_owned(), format!("of `{text}`")]);
+            let parsed = roxmltree::Document::parse(&written).expect(&written);
+            assert_eq!(parsed.root_element().attribute("name"), Some(text));
+            let comments = parsed.root().children().filter(|node| node.is_comment());
+            for comment in comments {
+                let comment = comment.text().expect("text");
+                assert!(
+                    !comment.contains("--") && !comment.ends_with('-'),
+                    "{comment}"
+                );
+                assert!(comment.chars().all(is_character));
+            }
+            assert_eq!(parsed.root().children().count(), 3, "{written}");
+        }
+        let noncharacters = comment("\u{0}\u{fffe}\u{ffff}");
+        assert_eq!(noncharacters, "<!-- \\u{0}\\u{fffe}\\u{ffff} -->\n");
+    }
+
+    #[test]
+    fn raw_text_is_a_child() {
+        let mut root = Element::new("robot");
         root.push_raw("<gazebo><a/></gazebo>");
-        let text = root.document(&["x -- y-".to_owned(), "--> <evil/> \u{1b}--".to_owned()]);
+        let text = root.document(&[]);
         let parsed = roxmltree::Document::parse(&text).expect("well-formed");
-        let robot = parsed.root_element();
-        assert_eq!(robot.attribute("name"), Some("a\"<b>&'"));
-        let names: Vec<_> = robot.children().filter(|n| n.is_element()).collect();
-        assert_eq!(names.len(), 1);
-        assert!(!text.contains('\u{1b}'));
+        let names = parsed.root_element().children().filter(|n| n.is_element());
+        assert_eq!(names.count(), 1);
     }
 }

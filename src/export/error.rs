@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::Format;
+use super::pairs::{Contacts, LinkPair};
 use crate::geometry::write::WriteError;
 use crate::robot::{RobotError, ShapeKind};
 
@@ -28,9 +29,17 @@ pub enum ExportError {
         /// Why it cannot be held.
         reason: &'static str,
     },
-    /// The URDD has no shapes of the kind asked for.
-    #[error("no link has {0}: ask for other shapes, or for a format without any")]
+    /// The mimics cannot be followed.
+    #[error(
+        "a mimic names a joint that is not there, or they go in a circle: `urdd validate` says more"
+    )]
+    Mimics,
+    /// The URDD has no shapes of the kind asked for, and the format holds nothing else.
+    #[error("no link has {0}: ask for other shapes, or for another format")]
     NoShapes(ShapeKind),
+    /// Spheres cannot be fitted to shapes of this kind.
+    #[error("spheres are fitted to pieces or hulls, not to {0}: leave --shapes out")]
+    SpheresOf(ShapeKind),
     /// A mesh that cannot be written.
     #[error("the mesh of link `{}` cannot be written: {error}", .link.escape_debug())]
     Mesh {
@@ -45,21 +54,27 @@ pub enum ExportError {
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Error)]
 #[non_exhaustive]
 pub enum Note {
-    /// Pairs of links are disabled though some of their pieces are checked in the URDD.
-    #[error(
-        "{count} {} disabled as a whole, though the URDD checks some of their pieces: the format knows links only", match .count { 1 => "pair of links is", _ => "pairs of links are" }
-    )]
-    Whole {
-        /// How many pairs.
-        count: usize,
+    /// The format knows links only, and the URDD skips some pairs of shapes of two links and checks others.
+    #[error("{}", mixed(.links, *.disabled, [*.checked, *.skipped], .contacts.as_ref()))]
+    Mixed {
+        /// The names of the two links.
+        links: [String; 2],
+        /// Whether the pair is disabled; otherwise it is checked.
+        disabled: bool,
+        /// How many pairs of shapes the URDD checks.
+        checked: usize,
+        /// How many it skips.
+        skipped: usize,
+        /// In how many sampled configurations they touch, where that is known.
+        contacts: Option<Contacts>,
     },
-    /// A link's mass or inertia that the format refuses is left out.
-    #[error("link `{}`: {reason}; its inertia is left out", .link.escape_debug())]
+    /// A link's mass or inertia is said in another way.
+    #[error("link `{}`: {what}", .link.escape_debug())]
     Inertia {
         /// The link.
         link: String,
-        /// Why.
-        reason: &'static str,
+        /// What is said instead, and why.
+        what: &'static str,
     },
     /// A joint that cannot be said as it is.
     #[error("joint `{}`: {what}", .joint.escape_debug())]
@@ -69,11 +84,22 @@ pub enum Note {
         /// What is said instead.
         what: &'static str,
     },
-    /// Elements that URDF does not define and that cannot stand alone.
+    /// Elements that URDF does not define and that cannot stand in the file.
     #[error(
-        "{0} elements that URDF does not define are left out: they use prefixes that only the source file declares, or are no XML by themselves"
+        "{0} elements that URDF does not define are left out: they use prefixes that only the source file declares, or are not well-formed by themselves"
     )]
     Elements(usize),
+    /// A transmission or a loop that the format refuses.
+    #[error("a `<{element}>` is left out: {reason}")]
+    Element {
+        /// The element's name.
+        element: &'static str,
+        /// Why.
+        reason: &'static str,
+    },
+    /// Spheres that answer wrongly more often than they should.
+    #[error("the spheres are not good enough to plan with: {0}")]
+    Spheres(String),
     /// A flat shape where the format wants thickness.
     #[error("link `{}`: a flat piece is a box of {thickness} m", .link.escape_debug())]
     Flat {
@@ -82,4 +108,51 @@ pub enum Note {
         /// How thick it became.
         thickness: &'static str,
     },
+    /// No link has shapes of the kind asked for.
+    #[error("no link has {0}: the file has no collision geometry")]
+    NoShapes(ShapeKind),
+}
+
+impl Note {
+    /// What a format that knows links only has to say of a pair of links: nothing where all their shapes are alike, or
+    /// where the pair is checked and the shapes that the URDD skips never touched.
+    pub fn of_pair(pair: &LinkPair) -> Option<Note> {
+        let mixed = pair.mixed.as_ref()?;
+        let is_wrong = |contacts: Contacts| pair.disabled || contacts.skipped > 0;
+        (mixed.contacts.map_or(pair.disabled, is_wrong)).then(|| Note::Mixed {
+            links: pair.names.clone(),
+            disabled: pair.disabled,
+            checked: mixed.checked.len(),
+            skipped: mixed.skipped.len(),
+            contacts: mixed.contacts,
+        })
+    }
+}
+
+fn mixed(
+    links: &[String; 2],
+    disabled: bool,
+    [checked, skipped]: [usize; 2],
+    contacts: Option<&Contacts>,
+) -> String {
+    let [a, b] = links.each_ref().map(|name| name.escape_debug());
+    let all = checked + skipped;
+    let (done, count) = match disabled {
+        true => ("disabled", format!("checks {checked}")),
+        false => ("checked", format!("skips {skipped}")),
+    };
+    let text = format!(
+        "links `{a}` and `{b}` are {done} as a whole, though the URDD {count} of the {all} pairs of their pieces"
+    );
+    match (contacts, disabled) {
+        (None, _) => text,
+        (Some(contacts), true) => format!(
+            "{text}: collisions are lost in {} of {} sampled configurations",
+            contacts.checked, contacts.samples
+        ),
+        (Some(contacts), false) => format!(
+            "{text}: these touch in {} of {} sampled configurations",
+            contacts.skipped, contacts.samples
+        ),
+    }
 }

@@ -8,7 +8,7 @@
 //! | [`Format::Srdf`] | MoveIt, and what reads SRDF | the pairs of links that need no check, and why |
 //! | [`Format::Urdf`] | any reader of URDF | the robot, with our shapes as collision geometry |
 //! | [`Format::Drake`] | Drake | the same, with pairs of links as collision filter groups |
-//! | [`Format::Mjcf`] | MuJoCo | bodies, joints, our shapes as geoms, `<exclude>` for pairs |
+//! | [`Format::Mjcf`] | MuJoCo | bodies, joints, our shapes as geoms, `<exclude>` and `<pair>` for pairs |
 //! | [`Format::Curobo`] | cuRobo | spheres by link, and pairs of links that are ignored, as YAML |
 //! | [`Format::Foam`] | readers of Foam's JSON | spheres by link |
 //!
@@ -26,9 +26,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod contacts;
 mod drake;
 mod element;
 mod error;
+mod joints;
 mod meshes;
 mod mjcf;
 mod names;
@@ -40,14 +42,17 @@ mod srdf_import;
 mod srdf_merge;
 mod subject;
 mod urdf;
+mod urdf_elements;
 
 use crate::format::link_shapes_skips::SkippedReason;
 use crate::robot::{Robot, ShapeKind};
 
+pub use contacts::link_pairs;
 pub use error::{ExportError, Note};
-pub use spheres::SphereBudget;
+pub use pairs::{Contacts, LinkPair, MixedPair};
+pub use spheres::{SphereBudget, SphereRates, interval};
 pub use srdf_import::{ImportError, ImportedSkips, import_srdf};
-pub use srdf_merge::{SrdfError, merge_srdf};
+pub use srdf_merge::{MergedSrdf, SrdfError, merge_srdf};
 
 use subject::Subject;
 
@@ -69,6 +74,16 @@ pub enum Format {
 }
 
 impl Format {
+    /// All formats.
+    pub const ALL: &[Format] = &[
+        Format::Srdf,
+        Format::Urdf,
+        Format::Drake,
+        Format::Mjcf,
+        Format::Curobo,
+        Format::Foam,
+    ];
+
     /// Its name, as messages and comments have it.
     pub fn name(self) -> &'static str {
         match self {
@@ -89,8 +104,15 @@ pub struct Options {
     pub shapes: ShapeKind,
     /// The reasons for which pairs are disabled; `None` for those of the URDD. A person's edits hold in either case.
     pub reasons: Option<Vec<SkippedReason>>,
-    /// How many spheres stand for a link, for the formats of spheres.
+    /// Whether a format that knows links only checks a pair of links of which the URDD skips some pieces and checks others.
+    /// It is disabled otherwise, since pieces that always touch would touch in every configuration.
+    pub keep_pairs: bool,
+    /// How many spheres stand for links, for the formats of spheres.
     pub spheres: SphereBudget,
+    /// Whether the spheres hold all of each link. Otherwise they are fitted, so that they answer as the shapes do.
+    pub cover: bool,
+    /// In how many sampled configurations spheres are measured, or fewer where that is much work.
+    pub samples: usize,
     /// Whether links look like something: plain meshes by colour, beside the shapes.
     pub visuals: bool,
     /// The folder of the mesh files, relative to the text: without `/` at its end, and empty for the same folder.
@@ -102,7 +124,10 @@ impl Default for Options {
         Options {
             shapes: ShapeKind::Pieces,
             reasons: None,
+            keep_pairs: false,
             spheres: SphereBudget::default(),
+            cover: false,
+            samples: 10_000,
             visuals: true,
             mesh_folder: "meshes".to_owned(),
         }

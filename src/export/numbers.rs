@@ -1,4 +1,6 @@
-//! Numbers as text: the shortest that mean the same binary64.
+//! Numbers as text: the shortest that mean the same binary64. Rotations as three of them.
+
+use nalgebra::Matrix3;
 
 /// A number.
 pub(super) fn number(value: f64) -> String {
@@ -16,6 +18,17 @@ pub(super) fn numbers(values: &[f64]) -> String {
     values.join(" ")
 }
 
+/// Fixed-axis roll, pitch, yaw of a rotation, rad: to rounding, also where pitch is near a quarter turn.
+pub(super) fn rpy(rotation: &Matrix3<f64>) -> [f64; 3] {
+    let r = |row: usize, column: usize| rotation[(row, column)];
+    let pitch = (-r(2, 0)).atan2(r(0, 0).hypot(r(1, 0)));
+    let yaw = r(1, 0).atan2(r(0, 0));
+    // Roll is what is left without yaw: near a quarter turn only the two together are certain.
+    let (sin, cos) = yaw.sin_cos();
+    let roll = (sin * r(0, 2) - cos * r(1, 2)).atan2(cos * r(1, 1) - sin * r(0, 1));
+    [roll, pitch, yaw]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -28,6 +41,20 @@ mod tests {
         );
         for value in [std::f64::consts::PI, 1.0 / 3.0, 5e-324, -1e22] {
             assert_eq!(number(value).parse::<f64>(), Ok(value));
+        }
+    }
+
+    #[test]
+    fn roll_pitch_yaw_are_the_rotation() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let near = [0.0, 1e-16, 1e-12, 1e-9, 1e-8, 3e-8, 1e-6, 0.3];
+        for pitch in near.iter().flat_map(|x| [quarter - x, x - quarter, *x]) {
+            for (roll, yaw) in [(0.0, 0.0), (0.4, -2.9), (-3.1, 1.2), (quarter, -quarter)] {
+                let rotation = crate::document::pose::rotation_of_rpy([roll, pitch, yaw]);
+                let again = crate::document::pose::rotation_of_rpy(rpy(&rotation));
+                let apart = (again - rotation).abs().max();
+                assert!(apart < 1e-14, "{roll} {pitch} {yaw}: {apart}");
+            }
         }
     }
 }

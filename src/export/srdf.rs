@@ -13,12 +13,11 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     for pair in subject.disabled() {
         robot.push(disabled(subject, pair));
     }
-    let mut comments = subject.origin()?;
-    comments.push(basis(subject)?);
+    let notes = subject.notes();
     Ok(Export {
-        text: robot.document(&comments),
+        text: robot.document(&subject.comments(basis(subject)?, &notes)?),
         files: Vec::new(),
-        notes: subject.notes(),
+        notes,
     })
 }
 

@@ -1,6 +1,6 @@
 //! An SRDF read into a person's edits of the skips.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use roxmltree::Node;
 use thiserror::Error;
@@ -81,19 +81,25 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
         let found = found.to_owned();
         return Err(SrdfError::OtherRobot { found, expected }.into());
     }
+    let links = robot.links()?;
+    let names = links.iter().map(String::as_str).zip(0..);
+    let by_name: HashMap<&str, usize> = names.collect();
+    // Lines are counted for an error only: each is counted from the beginning of the text.
     let line = |node: Node| document.text_pos_at(node.range().start).row;
     let link = |node: Node, element: &'static str, attribute: &'static str| {
-        let line = line(node);
-        let name = node.attribute(attribute).ok_or(ImportError::NoLink {
-            line,
-            element,
-            attribute,
-        })?;
-        let known = robot.link(name);
-        known.map_err(|error| ImportError::Robot {
-            line: Some(line),
+        let name = node
+            .attribute(attribute)
+            .ok_or_else(|| ImportError::NoLink {
+                line: line(node),
+                element,
+                attribute,
+            })?;
+        let known = by_name.get(name).copied();
+        let unknown = |error| ImportError::Robot {
+            line: Some(line(node)),
             error,
-        })
+        };
+        known.map_or_else(|| robot.link(name).map_err(unknown), Ok)
     };
     let elements = |name: &'static str| {
         let children = root.children();
@@ -101,9 +107,11 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
     };
     // Pairs of links, the lower index first: whether they are skipped, and why.
     let mut wanted: BTreeMap<(usize, usize), (bool, String)> = BTreeMap::new();
-    let links = robot.links()?;
+    let mut defaults = BTreeSet::new();
     for node in elements("disable_default_collisions") {
-        let of = link(node, "disable_default_collisions", "link")?;
+        defaults.insert(link(node, "disable_default_collisions", "link")?);
+    }
+    for of in defaults {
         for other in (0..links.len()).filter(|other| *other != of) {
             wanted.insert(pair(of, other), (true, "SRDF: default".to_owned()));
         }
@@ -122,6 +130,14 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
     }
     let now = skipped_now(robot)?;
     let there = robot.skips(ShapeKind::Hulls)?.edits().to_vec();
+    // Of several edits of a pair the last one counts.
+    let mut last: HashMap<(usize, usize), &SkipEdit> = HashMap::new();
+    for edit in &there {
+        let of = [&edit.link_a, &edit.link_b].map(|name| by_name.get(name.as_str()).copied());
+        if let [Some(a), Some(b)] = of {
+            last.insert(pair(a, b), edit);
+        }
+    }
     let mut imported = ImportedSkips {
         edits: there.clone(),
         added: 0,
@@ -138,13 +154,7 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
             continue;
         }
         let names = [&links[*a], &links[*b]];
-        let is_of = |edit: &&SkipEdit| {
-            let of = [&edit.link_a, &edit.link_b];
-            of == names || of == [names[1], names[0]]
-        };
-        if let Some(edit) = there.iter().rev().find(is_of)
-            && !force
-        {
+        if let Some(edit) = last.get(&(*a, *b)).filter(|_| !force) {
             return Err(ImportError::Edited {
                 link_a: edit.link_a.clone(),
                 link_b: edit.link_b.clone(),

@@ -1,8 +1,12 @@
 //! What exports are made from.
 
+use std::cmp::Reverse;
+
+use super::contacts::link_pairs;
 use super::error::{ExportError, Note};
 use super::pairs::{LinkPair, pairs};
 use super::{Format, Options, names};
+use crate::document::mimics::Mimics;
 use crate::document::robot::{Robot as View, of_urdf};
 use crate::document::tree::Tree;
 use crate::format::urdf::UrdfModule;
@@ -17,6 +21,8 @@ pub(super) struct Subject<'a> {
     /// The same with the defaults of URDF filled in.
     pub view: View,
     pub tree: Tree,
+    /// Of each joint what it follows, chains resolved.
+    pub mimics: Mimics,
     /// Names of links, in link order.
     pub links: Vec<String>,
     /// Empty where there are no skips.
@@ -30,24 +36,17 @@ impl<'a> Subject<'a> {
         options: &'a Options,
     ) -> Result<Self, ExportError> {
         let urdf = robot.description()?;
-        names::check(format, "robot", &urdf.name)?;
         let view = of_urdf(&urdf);
         let tree = Tree::new(&view).ok_or(ExportError::NoTree)?;
-        for (index, link) in urdf.links.iter().enumerate() {
-            // MuJoCo's own body `world` may be the root.
-            let is_world = format == Format::Mjcf && index == tree.root && link.name == "world";
-            if !is_world {
-                names::check(format, "link", &link.name)?;
-            }
-        }
-        for joint in &urdf.joints {
-            names::check(format, "joint", &joint.name)?;
-        }
+        names::check(format, &view, &tree)?;
+        let mimics = Mimics::resolve(&view).ok_or(ExportError::Mimics)?;
         let links: Vec<String> = urdf.links.iter().map(|link| link.name.clone()).collect();
         let pairs = match format {
-            // A URDF has no place for them.
-            Format::Urdf | Format::Foam => Vec::new(),
-            _ => pairs(robot, &links, options.shapes, options.reasons.as_deref())?,
+            // A URDF has no place for them; with spheres others are ignored.
+            Format::Urdf | Format::Curobo | Format::Foam => Vec::new(),
+            // It says of pieces what the URDD says of them.
+            Format::Mjcf => pairs(robot, options)?,
+            _ => link_pairs(robot, options)?,
         };
         Ok(Subject {
             robot,
@@ -56,6 +55,7 @@ impl<'a> Subject<'a> {
             urdf,
             view,
             tree,
+            mimics,
             links,
             pairs,
         })
@@ -69,7 +69,9 @@ impl<'a> Subject<'a> {
                 of_link.push(shape);
             }
         }
-        match shapes.iter().all(Vec::is_empty) {
+        // Lists of spheres hold nothing else.
+        let is_needed = matches!(self.format, Format::Curobo | Format::Foam);
+        match is_needed && shapes.iter().all(Vec::is_empty) {
             true => Err(ExportError::NoShapes(kind)),
             false => Ok(shapes),
         }
@@ -80,12 +82,18 @@ impl<'a> Subject<'a> {
         self.pairs.iter().filter(|pair| pair.disabled)
     }
 
-    /// What is to be said about the pairs.
+    /// What a format that knows links only has to say about the pairs: those first of which most is lost.
     pub fn notes(&self) -> Vec<Note> {
-        match self.pairs.iter().filter(|pair| pair.whole).count() {
-            0 => Vec::new(),
-            count => vec![Note::Whole { count }],
-        }
+        let contacts = |pair: &&LinkPair| {
+            let counted = pair.mixed.as_ref().and_then(|mixed| mixed.contacts);
+            Reverse(counted.map_or(0, |contacts| match pair.disabled {
+                true => contacts.checked,
+                false => contacts.skipped,
+            }))
+        };
+        let mut pairs: Vec<&LinkPair> = self.pairs.iter().collect();
+        pairs.sort_by_key(contacts);
+        pairs.into_iter().filter_map(Note::of_pair).collect()
     }
 
     /// What the file was made from, a sentence an element.
@@ -101,6 +109,14 @@ impl<'a> Subject<'a> {
             let (path, digest) = (source.path, source.sha256);
             lines.push(format!("Source: {path}, SHA-256 {digest}."));
         }
+        Ok(lines)
+    }
+
+    /// Comments for the head of a file: what it was made from, what it holds, and what it says in another way.
+    pub fn comments(&self, what: String, notes: &[Note]) -> Result<Vec<String>, RobotError> {
+        let mut lines = self.origin()?;
+        lines.push(what);
+        lines.extend(notes.iter().map(|note| format!("Note: {note}.")));
         Ok(lines)
     }
 }

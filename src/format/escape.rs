@@ -54,6 +54,12 @@ pub fn json(text: &str) -> Cow<'_, str> {
     replaced(text, |c| c >= '\u{7f}' && is_hidden(c), escape_json)
 }
 
+/// A name in quotes on one line: quotes and backslashes in it are escaped too, so that it ends where it ends.
+pub fn quoted(name: &str) -> String {
+    let name = name.replace('\\', "\\\\").replace('"', "\\\"");
+    format!("\"{}\"", line(&name))
+}
+
 fn escape(c: char, out: &mut String) {
     match c {
         '\n' => out.push_str("\\n"),
@@ -124,6 +130,13 @@ mod tests {
             assert_eq!(line(text), shown);
         }
         assert_eq!(lines("a\n\u{1b}b\r\n"), "a\n\\u{1b}b\\r\n");
+    }
+
+    #[test]
+    fn a_name_in_quotes_ends_where_it_ends() {
+        assert_eq!(quoted("left arm"), "\"left arm\"");
+        assert_eq!(quoted("a\", 9 links \\"), "\"a\\\", 9 links \\\\\"");
+        assert_eq!(quoted("a\nb"), "\"a\\nb\"");
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub mod object;
 pub mod original_meshes;
 pub mod plain_meshes;
 pub mod pose;
+pub mod rate;
+pub mod readable;
 pub mod registry;
 pub mod report;
 pub mod root_metadata;

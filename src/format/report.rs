@@ -58,6 +58,9 @@ object! {
         pub not_checked: Vec<NotChecked>,
         /// Links whose geometry was not verified by every rule, in order of index.
         pub geometry_not_verified: Vec<LinkNotVerified>,
+        /// Why the rates of `self_collision_model_module` were not verified; null where they were, and where there is no
+        /// such module.
+        pub model_not_verified: Option<ModelNotVerified>,
     }
 }
 
@@ -146,6 +149,16 @@ object! {
         pub codes: Vec<String>,
         /// Why they could not.
         pub reason: String,
+    }
+}
+
+object! {
+    /// Why the rates of the self-collision model were not verified.
+    pub struct ModelNotVerified {
+        /// The rules that did not verify them.
+        pub codes: Vec<String>,
+        /// Why not.
+        pub reasons: Vec<String>,
     }
 }
 

@@ -2,13 +2,29 @@
 
 use super::index::{Count, DofIdx, LinkIdx, SampleIdx};
 use super::object::{module, object};
+use super::rate::Rate;
 use super::root_metadata::Sha256;
 use super::tagged::tagged;
 
+/// The first of the sampled configurations that `evaluation` counts (SPEC 8.8.9). Models are made on those before.
+pub const EVALUATION_FIRST: u32 = 1 << 31;
+/// Number of sampled configurations that `evaluation` counts.
+pub const EVALUATION_COUNT: u32 = 50_000;
+/// Smallest number of configurations in collision, and of free ones, in `evaluation`.
+pub const EVALUATION_MIN: u32 = 200;
+/// The first of the sampled configurations of the first confirmation (SPEC 8.8.12).
+pub const CONFIRMATION_FIRST: u32 = (1 << 31) + (1 << 20);
+/// The second confirmation begins here, or up to 2^29 - 1 later, as the numbers of the model have it.
+pub const CONFIRMATION_SECOND: u32 = (1 << 31) + (1 << 30);
+/// Number of sampled configurations of each confirmation.
+pub const CONFIRMATION_COUNT: u32 = 25_000;
+/// A configuration in collision is near contact where a step of this size makes it free, rad or m (SPEC 8.8.10).
+pub const NEAR_CONTACT_STEP: f64 = 0.05;
+
 module! {
     /// A network that estimates, for a configuration, how near pairs of links are to each other. It is for
-    /// passing over configurations that are far from any contact; it guarantees nothing. How often it was wrong
-    /// on configurations that it was not trained on is stated.
+    /// passing over configurations that are far from any contact. It is an estimate, not a guarantee: `evaluation`
+    /// says how often it is wrong.
     pub struct SelfCollisionModelModule {
         /// Of the shapes and the kinematics that it was trained on: SHA-256 of the text that SPEC 8.8.7 defines.
         pub trained_on: Sha256,
@@ -27,8 +43,8 @@ module! {
         pub training: SampleRange,
         /// The sampled configurations that decided when training ended and what the margins are.
         pub calibration: SampleRange,
-        /// What came of sampled configurations that had no part in making it.
-        pub held_out: HeldOutCounts,
+        /// How often it is right on the sampled configurations that SPEC 8.8.9 fixes.
+        pub evaluation: ModelEvaluation,
         /// What it gives in some configurations.
         pub test_vectors: Vec<ModelTestVector>,
     }
@@ -118,20 +134,50 @@ object! {
 }
 
 object! {
-    /// How often the model was right on sampled configurations that follow each other. A configuration is in
-    /// collision where a pair of links in `pairs` or `other_pairs` is in contact; the model clears it where no
-    /// clearance is 0 or less.
-    pub struct HeldOutCounts {
-        /// The first configuration.
-        pub first_sample_idx: SampleIdx,
-        /// How many there are.
-        pub num_configurations: Count,
-        /// How many of them are in collision.
+    /// How often the model is right on the sampled configurations 2^31 to 2^31 + 49,999, which have no part in making
+    /// any model. A configuration is in collision where a pair of links in `pairs` or `other_pairs` is in contact, and
+    /// free otherwise. The model clears a configuration where every clearance is above 0.
+    pub struct ModelEvaluation {
+        /// Number of configurations in collision.
         pub num_colliding: Count,
-        /// How many of those the model clears all the same: the misses.
+        /// Number of these that the model clears: the misses.
         pub num_missed: Count,
-        /// How many configurations without a collision the model clears.
+        /// Number of configurations in collision that are near contact: a step of at most 0.05 rad or 0.05 m in each
+        /// DOF makes them free (SPEC 8.8.10).
+        pub num_near_contact: Count,
+        /// Number of these that the model clears.
+        pub num_near_contact_missed: Count,
+        /// Number of free configurations.
+        pub num_free: Count,
+        /// Number of these that the model clears.
         pub num_cleared: Count,
+    }
+}
+
+impl ModelEvaluation {
+    /// Counts of no configurations.
+    pub const NOTHING: ModelEvaluation = ModelEvaluation {
+        num_colliding: Count(0),
+        num_missed: Count(0),
+        num_near_contact: Count(0),
+        num_near_contact_missed: Count(0),
+        num_free: Count(0),
+        num_cleared: Count(0),
+    };
+
+    /// The share of collisions that the model misses.
+    pub fn miss_rate(&self) -> Rate {
+        Rate::new(self.num_missed.0, self.num_colliding.0)
+    }
+
+    /// The share of collisions near contact that the model misses.
+    pub fn near_contact_miss_rate(&self) -> Rate {
+        Rate::new(self.num_near_contact_missed.0, self.num_near_contact.0)
+    }
+
+    /// The share of free configurations that the model clears.
+    pub fn clear_rate(&self) -> Rate {
+        Rate::new(self.num_cleared.0, self.num_free.0)
     }
 }
 

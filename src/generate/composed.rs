@@ -1,5 +1,6 @@
 //! A robot that was put together from others: `combine` writes its URDF.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use super::edits::Decisions;
@@ -34,8 +35,12 @@ impl Composed {
         if let (None, Some(reasons)) = (old, &self.skipped_reasons) {
             there.skipped_reasons.clone_from(reasons);
         }
-        let is_new = |edit: &SkipEdit| !self.edits.contains(edit);
-        there.edits.retain(is_new);
+        let words = |edit: &SkipEdit| {
+            let [a, b, reason] = [&edit.link_a, &edit.link_b, &edit.reason].map(String::clone);
+            (a, b, edit.skip, reason)
+        };
+        let own: HashSet<_> = self.edits.iter().map(words).collect();
+        there.edits.retain(|edit| !own.contains(&words(edit)));
         there.edits.splice(..0, self.edits.iter().cloned());
         there
     }

@@ -7,7 +7,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Fault {
     /// Not well-formed XML.
-    #[error("this is not well-formed XML: {0}")]
+    #[error("not well-formed XML: {0}")]
     NotXml(String),
     /// It declares entities.
     #[error(

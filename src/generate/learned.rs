@@ -30,7 +30,7 @@ use crate::learn::train::{self, MOST_PAIRS, NoModel, Subject, Useless};
 const CLIP: f64 = 1.0 / 16.0;
 
 /// Another one where another model comes out.
-const TRAINING: &str = "1";
+const TRAINING: &str = "2";
 
 pub(super) fn settings(work: &Work) -> String {
     format!("{TRAINING} {:?}", work.settings.model_effort)

@@ -87,7 +87,12 @@ pub fn generate(
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
     let path = source;
-    let source = source::load(path, &settings.xacro, &settings.packages)?;
+    let source = source::load(
+        path,
+        &settings.xacro,
+        &settings.packages,
+        &settings.cancellation,
+    )?;
     make(Some(path), &source, None, target, settings, progress)
 }
 

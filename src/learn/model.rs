@@ -8,15 +8,15 @@ use super::inputs::{self, Input};
 use super::kernel::LANES;
 use super::network::Network;
 use crate::format::self_collision_model::{
-    HeldOutCounts, LinkPair, ModelPair, SelfCollisionModelModule,
+    LinkPair, ModelEvaluation, ModelPair, SelfCollisionModelModule,
 };
 use crate::kinematics::ConfigurationError;
 
 /// An estimate of how near a robot's links are to each other.
 ///
 /// The clearance of a pair is in metres; 0 or less means that the pair may be in contact. Far from contact it says no
-/// more than that: distances were clipped in training. A model guarantees nothing: [`CollisionModel::held_out`] says
-/// how often it was wrong.
+/// more than that: distances were clipped in training. It is an estimate, not a guarantee:
+/// [`CollisionModel::evaluation`] says how often it is wrong.
 #[derive(Debug, Clone)]
 pub struct CollisionModel {
     num_dofs: usize,
@@ -25,7 +25,7 @@ pub struct CollisionModel {
     pairs: Vec<ModelPair>,
     other_pairs: Vec<LinkPair>,
     clip_distance: f64,
-    held_out: HeldOutCounts,
+    evaluation: ModelEvaluation,
     level: Level,
 }
 
@@ -66,7 +66,7 @@ impl CollisionModel {
             pairs: module.pairs.clone(),
             other_pairs: module.other_pairs.clone(),
             clip_distance: module.clip_distance,
-            held_out: module.held_out.clone(),
+            evaluation: module.evaluation.clone(),
             level: Level::new(),
         }
     }
@@ -97,9 +97,9 @@ impl CollisionModel {
         layers.map(|of| of.weights.len() + of.biases.len()).sum()
     }
 
-    /// How often it was right where it was not trained, as its module says.
-    pub fn held_out(&self) -> &HeldOutCounts {
-        &self.held_out
+    /// How often it is right on configurations that it was not made on, as its module says. The validator counts again.
+    pub fn evaluation(&self) -> &ModelEvaluation {
+        &self.evaluation
     }
 
     /// The clearance of each pair, in the order of [`CollisionModel::pairs`], metres. `configuration` has one value for

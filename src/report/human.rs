@@ -7,7 +7,8 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
-use crate::format::escape::line as safe;
+use crate::format::escape::{self, line as safe};
+use crate::format::readable::number;
 
 use super::model::{
     CheckStatus, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict,
@@ -112,7 +113,7 @@ fn write_findings(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Resul
 fn describe(urdd: &Urdd) -> String {
     let mut parts = Vec::new();
     if let Some(name) = &urdd.name {
-        parts.push(format!("robot \"{}\"", safe(name)));
+        parts.push(format!("robot {}", escape::quoted(name)));
     }
     let sizes = [
         (urdd.size.links, "link"),
@@ -172,7 +173,7 @@ pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Writ
         line("off by", &format!("  {}", off_by(magnitude)))?;
     }
     if let Some(tolerance) = finding.tolerance {
-        line("tolerance", &format!("{tolerance:.1e}"))?;
+        line("tolerance", &number(tolerance, 2))?;
     }
     let shown = style.max_places.max(1);
     for other in places.take(shown - 1) {
@@ -203,15 +204,11 @@ fn is_bare(actual: &Option<String>) -> bool {
         .is_none_or(|actual| actual.chars().all(bare))
 }
 
-fn off_by(magnitude: &Magnitude) -> String {
-    let number = match magnitude.value {
-        None => "no number".to_owned(),
-        Some(value) if value == 0.0 || (1e-3..1e5).contains(&value) => {
-            let digits = (3 - value.max(1e-3).log10().floor() as i32).clamp(0, 6);
-            format!("{value:.*}", digits as usize)
-        }
-        Some(value) => format!("{value:.2e}"),
-    };
+/// By how much numbers differ, to four digits.
+pub(super) fn off_by(magnitude: &Magnitude) -> String {
+    let number = magnitude
+        .value
+        .map_or_else(|| "no number".to_owned(), |value| number(value, 4));
     match magnitude.unit.as_str() {
         "" => number,
         unit => format!("{number} {unit}"),
@@ -252,7 +249,7 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
         let reason = safe(&open.reason);
         writeln!(out, "  {label} {}: {reason}", list(&open.codes))?;
     }
-    if let Some(text) = unverified::describe(urdd) {
+    for text in unverified::describe(urdd) {
         writeln!(out, "  {label} {text}")?;
     }
     let mut by_reason: BTreeMap<&str, Vec<String>> = BTreeMap::new();

@@ -11,8 +11,10 @@ use crate::directory::root::ReadError;
 use crate::document::urdd::Urdd;
 use crate::format::dof::Quantity;
 use crate::format::escape;
+use crate::format::rate::Rate;
 use crate::format::registry::{ModuleDocument, ModuleKind};
-use crate::format::self_collision_model::HeldOutCounts;
+use crate::format::self_collision_model::ModelEvaluation;
+use crate::validate::{ModelVerdict, verify_model};
 
 /// What a URDD holds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -37,8 +39,8 @@ pub struct Info {
     pub base: Option<String>,
     /// The parts of a robot that was put together, as a tree.
     pub parts: Vec<PartInfo>,
-    /// How often the self-collision model was right, as its module says.
-    pub collision_model: Option<HeldOutCounts>,
+    /// How often the self-collision model is right.
+    pub collision_model: Option<ModelInfo>,
     /// The modules.
     pub modules: Vec<ModuleInfo>,
 }
@@ -52,6 +54,69 @@ pub struct DofInfo {
     pub unit: Option<&'static str>,
     /// Lower and upper bound.
     pub bounds: Option<[f64; 2]>,
+}
+
+/// How often a self-collision model is right, as its module states.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModelInfo {
+    /// The share of collisions that it misses.
+    pub miss_rate: Rate,
+    /// The share of collisions near contact that it misses.
+    pub near_contact_miss_rate: Rate,
+    /// The share of free configurations that it clears.
+    pub clear_rate: Rate,
+    /// Whether counting again gives these rates; null where that was not found out.
+    pub verified: Option<bool>,
+    /// Why they are wrong, or were not verified.
+    pub reasons: Vec<String>,
+}
+
+impl ModelInfo {
+    /// Counts again.
+    fn new(evaluation: &ModelEvaluation, path: &Path) -> Self {
+        let (verified, reasons) = match verify_model(path) {
+            ModelVerdict::Verified => (Some(true), Vec::new()),
+            ModelVerdict::Refuted(codes) => {
+                let reasons = codes.iter().map(|code| format!("{code} found a fault"));
+                (Some(false), reasons.collect())
+            }
+            ModelVerdict::NotVerified(reasons) => (None, reasons),
+        };
+        Self {
+            miss_rate: evaluation.miss_rate(),
+            near_contact_miss_rate: evaluation.near_contact_miss_rate(),
+            clear_rate: evaluation.clear_rate(),
+            verified,
+            reasons,
+        }
+    }
+
+    fn write(&self, out: &mut impl Write) -> fmt::Result {
+        let verdict = match self.verified {
+            Some(true) => "verified",
+            Some(false) => "NOT TRUE",
+            None => "not verified",
+        };
+        let reasons = match self.reasons.is_empty() {
+            true => String::new(),
+            false => format!(": {}", safe(&self.reasons.join(", "))),
+        };
+        writeln!(
+            out,
+            "  model     rates {verdict}{reasons} (95 % intervals in brackets)"
+        )?;
+        writeln!(out, "            misses {} collisions", self.miss_rate)?;
+        let near = &self.near_contact_miss_rate;
+        writeln!(
+            out,
+            "            misses {near} collisions within a step of 0.05 rad or m of contact"
+        )?;
+        writeln!(
+            out,
+            "            clears {} free configurations",
+            self.clear_rate
+        )
+    }
 }
 
 /// A module.
@@ -87,7 +152,9 @@ impl Info {
             _ => None,
         };
         let model = match urdd.document(ModuleKind::SelfCollisionModel) {
-            Some(ModuleDocument::SelfCollisionModel(model)) => Some(model.held_out.clone()),
+            Some(ModuleDocument::SelfCollisionModel(model)) => {
+                Some(ModelInfo::new(&model.evaluation, path))
+            }
             _ => None,
         };
         Ok(Info {
@@ -224,16 +291,8 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
             .unwrap_or_default();
         writeln!(out, "    {index:>3}  {:width$}{bounds}", safe(&dof.name))?;
     }
-    if let Some(counts) = &info.collision_model {
-        let free = counts
-            .num_configurations
-            .0
-            .saturating_sub(counts.num_colliding.0);
-        writeln!(
-            out,
-            "  model     misses {} of {} collisions, clears {} of {free} free configurations (as it says)",
-            counts.num_missed, counts.num_colliding, counts.num_cleared
-        )?;
+    if let Some(model) = &info.collision_model {
+        model.write(out)?;
     }
     if !info.parts.is_empty() {
         let base = info

@@ -80,6 +80,7 @@ fn urdd(subject: &Subject, fail_on: Severity) -> Urdd {
         findings: Vec::new(),
         not_checked: Vec::new(),
         geometry_not_verified: Vec::new(),
+        model_not_verified: None,
     };
     let examined = match &subject.result {
         Ok(examined) => examined,
@@ -119,6 +120,7 @@ fn urdd(subject: &Subject, fail_on: Severity) -> Urdd {
         modules: examined.modules.iter().map(module).collect(),
         not_checked: not_checked(&checks),
         geometry_not_verified: links_not_verified(examined),
+        model_not_verified: model_not_verified(examined),
         checks,
         findings,
         ..unreadable
@@ -179,6 +181,17 @@ fn links_not_verified(examined: &Examined) -> Vec<LinkNotVerified> {
         }
     };
     links.map(link).collect()
+}
+
+/// Why the rates of the self-collision model were not verified.
+fn model_not_verified(examined: &Examined) -> Option<ModelNotVerified> {
+    let whys = examined.model_not_verified();
+    let codes: BTreeSet<_> = whys.iter().map(|(code, _)| *code).collect();
+    let reasons: BTreeSet<String> = whys.into_iter().map(|(_, why)| why).collect();
+    (!codes.is_empty()).then(|| ModelNotVerified {
+        codes: codes.iter().map(ToString::to_string).collect(),
+        reasons: reasons.into_iter().collect(),
+    })
 }
 
 fn findings(examined: &Examined) -> Vec<Finding> {

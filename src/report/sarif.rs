@@ -16,6 +16,7 @@ use super::unverified;
 use crate::format::escape;
 use crate::format::hexadecimal::hexadecimal;
 use crate::format::index::Count;
+use crate::format::readable::number;
 use crate::validate::Run;
 use crate::validate::code::Code;
 use crate::validate::rule::Rule;
@@ -210,7 +211,7 @@ fn text(finding: &Finding) -> String {
         line("Found", actual);
     }
     if let Some(tolerance) = finding.tolerance {
-        line("Tolerance", &format!("{tolerance:.1e}"));
+        line("Tolerance", &number(tolerance, 2));
     }
     if let Some(subject) = &finding.subject {
         line("Of", subject);
@@ -226,8 +227,8 @@ fn message(text: &str) -> Value {
     json!({"text": escape::lines(text).replace("](", "] (")})
 }
 
-/// What tells a finding from others: nothing that changes when lines move, or when an element is put
-/// before the one that is meant.
+/// What tells a finding from others: nothing that changes when lines move, when an element is put
+/// before the one that is meant, or when a message is worded otherwise.
 fn kind(finding: &Finding, place: &str) -> [String; 3] {
     let what = match &finding.pointer {
         Some(pointer) => {
@@ -236,7 +237,7 @@ fn kind(finding: &Finding, place: &str) -> [String; 3] {
             let parts = parts.map(|part| if is_index(part) { "" } else { part });
             parts.collect::<Vec<_>>().join("/")
         }
-        None => finding.message.clone(),
+        None => finding.subject.clone().unwrap_or_default(),
     };
     let file = file_in(place, finding.file.as_deref());
     [finding.code.clone(), file, what]
@@ -253,10 +254,10 @@ fn related(urdd: &str, other: &Place) -> Value {
     let parts = [
         other.subject.clone(),
         other.actual.clone(),
-        other.magnitude.as_ref().and_then(|magnitude| {
-            let unit = &magnitude.unit;
-            Some(format!("off by {:e} {unit}", magnitude.value?))
-        }),
+        other
+            .magnitude
+            .as_ref()
+            .map(|magnitude| format!("off by {}", super::human::off_by(magnitude))),
     ];
     let text: Vec<String> = parts.into_iter().flatten().collect();
     if !text.is_empty() {

@@ -8,7 +8,7 @@ use std::fmt::{self, Write};
 use super::causes::{Cause, causes};
 use super::model::{Consequence, Report, Severity, Status, Urdd, Verdict};
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
-use super::unverified::not_verified;
+use super::unverified::{self, not_verified};
 use super::words::plural;
 use crate::format::escape::line as safe;
 
@@ -154,7 +154,11 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
         .map(|urdd| urdd.geometry_not_verified.len())
         .filter(|links| *links > 0)
         .collect();
-    if by_reason.is_empty() && unverified.is_empty() {
+    let models = report.urdds.iter();
+    let models = models
+        .filter(|urdd| urdd.model_not_verified.is_some())
+        .count();
+    if by_reason.is_empty() && unverified.is_empty() && models == 0 {
         return Ok(());
     }
     writeln!(out, "{}", style.paint(BOLD, "Not checked"))?;
@@ -162,6 +166,10 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
         let urdds = plural(unverified.len(), "URDD");
         let text = not_verified(unverified.iter().sum());
         writeln!(out, "    {text}, in {urdds}")?;
+    }
+    if models > 0 {
+        let urdds = plural(models, "URDD");
+        writeln!(out, "    {}, in {urdds}", unverified::MODEL)?;
     }
     let mut reasons: Vec<_> = by_reason.into_iter().collect();
     reasons.sort_by_key(|(_, (urdds, _))| Reverse(*urdds));
@@ -266,7 +274,9 @@ fn cell(urdd: &Urdd, families: &[&str]) -> (Cell, String) {
     let open = || {
         let rules = urdd.not_checked.iter().flat_map(|open| &open.codes);
         let links = urdd.geometry_not_verified.iter();
-        let mut codes = rules.chain(links.flat_map(|link| &link.codes));
+        let model = urdd.model_not_verified.iter();
+        let codes = rules.chain(links.flat_map(|link| &link.codes));
+        let mut codes = codes.chain(model.flat_map(|model| &model.codes));
         codes.any(|code| of_family(code))
     };
     let statuses = || {

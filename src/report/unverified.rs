@@ -1,4 +1,4 @@
-//! What was not verified of a URDD's geometry, link by link.
+//! What was not verified of a URDD's geometry, link by link, and of its self-collision model.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,8 +14,20 @@ pub(super) fn not_verified(links: usize) -> String {
     format!("the geometry of {} was not verified", plural(links, "link"))
 }
 
+/// A self-collision model that was not verified, in words.
+pub(super) const MODEL: &str = "the rates of the self-collision model were not verified";
+
+/// A line for each of what was not verified: links, and the self-collision model.
+pub(super) fn describe(urdd: &Urdd) -> Vec<String> {
+    let model = urdd.model_not_verified.as_ref().map(|model| {
+        let reasons = model.reasons.join(", ");
+        format!("{MODEL} (by {}: {})", list(&model.codes), safe(&reasons))
+    });
+    describe_links(urdd).into_iter().chain(model).collect()
+}
+
 /// One line that says how many links were not verified, and which, by reason; no line where all were.
-pub(super) fn describe(urdd: &Urdd) -> Option<String> {
+fn describe_links(urdd: &Urdd) -> Option<String> {
     let links = &urdd.geometry_not_verified;
     if links.is_empty() {
         return None;

@@ -7,15 +7,15 @@ use crate::learn::CollisionModel;
 
 impl Robot {
     /// The learned self-collision model (SPEC 8.8): an estimate of how near links are, for passing over configurations
-    /// that are far from any contact before the others are checked exactly. It guarantees nothing;
-    /// [`CollisionModel::held_out`] says how often it was wrong.
+    /// that are far from any contact before the others are checked exactly. It is an estimate, not a guarantee:
+    /// [`CollisionModel::evaluation`] says how often it is wrong.
     ///
     /// ```
     /// # use urdd::robot::{Robot, RobotError, ShapeKind};
     /// fn is_free(robot: &Robot, q: &[f64]) -> Result<bool, RobotError> {
     ///     let model = robot.collision_model()?;
     ///     if !model.may_collide(q)? {
-    ///         return Ok(true); // most configurations; of those in collision `held_out` says how many
+    ///         return Ok(true); // most free configurations, and some collisions: `evaluation` counts them
     ///     }
     ///     Ok(!robot.proximity(ShapeKind::Pieces)?.in_collision(q)?)
     /// }

@@ -53,6 +53,26 @@ pub enum RobotError {
         /// Number of DOFs.
         dofs: usize,
     },
+    /// More answers than there is memory for.
+    #[error(
+        "not enough memory for {count} configurations with {width} values each: ask for fewer at once"
+    )]
+    Memory {
+        /// Number of configurations.
+        count: usize,
+        /// Values for each of them.
+        width: usize,
+    },
+    /// Room for another number of answers.
+    #[error("expected room for {count} times {width} values, found {found}")]
+    Room {
+        /// Number of values that there is room for.
+        found: usize,
+        /// Number of configurations.
+        count: usize,
+        /// Values for each of them.
+        width: usize,
+    },
     /// A name that is not there.
     #[error("there is no {what} `{}`{}", .name.escape_debug(), nearest_text(.nearest.as_deref()))]
     Unknown {

@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion};
 
 use super::Robot;
 use super::error::RobotError;
+use crate::cancellation::Cancellation;
 use crate::kinematics::inverse::{Goal, Inverse, InverseSettings};
 
 /// Where a link should be, in the root link's frame.
@@ -93,6 +94,20 @@ impl Robot {
         start: &[f64],
         settings: &InverseSettings,
     ) -> Result<Inverse, RobotError> {
+        self.inverse_kinematics_until(target, start, settings, &Cancellation::default())
+    }
+
+    /// As [`Robot::inverse_kinematics`], until it is cancelled: it then ends before the next restart.
+    ///
+    /// # Errors
+    /// As there, and [`RobotError::Cancelled`].
+    pub fn inverse_kinematics_until(
+        &self,
+        target: &Target,
+        start: &[f64],
+        settings: &InverseSettings,
+        cancellation: &Cancellation,
+    ) -> Result<Inverse, RobotError> {
         let kinematics = &self.motion()?.kinematics;
         let space = self.configurations()?;
         let (link, count) = (target.link(), kinematics.num_links());
@@ -115,6 +130,9 @@ impl Robot {
                 .with_bounds(bounds)
                 .ok_or(RobotError::Target("a bound is not finite"))?,
         };
-        Ok(kinematics.reach(&target.0, start, space, settings)?)
+        let stop = || cancellation.is_cancelled();
+        let found = kinematics.reach(&target.0, start, space, settings, &stop)?;
+        cancellation.check()?;
+        Ok(found)
     }
 }

@@ -3,14 +3,15 @@
 use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix6xX, Point3};
-use rayon::prelude::*;
 
 use super::Robot;
+use super::batch::{check_room, fill, room};
 use super::error::RobotError;
+use crate::cancellation::Cancellation;
 use crate::document::consumer;
 use crate::document::urdd::Urdd;
 use crate::format::dof::Quantity;
-use crate::kinematics::{ConfigurationError, ForwardKinematics, Place};
+use crate::kinematics::{ForwardKinematics, Place};
 
 /// 6 rows, one column for each DOF: velocity, then angular velocity.
 pub type Jacobian = Matrix6xX<f64>;
@@ -103,8 +104,8 @@ impl Robot {
     /// nothing is allocated for each configuration.
     ///
     /// # Errors
-    /// [`RobotError::Batch`] where the values are no whole number of configurations; and as [`Robot::link_poses`], for
-    /// the first configuration that has none.
+    /// [`RobotError::Batch`] where the values are no whole number of configurations; [`RobotError::Memory`] where there is
+    /// not enough memory; and as [`Robot::link_poses`], for the first configuration that has none.
     pub fn link_poses_batch(
         &self,
         configurations: &[f64],
@@ -113,27 +114,15 @@ impl Robot {
         let kinematics = &motion.kinematics;
         let (dofs, links) = (kinematics.num_dofs(), kinematics.num_links());
         let count = motion.batch(configurations)?;
-        let mut poses = vec![Isometry3::identity(); count * links];
-        let faults: Vec<ConfigurationError> = poses
-            .par_chunks_mut(BLOCK * links.max(1))
-            .enumerate()
-            .filter_map(|(block, out)| {
-                let mut scratch = Vec::with_capacity(links);
-                for (k, out) in out.chunks_mut(links).enumerate() {
-                    let at = (block * BLOCK + k) * dofs;
-                    let configuration = &configurations[at..at + dofs];
-                    if let Err(error) = kinematics.link_poses_into(configuration, &mut scratch) {
-                        return Some(error);
-                    }
-                    out.copy_from_slice(&scratch);
-                }
-                None
-            })
-            .collect();
-        match faults.into_iter().next() {
-            Some(error) => Err(error.into()),
-            None => Ok(poses),
-        }
+        let mut poses = room(count, links)?;
+        let write = |scratch: &mut Vec<Isometry3<f64>>, k: usize, out: &mut [Isometry3<f64>]| {
+            kinematics.link_poses_into(&configurations[k * dofs..(k + 1) * dofs], scratch)?;
+            out.copy_from_slice(scratch);
+            Ok::<(), RobotError>(())
+        };
+        let scratch = || Vec::with_capacity(links);
+        fill(&mut poses, links, BLOCK, scratch, write)?;
+        Ok(poses)
     }
 
     /// The geometric Jacobian of a link's frame: 6 rows, one column for each DOF. Rows 0 to 2 are the velocity of the
@@ -176,13 +165,34 @@ impl Robot {
     ///
     /// # Errors
     /// [`RobotError::OutOfRange`] for a link that is not there; [`RobotError::Batch`] where the values are no whole
-    /// number of configurations; and as [`Robot::link_poses`], for the first configuration in which the link has no
-    /// pose.
+    /// number of configurations; [`RobotError::Memory`] where there is not enough memory; and as
+    /// [`Robot::link_poses`], for the first configuration in which the link has no pose.
     pub fn jacobian_batch(
         &self,
         configurations: &[f64],
         link: usize,
     ) -> Result<Vec<f64>, RobotError> {
+        let motion = self.motion()?;
+        let width = 6 * motion.kinematics.num_dofs();
+        let mut jacobians = room(motion.batch(configurations)?, width)?;
+        let on = Cancellation::default();
+        self.jacobian_batch_into(configurations, link, [0.0; 3], &on, &mut jacobians)?;
+        Ok(jacobians)
+    }
+
+    /// As [`Robot::jacobian_batch`], of a point given in the link's frame, metres, into `out`.
+    ///
+    /// # Errors
+    /// As there; [`RobotError::Room`] where `out` has another number of values than there are answers, and
+    /// [`RobotError::Cancelled`].
+    pub fn jacobian_batch_into(
+        &self,
+        configurations: &[f64],
+        link: usize,
+        point: [f64; 3],
+        cancellation: &Cancellation,
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
         let motion = self.motion()?;
         let kinematics = &motion.kinematics;
         let (dofs, count) = (kinematics.num_dofs(), kinematics.num_links());
@@ -190,23 +200,12 @@ impl Robot {
             let (what, index) = ("link", link);
             return Err(RobotError::OutOfRange { what, index, count });
         }
-        let branch = kinematics.branch(link);
-        let mut jacobians = vec![0.0; motion.batch(configurations)? * dofs * 6];
-        let faults: Vec<ConfigurationError> = jacobians
-            .par_chunks_mut(BLOCK * dofs.max(1) * 6)
-            .zip(configurations.par_chunks(BLOCK * dofs.max(1)))
-            .filter_map(|(out, block)| {
-                let mut place = Place::default();
-                let mut both = out.chunks_mut(6 * dofs).zip(block.chunks(dofs));
-                both.find_map(|(out, q)| {
-                    let found = branch.jacobian_into(q, &Point3::origin(), &mut place, out);
-                    found.err()
-                })
-            })
-            .collect();
-        match faults.into_iter().next() {
-            Some(error) => Err(error.into()),
-            None => Ok(jacobians),
-        }
+        check_room(out.len(), motion.batch(configurations)?, 6 * dofs)?;
+        let (branch, point) = (kinematics.branch(link), Point3::from(point));
+        fill(out, 6 * dofs, BLOCK, Place::default, |place, k, out| {
+            cancellation.check()?;
+            let q = &configurations[k * dofs..(k + 1) * dofs];
+            Ok(branch.jacobian_into(q, &point, place, out)?)
+        })
     }
 }

@@ -19,12 +19,31 @@ use crate::geometry::read::{GltfUp, Options, Part, Scene, read_with};
 pub(super) struct Meshes<'a> {
     part: &'a Urdd,
     meshes: meshes::Meshes<'a>,
+    /// The format that is read: the one that holds vertices most briefly, of those that have any file. A page in one
+    /// file leaves out formats as a whole.
+    format: Option<Format>,
 }
 
 impl<'a> Meshes<'a> {
     pub fn new(part: &'a Urdd, kind: ModuleKind) -> Result<Self, RobotError> {
         let meshes = part.meshes(kind).ok_or(RobotError::Missing(kind))?;
-        Ok(Self { part, meshes })
+        let files = MeshFiles::new(part);
+        let has_files = |format: &Format| {
+            let links = meshes.lists.iter().flat_map(|list| &list.links);
+            let mut paths = links.flatten().flat_map(|mesh| &mesh.paths);
+            paths.any(|path| {
+                let own = files.own(meshes.profile, path.path);
+                path.format == Some(*format) && own.is_none_or(|own| part.listing().has_file(own))
+            })
+        };
+        let format = [Format::Stl, Format::Obj, Format::Glb]
+            .into_iter()
+            .find(has_files);
+        Ok(Self {
+            part,
+            meshes,
+            format,
+        })
     }
 
     /// Reads all of them, by link and piece.
@@ -42,14 +61,13 @@ impl<'a> Meshes<'a> {
         places.into_par_iter().map(read).collect()
     }
 
-    /// Reads one, from the format that holds its vertices most briefly.
+    /// Reads one.
     fn read(&self, link: usize, piece: usize) -> Result<Mesh, RobotError> {
         let lists = self.meshes.lists.iter();
         let meshes = lists.filter_map(|list| list.links.get(link)?.get(piece));
         let paths: Vec<&MeshPath> = meshes.flat_map(|mesh| &mesh.paths).collect();
-        let preferred = [Format::Stl, Format::Obj, Format::Glb];
-        let of = |format| paths.iter().find(|path| path.format == Some(format));
-        let path = preferred.into_iter().find_map(of).or(paths.first());
+        let of_format = paths.iter().find(|path| path.format == self.format);
+        let path = of_format.or(paths.first());
         match path {
             Some(path) => {
                 let mut mesh = read(self.part, self.meshes.profile, path.path)?.merged();

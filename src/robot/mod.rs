@@ -30,6 +30,7 @@
 //! each DOF, in the order of [`Robot::dofs`]; values beyond the bounds are allowed. Links are in the order of
 //! `urdf_module`.
 
+mod batch;
 mod collision_model;
 mod description;
 mod error;
@@ -54,6 +55,7 @@ use crate::directory::source::Source;
 
 pub use crate::kinematics::inverse::{Inverse, InverseSettings, InverseSolution};
 pub use crate::learn::{Clearance, CollisionModel};
+pub use batch::fill;
 pub use description::SourceFile;
 pub use error::RobotError;
 pub use inverse::Target;

@@ -14,7 +14,7 @@ use crate::geometry::Mesh;
 use crate::kinematics::rotation::from_rpy;
 
 /// A kind of shapes that stand for links.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ShapeKind {
     /// The convex hull of each link.
     Hulls,

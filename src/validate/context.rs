@@ -132,13 +132,13 @@ impl Context {
         self.distances.get_or_init(make).as_ref()
     }
 
-    /// What the self-collision model and exact distances are compared by, prepared when this is first asked for; or
-    /// why they cannot be. For rules that need LRN003 to have found no fault.
+    /// What compares the self-collision model with exact geometry, prepared when this is first asked for; or why that
+    /// cannot be. For rules that need LRN003 to have found no fault.
     pub fn model_judge(&self) -> Result<&Judge, &SkipReason> {
         let kind = ModuleKind::SelfCollisionModel;
         let make = || match self.document(kind) {
             Some(ModuleDocument::SelfCollisionModel(model)) => {
-                Judge::new(&self.urdd, self.solids(), model)
+                Judge::new(&self.urdd, self.solids(), model, self.deep)
             }
             _ => Err(SkipReason::Absent(kind)),
         };

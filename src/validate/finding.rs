@@ -120,15 +120,6 @@ impl Finding {
     }
 }
 
-/// A length for people: three digits.
-pub fn metres(length: f64) -> String {
-    match length.abs() {
-        0.0 => "0 m".to_owned(),
-        size if (1e-3..1e4).contains(&size) => format!("{length:.3} m"),
-        _ => format!("{length:.2e} m"),
-    }
-}
-
 /// A point for people, metres.
 pub fn point([x, y, z]: [f64; 3]) -> String {
     format!("({x:.4}, {y:.4}, {z:.4})")

@@ -14,6 +14,7 @@ pub mod finding;
 pub mod fold;
 pub mod learned;
 mod locate;
+mod model_verified;
 mod names;
 pub mod needs;
 pub mod part;
@@ -34,6 +35,7 @@ pub mod views;
 mod worst;
 
 pub use find_errors::find_errors;
+pub use model_verified::{ModelVerdict, verify_model};
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};

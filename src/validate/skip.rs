@@ -46,6 +46,11 @@ pub enum SkipReason {
     NoStatistics(NoStatistics),
     /// A complete check takes long, and was not asked for: these kinds of shapes were left out.
     NotDeep(Vec<&'static str>),
+    /// Counting the configurations that SPEC 8.8 asks for takes more work than a validation does.
+    TooMuchWork {
+        /// Whether `--deep` was asked for, which allows more.
+        deep: bool,
+    },
     /// Settings say to ignore every finding, for this reason.
     Ignored(String),
 }
@@ -128,6 +133,12 @@ impl fmt::Display for SkipReason {
                 f,
                 "{} would take long to compute again; only the first configurations were checked. Use --deep to check all",
                 kinds.join(", ")
+            ),
+            SkipReason::TooMuchWork { deep: false } => f.write_str(
+                "counting its collisions again takes more work than a validation does; use --deep, which allows more",
+            ),
+            SkipReason::TooMuchWork { deep: true } => f.write_str(
+                "counting its collisions again takes more work than even --deep allows",
             ),
             SkipReason::Ignored(reason) => write!(f, "ignored by the settings: {reason}"),
         }

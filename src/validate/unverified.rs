@@ -1,12 +1,14 @@
-//! What was not verified of a URDD's geometry.
+//! What was not verified of a URDD's geometry, and of its self-collision model.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Examined;
 use super::code::Code;
-use super::engine::Outcome;
+use super::engine::{Check, Outcome};
 use super::part::{Part, Why};
 use super::rule::Phase;
+use super::skip::SkipReason;
+use crate::format::registry::ModuleKind;
 
 impl Examined {
     /// Every part that some rule did not verify: which rules, and why not.
@@ -43,5 +45,33 @@ impl Examined {
             }
         }
         links
+    }
+
+    /// Which rules did not verify the rates of the self-collision model, and why not. Empty where they did or found them
+    /// wrong, and where there is no model.
+    pub fn model_not_verified(&self) -> BTreeSet<(Code, String)> {
+        let name = ModuleKind::SelfCollisionModel.name();
+        let counting = [Code::LRN010, Code::LRN011];
+        let checks = self.checks.iter();
+        let checks: Vec<_> = checks
+            .filter(|check| counting.contains(&check.rule.code))
+            .collect();
+        let mut failed = checks.iter().map(|check| &check.outcome);
+        if failed.any(|outcome| *outcome == Outcome::Failed)
+            || self.modules.iter().all(|module| module.name != name)
+        {
+            return BTreeSet::new();
+        }
+        let why = |check: &&Check| match &check.outcome {
+            Outcome::Skipped(SkipReason::Ignored(_)) => None,
+            Outcome::Skipped(reason) if reason.is_for_others() => None,
+            Outcome::Skipped(reason) => Some((check.rule.code, reason.to_string())),
+            Outcome::Crashed(_) => {
+                let code = check.rule.code;
+                Some((code, format!("{code} crashed")))
+            }
+            Outcome::Passed | Outcome::Failed => None,
+        };
+        checks.iter().filter_map(why).collect()
     }
 }

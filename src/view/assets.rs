@@ -39,6 +39,9 @@ pub const ASSETS: &[Asset] = &[
     asset!("urdd.wasm", "application/wasm"),
 ];
 
+/// The module without the validator, for a page in one file, which carries the report.
+pub const ROBOT_MODULE: Asset = asset!("robot.wasm", "application/wasm");
+
 /// What the page was made of: a hash (`page/build.mjs`).
 pub const STAMP: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/page/dist/stamp"));
 
@@ -70,6 +73,22 @@ pub fn live_page() -> io::Result<String> {
         r#"<meta name="urdd-mode" content="static" />"#,
         r#"<meta name="urdd-mode" content="live" />"#,
     ))
+}
+
+/// The page with other names for its files: each name, and the path instead.
+pub fn page_of(page: &str, names: &[(&str, String)]) -> String {
+    let mut text = page.to_owned();
+    let mut said = String::new();
+    for (name, path) in names {
+        text = text.replace(&format!("\"{name}\""), &format!("\"{path}\""));
+        said.push_str(&format!("{name} {path} "));
+    }
+    let mode = r#"<meta name="urdd-mode" content="static" />"#;
+    let files = format!(
+        r#"<meta name="urdd-files" content="{}" />"#,
+        said.trim_end()
+    );
+    text.replace(mode, &format!("{mode}\n    {files}"))
 }
 
 #[cfg(test)]

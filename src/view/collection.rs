@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::revision;
 use super::save::Files;
+use crate::directory::carried::carried;
 use crate::directory::discover::{DiscoverError, ROOT_METADATA, discover};
 use crate::directory::root::{ReadError, Root};
 
@@ -17,6 +19,8 @@ pub struct Shown {
     /// What people call it: its path from the folder that was given.
     pub name: String,
     standing: Mutex<Standing>,
+    /// The files, and the revision that they are of.
+    opened: Mutex<Option<(String, Opened)>>,
     /// Whether a page was told that its generation failed.
     failure_told: AtomicBool,
     /// The report, and the revision that it is of.
@@ -65,13 +69,50 @@ pub enum Making {
     Failed(String),
 }
 
+/// The files of a robot that is shown. An archive is in memory once, however many ask.
+#[derive(Debug, Clone)]
+pub struct Opened {
+    /// All of them: for the validator.
+    pub all: Root,
+    /// The URDD's own (see [`carried`]): for everybody else.
+    pub own: Root,
+}
+
 impl Shown {
-    /// Opens it, as it is now.
+    /// The files as they are now, and the revision that they are of.
     ///
     /// # Errors
-    /// Where it is not there any more, or cannot be read.
-    pub fn open(&self) -> Result<Root, ReadError> {
-        Root::open(&self.path())
+    /// Where they are not there any more, or cannot be read.
+    pub fn open(&self) -> Result<(String, Opened), ReadError> {
+        let path = self.path();
+        // Before the files are listed: what changes afterwards is noticed.
+        let revision = revision::of(&path);
+        let mut opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((of, known)) = opened.as_ref()
+            && *of == revision
+        {
+            return Ok((revision, known.clone()));
+        }
+        // Not two at once.
+        *opened = None;
+        let all = Root::open(&path)?;
+        let own = carried(&all)?;
+        let found = Opened { all, own };
+        *opened = Some((revision.clone(), found.clone()));
+        Ok((revision, found))
+    }
+
+    /// The URDD's own files as they were listed last: each request for a file of an archive reads the same archive.
+    ///
+    /// # Errors
+    /// As [`Shown::open`].
+    pub fn own_files(&self) -> Result<Root, ReadError> {
+        let known = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, opened)) = known.as_ref() {
+            return Ok(opened.own.clone());
+        }
+        drop(known);
+        Ok(self.open()?.1.own)
     }
 
     /// Its folder or archive.
@@ -123,6 +164,7 @@ impl Shown {
 
     /// It lies in a folder of a person's now.
     pub(super) fn keep_at(&self, path: PathBuf) {
+        *self.opened.lock().unwrap_or_else(PoisonError::into_inner) = None;
         let mut standing = self.standing();
         standing.path = path;
         standing.kind = Kind::Writable;
@@ -193,6 +235,7 @@ impl Collection {
                 kind,
                 making,
             }),
+            opened: Mutex::default(),
             failure_told: AtomicBool::new(false),
             report: Mutex::default(),
             picture: Mutex::default(),

@@ -1,32 +1,58 @@
 //! The page and robots as files that any web server can show.
+//!
+//! A site is `index.html`, a list of its files, and a folder of files whose names are the SHA-256 of their content. No
+//! name of a URDD's file becomes one of the site's: so none is too long or too much alike for a file system, and none
+//! ends so that a server calls the file a page or a program. Browsers run nothing of what is `.bin`.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
 use thiserror::Error;
 
-use super::assets::ASSETS;
+use super::assets::{self, ASSETS};
 use super::collection::{Collection, Shown};
 use super::route;
+use super::site_list::{FOLDER, PAGE, SiteList};
 use crate::cancellation::Cancellation;
-use crate::directory::root::{EntryKind, ReadError};
+use crate::directory::root::{EntryKind, ReadError, Root};
 use crate::directory::staging::{Staging, StagingError};
 use crate::directory::writer::Writer;
+use crate::format::hexadecimal::hexadecimal;
 
 /// Most bytes of a file that is copied.
 const MAX_FILE_BYTES: u64 = 1 << 30;
-/// By this a folder is known as one that an export wrote.
-const MARK: &str = "urdd-site.json";
 
-/// Why a site was not written. What stood in its place still does.
+/// Why a site was not written. What was in its place still is.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExportError {
     /// The folder holds something else.
-    #[error("{}: this folder is not empty, and no site that `urdd view --export` wrote; give another one", .0.display())]
+    #[error("{}: this folder is not empty, and not a site that `urdd view --export` wrote; give another one", .0.display())]
     Occupied(PathBuf),
+    /// The folder holds a site of 0.2.0, which kept no list of its files.
+    #[error(
+        "{}: urdd 0.2.0 wrote this site without a list of its files, so nothing was changed. Delete what it wrote ({}; see \
+         that nothing below robots is yours) and run this again: all other files stay",
+        folder.display(), names(left)
+    )]
+    Unlisted {
+        /// The folder.
+        folder: PathBuf,
+        /// What is there of what 0.2.0 wrote.
+        left: Vec<PathBuf>,
+    },
+    /// Files of a person's in the place of the site's.
+    #[error(
+        "{}: not written by the last export, or changed since, and would be overwritten; nothing was changed. Move it \
+         away, and run this again",
+        names(files)
+    )]
+    InTheWay {
+        /// The files.
+        files: Vec<PathBuf>,
+    },
     /// It cannot be written.
     #[error(transparent)]
     Write(#[from] StagingError),
@@ -51,7 +77,19 @@ pub enum ExportError {
     },
 }
 
-/// Writes the site into a folder, all at once. `tell` hears of each robot that is done.
+fn names(paths: &[PathBuf]) -> String {
+    const MOST: usize = 8;
+    let shown = paths.iter().take(MOST);
+    let mut names: Vec<String> = shown.map(|path| path.display().to_string()).collect();
+    if paths.len() > MOST {
+        names.push(format!("and {} more", paths.len() - MOST));
+    }
+    names.join(", ")
+}
+
+/// Writes the site into a folder: a new one, an empty one, or one with a site, of which the files that the last export
+/// listed are replaced and all others stay. `tell` hears of each robot that is done. Gives the files of the last export
+/// that a person changed, which stay too.
 ///
 /// # Errors
 /// [`ExportError`].
@@ -60,61 +98,128 @@ pub fn export(
     folder: &Path,
     cancellation: &Cancellation,
     tell: &mut dyn FnMut(&Shown),
-) -> Result<(), ExportError> {
-    let holds_something = fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
-    if holds_something && !folder.join(MARK).is_file() {
-        return Err(ExportError::Occupied(folder.to_owned()));
-    }
-    let staging = Staging::begin(folder, cancellation)?;
-    let writer = Writer::new(staging.content());
+) -> Result<Vec<PathBuf>, ExportError> {
+    // Before anything is made, for the message; and again below, when no other run writes there.
+    SiteList::read(folder)?;
+    let staging = Staging::begin_inside(folder, cancellation)?;
+    let before = SiteList::read(staging.target())?;
+    let mut site = Site {
+        writer: Writer::new(staging.content()),
+        list: SiteList::default(),
+    };
+    let mut names = Vec::new();
+    let mut page = String::new();
     for asset in ASSETS {
         let bytes = asset.bytes().map_err(ExportError::Page)?;
-        writer.file(asset.name, &bytes)?;
+        match asset.name {
+            PAGE => page = String::from_utf8_lossy(&bytes).into_owned(),
+            name => {
+                let ending = name.rsplit('.').next().unwrap_or_default();
+                names.push((name, site.add(&bytes, ending)?));
+            }
+        }
     }
     let mut entries = Vec::new();
     for robot in collection.robots() {
         if cancellation.is_cancelled() {
             return Err(StagingError::Cancelled.into());
         }
-        entries.push(one(robot, &writer)?);
+        entries.push(one(robot, &mut site)?);
         tell(robot);
     }
-    writer.file("robots.json", Value::from(entries).to_string().as_bytes())?;
-    let mark = json!({ "made by": "urdd view --export", "version": env!("CARGO_PKG_VERSION") });
-    writer.file(MARK, mark.to_string().as_bytes())?;
-    staging.commit()?;
-    Ok(())
+    let robots = Value::from(entries).to_string();
+    names.push(("robots.json", site.add(robots.as_bytes(), "json")?));
+    site.page(&assets::page_of(&page, &names))?;
+    let Site { list, .. } = site;
+    list.check_places(staging.target(), &before)?;
+    list.put(staging.content(), staging.target(), &before)
+}
+
+/// A site that is being made.
+struct Site {
+    writer: Writer,
+    list: SiteList,
+}
+
+impl Site {
+    /// Writes a file, and gives its path in the site.
+    fn add(&mut self, bytes: &[u8], ending: &str) -> Result<String, ExportError> {
+        let hash = hexadecimal(&Sha256::digest(bytes));
+        let path = format!("{FOLDER}/{hash}.{ending}");
+        self.writer.file(&path, bytes)?;
+        self.list.add(&path, &hash);
+        Ok(path)
+    }
+
+    fn page(&mut self, text: &str) -> Result<(), ExportError> {
+        self.writer.file(PAGE, text.as_bytes())?;
+        self.list.add(PAGE, &hexadecimal(&Sha256::digest(text)));
+        Ok(())
+    }
+}
+
+/// A robot as it is published: the URDD's own files, and what the validator says of these.
+pub(super) struct Published {
+    /// The files.
+    pub root: Root,
+    /// Their report.
+    pub report: String,
+    /// The line of `robots.json`.
+    pub entry: Value,
+}
+
+/// What is published of a robot.
+pub(super) fn published(robot: &Shown) -> Result<Published, ExportError> {
+    let root = robot.open().map_err(|error| unread(robot, error))?.1.own;
+    let report = route::report_on(&root, &robot.name);
+    let report = report.unwrap_or_else(|error| json!({ "error": error }).to_string());
+    let mut entry = route::entry_with(robot, &report);
+    // Nobody writes to it; and notes name files of this machine.
+    entry["writable"] = json!(false);
+    entry["temporary"] = json!(false);
+    entry["notes"] = json!([]);
+    Ok(Published {
+        root,
+        report,
+        entry,
+    })
+}
+
+pub(super) fn unread(robot: &Shown, error: ReadError) -> ExportError {
+    ExportError::Robot {
+        robot: robot.name.clone(),
+        error,
+    }
 }
 
 /// Writes a robot: its files, their list, and its report.
-fn one(robot: &Shown, writer: &Writer) -> Result<Value, ExportError> {
-    let unread = |error: ReadError| ExportError::Robot {
-        robot: robot.name.clone(),
-        error,
-    };
-    let base = format!("robots/{}", robot.id);
-    let root = robot.open().map_err(unread)?;
-    for entry in &root.list().map_err(unread)?.entries {
-        if entry.kind == EntryKind::File && entry.utf8 {
-            // A path that a URDD may not have is in the report, and not on the site.
-            match root.read(&entry.path, MAX_FILE_BYTES) {
-                Ok(bytes) => writer.file(&format!("{base}/files/{}", entry.path), &bytes)?,
-                Err(ReadError::Path(_)) => continue,
-                Err(error) => return Err(unread(error)),
-            };
+fn one(robot: &Shown, site: &mut Site) -> Result<Value, ExportError> {
+    let Published {
+        root,
+        report,
+        mut entry,
+    } = published(robot)?;
+    let mut files = Vec::new();
+    let listing = root.list().map_err(|error| unread(robot, error))?;
+    for file in listing.entries {
+        if file.kind != EntryKind::File {
+            continue;
+        }
+        // A path that a URDD may not have is in the report, and not on the site.
+        match root.read(&file.path, MAX_FILE_BYTES) {
+            Ok(bytes) => {
+                let at = site.add(&bytes, "bin")?;
+                files.push(json!({ "path": file.path, "size": bytes.len(), "at": at }));
+            }
+            Err(ReadError::Path(_)) => {}
+            Err(error) => return Err(unread(robot, error)),
         }
     }
-    let files = route::files(robot).map_err(unread)?;
-    writer.file(&format!("{base}/files.json"), files.to_string().as_bytes())?;
-    let report = route::report_of(robot);
-    writer.file(&format!("{base}/report.json"), report.as_bytes())?;
-    let mut entry = route::entry_with(robot, &report);
-    // Nobody writes to a site.
-    entry["writable"] = json!(false);
-    entry["temporary"] = json!(false);
+    let files = json!({ "name": root.folder_name(), "files": files });
+    entry["files"] = json!(site.add(files.to_string().as_bytes(), "json")?);
+    entry["report"] = json!(site.add(report.as_bytes(), "json")?);
     if let Some(picture) = route::picture_of(robot) {
-        writer.file(&format!("{base}/picture.png"), &picture)?;
-        entry["picture"] = json!(format!("{base}/picture.png"));
+        entry["picture"] = json!(site.add(&picture, "png")?);
     }
     Ok(entry)
 }

@@ -9,8 +9,21 @@ pub struct Caller<'a> {
     pub origin: Option<&'a str>,
     /// `Sec-Fetch-Site`.
     pub site: Option<&'a str>,
+    /// `Sec-Fetch-Mode`.
+    pub mode: Option<&'a str>,
+    /// `Sec-Fetch-Dest`.
+    pub destination: Option<&'a str>,
     /// `X-Urdd-Token`.
     pub token: Option<&'a str>,
+}
+
+impl Caller<'_> {
+    /// Whether a person follows a link to the page: a tab opens it, and no frame, script or image does.
+    fn follows_a_link(&self) -> bool {
+        self.origin.is_none()
+            && self.mode == Some("navigate")
+            && self.destination == Some("document")
+    }
 }
 
 /// Why a request is refused.
@@ -47,7 +60,20 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// Whether the page itself may be had: its host is checked, and that no other page asks.
+    /// Whether the page's HTML is served: to its own page, to what a person types, and where a person follows a link on
+    /// any page. It holds no robot and no token, and no page can frame it or read what it shows.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn entrance(&self, caller: &Caller) -> Result<(), Refusal> {
+        let site = match caller.follows_a_link() {
+            true => Some("none"),
+            false => caller.site,
+        };
+        self.page(&Caller { site, ..*caller })
+    }
+
+    /// Whether the page's other files are served: the host is checked, and that no other page asks.
     ///
     /// # Errors
     /// Why not.
@@ -102,6 +128,8 @@ mod tests {
             host: Some("127.0.0.1:8642"),
             origin: Some("http://127.0.0.1:8642"),
             site: Some("same-origin"),
+            mode: Some("cors"),
+            destination: Some("empty"),
             token: Some("abcdef"),
         }
     }
@@ -116,6 +144,46 @@ mod tests {
         };
         assert_eq!(guard().page(&typed), Ok(()));
         assert_eq!(guard().robots(&typed), Err(Refusal::Token));
+    }
+
+    #[test]
+    fn a_link_on_another_page_opens_the_page_and_nothing_else() {
+        let followed = Caller {
+            host: Some("127.0.0.1:8642"),
+            site: Some("cross-site"),
+            mode: Some("navigate"),
+            destination: Some("document"),
+            ..Caller::default()
+        };
+        assert_eq!(guard().entrance(&followed), Ok(()));
+        assert_eq!(guard().page(&followed), Err(Refusal::Origin));
+        assert_eq!(guard().robots(&followed), Err(Refusal::Origin));
+        let origin = Some("http://evil.example");
+        let others = [
+            Caller {
+                host: Some("evil.example"),
+                ..followed
+            },
+            // A form that is posted, a frame, an image, a script.
+            Caller { origin, ..followed },
+            Caller {
+                destination: Some("iframe"),
+                ..followed
+            },
+            Caller {
+                mode: Some("no-cors"),
+                destination: Some("image"),
+                ..followed
+            },
+            Caller {
+                mode: None,
+                destination: None,
+                ..followed
+            },
+        ];
+        for caller in others {
+            assert!(guard().entrance(&caller).is_err(), "{caller:?}");
+        }
     }
 
     #[test]

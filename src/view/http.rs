@@ -5,18 +5,26 @@
 //! without an answer for as long as they stay open.
 
 use std::io::{self, BufReader, Read, Write};
-use std::net::TcpStream;
-use std::time::Duration;
+use std::net::{Shutdown, TcpStream};
+use std::time::{Duration, Instant};
 
-use super::reply::{HEADERS, Reply};
+use super::reply::{Body, HEADERS, Reply};
 
 /// Most bytes of a request's first line and headers, most headers.
 const MAX_HEAD: usize = 16 << 10;
 const MAX_HEADERS: usize = 64;
-/// Most bytes of what is sent to be saved.
-const MAX_BODY: u64 = 64 << 20;
 /// How long a connection may be silent.
 const SILENCE: Duration = Duration::from_secs(10);
+/// How long the first line and headers may take in all, and a body.
+const MAX_HEAD_TIME: Duration = Duration::from_secs(10);
+const MAX_BODY_TIME: Duration = Duration::from_secs(60);
+/// How long an answer may take: this, and a second for so many bytes.
+const MAX_ANSWER_TIME: Duration = Duration::from_secs(60);
+const BYTES_A_SECOND: u64 = 1 << 20;
+/// How long, and for how many bytes, it is read what was sent and is not wanted. A connection that is closed before is
+/// reset, and the answer may be lost.
+const LINGER: Duration = Duration::from_secs(1);
+const MAX_LINGER: u64 = 1 << 20;
 
 /// A request.
 #[derive(Debug, Default)]
@@ -47,21 +55,84 @@ impl Asked {
     }
 }
 
-/// Answers what is asked over a connection.
-pub fn converse(stream: TcpStream, answer: impl FnOnce(&Asked) -> Reply) -> io::Result<()> {
-    stream.set_read_timeout(Some(SILENCE))?;
-    stream.set_write_timeout(Some(SILENCE))?;
-    stream.set_nodelay(true)?;
-    let mut reader = BufReader::new(stream);
-    let (reply, head_only) = match read(&mut reader)? {
-        Ok(asked) => (answer(&asked), asked.method == "HEAD"),
-        Err(refused) => (refused, false),
-    };
-    write(reader.get_mut(), &reply, head_only)
+/// A connection with a time at which it ends, however busy it is.
+struct Timed {
+    stream: TcpStream,
+    until: Instant,
 }
 
-/// A request, or the answer to what is none.
-fn read(reader: &mut impl Read) -> io::Result<Result<Asked, Reply>> {
+impl Timed {
+    fn for_another(&mut self, time: Duration) {
+        self.until = Instant::now() + time;
+    }
+
+    /// How long the next step may take.
+    fn left(&self) -> io::Result<Duration> {
+        let left = self.until.saturating_duration_since(Instant::now());
+        match left.is_zero() {
+            true => Err(io::ErrorKind::TimedOut.into()),
+            false => Ok(left.min(SILENCE)),
+        }
+    }
+}
+
+impl Read for Timed {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.stream.set_read_timeout(Some(self.left()?))?;
+        self.stream.read(buffer)
+    }
+}
+
+impl Write for Timed {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.stream.set_write_timeout(Some(self.left()?))?;
+        self.stream.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.stream.flush()
+    }
+}
+
+/// Answers what is asked over a connection. `admit` sees the request without its body, and says how many bytes of it are
+/// read at most, or refuses.
+pub fn converse(
+    stream: TcpStream,
+    admit: impl FnOnce(&Asked) -> Result<u64, Reply>,
+    answer: impl FnOnce(&Asked) -> Reply,
+) -> io::Result<()> {
+    stream.set_nodelay(true)?;
+    let until = Instant::now() + MAX_HEAD_TIME;
+    let mut reader = BufReader::new(Timed { stream, until });
+    let (reply, head_only) = match head(&mut reader)? {
+        Err(refused) => (refused, false),
+        Ok(mut asked) => {
+            let admitted = admit(&asked).and_then(|limit| length(&asked, limit));
+            let received = match admitted {
+                Err(refused) => Err(refused),
+                Ok(length) => {
+                    reader.get_mut().for_another(MAX_BODY_TIME);
+                    body(&mut reader, length, &mut asked.body)?
+                }
+            };
+            let head_only = asked.method == "HEAD";
+            match received {
+                Ok(()) => (answer(&asked), head_only),
+                Err(refused) => (refused, head_only),
+            }
+        }
+    };
+    let seconds = Duration::from_secs(reply.body.size() / BYTES_A_SECOND);
+    reader.get_mut().for_another(MAX_ANSWER_TIME + seconds);
+    write(reader.get_mut(), reply, head_only)?;
+    reader.get_ref().stream.shutdown(Shutdown::Write)?;
+    reader.get_mut().for_another(LINGER);
+    io::copy(&mut reader.take(MAX_LINGER), &mut io::sink())?;
+    Ok(())
+}
+
+/// A request up to its body, or the answer to what is none.
+fn head(reader: &mut impl Read) -> io::Result<Result<Asked, Reply>> {
     let mut head = Vec::new();
     while !head.ends_with(b"\r\n\r\n") {
         if head.len() >= MAX_HEAD {
@@ -77,7 +148,7 @@ fn read(reader: &mut impl Read) -> io::Result<Result<Asked, Reply>> {
         return Ok(Err(Reply::failure(400, "this is no request\n")));
     }
     let text = |value: &[u8]| std::str::from_utf8(value).unwrap_or_default().to_owned();
-    let mut asked = Asked {
+    Ok(Ok(Asked {
         method: parsed.method.unwrap_or_default().to_owned(),
         url: parsed.path.unwrap_or_default().to_owned(),
         headers: parsed
@@ -86,24 +157,31 @@ fn read(reader: &mut impl Read) -> io::Result<Result<Asked, Reply>> {
             .map(|header| (header.name.to_owned(), text(header.value)))
             .collect(),
         body: Vec::new(),
-    };
-    if asked.header("Transfer-Encoding").is_some() {
-        return Ok(Err(Reply::failure(411, "say the length of the body\n")));
-    }
-    let length = match asked.header("Content-Length").map(str::parse::<u64>) {
-        None => 0,
-        Some(Ok(length)) if length <= MAX_BODY => length,
-        Some(Ok(_)) => return Ok(Err(Reply::failure(413, "that is too much to save\n"))),
-        Some(Err(_)) => return Ok(Err(Reply::failure(400, "this is no request\n"))),
-    };
-    reader.take(length).read_to_end(&mut asked.body)?;
-    if asked.body.len() as u64 != length {
-        return Ok(Err(Reply::failure(400, "the body is cut off\n")));
-    }
-    Ok(Ok(asked))
+    }))
 }
 
-fn write(stream: &mut impl Write, reply: &Reply, head_only: bool) -> io::Result<()> {
+/// The length of a request's body, or why it is not read.
+fn length(asked: &Asked, limit: u64) -> Result<u64, Reply> {
+    if asked.header("Transfer-Encoding").is_some() {
+        return Err(Reply::failure(411, "say the length of the body\n"));
+    }
+    match asked.header("Content-Length").map(str::parse::<u64>) {
+        None => Ok(0),
+        Some(Ok(length)) if length <= limit => Ok(length),
+        Some(Ok(_)) => Err(Reply::failure(413, "the body is too long\n")),
+        Some(Err(_)) => Err(Reply::failure(400, "this is no request\n")),
+    }
+}
+
+fn body(reader: &mut impl Read, length: u64, body: &mut Vec<u8>) -> io::Result<Result<(), Reply>> {
+    reader.take(length).read_to_end(body)?;
+    Ok(match body.len() as u64 == length {
+        true => Ok(()),
+        false => Err(Reply::failure(400, "the body is cut off\n")),
+    })
+}
+
+fn write(stream: &mut impl Write, reply: Reply, head_only: bool) -> io::Result<()> {
     let mut head = format!("HTTP/1.1 {} {}\r\n", reply.status, word(reply.status));
     let mut add = |name: &str, value: &str| {
         head.push_str(name);
@@ -118,12 +196,18 @@ fn write(stream: &mut impl Write, reply: &Reply, head_only: bool) -> io::Result<
     if reply.brotli {
         add("Content-Encoding", "br");
     }
-    add("Content-Length", &reply.body.len().to_string());
+    add("Content-Length", &reply.body.size().to_string());
     add("Connection", "close");
     head.push_str("\r\n");
     stream.write_all(head.as_bytes())?;
     if !head_only {
-        stream.write_all(&reply.body)?;
+        match reply.body {
+            Body::Bytes(bytes) => stream.write_all(&bytes)?,
+            // A file that ends early ends the connection early: the reader sees that it is not whole.
+            Body::File(file, size) => {
+                io::copy(&mut file.take(size), stream)?;
+            }
+        }
     }
     stream.flush()
 }
@@ -148,8 +232,21 @@ fn word(status: u16) -> &'static str {
 mod tests {
     use super::*;
 
+    /// Reads a request whose body may have 10 bytes.
+    fn read(mut text: &[u8]) -> io::Result<Result<Asked, Reply>> {
+        let mut asked = match head(&mut text)? {
+            Ok(asked) => asked,
+            Err(refused) => return Ok(Err(refused)),
+        };
+        let length = match length(&asked, 10) {
+            Ok(length) => length,
+            Err(refused) => return Ok(Err(refused)),
+        };
+        Ok(body(&mut text, length, &mut asked.body)?.map(|()| asked))
+    }
+
     fn status(text: &[u8]) -> u16 {
-        match read(&mut &*text).expect("an answer") {
+        match read(text).expect("an answer") {
             Ok(_) => 200,
             Err(reply) => reply.status,
         }
@@ -158,7 +255,7 @@ mod tests {
     #[test]
     fn a_request_is_read() {
         let text = b"POST /a?b HTTP/1.1\r\nHost: x\r\ncontent-length: 3\r\n\r\nabcdef";
-        let asked = read(&mut &text[..]).expect("read").expect("a request");
+        let asked = read(text).expect("read").ok().expect("a request");
         assert_eq!((&*asked.method, &*asked.url), ("POST", "/a?b"));
         assert_eq!(asked.header("host"), Some("x"));
         assert_eq!(asked.header("origin"), None);
@@ -173,10 +270,7 @@ mod tests {
             status(b"GET / HTTP/1.1\r\nContent-Length: 5\r\n\r\nabc"),
             400
         );
-        assert_eq!(
-            status(b"GET / HTTP/1.1\r\nContent-Length: 99999999999\r\n\r\n"),
-            413
-        );
+        assert_eq!(status(b"GET / HTTP/1.1\r\nContent-Length: 11\r\n\r\n"), 413);
         assert_eq!(
             status(b"GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n"),
             411
@@ -186,6 +280,6 @@ mod tests {
         let mut long = b"GET / HTTP/1.1\r\nA: ".to_vec();
         long.extend(vec![b'a'; MAX_HEAD]);
         assert_eq!(status(&long), 431);
-        assert!(read(&mut &b"GET / HTT"[..]).is_err(), "cut off");
+        assert!(read(b"GET / HTT").is_err(), "cut off");
     }
 }

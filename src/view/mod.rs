@@ -3,6 +3,7 @@
 
 pub mod assets;
 pub mod collection;
+mod connections;
 pub mod export;
 mod guard;
 mod http;
@@ -14,8 +15,11 @@ mod revision;
 mod route;
 mod save;
 pub mod server;
+mod site_list;
+pub mod temporary;
 
 pub use collection::{Collection, Making, Shown};
 pub use export::{ExportError, export};
 pub use one_file::{may_hold_page, page_with};
 pub use server::{Server, ServerError};
+pub use temporary::Temporary;

@@ -1,20 +1,27 @@
-//! The page and one robot in a single HTML file, which opens from the disk.
+//! The page and one robot in a single HTML file, which opens from the disk, or in a frame of a notebook. It holds of the
+//! robot what the page draws and computes with, and not each file of the URDD.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Cursor, Read, Write};
 use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use serde_json::Value;
+use flate2::Compression;
+use flate2::write::DeflateEncoder;
+use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
+use zip::CompressionMethod;
 use zip::write::{SimpleFileOptions, ZipWriter};
 
 use super::assets;
 use super::collection::Shown;
-use super::export::ExportError;
-use super::route;
-use crate::directory::root::{EntryKind, ReadError};
+use super::export::{ExportError, Published, published, unread};
+use crate::directory::limits::MAX_DOCUMENT_BYTES;
+use crate::directory::root::{EntryKind, ReadError, Root};
+use crate::format::registry::ModuleKind;
+use crate::validate::rules;
 
 /// Most bytes of a robot that is put into a page.
 const MAX_ROBOT_BYTES: u64 = 100_000_000;
@@ -34,7 +41,8 @@ pub fn may_hold_page(file: &Path) -> bool {
     read.is_ok() && (head.is_empty() || String::from_utf8_lossy(&head).contains(MARK))
 }
 
-/// The page with a robot in it, as HTML.
+/// The page with a robot in it, as HTML. It asks for nothing else, and needs no origin of its own: a frame may be
+/// sandboxed with `allow-scripts` alone.
 ///
 /// # Errors
 /// [`ExportError`]; [`ExportError::TooLarge`] for a robot that a page cannot hold.
@@ -55,23 +63,22 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
         hash(&script),
         hash(&style),
     );
-    let report = route::report_of(robot);
-    let mut entry = route::entry_with(robot, &report);
-    // Nobody writes to a file that is opened from the disk.
-    entry["writable"] = Value::from(false);
-    entry["temporary"] = Value::from(false);
+    let Published {
+        root,
+        report,
+        entry,
+    } = published(robot)?;
+    let module = assets::ROBOT_MODULE.bytes().map_err(ExportError::Page)?;
     let mut carried = String::new();
     for (id, bytes) in [
-        (
-            "robots.json",
-            Value::from(vec![entry]).to_string().into_bytes(),
-        ),
+        ("robots.json", json!([entry]).to_string().into_bytes()),
+        ("rules.json", meanings(&report).to_string().into_bytes()),
         ("report.json", report.into_bytes()),
-        ("robot.zip", archive(robot)?),
+        ("robot.zip", archive(robot, &root)?),
         ("worker.js", asset("worker.js")?),
-        ("urdd.wasm", asset("urdd.wasm")?),
+        ("urdd.wasm", module),
     ] {
-        let text = STANDARD.encode(bytes);
+        let text = STANDARD.encode(deflated(&bytes).map_err(ExportError::Page)?);
         carried.push_str(&format!(
             "<script type=\"text/plain\" id=\"{id}\">{text}</script>\n"
         ));
@@ -104,20 +111,52 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
     Ok(page)
 }
 
-/// The robot's files, compressed.
-fn archive(robot: &Shown) -> Result<Vec<u8>, ExportError> {
-    let unread = |error: ReadError| ExportError::Robot {
-        robot: robot.name.clone(),
-        error,
-    };
-    let root = robot.open().map_err(unread)?;
-    let listing = root.list().map_err(unread)?;
-    let files: Vec<_> = listing
-        .entries
-        .iter()
-        .filter(|entry| entry.kind == EntryKind::File && entry.utf8)
+fn deflated(bytes: &[u8]) -> io::Result<Vec<u8>> {
+    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(bytes)?;
+    encoder.finish()
+}
+
+/// What the rules mean of which a report tells: the module of such a page has no rules.
+fn meanings(report: &str) -> Value {
+    let report: Value = serde_json::from_str(report).unwrap_or_default();
+    let findings = report["urdds"][0]["findings"].as_array();
+    let codes: BTreeSet<&str> = findings
+        .into_iter()
+        .flatten()
+        .filter_map(|finding| finding["code"].as_str())
         .collect();
-    let size: u64 = files.iter().map(|entry| entry.size).sum();
+    let known = rules::all();
+    let told = known
+        .iter()
+        .filter(|rule| codes.contains(&*rule.code.to_string()));
+    told.map(|rule| {
+        json!({
+            "code": rule.code.to_string(),
+            "name": rule.name,
+            "severity": rule.severity.as_str(),
+            "clause": rule.clause,
+            "explanation": rule.explanation(),
+        })
+    })
+    .collect()
+}
+
+/// The files that the page needs, in an archive.
+fn archive(robot: &Shown, root: &Root) -> Result<Vec<u8>, ExportError> {
+    let unread = |error: ReadError| unread(robot, error);
+    let listing = root.list().map_err(unread)?;
+    let files = listing.entries.iter();
+    let all: BTreeSet<&str> = files
+        .filter(|entry| entry.kind == EntryKind::File)
+        .map(|entry| entry.path.as_str())
+        .collect();
+    let needed = needed(root, &all);
+    let sizes = listing.entries.iter();
+    let size: u64 = sizes
+        .filter(|entry| needed.contains(entry.path.as_str()))
+        .map(|entry| entry.size)
+        .sum();
     if size > MAX_ROBOT_BYTES {
         return Err(ExportError::TooLarge {
             robot: robot.name.clone(),
@@ -125,13 +164,13 @@ fn archive(robot: &Shown) -> Result<Vec<u8>, ExportError> {
         });
     }
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    let options = SimpleFileOptions::default();
+    // It is compressed as a whole.
+    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
     let failed = |error: zip::result::ZipError| ExportError::Page(io::Error::other(error));
-    for entry in files {
-        match root.read(&entry.path, MAX_ROBOT_BYTES) {
+    for path in needed {
+        match root.read(path, MAX_ROBOT_BYTES) {
             Ok(bytes) => {
-                zip.start_file(entry.path.as_str(), options)
-                    .map_err(failed)?;
+                zip.start_file(path, options).map_err(failed)?;
                 zip.write_all(&bytes).map_err(ExportError::Page)?;
             }
             Err(ReadError::Path(_)) => {}
@@ -139,4 +178,86 @@ fn archive(robot: &Shown) -> Result<Vec<u8>, ExportError> {
         }
     }
     Ok(zip.finish().map_err(failed)?.into_inner())
+}
+
+/// Of the files of a URDD those that the page reads: of each mesh one format, no second copy of a document, and of the
+/// original meshes those that are drawn as they are.
+fn needed<'a>(root: &Root, all: &BTreeSet<&'a str>) -> BTreeSet<&'a str> {
+    let derived = [
+        ModuleKind::PlainMeshes,
+        ModuleKind::ConvexHullMeshes,
+        ModuleKind::ConvexDecompositionMeshes,
+    ];
+    let stem = |path: &str| -> Option<(ModuleKind, String)> {
+        let kind = derived.iter().find(|kind| is_below(path, **kind))?;
+        let name = path.rsplit('/').next()?;
+        Some((*kind, name.rsplit_once('.')?.0.to_owned()))
+    };
+    let glb = all.iter().filter(|path| path.ends_with(".glb"));
+    let with_glb: BTreeSet<(ModuleKind, String)> = glb.filter_map(|path| stem(path)).collect();
+    let drawn = drawn_originals(root);
+    let is_needed = |path: &&str| {
+        if path.ends_with("/module.yaml") {
+            return false;
+        }
+        if path.ends_with(".stl") || path.ends_with(".obj") {
+            let other = stem(path);
+            if other.is_some_and(|other| with_glb.contains(&other)) {
+                return false;
+            }
+        }
+        match &drawn {
+            Some(drawn) if is_below(path, ModuleKind::OriginalMeshes) => {
+                is_document(path) || drawn.contains(*path)
+            }
+            _ => true,
+        }
+    };
+    all.iter().copied().filter(|path| is_needed(path)).collect()
+}
+
+fn is_below(path: &str, kind: ModuleKind) -> bool {
+    let rest = path.strip_prefix(kind.folder());
+    rest.is_some_and(|rest| rest.starts_with('/'))
+}
+
+fn is_document(path: &str) -> bool {
+    path.ends_with("/module.json") || path.ends_with("/VERSION")
+}
+
+/// The original meshes that the page reads: those of collision elements, and the visual ones of links with a texture.
+/// Those of other links look as the plain meshes do. `None` where the module does not say.
+fn drawn_originals(root: &Root) -> Option<BTreeSet<String>> {
+    let path = format!("{}/module.json", ModuleKind::OriginalMeshes.folder());
+    let bytes = root.read(&path, MAX_DOCUMENT_BYTES).ok()?;
+    let module: Value = serde_json::from_slice(&bytes).ok()?;
+    let side_files = |path: &str| -> Vec<&str> {
+        let files = module["files"].as_array().into_iter().flatten();
+        let mut own = files.filter(|file| file["path"] == path);
+        let listed = own.next().and_then(|file| file["side_files"].as_array());
+        listed
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_str)
+            .collect()
+    };
+    let references = module["references"].as_array()?;
+    let with_path = || {
+        let references = references.iter();
+        references.filter_map(|reference| Some((reference, reference["path"].as_str()?)))
+    };
+    let is_visual = |reference: &Value| reference["geometry"] == "Visual";
+    let textured: BTreeSet<u64> = with_path()
+        .filter(|(reference, path)| is_visual(reference) && !side_files(path).is_empty())
+        .filter_map(|(reference, _)| reference["link_idx"].as_u64())
+        .collect();
+    let mut drawn = BTreeSet::new();
+    for (reference, path) in with_path() {
+        let link = reference["link_idx"].as_u64();
+        if !is_visual(reference) || link.is_some_and(|link| textured.contains(&link)) {
+            drawn.insert(path.to_owned());
+            drawn.extend(side_files(path).into_iter().map(str::to_owned));
+        }
+    }
+    Some(drawn)
 }

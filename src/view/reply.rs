@@ -2,8 +2,27 @@
 
 use serde_json::Value;
 
+use crate::directory::source::OpenFile;
+
+/// What is sent.
+pub enum Body {
+    /// Bytes.
+    Bytes(Vec<u8>),
+    /// A file of this size, read while it is sent.
+    File(OpenFile, u64),
+}
+
+impl Body {
+    /// Its size, bytes.
+    pub fn size(&self) -> u64 {
+        match self {
+            Body::Bytes(bytes) => bytes.len() as u64,
+            Body::File(_, size) => *size,
+        }
+    }
+}
+
 /// An answer.
-#[derive(Debug)]
 pub struct Reply {
     /// Status.
     pub status: u16,
@@ -12,7 +31,7 @@ pub struct Reply {
     /// Whether the body is compressed by brotli.
     pub brotli: bool,
     /// The body.
-    pub body: Vec<u8>,
+    pub body: Body,
 }
 
 /// What the page may do: run its own code and the module, read from where it came, and nothing else. Pictures in glTF
@@ -38,7 +57,7 @@ impl Reply {
             status,
             media_type: "text/plain; charset=utf-8",
             brotli: false,
-            body: message.into().into_bytes(),
+            body: Body::Bytes(message.into().into_bytes()),
         }
     }
 
@@ -58,7 +77,7 @@ impl Reply {
             status: 200,
             media_type: "application/json",
             brotli: false,
-            body: text.into_bytes(),
+            body: Body::Bytes(text.into_bytes()),
         }
     }
 
@@ -68,17 +87,17 @@ impl Reply {
             status: 200,
             media_type: "image/png",
             brotli: false,
-            body,
+            body: Body::Bytes(body),
         }
     }
 
     /// A file of a robot: never shown as a page of its own.
-    pub fn file(body: Vec<u8>) -> Self {
+    pub fn file(file: OpenFile, size: u64) -> Self {
         Self {
             status: 200,
             media_type: "application/octet-stream",
             brotli: false,
-            body,
+            body: Body::File(file, size),
         }
     }
 }

@@ -1,6 +1,7 @@
-//! Whether the files of a robot changed: a word of their names, sizes and times.
+//! Whether the files of a robot changed: a word of their names, sizes and times, and on Unix of what nobody can set back:
+//! the time of the last change of whatever kind, and the number of the file.
 
-use std::fs;
+use std::fs::{self, Metadata};
 use std::path::Path;
 use std::time::UNIX_EPOCH;
 
@@ -12,8 +13,18 @@ use crate::format::hexadecimal::hexadecimal;
 /// The word for a robot whose files are gone.
 pub const GONE: &str = "gone";
 
-/// A word that changes when a file below `path`, or the file at `path`, does. Links are not followed.
+/// A word that changes when a file below `path`, or the file at `path`, does. Links are not followed. Another name for a
+/// file, as by a hard link, is a change too.
 pub fn of(path: &Path) -> String {
+    word(path, &changed)
+}
+
+/// As [`of`], but other names for the files are no change: sizes and times alone count.
+pub fn of_content(path: &Path) -> String {
+    word(path, &|_| String::new())
+}
+
+fn word(path: &Path, changed: &dyn Fn(&Metadata) -> String) -> String {
     let mut lines = Vec::new();
     let mut waiting = vec![path.to_owned()];
     while let Some(at) = waiting.pop() {
@@ -35,17 +46,30 @@ pub fn of(path: &Path) -> String {
         let time = metadata.modified().ok();
         let time = time.and_then(|time| time.duration_since(UNIX_EPOCH).ok());
         let name = at.strip_prefix(path).unwrap_or(&at).display().to_string();
-        lines.push((name, metadata.len(), time.unwrap_or_default()));
+        let time = time.unwrap_or_default().as_nanos();
+        lines.push((name, metadata.len(), time, changed(&metadata)));
     }
     if lines.is_empty() {
         return GONE.to_owned();
     }
     lines.sort();
     let mut hash = Sha256::new();
-    for (name, size, time) in lines {
-        hash.update(format!("{size} {} {name}\n", time.as_nanos()));
+    for (name, size, time, changed) in lines {
+        hash.update(format!("{size} {time} {changed} {name}\n"));
     }
     hexadecimal(&hash.finalize())
+}
+
+#[cfg(unix)]
+fn changed(metadata: &Metadata) -> String {
+    use std::os::unix::fs::MetadataExt;
+    let (second, nanosecond) = (metadata.ctime(), metadata.ctime_nsec());
+    format!("{} {second} {nanosecond}", metadata.ino())
+}
+
+#[cfg(not(unix))]
+fn changed(_: &Metadata) -> String {
+    String::new()
 }
 
 #[cfg(test)]
@@ -66,5 +90,29 @@ mod tests {
         fs::write(path.join("a/x"), "12").expect("a file");
         let three = of(&path);
         assert!(one != two && two != three && three != one && three != GONE);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_change_that_keeps_size_and_time_changes_it() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (path, other) = (folder.path().join("robot"), folder.path().join("other"));
+        fs::create_dir(&path).expect("a folder");
+        let file = path.join("x");
+        fs::write(&file, "1").expect("a file");
+        let time = fs::metadata(&file).and_then(|metadata| metadata.modified());
+        let time = time.expect("a time");
+        let (one, content) = (of(&path), of_content(&path));
+        fs::write(&file, "2").expect("a file");
+        let written = fs::File::options().write(true).open(&file).expect("it");
+        written.set_modified(time).expect("set");
+        let two = of(&path);
+        assert_ne!(one, two, "written in place");
+        assert_eq!(content, of_content(&path), "this is what it guards against");
+        fs::write(&other, "3").expect("a file");
+        let written = fs::File::options().write(true).open(&other).expect("it");
+        written.set_modified(time).expect("set");
+        fs::rename(&other, &file).expect("renamed");
+        assert_ne!(two, of(&path), "another file in its place");
     }
 }

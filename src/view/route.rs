@@ -6,13 +6,14 @@ use serde_json::{Value, json};
 use super::assets;
 use super::collection::{Collection, Making, Shown};
 use super::picture;
-use super::reply::Reply;
+use super::reply::{Body, Reply};
 use super::revision;
-use crate::directory::root::{EntryKind, ReadError};
+use crate::directory::root::{EntryKind, ReadError, Root};
 use crate::format::report::Severity;
 use crate::report::{self, model::Report};
+use crate::robot::Robot;
 use crate::validate::settings::Settings;
-use crate::validate::validate;
+use crate::validate::{Run, validate, validate_source};
 
 /// Most bytes of a file that is sent.
 const MAX_FILE_BYTES: u64 = 1 << 30;
@@ -82,9 +83,23 @@ impl Route {
         }
     }
 
-    /// Whether it can be had without the token: what is the same on every machine.
+    /// Most bytes of what may be sent to it.
+    pub fn max_body(&self) -> u64 {
+        match self {
+            Route::Skips(_) => 64 << 20,
+            Route::Keep(_) => 64 << 10,
+            _ => 0,
+        }
+    }
+
+    /// Whether it is served without the token: what is the same on every machine.
     pub fn is_public(&self) -> bool {
         matches!(self, Route::Asset(_))
+    }
+
+    /// Whether it is the page's HTML, which links lead to.
+    pub fn is_entrance(&self) -> bool {
+        matches!(self, Route::Asset(name) if name == "index.html")
     }
 }
 
@@ -107,15 +122,23 @@ pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
             Ok(Reply::json(&json!({ "revision": revision })))
         }),
         Route::Files(id) => with(id, &|robot| {
-            // Before the files are listed: what changes afterwards is noticed.
-            let revision = revision::of(&robot.path());
-            let mut files = files(robot)?;
-            files["revision"] = json!(revision);
-            Ok(Reply::json(&files))
+            let (revision, opened) = robot.open()?;
+            Ok(Reply::json(&json!({
+                "name": opened.own.folder_name(),
+                "files": files(&opened.own)?,
+                "revision": revision,
+            })))
         }),
         Route::Report(id) => with(id, &|robot| Ok(Reply::json_text(report_of(robot)))),
         Route::File(id, path) => with(id, &|robot| {
-            Ok(Reply::file(robot.open()?.read(path, MAX_FILE_BYTES)?))
+            let (file, size) = robot.own_files()?.open_file(path)?;
+            match size > MAX_FILE_BYTES {
+                true => Err(ReadError::TooLarge {
+                    size,
+                    limit: MAX_FILE_BYTES,
+                }),
+                false => Ok(Reply::file(file, size)),
+            }
         }),
         Route::Summary(id) => with(id, &|robot| {
             Ok(Reply::json(&entry_with(robot, &report_of(robot))))
@@ -155,7 +178,7 @@ fn asset(name: &str, brotli: bool) -> Reply {
             status: 200,
             media_type: asset.media_type,
             brotli: brotli && name != "index.html",
-            body,
+            body: Body::Bytes(body),
         },
         Err(error) => Reply::failure(500, error.to_string()),
     }
@@ -205,67 +228,74 @@ pub fn entry_with(robot: &Shown, report: &str) -> Value {
 
 /// The picture of a robot, where it has one. It is drawn once for each revision.
 pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
-    let revision = revision::of(&robot.path());
     let mut known = robot
         .picture
         .lock()
         .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let (revision, opened) = robot.open().ok()?;
     if let Some((of, picture)) = known.as_ref()
         && *of == revision
     {
         return picture.clone();
     }
     // A robot that cannot be drawn has no picture: the page says what is wrong with it.
-    let opened = crate::robot::Robot::open(robot.path()).ok();
-    let drawn = opened.and_then(|opened| picture::png(&opened).ok().flatten());
+    let drawn = picture::png(&Robot::of(opened.own)).ok().flatten();
     *known = Some((revision, drawn.clone()));
     drawn
 }
 
-/// The list of a robot's files.
+/// The files below a root: path and size of each.
 ///
 /// # Errors
 /// Where they cannot be listed.
-pub fn files(robot: &Shown) -> Result<Value, ReadError> {
-    let root = robot.open()?;
-    let listing = root.list()?;
-    let regular = listing
-        .entries
-        .iter()
-        .filter(|entry| entry.kind == EntryKind::File && entry.utf8);
-    let file =
-        |entry: &crate::directory::root::Entry| json!({ "path": entry.path, "size": entry.size });
-    Ok(json!({
-        "name": root.folder_name(),
-        "files": regular.map(file).collect::<Vec<_>>(),
-    }))
+fn files(root: &Root) -> Result<Value, ReadError> {
+    let entries = root.list()?.entries;
+    let files = entries.iter().filter(|entry| entry.kind == EntryKind::File);
+    Ok(files
+        .map(|entry| json!({ "path": entry.path, "size": entry.size }))
+        .collect())
 }
 
 /// The report of a robot, as `urdd validate --format json` prints it. It is made once for each revision.
 pub fn report_of(robot: &Shown) -> String {
-    let path = robot.path();
-    let revision = revision::of(&path);
     let mut known = robot
         .report
         .lock()
         .unwrap_or_else(std::sync::PoisonError::into_inner);
-    if let Some((of, report)) = known.as_ref()
-        && *of == revision
-    {
-        return report.clone();
-    }
-    let made = validate(&[&path], &Settings::default())
-        .map_err(|error| error.to_string())
-        .and_then(|run| {
-            report::json(&Report::new(&run, Severity::Error)).map_err(|error| error.to_string())
-        });
-    match made {
-        Ok(report) => {
-            *known = Some((revision, report.clone()));
-            report
+    let path = robot.path();
+    let made = match robot.open() {
+        Ok((revision, opened)) => {
+            if let Some((of, report)) = known.as_ref()
+                && *of == revision
+            {
+                return report.clone();
+            }
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let made = report_on(&opened.all, &name);
+            if let Ok(report) = &made {
+                *known = Some((revision, report.clone()));
+            }
+            made
         }
-        Err(error) => json!({ "error": error }).to_string(),
-    }
+        // The report says why.
+        Err(_) => validate(&[&path], &Settings::default())
+            .map_err(|error| error.to_string())
+            .and_then(|run| as_json(&run)),
+    };
+    made.unwrap_or_else(|error| json!({ "error": error }).to_string())
+}
+
+/// The report of the URDD at a root. `name` is what the report calls it.
+///
+/// # Errors
+/// Where there is none.
+pub fn report_on(root: &Root, name: &str) -> Result<String, String> {
+    let run = validate_source(root.clone(), name, &Settings::default());
+    as_json(&run.map_err(|error| error.to_string())?)
+}
+
+fn as_json(run: &Run) -> Result<String, String> {
+    report::json(&Report::new(run, Severity::Error)).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]

@@ -59,14 +59,16 @@ fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
     let path = robot.path();
     // From here on no other run of this program writes there.
     let replacement = Replacement::begin(&path).map_err(|error| failed(&error))?;
-    let unchanged = || match revision::of(&path) == wish.revision {
+    let unchanged = |is_same: bool| match is_same {
         true => Ok(()),
         false => Err((
             409,
             "the files changed on disk since the page read them; nothing was written".to_owned(),
         )),
     };
-    unchanged()?;
+    unchanged(revision::of(&path) == wish.revision)?;
+    // The new content is made with second names for the files that stay, which is a change of its own kind.
+    let content = revision::of_content(&path);
     let mut undo = robot
         .undo
         .lock()
@@ -91,7 +93,7 @@ fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
         .collect();
     let before = before?;
     replacement.stage(&files).map_err(|error| failed(&error))?;
-    unchanged()?;
+    unchanged(revision::of_content(&path) == content)?;
     replacement.commit().map_err(|error| failed(&error))?;
     let now = revision::of(&path);
     match wish.undo {

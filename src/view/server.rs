@@ -2,13 +2,13 @@
 
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
 use thiserror::Error;
 
 use super::collection::Collection;
+use super::connections::{Connection, Connections};
 use super::guard::{Caller, Guard};
 use super::http::{Asked, converse};
 use super::keep;
@@ -20,8 +20,6 @@ use crate::format::hexadecimal::hexadecimal;
 
 /// The port that is asked for first.
 const USUAL_PORT: u16 = 8642;
-/// Most connections at once; who comes after them waits.
-const MAX_CONNECTIONS: usize = 32;
 /// How often it is looked for connections, and whether to stop.
 const PAUSE: Duration = Duration::from_millis(2);
 
@@ -90,9 +88,9 @@ impl Server {
     /// Answers until it is told to stop. What is being answered then may be cut off.
     pub fn run(self, cancellation: &Cancellation) {
         let server = Arc::new(self);
-        let open = Arc::new(AtomicUsize::new(0));
+        let connections = Arc::new(Connections::default());
         while !cancellation.is_cancelled() {
-            let accepted = match open.load(Ordering::Acquire) < MAX_CONNECTIONS {
+            let accepted = match connections.has_room() {
                 true => server.listener.accept().ok(),
                 false => None,
             };
@@ -100,32 +98,47 @@ impl Server {
                 thread::sleep(PAUSE);
                 continue;
             };
-            let (server, open) = (Arc::clone(&server), Arc::clone(&open));
-            open.fetch_add(1, Ordering::AcqRel);
-            thread::spawn(move || {
-                let _counted = Counted(&open);
-                // Some systems hand the listener's mode on. Whoever asked may be gone by now.
-                let blocking = stream.set_nonblocking(false);
-                let _ = blocking.and_then(|()| converse(stream, |asked| server.reply(asked)));
+            // Some systems hand the listener's mode on. Whoever asked may be gone by now.
+            let Ok(connection) = stream
+                .set_nonblocking(false)
+                .and_then(|()| Connection::begin(&stream, &connections))
+            else {
+                continue;
+            };
+            let server = Arc::clone(&server);
+            // Where no thread can be had, the connection is closed.
+            let _ = thread::Builder::new().spawn(move || {
+                let admit = |asked: &Asked| server.admit(asked, &connection);
+                let _ = converse(stream, admit, |asked| server.reply(asked));
             });
         }
     }
 
-    fn reply(&self, asked: &Asked) -> Reply {
+    /// Most bytes of a body that are read, or why the request is refused.
+    fn admit(&self, asked: &Asked, connection: &Connection) -> Result<u64, Reply> {
         let caller = Caller {
             host: asked.header("Host"),
             origin: asked.header("Origin"),
             site: asked.header("Sec-Fetch-Site"),
+            mode: asked.header("Sec-Fetch-Mode"),
+            destination: asked.header("Sec-Fetch-Dest"),
             token: asked.header("X-Urdd-Token"),
         };
         let route = Route::of(&asked.url);
-        let allowed = match route.is_public() {
-            true => self.guard.page(&caller),
-            false => self.guard.robots(&caller),
+        let allowed = match (&route, &*asked.method) {
+            (route, "GET" | "HEAD") if route.is_entrance() => self.guard.entrance(&caller),
+            (route, _) if route.is_public() => self.guard.page(&caller),
+            _ => self.guard.robots(&caller).map(|()| connection.keep()),
         };
-        if let Err(refusal) = allowed {
-            return Reply::failure(403, refusal.message());
+        match allowed {
+            Ok(()) => Ok(route.max_body()),
+            Err(refusal) => Err(Reply::failure(403, refusal.message())),
         }
+    }
+
+    /// The answer to a request that was admitted.
+    fn reply(&self, asked: &Asked) -> Reply {
+        let route = Route::of(&asked.url);
         match (&*asked.method, &route) {
             ("GET" | "HEAD", _) => answer(&self.collection, &route, takes_brotli(asked)),
             ("POST", Route::Skips(id)) => match self.collection.find(id) {
@@ -138,15 +151,6 @@ impl Server {
             },
             _ => Reply::failure(405, "this cannot be done here\n"),
         }
-    }
-}
-
-/// A connection, counted until it is dropped, by a panic too.
-struct Counted<'a>(&'a AtomicUsize);
-
-impl Drop for Counted<'_> {
-    fn drop(&mut self) {
-        self.0.fetch_sub(1, Ordering::AcqRel);
     }
 }
 

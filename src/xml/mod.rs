@@ -8,6 +8,7 @@
 mod count;
 mod declaration;
 pub mod element;
+mod words;
 
 pub use declaration::wrong_version;
 use roxmltree::{Document, ParsingOptions, TextPos};
@@ -91,28 +92,9 @@ impl XmlError {
         }
     }
 
-    /// What is wrong, without the place.
-    pub fn words(&self) -> String {
-        match self {
-            XmlError::Parser(error) => {
-                let words = error.to_string();
-                match words.rsplit_once(" at ") {
-                    Some((words, place)) if place.contains(':') => words.to_owned(),
-                    _ => words,
-                }
-            }
-            XmlError::Entities(_) => {
-                "it declares entities (`<!ENTITY`), which are not read; `xmllint --noent FILE` writes the file without them".to_owned()
-            }
-            XmlError::Version { found, .. } => {
-                format!("the XML declaration names version `{}`; write `1.0`", found.escape_debug())
-            }
-            XmlError::Encoding { found, .. } => format!(
-                "the XML declaration names the encoding `{}`; save the file as UTF-8 and declare that",
-                found.escape_debug()
-            ),
-            XmlError::TooMany { what, limit, .. } => format!("there are more than {limit} {what}"),
-        }
+    /// What is wrong with `text`, without the place, and what to do.
+    pub fn words(&self, text: &str) -> String {
+        words::of(self, text)
     }
 }
 

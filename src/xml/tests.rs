@@ -8,7 +8,7 @@ fn attributes(count: usize) -> String {
 
 fn result(text: &str) -> Result<(), String> {
     let parsed = parse(text, Kind::Robot).map(|_| ());
-    parsed.map_err(|error| format!("{}: {}", error.pos(), error.words()))
+    parsed.map_err(|error| format!("{}: {}", error.pos(), error.words(text)))
 }
 
 #[test]
@@ -156,5 +156,68 @@ fn the_declaration_says_what_the_file_is() {
     ] {
         let error = result(&format!("<?xml {declaration}?><r/>")).unwrap_err();
         assert!(error.starts_with(expected), "{declaration}: {error}");
+    }
+}
+
+#[test]
+fn each_fault_says_what_to_do() {
+    for (text, expected) in [
+        ("", "1:1: the file is empty"),
+        ("r/>", "1:1: the file does not begin with `<`"),
+        ("<r><a></r>", "1:7: `</r>` where `</a>` is expected; close"),
+        (
+            "<r><a>",
+            "1:1: the file ends before its outermost element is closed",
+        ),
+        (
+            "<r/><s/>",
+            "1:5: there is more after the end of the outermost element",
+        ),
+        (
+            "<r/> text",
+            "1:6: there is more after the end of the outermost element",
+        ),
+        (
+            "<!DOCTYPE r [<!ATTLIST r q CDATA '>'>]><r/>",
+            "1:36: a declaration within `<!DOCTYPE ...>` cannot be read; remove",
+        ),
+        (
+            "<!DOCTYPE r [%foo;]><r/>",
+            "1:14: a declaration within `<!DOCTYPE ...>` cannot be read; remove",
+        ),
+        (
+            "<r a='1' a='2'/>",
+            "1:10: an element has the attribute `a` twice; remove",
+        ),
+        ("<r><!-- a -- b --></r>", "1:4: a comment contains `--`"),
+        ("<r>]]></r>", "1:7: text contains `]]>`; write `]]&gt;`"),
+        (
+            "<r a='<'/>",
+            "1:7: an attribute's value contains `<`; write `&lt;`",
+        ),
+        (
+            "<r>a & b</r>",
+            "1:6: `&` does not begin an entity here; write `&amp;`",
+        ),
+        ("<r>&deg;</r>", "1:4: the entity `&deg;` is not declared"),
+        (
+            "<r><x:a/></r>",
+            "1:5: the prefix `x` is not declared; declare it",
+        ),
+        (
+            "<r><xacro:a/></r>",
+            "1:5: the prefix `xacro` is not declared; expand",
+        ),
+        ("<r a=1/>", "1:6: a quote is expected, not `1`"),
+        ("<r a b='1'/>", "1:6: `=` is expected, not `b`"),
+        ("<r><1/></r>", "1:5: a name begins with"),
+        (
+            "<r>\u{1}</r>",
+            "1:4: XML does not allow the character U+0001; remove it",
+        ),
+        (" <?xml version='1.0'?><r/>", "1:2: the XML declaration"),
+    ] {
+        let error = result(text).unwrap_err();
+        assert!(error.starts_with(expected), "{text:?}: {error}");
     }
 }

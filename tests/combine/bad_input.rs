@@ -3,7 +3,7 @@
 use urdd::combine::{CombineError, Note, PartFault, RecipeFault};
 use urdd::generate::{Selection, Settings, generate};
 
-use crate::support::{core, findings, ours, put_together};
+use crate::support::{core, findings, ours, put_together, with_ours};
 
 /// A recipe with an arm and a gripper, some of whose lines are others.
 fn recipe(changes: &[(&str, &str)]) -> String {
@@ -327,7 +327,7 @@ fn parts_of_unequal_modules_are_said() {
     ] {
         let settings = Settings {
             selection: Selection::parse(modules.iter().copied()).expect("modules"),
-            ..Settings::default()
+            ..with_ours()
         };
         generate(&ours(name), &folder.join(name), &settings, &()).expect("a URDD");
     }
@@ -340,7 +340,7 @@ fn parts_of_unequal_modules_are_said() {
     ]);
     let settings = Settings {
         selection: Selection::parse(["core", "original_meshes"]).expect("modules"),
-        ..Settings::default()
+        ..with_ours()
     };
     let (made, target) = put_together(&text, folder, &settings).expect("a robot");
     let unequal = Note::UnequalModules {
@@ -355,13 +355,15 @@ fn parts_of_unequal_modules_are_said() {
 }
 
 #[test]
-fn sources_may_lie_anywhere_and_no_path_is_recorded() {
+fn no_path_is_recorded_of_parts_from_elsewhere() {
     let folder = tempfile::tempdir().expect("a folder");
     let recipes = folder.path().join("recipes");
     std::fs::create_dir(&recipes).expect("a folder");
     std::fs::copy(ours("gripper"), folder.path().join("gripper.urdf")).expect("a file");
     let text = recipe(&[(ours("gripper").to_str().expect("a path"), "../gripper.urdf")]);
-    let (made, target) = put_together(&text, &recipes, &core()).expect("a robot");
+    let mut settings = core();
+    settings.allowed_folders.push(folder.path().to_owned());
+    let (made, target) = put_together(&text, &recipes, &settings).expect("a robot");
     let names: Vec<&str> = (made.composition.parts.iter())
         .map(|part| part.name.as_str())
         .collect();

@@ -90,7 +90,14 @@ fn results_are_told_as_json() {
         ours("six_axis_arm").display()
     );
     std::fs::write(folder.path().join("frozen.toml"), recipe).expect("a file");
-    let all = ["combine", "frozen.toml", "-o", "out", "--format", "json"];
+    let ours = ours("gripper");
+    let ours = ours.parent().and_then(|folder| folder.to_str());
+    let allowed = ["--allow-folder", ours.expect("a path")];
+    let all = [
+        &["combine", "frozen.toml", "-o", "out", "--format", "json"][..],
+        &allowed,
+    ]
+    .concat();
     let (status, text, said) = urdd(&[&all[..], &CORE].concat(), folder.path());
     assert_eq!((status, said.as_str()), (0, ""));
     let told: serde_json::Value = serde_json::from_str(&text).expect("JSON");

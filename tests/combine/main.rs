@@ -15,4 +15,5 @@ mod legacy;
 mod making;
 mod property;
 mod published;
+mod strangers;
 mod support;

@@ -10,13 +10,13 @@ use urdd::format::link_shapes_skips::SkipEdit;
 use urdd::generate::{Settings, generate, generate_text};
 use urdd::robot::{Robot, ShapeKind};
 
-use crate::support::{core, findings, ours, put_together};
+use crate::support::{core, findings, ours, put_together, with_ours};
 
 /// Few samples: these tests are not about distances.
 fn quick() -> Settings {
     Settings {
         num_samples: 20,
-        ..Settings::default()
+        ..with_ours()
     }
 }
 

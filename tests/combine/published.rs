@@ -4,8 +4,9 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use urdd::combine::{CombineError, PartFault, Recipe, combine};
+use urdd::combine::{CombineError, Note, PartFault, Recipe, combine};
 use urdd::generate::Settings;
+use urdd::robot::Robot;
 
 use crate::support::findings;
 
@@ -19,12 +20,45 @@ fn a_published_composition_becomes_a_urdd_that_passes() {
     let legacy = corpus.join("z1_robotiq_140");
     let (recipe, notes) = Recipe::of_legacy(&legacy).expect("a recipe");
     assert_eq!(notes, []);
+    let legacy_part = corpus.join("z1");
     let settings = Settings {
         num_samples: 50,
         ..Settings::default()
     };
-    combine(&recipe, &target, &settings, &BTreeSet::new(), &()).expect("a URDD");
+    let made = combine(&recipe, &target, &settings, &BTreeSet::new(), &()).expect("a URDD");
     assert_eq!(findings(&target), [] as [String; 0]);
+    // The file of one mesh is missing from our copy: the plain mesh stands for it.
+    let plain = |note: &&Note| matches!(note, Note::PlainMesh { .. });
+    let plain: Vec<&Note> = made.notes.iter().filter(plain).collect();
+    let [Note::PlainMesh { part, link }] = plain.as_slice() else {
+        panic!("{plain:?}");
+    };
+    assert_eq!((part.as_str(), link.as_str()), ("z1", "link01"));
+    // All plain meshes are those that the authors published, each in its link's frame.
+    let robot = Robot::open(&target).expect("a robot");
+    let published = Robot::open(&legacy_part).expect("a robot");
+    for name in [
+        "link00", "link01", "link02", "link03", "link04", "link05", "link06",
+    ] {
+        let extent = |robot: &Robot, name: &str| {
+            let link = robot.link(name).expect("a link");
+            let visuals = robot.visuals().expect("plain meshes");
+            let visual = visuals.into_iter().find(|visual| visual.link == link);
+            let parts = visual.expect("a mesh").parts.into_iter();
+            let points: Vec<[f64; 3]> = parts.flat_map(|part| part.mesh.vertices).collect();
+            let end = |axis: usize, pick: fn(f64, f64) -> f64, from: f64| {
+                points.iter().map(|point| point[axis]).fold(from, pick)
+            };
+            let low = [0, 1, 2].map(|axis| end(axis, f64::min, f64::INFINITY));
+            let high = [0, 1, 2].map(|axis| end(axis, f64::max, f64::NEG_INFINITY));
+            [low, high]
+        };
+        let own = extent(&robot, &format!("robot_0_{name}"));
+        let theirs = extent(&published, name);
+        for (own, theirs) in own.iter().flatten().zip(theirs.iter().flatten()) {
+            assert!((own - theirs).abs() < 1e-5, "{name}: {own} {theirs}");
+        }
+    }
     // The names are those that the published robot has.
     let names = |file: PathBuf, key: &str| {
         let text = std::fs::read_to_string(file).expect("a module");

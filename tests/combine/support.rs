@@ -17,6 +17,14 @@ pub fn ours(name: &str) -> PathBuf {
 pub fn core() -> Settings {
     Settings {
         selection: Selection::parse(["core", "kinematics_samples"]).expect("modules"),
+        ..with_ours()
+    }
+}
+
+/// The usual settings, with which a recipe may take our robots as parts.
+pub fn with_ours() -> Settings {
+    Settings {
+        allowed_folders: vec![ours("gripper").parent().expect("a folder").to_owned()],
         ..Settings::default()
     }
 }

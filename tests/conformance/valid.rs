@@ -21,7 +21,13 @@ fn generating_gives_what_is_kept() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let robots = folder.path().join("robots");
     valid::write_robots(&robots).expect("the robots");
-    write_valid(&valid::robots(), &robots, folder.path()).expect("URDDs");
+    write_valid(
+        &valid::robots(),
+        &robots,
+        folder.path(),
+        &Default::default(),
+    )
+    .expect("URDDs");
     let update = std::env::var_os("URDD_UPDATE").is_some();
     let mut stale = BTreeSet::new();
     for robot in valid::robots() {
@@ -54,7 +60,7 @@ fn nothing_is_found_in_them() {
     let robots = folder.path().join("robots");
     valid::write_robots(&robots).expect("the robots");
     let urdds = folder.path().join("valid");
-    write_valid(&valid::robots(), &robots, &urdds).expect("URDDs");
+    write_valid(&valid::robots(), &robots, &urdds, &Default::default()).expect("URDDs");
     let run = validate(&[&urdds], &Settings::default()).expect("URDDs");
     let report = Report::new(&run, Severity::Info);
     assert_eq!(report.urdds.len(), 9);

@@ -248,3 +248,130 @@ fn results_are_logged_as_they_come_and_folders_can_stay() {
         );
     }
 }
+
+/// Processes whose numbers a script wrote into a folder, and that still run.
+fn alive(folder: &std::path::Path) -> Vec<String> {
+    let files = fs::read_dir(folder).expect("a folder");
+    let pids =
+        files.map(|file| fs::read_to_string(file.expect("a file").path()).expect("a number"));
+    let runs = |pid: &String| {
+        let stat = fs::read_to_string(format!("/proc/{}/stat", pid.trim())).unwrap_or_default();
+        stat.rsplit_once(')')
+            .is_some_and(|(_, rest)| !rest.starts_with(" Z"))
+    };
+    pids.filter(runs).collect()
+}
+
+/// A command whose children go different ways: in its group, in sessions of their own, without a parent, and without an
+/// environment. Each writes its number into the folder.
+fn family(folder: &std::path::Path, last: &str) -> String {
+    let child = |name: &str| {
+        format!(
+            "sh -c 'echo $$ > {}/{name}; exec sleep 600'",
+            folder.display()
+        )
+    };
+    format!(
+        "{} & setsid {} & (setsid {} &) & (env -i setsid {} &) & setsid sh -c \"(setsid {} &) & sleep 600\" & {last}",
+        child("group"),
+        child("session"),
+        child("orphan"),
+        child("bare"),
+        child("deep").replace('$', "\\$"),
+    )
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_signal_ends_all_that_was_started() {
+    use std::time::{Duration, Instant};
+    for (signal, status) in [("TERM", 143), ("INT", 130), ("HUP", 129)] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let script = family(folder.path(), "sleep 600");
+        let mut run = std::process::Command::new(URDD)
+            .args([
+                "conformance",
+                "validator",
+                "--case",
+                "DOF001",
+                "--jobs",
+                "1",
+            ])
+            .args(["--", "sh", "-c", &script, "sh", "{dir}"])
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .expect("the program");
+        let start = Instant::now();
+        while alive(folder.path()).len() < 5 && start.elapsed() < Duration::from_secs(60) {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        assert_eq!(alive(folder.path()).len(), 5);
+        let pid = run.id().to_string();
+        let kill = std::process::Command::new("kill")
+            .args([&format!("-{signal}"), &pid])
+            .status();
+        assert!(kill.expect("kill").success());
+        assert_eq!(run.wait().expect("a status").code(), Some(status));
+        assert_eq!(alive(folder.path()), [] as [String; 0], "SIG{signal}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn whatever_a_command_started_ends_with_it() {
+    for (last, end) in [
+        ("sleep 600", "stopped at the time limit"),
+        ("sleep 1; exit 7", "exit status 7"),
+    ] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let script = family(folder.path(), last);
+        let command = ["sh", "-c", &script, "sh", "{dir}"];
+        let start = [
+            "validator",
+            "--format",
+            "json",
+            "--case",
+            "valid/single_link",
+            "--timeout",
+            "2",
+        ];
+        let (_, result) = result(&[&start[..], &["--"], &command].concat());
+        assert_eq!(result["wrong"][0]["end"], end);
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 5);
+        assert_eq!(alive(folder.path()), [] as [String; 0], "{last}");
+    }
+}
+
+#[test]
+fn a_log_replaces_no_other_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("thesis.tex");
+    let log = ["--log", file.to_str().expect("UTF-8")];
+    let start = ["validator", "--case", "DOF001"];
+    let command = ["--", "sh", "-c", "exit 1", "sh", "{dir}"];
+    let run = |more: &[&str]| conformance(&[&start[..], &log, more, &command].concat());
+    for text in ["my thesis\n", "{}\n", "{\"end\": 1}\n", "[1]"] {
+        fs::write(&file, text).expect("written");
+        let output = run(&[]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(
+            stderr(&output).contains("is not a log of this command"),
+            "{}",
+            stderr(&output)
+        );
+        assert_eq!(fs::read_to_string(&file).expect("a file"), text);
+    }
+    assert_ne!(run(&["--force"]).status.code(), Some(2));
+    let logged = fs::read_to_string(&file).expect("a log");
+    assert!(logged.starts_with("{\"id\":\"DOF001/"), "{logged}");
+    // Its own log it writes again, and an empty file too.
+    assert_ne!(run(&[]).status.code(), Some(2));
+    fs::write(&file, "").expect("written");
+    assert_ne!(run(&[]).status.code(), Some(2));
+    assert_eq!(run(&["--output", log[1]]).status.code(), Some(2));
+    let metadata = folder.path().join("urdd.json");
+    let named = ["--log", metadata.to_str().expect("UTF-8")];
+    let output = conformance(&[&start[..], &named, &command].concat());
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(!metadata.exists());
+}

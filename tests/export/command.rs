@@ -50,6 +50,13 @@ fn nothing_is_written_over_unless_asked() {
         before
     );
 
+    // Its own output is no reason to refuse, and a person's files beside it stay.
+    std::fs::write(folder.join("arm_meshes/notes.txt"), "mine").expect("written");
+    let again = ["urdf", urdd_folder, "-o", "arm.urdf", "--shapes", "boxes"];
+    assert_eq!(export(&again), (0, String::new(), String::new()));
+    let mine = std::fs::read_to_string(folder.join("arm_meshes/notes.txt"));
+    assert_eq!(mine.expect("a file"), "mine");
+
     // A mesh in the way alone is not written over either, unless it is the same.
     std::fs::remove_file(folder.join("arm.urdf")).expect("removed");
     assert_eq!(export(&["urdf", urdd_folder, "-o", "arm.urdf"]).0, 0);
@@ -148,4 +155,109 @@ fn walk(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
         }
     }
     found
+}
+
+/// A disk that is full, as a file that may not grow.
+#[test]
+#[cfg(target_os = "linux")]
+fn an_export_that_cannot_be_written_leaves_nothing() {
+    let (folder, path) = made(&our_robots()[8].1);
+    let folder = folder.path();
+    let out = folder.join("out");
+    std::fs::create_dir(&out).expect("a folder");
+    let export = |output: &str, blocks: &str| {
+        let script = "trap '' XFSZ; ulimit -f $1; exec \"$2\" export mjcf \"$3\" -o \"$4\" --force";
+        let output = std::process::Command::new("sh")
+            .args(["-c", script, "sh", blocks, env!("CARGO_BIN_EXE_urdd")])
+            .args([path.as_os_str(), out.join(output).as_os_str()])
+            .output()
+            .expect("the program");
+        (
+            output.status.code(),
+            String::from_utf8_lossy(&output.stderr).into_owned(),
+        )
+    };
+    let entries = || out.read_dir().expect("a folder").count();
+    for output in ["arm.xml", "new/below/arm.xml"] {
+        let (status, said) = export(output, "1");
+        assert_eq!(status, Some(2), "{said}");
+        assert!(said.contains("cannot be written"), "{said}");
+        assert_eq!(entries(), 0, "{said}");
+    }
+    // Neither file nor meshes of an export that is there change.
+    assert_eq!(export("arm.xml", "unlimited").0, Some(0));
+    let files = || {
+        let meshes = out.join("arm_meshes").read_dir().expect("meshes");
+        let meshes = meshes.map(|mesh| mesh.expect("a mesh").path());
+        let mut files: Vec<_> = meshes.chain([out.join("arm.xml")]).collect();
+        files.sort();
+        let read = |file| (std::fs::read(&file).expect("a file"), file);
+        files.into_iter().map(read).collect::<Vec<_>>()
+    };
+    let before = files();
+    assert_eq!(export("arm.xml", "1").0, Some(2));
+    assert!(files() == before);
+}
+
+#[test]
+#[cfg(unix)]
+fn update_reads_regular_files_up_to_a_limit() {
+    let (folder, path) = made(&our_robots()[8].1);
+    let folder = folder.path();
+    let path = path.to_str().expect("a path");
+    let pipe = std::process::Command::new("mkfifo")
+        .arg(folder.join("pipe"))
+        .status();
+    assert!(pipe.expect("mkfifo").success());
+    std::os::unix::fs::symlink("/dev/zero", folder.join("zero")).expect("a link");
+    let long = std::fs::File::create(folder.join("long")).expect("a file");
+    long.set_len((16 << 20) + 1).expect("a file");
+    for file in ["pipe", "zero", "long", "not-there"] {
+        let (status, _, said) = urdd(&["export", "srdf", path, "--update", "-o", file], folder);
+        assert_eq!(status, 2, "{file}: {said}");
+        assert!(said.contains(&format!("{file}: cannot be read")), "{said}");
+    }
+    let long = std::fs::metadata(folder.join("long")).expect("a file");
+    assert_eq!(long.len(), (16 << 20) + 1);
+}
+
+#[test]
+fn update_keeps_what_a_person_wrote_and_says_so() {
+    let (folder, path) = made(&our_robots()[8].1);
+    let folder = folder.path();
+    let path = path.to_str().expect("a path");
+    let name = our_robots().swap_remove(8).0;
+    let old = format!(
+        "<?xml version=\"1.0\"?>\r\n<robot name=\"{name}\">\r\n  <disable_collisions link1=\"x\" link2=\"y\" reason=\"Never\"/>\r\n  <disable_collisions link1=\"mine\" link2=\"y\" reason=\"User\"/>\r\n  <disable_collisions link1=\"mine\" link2=\"z\" reason=\"they are welded\"/>\r\n</robot>\r\n"
+    );
+    let file = folder.join("arm.srdf");
+    std::fs::write(&file, old).expect("a file");
+    let mut last = String::new();
+    for run in 0..2 {
+        let update = ["export", "srdf", path, "--update", "-o", "arm.srdf"];
+        let (status, _, said) = urdd(&update, folder);
+        assert_eq!(status, 0, "{said}");
+        assert!(
+            said.contains("2 pairs of links kept that a person disabled"),
+            "{said}"
+        );
+        let text = std::fs::read_to_string(&file).expect("a file");
+        assert_eq!(text.matches("\"mine\"").count(), 2);
+        assert!(!text.contains("link1=\"x\"") && text.contains("reason=\"Adjacent\""));
+        assert!(!text.replace("\r\n", "").contains('\n'), "{text:?}");
+        assert!(run == 0 || text == last);
+        last = text;
+    }
+    // A file that is written anew, and brought up to date: the same.
+    assert_eq!(
+        urdd(&["export", "srdf", path, "-o", "new.srdf"], folder).0,
+        0
+    );
+    let new = std::fs::read(folder.join("new.srdf")).expect("a file");
+    let (status, _, said) = urdd(
+        &["export", "srdf", path, "--update", "-o", "new.srdf"],
+        folder,
+    );
+    assert_eq!(status, 0, "{said}");
+    assert_eq!(std::fs::read(folder.join("new.srdf")).expect("a file"), new);
 }

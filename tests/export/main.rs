@@ -7,7 +7,10 @@ mod program;
 mod robots;
 
 mod command;
+mod drake;
+mod fitted_spheres;
 mod mjcf;
+mod names;
 mod pairs;
 mod spheres;
 mod srdf;

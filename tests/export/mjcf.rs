@@ -2,7 +2,7 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use roxmltree::{Document, Node};
-use urdd::export::{Format, Options, export};
+use urdd::export::{Format, Note, Options, export};
 use urdd::kinematics::rotation::from_rotation_vector;
 use urdd::robot::{Robot, ShapeKind};
 
@@ -170,7 +170,12 @@ fn a_root_called_world_is_the_world() {
     assert_eq!(names, ["arm"]);
     assert_moves_alike(&robot, &made.text, "world");
     // The arm has no mass in the URDF, and moves.
-    assert!(made.text.contains("boundmass"));
+    assert!(
+        made.notes
+            .iter()
+            .any(|note| matches!(note, Note::Inertia { link, .. } if link == "arm"))
+    );
+    assert!(made.text.contains("mass=\"1e-9\""));
 }
 
 #[test]
@@ -192,5 +197,78 @@ fn every_mesh_that_is_named_is_there() {
             assert_eq!(named, files, "{name}");
             assert!(!files.is_empty(), "{name}");
         }
+    }
+}
+
+/// The masses of the URDF are the file's, whatever the inertias, and what is assumed is said.
+#[test]
+fn masses_stay_whatever_the_inertia() {
+    let total = |text: &str| -> f64 {
+        let document = Document::parse(text).expect("well-formed");
+        let inertials = document
+            .descendants()
+            .filter(|n| n.has_tag_name("inertial"));
+        inertials
+            .map(|n| numbers(n, "mass").expect("a mass")[0])
+            .sum()
+    };
+    for (name, urdf) in our_robots() {
+        let (_folder, path) = made(&urdf);
+        let robot = Robot::open(path).expect("a robot");
+        let made = export(&robot, Format::Mjcf, &Options::default()).expect("an export");
+        let links = robot.description().expect("a description").links;
+        let mass =
+            |link: &urdd::format::urdf::Link| Some(link.inertial.as_ref()?.mass.as_ref()?.value);
+        let expected: f64 = links
+            .iter()
+            .filter(|link| link.name != "world")
+            .filter_map(mass)
+            .sum();
+        let assumed = 1e-9
+            * made
+                .notes
+                .iter()
+                .filter(|note| note.to_string().contains("1e-9 kg and"))
+                .count() as f64;
+        assert!(
+            (total(&made.text) - expected - assumed).abs() < 1e-12,
+            "{name}"
+        );
+    }
+    let inertial = |mass: &str, inertia: &str| {
+        format!("<inertial><mass value=\"{mass}\"/>{inertia}</inertial>")
+    };
+    let zero = r#"<inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>"#;
+    let full = r#"<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>"#;
+    // A group that moves: its own inertia is 0, that of what is fixed to it is not.
+    for (own, fixed, noted) in [
+        (zero, full, 0),
+        (zero, zero, 1),
+        (full, zero, 0),
+        ("", "", 1),
+    ] {
+        let (_folder, path) = made_of(&format!(
+            r#"<robot name="r"><link name="a"/><link name="b">{}</link><link name="c">{}</link>
+            <joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>
+            <joint name="k" type="fixed"><parent link="b"/><child link="c"/></joint></robot>"#,
+            inertial("0.25", own),
+            inertial("0.5", fixed)
+        ));
+        let robot = Robot::open(path).expect("a robot");
+        let made = export(&robot, Format::Mjcf, &Options::default()).expect("an export");
+        assert_eq!(total(&made.text), 0.75, "{own} {fixed}");
+        let notes = made
+            .notes
+            .iter()
+            .filter(|note| matches!(note, Note::Inertia { .. }));
+        assert_eq!(notes.count(), noted, "{own} {fixed}: {:?}", made.notes);
+        let said = made
+            .notes
+            .iter()
+            .filter(|note| matches!(note, Note::Inertia { .. }));
+        assert!(
+            said.into_iter()
+                .all(|note| made.text.contains(&note.to_string()))
+        );
     }
 }

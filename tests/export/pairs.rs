@@ -1,7 +1,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::Document;
-use urdd::export::{Format, Options, export};
+use urdd::export::{Format, Note, Options, export};
 use urdd::format::link_shapes_simple_skips::SkipReason;
 use urdd::format::link_shapes_skips::SkippedReason;
 use urdd::robot::{Robot, ShapeKind};
@@ -62,13 +62,222 @@ fn the_pairs_of_every_format_are_those_of_the_modules() {
                 ["link1", "link2"],
             );
             assert_eq!(srdf, expected, "{name}");
-            let mjcf = pairs_in(&text(Format::Mjcf), "exclude", ["body1", "body2"]);
-            assert_eq!(mjcf, expected, "{name}");
+            assert_eq!(
+                mjcf_checked(&text(Format::Mjcf)),
+                checked(&robot, kind),
+                "{name}"
+            );
             assert_eq!(drake_pairs(&text(Format::Drake)), expected, "{name}");
-            assert_eq!(curobo_pairs(&text(Format::Curobo)), expected, "{name}");
         }
     }
     assert!(disabled > 50, "{disabled}");
+}
+
+type Shapes = BTreeSet<[(String, String); 2]>;
+
+/// The pairs of shapes that MuJoCo checks, by its documentation: of all bodies but those without a joint between them and
+/// those that are excluded, and besides them the pairs that are named.
+fn mjcf_checked(text: &str) -> Shapes {
+    let document = Document::parse(text).expect("well-formed");
+    let mut rigid = BTreeMap::new();
+    let mut geoms = Vec::new();
+    for body in document
+        .descendants()
+        .filter(|n| ["body", "worldbody"].iter().any(|t| n.has_tag_name(*t)))
+    {
+        let name = body.attribute("name").unwrap_or("world").to_owned();
+        let moves = body.children().any(|n| n.has_tag_name("joint"));
+        let parent = body
+            .parent()
+            .and_then(|parent| parent.attribute("name"))
+            .unwrap_or("world");
+        let group = match moves || body.has_tag_name("worldbody") {
+            true => name.clone(),
+            false => String::clone(&rigid[parent]),
+        };
+        rigid.insert(name.clone(), group);
+        let own = body
+            .children()
+            .filter(|n| n.attribute("class") == Some("collision"));
+        geoms.extend(own.map(|geom| {
+            (
+                name.clone(),
+                geom.attribute("name").expect("a name").to_owned(),
+            )
+        }));
+    }
+    let excluded = pairs_in(text, "exclude", ["body1", "body2"]);
+    let mut checked = BTreeSet::new();
+    for (k, (a, one)) in geoms.iter().enumerate() {
+        for (b, other) in &geoms[k + 1..] {
+            let is_out = |a: &String, b: &String| excluded.contains(&(a.clone(), b.clone()));
+            if rigid[a] != rigid[b] && !is_out(a, b) && !is_out(b, a) {
+                checked.insert(sorted(one, other));
+            }
+        }
+    }
+    for (one, other) in pairs_in(text, "pair", ["geom1", "geom2"]) {
+        assert!(
+            checked.insert(sorted(&one, &other)),
+            "{one} {other} is checked anyway"
+        );
+    }
+    checked
+}
+
+fn sorted(one: &str, other: &str) -> [(String, String); 2] {
+    let place = |geom: &str| {
+        let (link, piece) = geom.rsplit_once('/').expect("a piece");
+        (link.to_owned(), piece.to_owned())
+    };
+    let mut pair = [place(one), place(other)];
+    pair.sort();
+    pair
+}
+
+/// The pairs of shapes that the URDD checks, of links that move against each other.
+fn checked(robot: &Robot, kind: ShapeKind) -> Shapes {
+    let skips = robot.skips(kind).expect("skips");
+    let description = robot.description().expect("a description");
+    let names = robot.links().expect("links");
+    let mut rigid: BTreeMap<&str, &str> = names
+        .iter()
+        .map(|name| (name.as_str(), name.as_str()))
+        .collect();
+    for _ in &description.joints {
+        for joint in &description.joints {
+            if joint.joint_type == urdd::format::urdf::JointType::Fixed {
+                rigid.insert(&joint.child.link, rigid[joint.parent.link.as_str()]);
+            }
+        }
+    }
+    let mut found = BTreeSet::new();
+    for (i, (a, p)) in skips.places().iter().enumerate() {
+        for (j, (b, q)) in skips.places().iter().enumerate().skip(i + 1) {
+            let [a, b] = [a, b].map(|link| names[*link].as_str());
+            if a != b && rigid[a] != rigid[b] && !skips.is_skipped(i, j) {
+                found.insert(sorted(&format!("{a}/{p}"), &format!("{b}/{q}")));
+            }
+        }
+    }
+    found
+}
+
+/// A base with a tower away from it, and an arm on a hub without shapes: its pieces near the hub always touch the base,
+/// and it hits the tower when it turns.
+const TOWER: &str = r#"<robot name="tower">
+<link name="base"><visual><geometry><box size="0.4 0.4 0.2"/></geometry></visual>
+<visual><origin xyz="0 1 0.1"/><geometry><box size="0.1 0.1 0.4"/></geometry></visual></link>
+<link name="hub"/>
+<link name="arm"><visual><geometry><box size="0.2 0.2 0.4"/></geometry></visual>
+<visual><origin xyz="0.8 0 0.15"/><geometry><box size="1 0.1 0.1"/></geometry></visual></link>
+<joint name="a" type="revolute"><parent link="base"/><child link="hub"/><axis xyz="0 0 1"/><limit lower="0" upper="2" effort="1" velocity="1"/></joint>
+<joint name="b" type="revolute"><parent link="hub"/><child link="arm"/><origin xyz="0 0 0.1"/><axis xyz="0 0 1"/><limit lower="-0.1" upper="0.1" effort="1" velocity="1"/></joint>
+</robot>"#;
+
+#[test]
+fn a_mixed_pair_is_named_with_what_is_lost_or_found_for_nothing() {
+    let (folder, path) = crate::robots::made_of(TOWER);
+    let robot = Robot::open(&path).expect("a robot");
+    let skips = robot.skips(ShapeKind::Pieces).expect("skips");
+    let (mut all, mut expected) = (0, 0);
+    for i in 0..skips.len() {
+        for j in i + 1..skips.len() {
+            if skips.places()[i].0 != skips.places()[j].0 {
+                all += 1;
+                expected += usize::from(!skips.is_skipped(i, j));
+            }
+        }
+    }
+    assert!(0 < expected && expected < all, "{expected} of {all}");
+    // What is lost, by the distances of all pairs.
+    let proximity = robot.proximity(ShapeKind::Pieces).expect("shapes");
+    let configurations = robot.configurations().expect("bounds");
+    let touches = |k: &u64| {
+        let distances = proximity
+            .distances(&configurations.random(*k))
+            .expect("distances");
+        distances.iter().any(|pair| pair.distance == 0.0)
+    };
+    let lost = (0..1000).filter(touches).count();
+    assert!(lost > 20, "{lost}");
+    for keep_pairs in [false, true] {
+        let options = Options {
+            keep_pairs,
+            ..Options::default()
+        };
+        for format in [Format::Srdf, Format::Drake] {
+            let made = export(&robot, format, &options).expect("an export");
+            let notes: Vec<&Note> = made
+                .notes
+                .iter()
+                .filter(|note| matches!(note, Note::Mixed { .. }))
+                .collect();
+            let [
+                Note::Mixed {
+                    links,
+                    disabled,
+                    checked,
+                    skipped: of,
+                    contacts: Some(contacts),
+                },
+            ] = notes[..]
+            else {
+                panic!("{notes:?}");
+            };
+            assert_eq!(links, &["base".to_owned(), "arm".to_owned()]);
+            assert_eq!(
+                (*disabled, *checked, *of),
+                (!keep_pairs, expected, all - expected)
+            );
+            // The arm's foot stands in the base.
+            assert_eq!(
+                (contacts.checked, contacts.skipped, contacts.samples),
+                (lost, 1000, 1000)
+            );
+            let text = notes[0].to_string();
+            let count = if keep_pairs { 1000 } else { lost };
+            assert!(
+                text.contains(&format!("{count} of 1000 sampled configurations")),
+                "{text}"
+            );
+            assert!(made.text.contains(&text), "the file says so too");
+            let disables = match format {
+                Format::Srdf => pairs_in(&made.text, "disable_collisions", ["link1", "link2"]),
+                _ => drake_pairs(&made.text),
+            };
+            assert_eq!(
+                disables.contains(&("base".into(), "arm".into())),
+                !keep_pairs
+            );
+        }
+        // MuJoCo is told of pieces, whatever is asked for.
+        let made = export(&robot, Format::Mjcf, &options).expect("an export");
+        assert!(
+            made.notes
+                .iter()
+                .all(|note| !matches!(note, Note::Mixed { .. }))
+        );
+        assert_eq!(mjcf_checked(&made.text), checked(&robot, ShapeKind::Pieces));
+        assert_eq!(
+            pairs_in(&made.text, "pair", ["geom1", "geom2"]).len(),
+            expected
+        );
+    }
+    let run = |more: &[&str]| {
+        let arguments = ["export", "srdf", "robot", "-o", "-"];
+        crate::program::urdd(&[&arguments[..], more].concat(), folder.path())
+    };
+    let (status, printed, said) = run(&[]);
+    assert!(
+        status == 0 && printed.contains("link2=\"arm\"") && said.contains("--keep-pairs"),
+        "{said}"
+    );
+    let (status, printed, said) = run(&["--keep-pairs"]);
+    assert!(
+        status == 0 && !printed.contains("link2=\"arm\"") && !said.contains("--keep-pairs"),
+        "{said}"
+    );
 }
 
 /// By Drake's documentation: members of a group do not collide with those of a group that it ignores.
@@ -100,21 +309,6 @@ fn drake_pairs(text: &str) -> BTreeSet<Pair> {
                     pairs.insert((a.clone(), b.clone()));
                 }
             }
-        }
-    }
-    pairs
-}
-
-fn curobo_pairs(text: &str) -> BTreeSet<Pair> {
-    let document: serde_yaml::Value = serde_yaml::from_str(text).expect("YAML");
-    let ignored = document["self_collision_ignore"]
-        .as_mapping()
-        .expect("a mapping");
-    let mut pairs = BTreeSet::new();
-    for (a, others) in ignored {
-        for b in others.as_sequence().expect("a list") {
-            let name = |value: &serde_yaml::Value| value.as_str().expect("a name").to_owned();
-            pairs.insert((name(a), name(b)));
         }
     }
     pairs

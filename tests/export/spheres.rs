@@ -8,11 +8,17 @@ use crate::robots::{made, our_robots};
 
 type Spheres = BTreeMap<String, Vec<(Vector3<f64>, f64)>>;
 
-fn foam(robot: &Robot, spheres: SphereBudget) -> Spheres {
-    let options = Options {
+/// Spheres that cover, measured in few configurations.
+fn covering(spheres: SphereBudget) -> Options {
+    Options {
         spheres,
+        cover: true,
+        samples: 100,
         ..Options::default()
-    };
+    }
+}
+
+fn foam(robot: &Robot, options: Options) -> Spheres {
     let text = export(robot, Format::Foam, &options)
         .expect("an export")
         .text;
@@ -42,11 +48,16 @@ fn foam(robot: &Robot, spheres: SphereBudget) -> Spheres {
         .collect()
 }
 
-fn curobo(robot: &Robot) -> Spheres {
-    let text = export(robot, Format::Curobo, &Options::default())
+fn curobo(robot: &Robot, options: &Options) -> Spheres {
+    let text = export(robot, Format::Curobo, options)
         .expect("an export")
         .text;
-    let document: serde_yaml::Value = serde_yaml::from_str(&text).expect("YAML");
+    spheres_of(&text)
+}
+
+/// The spheres in cuRobo's form.
+fn spheres_of(text: &str) -> Spheres {
+    let document: serde_yaml::Value = serde_yaml::from_str(text).expect("YAML");
     let number = |value: &serde_yaml::Value| value.as_f64().expect("a number");
     let sphere = |value: &serde_yaml::Value| {
         let centre: Vec<f64> = value["center"]
@@ -111,12 +122,13 @@ fn filled(spheres: &[(Vector3<f64>, f64)]) -> (f64, f64) {
 
 /// Points inside the pieces, at the corners and between them.
 #[test]
-fn the_spheres_of_a_link_hold_its_pieces() {
+fn covering_spheres_of_a_link_hold_its_pieces() {
     for (name, urdf) in our_robots() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
-        let spheres = foam(&robot, SphereBudget::default());
-        assert_eq!(spheres, curobo(&robot), "{name}");
+        let options = covering(SphereBudget::default());
+        let spheres = foam(&robot, options.clone());
+        assert_eq!(spheres, curobo(&robot, &options), "{name}");
         let links = robot.links().expect("links");
         let mut next = 1u64;
         let mut dice = || {
@@ -158,13 +170,13 @@ fn the_spheres_of_a_link_hold_its_pieces() {
 }
 
 #[test]
-fn more_spheres_waste_less_and_keep_to_their_number() {
+fn more_covering_spheres_waste_less_and_keep_to_their_number() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(path).expect("a robot");
     let mut last: BTreeMap<String, (f64, f64)> = BTreeMap::new();
     let mut sums = Vec::new();
     for count in [1, 4, 16, 64] {
-        let spheres = foam(&robot, SphereBudget::PerLink(count));
+        let spheres = foam(&robot, covering(SphereBudget::PerLink(count)));
         assert!(
             spheres
                 .values()
@@ -190,7 +202,7 @@ fn more_spheres_waste_less_and_keep_to_their_number() {
     }
     assert!(sums[3] < 0.5 * sums[0], "{sums:?}");
     // One sphere of a link is the smallest about its pieces: no larger than that about its hull, and not smaller.
-    let one = foam(&robot, SphereBudget::PerLink(1));
+    let one = foam(&robot, covering(SphereBudget::PerLink(1)));
     let links = robot.links().expect("links");
     for shape in robot.shapes(ShapeKind::Spheres).expect("spheres") {
         let Solid::Sphere { radius, .. } = shape.solid else {
@@ -199,9 +211,9 @@ fn more_spheres_waste_less_and_keep_to_their_number() {
         let got = one[&links[shape.link]][0].1;
         assert!((got / radius - 1.0).abs() < 0.02, "{got} for {radius}");
     }
-    let total = foam(&robot, SphereBudget::Total(40));
+    let total = foam(&robot, covering(SphereBudget::Total(40)));
     let count = total.values().map(Vec::len).sum::<usize>();
     assert!((30..=40).contains(&count), "{count}");
-    let few = foam(&robot, SphereBudget::Total(1));
+    let few = foam(&robot, covering(SphereBudget::Total(1)));
     assert!(few.values().all(|of_link| of_link.len() == 1));
 }

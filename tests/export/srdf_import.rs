@@ -130,7 +130,10 @@ fn what_is_no_srdf_of_the_robot_is_refused() {
         fault("<robot name=\"other\"/>"),
         ImportError::Srdf(SrdfError::OtherRobot { .. })
     ));
-    assert!(matches!(fault("no"), ImportError::Srdf(SrdfError::Xml(_))));
+    assert!(matches!(
+        fault("no"),
+        ImportError::Srdf(SrdfError::Xml { .. })
+    ));
     let error = fault(&srdf("<disable_collisions link1=\"l1\"/>"));
     assert_eq!(
         error.to_string(),
@@ -141,4 +144,69 @@ fn what_is_no_srdf_of_the_robot_is_refused() {
         error.to_string().starts_with("line 2: ") && error.to_string().contains("`l11`"),
         "{error}"
     );
+}
+
+/// As many pairs as a file may hold, on one line: counting lines and looking for links and edits went with the square.
+#[test]
+fn very_many_pairs_on_one_line_take_a_moment() {
+    let (folder, urdd) = made_of(&line());
+    let pairs: String = (0..290_000).map(|i| pair(i % 4, 4)).collect();
+    let text = format!("<robot name=\"line\">{pairs}</robot>");
+    let start = std::time::Instant::now();
+    let robot = Robot::open(&urdd).expect("a robot");
+    let imported = import_srdf(&robot, &text, false).expect("edits");
+    assert_eq!((imported.added, imported.already), (3, 1));
+    let made = urdd::export::export(
+        &robot,
+        urdd::export::Format::Srdf,
+        &urdd::export::Options::default(),
+    );
+    let merged = urdd::export::merge_srdf(&text, &made.expect("an SRDF").text).expect("merged");
+    assert_eq!(merged.kept, 0);
+    assert!(merged.text.len() < 2_000, "{}", merged.text.len());
+    // Minutes once.
+    assert!(
+        start.elapsed() < std::time::Duration::from_secs(30),
+        "{:?}",
+        start.elapsed()
+    );
+    drop(folder);
+}
+
+#[test]
+fn an_srdf_is_counted_before_it_is_parsed() {
+    let (_folder, urdd) = made_of(&line());
+    let robot = Robot::open(&urdd).expect("a robot");
+    let deep = "<a>".repeat(1 << 20);
+    let entities = "<!DOCTYPE robot [<!ENTITY a \"b\">]><robot name=\"line\"/>";
+    for text in [srdf(&deep), entities.to_owned(), "\0".to_owned()] {
+        let error = import_srdf(&robot, &text, false).expect_err("not read");
+        assert!(
+            matches!(error, ImportError::Srdf(SrdfError::Xml { .. })),
+            "{error}"
+        );
+        let merged = urdd::export::merge_srdf(&text, &srdf(""));
+        assert!(matches!(merged, Err(SrdfError::Xml { .. })));
+    }
+}
+
+/// Two imports at a time: none loses what the other wrote.
+#[test]
+fn an_import_waits_for_others_and_sees_what_they_wrote() {
+    let (folder, urdd) = made_of(&line());
+    let pairs = [(0, 2), (0, 3), (0, 4), (1, 3), (1, 4), (2, 4)];
+    std::thread::scope(|scope| {
+        for (number, (a, b)) in pairs.iter().enumerate() {
+            let file = format!("{number}.srdf");
+            std::fs::write(folder.path().join(&file), srdf(&pair(*a, *b))).expect("a file");
+            let folder = folder.path();
+            scope.spawn(move || {
+                // Others may write again and again; then it says so, and nothing was written.
+                let import =
+                    || crate::program::urdd(&["skips", "import", &file, "robot"], folder).0;
+                assert!((0..20).any(|_| import() == 0));
+            });
+        }
+    });
+    assert_eq!(skipped(&urdd).len(), 10);
 }

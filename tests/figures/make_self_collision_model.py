@@ -1,5 +1,5 @@
 """Writes conformance/vectors/self_collision_model.json: a network with an input of each kind, and what it gives, by numpy
-and scipy's rotations.
+and scipy's rotations; and the intervals of some rates, by scipy.
 
     python3 tests/figures/make_self_collision_model.py
 """
@@ -9,8 +9,19 @@ from pathlib import Path
 
 import numpy as np
 from scipy.spatial.transform import Rotation
+from scipy.stats import binomtest
 
 TARGET = Path(__file__).parents[2] / "conformance/vectors/self_collision_model.json"
+
+
+#: A count, and what it is counted among.
+RATES = [(0, 1), (1, 1), (0, 300), (9, 903), (35, 5078), (50, 100), (200, 200), (1, 50_000), (49_999, 50_000), (3, 7)]
+
+
+def interval(count, of):
+    """Wilson's score interval: SPEC 8.8.11."""
+    found = binomtest(count, of).proportion_ci(0.95, "wilson")
+    return {"count": count, "of": of, "lower": float(found.low), "upper": float(found.high)}
 
 
 def rounded(array):
@@ -56,6 +67,7 @@ def main():
             for (a, b), margin in zip([(0, 2), (0, 3), (1, 3)], margins, strict=True)
         ],
         "vectors": vectors,
+        "intervals": [interval(*of) for of in RATES],
     }
     TARGET.write_text(json.dumps(document, indent=1) + "\n", "utf-8")
 

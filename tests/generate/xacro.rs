@@ -167,3 +167,48 @@ fn arguments_that_no_file_takes_are_wrong_usage() {
     let (status, said) = run_with(folder.path(), "r.urdf", None, &["prefix:=left_", "--xacro"]);
     assert_eq!(status, Some(0), "{said}");
 }
+
+/// A child that made a session of its own ends at the time limit, and with a signal.
+#[test]
+#[cfg(target_os = "linux")]
+fn what_left_its_session_ends_too() {
+    use std::time::{Duration, Instant};
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("arm.xacro"), EXPANDED).unwrap();
+    let number = folder.path().join("number");
+    let script = format!(
+        "(/usr/bin/setsid /bin/sh -c 'echo $$ > {}; exec /bin/sleep 600' &) & /bin/sleep 600",
+        number.display()
+    );
+    let is_alive = || {
+        let pid = fs::read_to_string(&number).unwrap_or_default();
+        let stat = fs::read_to_string(format!("/proc/{}/stat", pid.trim())).unwrap_or_default();
+        stat.rsplit_once(')')
+            .is_some_and(|(_, rest)| !rest.starts_with(" Z"))
+    };
+    let more = ["--xacro-timeout", "2"];
+    let (status, said) = run_with(folder.path(), "arm.xacro", Some(&script), &more);
+    assert_eq!(status, Some(1));
+    assert!(said.contains("it took more than 2 s"), "{said}");
+    assert!(number.exists() && !is_alive());
+
+    fs::remove_file(&number).unwrap();
+    let mut run = urdd(&["generate", "-o"])
+        .arg(folder.path().join("out"))
+        .arg(folder.path().join("arm.xacro"))
+        .env("PATH", folder.path().join("bin"))
+        .spawn()
+        .unwrap();
+    let start = Instant::now();
+    while !is_alive() && start.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let (pid, asked) = (run.id().to_string(), Instant::now());
+    let kill = std::process::Command::new("kill")
+        .args(["-TERM", &pid])
+        .status();
+    assert!(kill.unwrap().success());
+    assert_eq!(run.wait().unwrap().code(), Some(143));
+    assert!(asked.elapsed() < Duration::from_secs(4));
+    assert!(!is_alive());
+}

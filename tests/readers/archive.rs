@@ -7,7 +7,7 @@ use urdd::directory::source::Archive;
 /// What is accepted can be listed, every file in it is as long as it says, and all of them are
 /// within what an archive of this size may hold.
 pub fn archive(bytes: &[u8]) {
-    let Ok(archive) = Archive::new("robot", bytes.into()) else {
+    let Ok(archive) = Archive::new("robot", bytes.to_vec()) else {
         return;
     };
     let root = Root::of(archive);

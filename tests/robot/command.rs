@@ -107,3 +107,71 @@ fn what_is_wrong_is_said_with_the_line() {
     assert_eq!(status, 2);
     assert!(error.contains("nowhere: "), "{error}");
 }
+
+#[test]
+fn very_many_random_configurations_are_not_held_in_memory() {
+    let (_folder, path) = made(&our_robots()[8].1);
+    for count in ["18446744073709551615", "1000000001", "0", "-1"] {
+        let (status, _, said) = check(&path, &[&format!("--random={count}")], "");
+        assert_eq!(status, 2, "{said}");
+        assert!(said.contains("--random"), "{said}");
+    }
+    // The first line is there before the last one is asked about, and who closes the pipe ends it.
+    let mut child = Command::new(env!("CARGO_BIN_EXE_urdd"))
+        .arg("check-collisions")
+        .arg(&path)
+        .args([
+            "--random",
+            "1000000000",
+            "--format",
+            "json",
+            "--nearest",
+            "18446744073709551615",
+        ])
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut first = String::new();
+    let mut reader = std::io::BufReader::new(child.stdout.take().unwrap());
+    std::io::BufRead::read_line(&mut reader, &mut first).unwrap();
+    drop(reader);
+    let value: serde_json::Value = serde_json::from_str(&first).unwrap();
+    assert_eq!(value["configuration"], 0);
+    assert!(child.wait().unwrap().code().is_some_and(|code| code < 2));
+    // The same answers, however many are asked about at a time.
+    let (_, text, _) = check(&path, &["--random", "5000"], "");
+    let (_, lines, _) = check(
+        &path,
+        &["--random", "5000", "--format", "json", "--nearest=0"],
+        "",
+    );
+    let colliding = lines.matches("\"in_collision\":true").count();
+    assert!(
+        text.starts_with(&format!("{colliding} of 5000 configurations collide")),
+        "{text}"
+    );
+    assert!(colliding > 0 && lines.lines().count() == 5000);
+}
+
+#[test]
+fn a_robot_without_dofs_collides_in_each_configuration_or_in_none() {
+    let boxes = "<robot name='still'><link name='a'/><link name='b'><visual><geometry><box size='1 1 1'/></geometry></visual></link>\
+        <link name='c'><visual><geometry><box size='1 1 1'/></geometry></visual></link>\
+        <joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>\
+        <joint name='k' type='fixed'><parent link='a'/><child link='c'/></joint></robot>";
+    let folder = tempfile::tempdir().unwrap();
+    let urdf = folder.path().join("still.urdf");
+    std::fs::write(&urdf, boxes).unwrap();
+    let settings = urdd::generate::Settings {
+        skipped_reasons: Some(Vec::new()),
+        ..Default::default()
+    };
+    let path = folder.path().join("still");
+    urdd::generate::generate(&urdf, &path, &settings, &()).unwrap();
+    let (status, text, _) = check(&path, &["--random", "20"], "");
+    assert_eq!(status, 1, "{text}");
+    assert!(
+        text.starts_with("20 of 20 configurations collide"),
+        "{text}"
+    );
+}

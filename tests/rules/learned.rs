@@ -1,11 +1,21 @@
 //! LRN.
 
 use serde_json::{Value, json};
+use urdd::document::urdd::Urdd;
+use urdd::format::self_collision_model::SelfCollisionModelModule;
+use urdd::report::Report;
 use urdd::validate::code::Code;
 use urdd::validate::code::Code::*;
+use urdd::validate::learned::counts::Judge;
+use urdd::validate::rule::Severity;
+use urdd::validate::settings::Settings;
+use urdd::validate::skip::SkipReason;
+use urdd::validate::solids::Solids;
+use urdd::validate::validate;
 
+use crate::support::fixture::Fixture;
 use crate::support::model::{MODEL, Said, fixture, fixture_with, trained_on};
-use crate::{Case, changed};
+use crate::{Case, changed, findings};
 
 /// A case with some values that are others.
 fn case(code: Code, name: &'static str, caught: bool, changes: &[(&'static str, Value)]) -> Case {
@@ -35,21 +45,215 @@ fn trained_again(
     })
 }
 
-/// By one more or fewer, a count of 400 is right.
+/// A count of the evaluation, and some more.
 fn count(key: &str, by: i64) -> Value {
     let count = fixture().get(MODEL, key).as_i64().expect("a count");
     json!(count + by)
 }
 
-/// Nine collisions, none of which a model misses that misses four of five: they are far to seek.
-const LUCKY: Said = Said {
-    margin: -0.2,
-    held_out: [35_257_842, 24],
-};
+/// A model of which both rows and columns that nothing depends on make so many weights and biases, with 18 inputs, 4
+/// hidden values and 5 outputs before.
+fn padded(numbers: usize) -> impl Fn(&mut Fixture) + Clone {
+    move |fixture: &mut Fixture| {
+        let before = 18 * 4 + 4 + 4 * 5 + 5;
+        // A value more in the middle takes 18 weights, a bias, and 5 weights.
+        let more = (numbers - before) / 24;
+        let layers = fixture.get(MODEL, "/layers").clone();
+        let mut layers: Vec<Value> = layers.as_array().expect("layers").clone();
+        let list = |value: &mut Value| -> Vec<Value> { value.as_array().expect("a list").clone() };
+        for (key, value) in [("weights", json!(vec![0; 18])), ("biases", json!(0))] {
+            let mut rows = list(&mut layers[0][key]);
+            rows.extend(vec![value; more]);
+            layers[0][key] = json!(rows);
+        }
+        let mut rows = list(&mut layers[1]["weights"]);
+        for row in &mut rows {
+            let mut of = list(row);
+            of.extend(vec![json!(0); more]);
+            *row = json!(of);
+        }
+        layers[1]["weights"] = json!(rows);
+        fixture.set(MODEL, "/layers", json!(layers));
+    }
+}
+
+/// So many test vectors, all alike.
+fn vectors(count: usize) -> Value {
+    json!(vec![fixture().get(MODEL, "/test_vectors/1"); count])
+}
+
+/// The model with the counts that the draft of 0.2.0 had, of configurations of the producer's choice.
+fn as_drafted(fixture: &mut Fixture) {
+    fixture.remove(MODEL, "/evaluation");
+    fixture.set(
+        MODEL,
+        "/held_out",
+        json!({
+            "first_sample_idx": 35_257_842, "num_configurations": 24, "num_colliding": 9, "num_missed": 0,
+            "num_cleared": 15,
+        }),
+    );
+}
+
+/// The codes that are found in a model, besides informations.
+fn codes(fixture: &Fixture) -> Vec<String> {
+    let found = findings(&|folder| fixture.write_to(folder));
+    found.into_keys().collect()
+}
+
+/// Models that flatter themselves, each in a way of its own. All of them passed in 0.2.0.
+mod flattering {
+    use super::*;
+
+    /// Weights that nothing depends on made the validator count a part of the configurations.
+    #[test]
+    fn padded_with_dead_weights() {
+        let mut small = fixture();
+        padded(65_536)(&mut small);
+        small.seal();
+        assert_eq!(codes(&small), [""; 0], "as large as a model may be");
+        let mut large = fixture();
+        padded(65_560)(&mut large);
+        large.seal();
+        assert_eq!(codes(&large), ["LRN005"]);
+        // And what it says of its rates is not taken for verified.
+        large.set(MODEL, "/evaluation/num_missed", json!(0));
+        large.set(MODEL, "/evaluation/num_near_contact_missed", json!(0));
+        large.seal();
+        assert_eq!(codes(&large), ["LRN005"]);
+        let folder = tempfile::tempdir().expect("a folder");
+        large.write_to(folder.path());
+        let run = validate(&[folder.path()], &Settings::default()).expect("a URDD");
+        let report = Report::new(&run, Severity::Error);
+        let open = report.urdds[0].model_not_verified.as_ref();
+        let open = open.expect("not verified");
+        assert_eq!(open.codes, ["LRN010", "LRN011"]);
+        assert_eq!(open.reasons, ["LRN005 found a fault"]);
+    }
+
+    /// A model that has learned by heart what it would miss states that it misses nothing, which is so where it counted.
+    #[test]
+    fn overfitted_to_the_evaluation() {
+        let said = Said {
+            margin: 0.1,
+            by_heart: true,
+            ..Said::default()
+        };
+        let mut model = fixture_with(said);
+        assert_eq!(*model.get(MODEL, "/evaluation/num_missed"), json!(0));
+        let known = model.get(MODEL, "/layers/1/weights/0").as_array();
+        let known = known.expect("a row").len() - 4;
+        let honest = fixture_with(Said {
+            by_heart: false,
+            ..said
+        });
+        assert_eq!(*honest.get(MODEL, "/evaluation/num_missed"), json!(known));
+        let found = findings(&|folder| model.write_to(folder));
+        assert_eq!(
+            found.keys().collect::<Vec<_>>(),
+            ["LRN011"],
+            "{known} known"
+        );
+        assert!(found["LRN011"].contains("misses more collisions on sampled configurations"));
+        assert_eq!(codes(&honest), [""; 0]);
+
+        // Weights that nothing depends on move the second confirmation, and not the first.
+        for dead in 1..=3 {
+            model.set(MODEL, "/layers/0/weights/3/0", json!(dead));
+            model.seal();
+            assert_eq!(codes(&model), ["LRN011"]);
+        }
+    }
+
+    /// Where hardly any configuration collides, a model that clears all of them is right nearly always.
+    #[test]
+    fn rare_collisions() {
+        let rare = fixture_with(Said {
+            reach: RARE,
+            ..Said::default()
+        });
+        let colliding = rare.get(MODEL, "/evaluation/num_colliding").as_u64();
+        assert_eq!(colliding, Some(130));
+        assert_eq!(codes(&rare), ["LRN012"]);
+    }
+
+    /// 300 configurations, chosen such that none of their collisions is missed.
+    #[test]
+    fn a_window_of_its_own() {
+        let mut window = fixture();
+        window.set(
+            MODEL,
+            "/evaluation",
+            json!({
+                "num_colliding": 20, "num_missed": 0, "num_near_contact": 0, "num_near_contact_missed": 0,
+                "num_free": 280, "num_cleared": 270,
+            }),
+        );
+        window.seal();
+        assert_eq!(codes(&window), ["LRN009"]);
+    }
+
+    /// The counts of another place in the sequence, which is 0.2.0's way to choose: no key says where it is.
+    #[test]
+    fn a_start_of_its_own() {
+        let mut draft = fixture();
+        as_drafted(&mut draft);
+        draft.seal();
+        assert_eq!(codes(&draft), ["DIR030"], "and no flood of schema errors");
+        let mut both = fixture();
+        both.set(MODEL, "/evaluation/first_sample_idx", json!(35_257_842));
+        both.seal();
+        assert_eq!(codes(&both), ["SCH001"]);
+    }
+
+    /// A network beyond all limits, on ten configurations: the work decides, and neither the clock nor the threads.
+    #[test]
+    fn too_much_work() {
+        let mut large = fixture();
+        padded(1_000_000)(&mut large);
+        let model: SelfCollisionModelModule =
+            serde_json::from_value(large.get(MODEL, "").clone()).expect("a model");
+        let folder = tempfile::tempdir().expect("a folder");
+        fixture().write_to(folder.path());
+        let urdd = Urdd::read(folder.path()).expect("a URDD");
+        let solids = Solids::read(&urdd);
+        for (deep, enough) in [(false, false), (true, true)] {
+            let judge = Judge::new(&urdd, &solids, &model, deep).expect("a judge");
+            for threads in [1, 2] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+                let found = pool.expect("threads").install(|| judge.count(0, 10));
+                assert_eq!(found.is_ok(), enough, "{deep}, {threads} threads");
+                if let Err(reason) = found {
+                    assert_eq!(reason, SkipReason::TooMuchWork { deep });
+                }
+            }
+        }
+    }
+
+    /// Misses that are fewer by what a tolerance by configurations, and not by collisions, would let pass.
+    #[test]
+    fn off_by_the_tolerance_of_a_count() {
+        for (by, expected) in [(-3, vec!["LRN010"]), (-2, vec![])] {
+            let mut off = fixture();
+            off.set(
+                MODEL,
+                "/evaluation/num_missed",
+                count("/evaluation/num_missed", by),
+            );
+            off.seal();
+            assert_eq!(codes(&off), expected, "{by}");
+        }
+    }
+}
+
+/// A robot that hardly moves: 130 of its 50,000 configurations collide, and 203 where the slider goes a centimetre higher,
+/// as numpy counts too.
+const RARE: [f64; 2] = [0.3, -0.02];
+const ENOUGH: [f64; 2] = [0.3, -0.01];
 
 pub fn cases() -> Vec<Case> {
     let missed = fixture()
-        .get(MODEL, "/held_out/num_missed")
+        .get(MODEL, "/evaluation/num_missed")
         .as_u64()
         .expect("a count");
     let long = vec![json!(1.0); 19];
@@ -167,18 +371,15 @@ pub fn cases() -> Vec<Case> {
         ),
         case(
             LRN005,
-            "a-million-and-one-configurations",
+            "a-hundred-and-one-test-vectors",
             true,
-            &[("/held_out/num_configurations", json!(1_000_001))],
+            &[("/test_vectors", vectors(101))],
         ),
         case(
             LRN005,
-            "calibrated-on-two-million",
+            "a-hundred-test-vectors",
             false,
-            &[
-                ("/calibration/first_sample_idx", json!(1000)),
-                ("/calibration/num_configurations", json!(2_000_000)),
-            ],
+            &[("/test_vectors", vectors(100))],
         ),
         case(
             LRN006,
@@ -234,53 +435,138 @@ pub fn cases() -> Vec<Case> {
         ),
         case(
             LRN009,
-            "held-out-was-trained-on",
+            "calibrated-on-what-was-trained-on",
             true,
-            &[
-                ("/training/num_configurations", json!(501)),
-                ("/calibration/first_sample_idx", json!(10_000)),
-            ],
+            &[("/training/num_configurations", json!(301))],
+        ),
+        case(
+            LRN009,
+            "trained-on-the-evaluation",
+            true,
+            &[("/training/first_sample_idx", json!((1_u32 << 31) - 299))],
         ),
         case(
             LRN009,
             "more-missed-than-colliding",
             true,
-            &[("/held_out/num_missed", json!(401))],
+            &[("/evaluation/num_missed", json!(50_000))],
         ),
         case(
             LRN009,
-            "trained-up-to-the-held-out",
+            "more-missed-near-contact-than-missed",
+            true,
+            &[(
+                "/evaluation/num_near_contact_missed",
+                count("/evaluation/num_missed", 1),
+            )],
+        ),
+        case(
+            LRN009,
+            "one-configuration-short",
+            true,
+            &[("/evaluation/num_free", count("/evaluation/num_free", -1))],
+        ),
+        case(
+            LRN009,
+            "trained-up-to-the-evaluation",
             false,
-            &[
-                ("/training/num_configurations", json!(500)),
-                ("/calibration/first_sample_idx", json!(900)),
-            ],
+            &[("/training/first_sample_idx", json!((1_u32 << 31) - 300))],
         ),
         case(
             LRN010,
             "misses-halved",
             true,
-            &[("/held_out/num_missed", json!(missed / 2))],
+            &[("/evaluation/num_missed", json!(missed / 2))],
         ),
         case(
             LRN010,
-            "two-more-cleared",
+            "misses-off-by-three",
             true,
-            &[("/held_out/num_cleared", count("/held_out/num_cleared", 2))],
+            &[(
+                "/evaluation/num_missed",
+                count("/evaluation/num_missed", -3),
+            )],
         ),
         case(
             LRN010,
-            "one-more-cleared",
+            "misses-off-by-two",
             false,
-            &[("/held_out/num_cleared", count("/held_out/num_cleared", 1))],
+            &[(
+                "/evaluation/num_missed",
+                count("/evaluation/num_missed", -2),
+            )],
+        ),
+        case(
+            LRN010,
+            "near-contact-off-by-three",
+            true,
+            &[(
+                "/evaluation/num_near_contact",
+                count("/evaluation/num_near_contact", 3),
+            )],
+        ),
+        case(
+            LRN010,
+            "six-more-cleared",
+            true,
+            &[(
+                "/evaluation/num_cleared",
+                count("/evaluation/num_cleared", 6),
+            )],
+        ),
+        case(
+            LRN010,
+            "four-more-cleared",
+            false,
+            &[(
+                "/evaluation/num_cleared",
+                count("/evaluation/num_cleared", 4),
+            )],
         ),
         changed(
             LRN011,
-            "lucky-configurations",
+            "learned-by-heart",
             true,
-            || fixture_with(LUCKY),
+            || {
+                fixture_with(Said {
+                    margin: 0.1,
+                    by_heart: true,
+                    ..Said::default()
+                })
+            },
             |_| {},
         ),
         changed(LRN011, "as-it-is", false, fixture, |_| {}),
+        case(
+            LRN012,
+            "199-collisions",
+            true,
+            &[(
+                "/evaluation",
+                json!({
+                    "num_colliding": 199, "num_missed": 1, "num_near_contact": 20, "num_near_contact_missed": 1,
+                    "num_free": 49_801, "num_cleared": 49_000,
+                }),
+            )],
+        ),
+        changed(
+            DIR030,
+            "model-as-urdd-0-2-0-wrote-it",
+            true,
+            fixture,
+            as_drafted,
+        ),
+        changed(
+            LRN012,
+            "just-enough-collisions",
+            false,
+            || {
+                fixture_with(Said {
+                    reach: ENOUGH,
+                    ..Said::default()
+                })
+            },
+            |_| {},
+        ),
     ]
 }

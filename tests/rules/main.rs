@@ -23,6 +23,7 @@ mod legacy_core;
 mod legacy_robot;
 mod mesh_files;
 mod meshes;
+mod messages;
 mod one_case;
 mod schema;
 mod shapes;

@@ -86,6 +86,23 @@ const CASES: &[Case] = &[
         &["BND003", "URD001"],
     ),
     (
+        "columns that differ, and bounds of other DOFs that are wrong",
+        |urdd| {
+            urdd.set("bounds_module", "/bounds/1/0", json!(-1.1));
+            upper_bound(urdd, 0, 0.75);
+            upper_bound(urdd, 15, 7.0);
+        },
+        &["BND002", "BND003", "BND006"],
+    ),
+    (
+        "stale limit, and columns that differ about it",
+        |urdd| {
+            stale_limit(urdd);
+            urdd.set("bounds_module", "/bounds/2/1", json!(0.21));
+        },
+        &["BND002", "URD001"],
+    ),
+    (
         "stale limit, and bounds that are up to date",
         |urdd| {
             stale_limit(urdd);

@@ -264,26 +264,7 @@ fn over_poses<S, T>(
 
 /// Distance between two boxes, given by their corners; 0 in contact.
 pub fn box_distance(a: &[Point; 8], b: &[Point; 8]) -> f64 {
-    let sides = |c: &[Point; 8]| [1, 2, 4].map(|i| unit(minus(c[i], c[0])));
-    let (sides_a, sides_b) = (sides(a), sides(b));
-    let crossed = sides_a
-        .iter()
-        .flat_map(|x| sides_b.iter().map(move |y| cross(*x, *y)));
-    let axes = sides_a.iter().chain(&sides_b).copied().chain(crossed);
-    let apart = |axis: Point| {
-        let range = |corners: &[Point; 8]| {
-            let along = corners.map(|corner| dot(corner, axis));
-            along
-                .into_iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-                    (l.min(x), h.max(x))
-                })
-        };
-        let ((low_a, high_a), (low_b, high_b)) = (range(a), range(b));
-        low_a > high_b || low_b > high_a
-    };
-    // Nearly parallel sides give no axis of their own.
-    if !axes.filter(|axis| norm(*axis) > 1e-9).any(apart) {
+    if boxes_touch(a, b) {
         return 0.0;
     }
     let edges = || {
@@ -306,6 +287,30 @@ pub fn box_distance(a: &[Point; 8], b: &[Point; 8]) -> f64 {
         }
     }
     best
+}
+
+/// Whether two boxes touch: no axis separates them.
+pub fn boxes_touch(a: &[Point; 8], b: &[Point; 8]) -> bool {
+    let sides = |c: &[Point; 8]| [1, 2, 4].map(|i| unit(minus(c[i], c[0])));
+    let (sides_a, sides_b) = (sides(a), sides(b));
+    let crossed = sides_a
+        .iter()
+        .flat_map(|x| sides_b.iter().map(move |y| cross(*x, *y)));
+    let axes = sides_a.iter().chain(&sides_b).copied().chain(crossed);
+    let apart = |axis: Point| {
+        let range = |corners: &[Point; 8]| {
+            let along = corners.map(|corner| dot(corner, axis));
+            along
+                .into_iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+                    (l.min(x), h.max(x))
+                })
+        };
+        let ((low_a, high_a), (low_b, high_b)) = (range(a), range(b));
+        low_a > high_b || low_b > high_a
+    };
+    // Nearly parallel sides give no axis of their own.
+    !axes.filter(|axis| norm(*axis) > 1e-9).any(apart)
 }
 
 /// Distance between segments p-q and r-s.

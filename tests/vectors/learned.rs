@@ -1,8 +1,9 @@
 //! SPEC 8.8: what a network gives, by numpy.
 
 use serde_json::json;
+use urdd::format::rate::Rate;
 use urdd::format::self_collision_model::{
-    ModelInput, ModelLayer, ModelPair, SelfCollisionModelModule,
+    ModelEvaluation, ModelInput, ModelLayer, ModelPair, SelfCollisionModelModule,
 };
 use urdd::learn::CollisionModel;
 
@@ -26,17 +27,45 @@ struct Vector {
 fn network() -> (CollisionModel, SelfCollisionModelModule, Vec<Vector>) {
     let file: Network = vectors("self_collision_model.json");
     let range = json!({ "first_sample_idx": 0, "num_configurations": 1 });
-    let held_out = json!({
-        "first_sample_idx": 0, "num_configurations": 1, "num_colliding": 0, "num_missed": 0, "num_cleared": 0,
-    });
+    let evaluation = ModelEvaluation::NOTHING;
     let module = json!({
         "trained_on": "0".repeat(64), "clip_distance": 1.0, "inputs": file.inputs, "layers": file.layers,
-        "pairs": file.pairs, "other_pairs": [], "training": range, "calibration": range, "held_out": held_out,
+        "pairs": file.pairs, "other_pairs": [], "training": range, "calibration": range, "evaluation": evaluation,
         "test_vectors": [],
     });
     let module: SelfCollisionModelModule = serde_json::from_value(module).unwrap();
     let model = CollisionModel::new(&module, file.num_dofs).unwrap();
     (model, module, file.vectors)
+}
+
+#[derive(serde::Deserialize)]
+struct Intervals {
+    intervals: Vec<Interval>,
+}
+
+#[derive(serde::Deserialize)]
+struct Interval {
+    count: u32,
+    of: u32,
+    lower: f64,
+    upper: f64,
+}
+
+/// SPEC 8.8.11, by scipy.
+#[test]
+fn intervals() {
+    let file: Intervals = vectors("self_collision_model.json");
+    assert!(file.intervals.len() > 8);
+    for of in file.intervals {
+        let rate = Rate::new(of.count, of.of);
+        let what = format!("{} of {}", of.count, of.of);
+        assert_near(
+            &[rate.lower, rate.upper],
+            &[of.lower, of.upper],
+            1e-14,
+            &what,
+        );
+    }
 }
 
 #[test]

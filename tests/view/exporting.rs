@@ -1,44 +1,17 @@
-//! The static site.
+//! The page with one robot in a single file.
 
 use std::fs;
+use std::io::Read;
 
-use serde_json::Value;
-use urdd::cancellation::Cancellation;
-use urdd::view::{Collection, ExportError, export, may_hold_page, page_with};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use urdd::directory::listing::EntryKind;
+use urdd::directory::root::Root;
+use urdd::directory::source::Archive;
+use urdd::robot::{Robot, ShapeKind};
+use urdd::view::{Collection, may_hold_page, page_with};
 
 use super::asking::made;
-
-#[test]
-fn a_site_holds_the_page_and_the_robots() {
-    let (folder, path) = made("welding_arm");
-    let mut collection = Collection::default();
-    collection.add(&path).expect("a URDD");
-    let site = folder.path().join("site");
-    let mut told = Vec::new();
-    let mut tell = |robot: &urdd::view::Shown| told.push(robot.id.clone());
-    for _ in 0..2 {
-        export(&collection, &site, &Cancellation::default(), &mut tell).expect("written");
-    }
-    assert_eq!(told, ["welding_arm", "welding_arm"]);
-    let page = fs::read_to_string(site.join("index.html")).expect("a page");
-    assert!(page.contains(r#"content="static""#), "{page}");
-    let module = fs::read(site.join("urdd.wasm")).expect("the module");
-    assert!(module.starts_with(b"\0asm"));
-    let json = |name: &str| -> Value {
-        let text = fs::read_to_string(site.join(name)).expect(name);
-        serde_json::from_str(&text).expect("JSON")
-    };
-    let robots = json("robots.json");
-    assert_eq!(robots[0]["verdict"], "pass");
-    assert_eq!(robots[0]["links"], 9);
-    assert_eq!(robots[0]["writable"], false);
-    let listed = json("robots/welding_arm/files.json");
-    for file in listed["files"].as_array().expect("a list") {
-        let name = file["path"].as_str().expect("a path");
-        let copy = fs::read(site.join("robots/welding_arm/files").join(name)).expect(name);
-        assert_eq!(copy, fs::read(path.join(name)).expect(name), "{name}");
-    }
-}
 
 #[test]
 fn one_file_holds_all_and_its_policy_knows_it() {
@@ -49,6 +22,7 @@ fn one_file_holds_all_and_its_policy_knows_it() {
     assert!(page.contains(r#"content="inline""#));
     for carried in [
         "robots.json",
+        "rules.json",
         "report.json",
         "robot.zip",
         "worker.js",
@@ -62,6 +36,67 @@ fn one_file_holds_all_and_its_policy_knows_it() {
     assert!(!page.contains("src=\"app.js\"") && !page.contains("href=\"style.css\""));
     assert_eq!(page.matches("'unsafe-inline'").count(), 0);
     assert_eq!(page.matches("'sha256-").count(), 2);
+}
+
+/// What a page carries under a name.
+fn carried(page: &str, id: &str) -> Vec<u8> {
+    let start = format!(r#"<script type="text/plain" id="{id}">"#);
+    let rest = page.split_once(&start).expect(id).1;
+    let text = rest.split_once('<').expect("an end").0;
+    let packed = STANDARD.decode(text).expect("base64");
+    let mut bytes = Vec::new();
+    let mut inflated = flate2::read::DeflateDecoder::new(&*packed);
+    inflated.read_to_end(&mut bytes).expect("deflated");
+    bytes
+}
+
+#[test]
+fn one_file_holds_what_the_page_reads_and_nothing_of_a_persons() {
+    let (_folder, path) = made("welding_arm");
+    let secrets = [".env", "dof_module/notes.txt", "mesh_modules/x.html"];
+    for name in secrets {
+        fs::write(path.join(name), "SECRET").expect("written");
+    }
+    let mut collection = Collection::default();
+    collection.add(&path).expect("a URDD");
+    let page = page_with(&collection.robots()[0]).expect("a page");
+    let zip = carried(&page, "robot.zip");
+    assert!(!String::from_utf8_lossy(&zip).contains("SECRET"));
+    let root = Root::of(Archive::new("x", zip).expect("an archive"));
+    let files: Vec<String> = root
+        .list()
+        .expect("a listing")
+        .entries
+        .into_iter()
+        .filter(|entry| entry.kind == EntryKind::File)
+        .map(|entry| entry.path)
+        .collect();
+    assert!(files.iter().any(|path| path.ends_with(".glb")));
+    for path in &files {
+        assert!(!secrets.contains(&path.as_str()), "{path}");
+        assert!(!path.ends_with("module.yaml"), "{path}");
+        let is_second =
+            (path.ends_with(".stl") || path.ends_with(".obj")) && !path.contains("original");
+        assert!(!is_second, "{path}");
+    }
+    // What is left is enough to place its links and to measure between its hulls and pieces.
+    let (part, whole) = (Robot::of(root), Robot::open(&path).expect("a robot"));
+    let zero = whole.configurations().expect("it").zero();
+    for kind in [ShapeKind::Hulls, ShapeKind::Pieces] {
+        let distances = |robot: &Robot| {
+            let proximity = robot.proximity(kind).expect("shapes");
+            proximity.distances(&zero).expect("distances")
+        };
+        let (part, whole) = (distances(&part), distances(&whole));
+        assert!(!part.is_empty() && part.len() == whole.len());
+        // Of another format, so that corners are in another order.
+        for (a, b) in part.iter().zip(&whole) {
+            assert!((a.distance - b.distance).abs() < 1e-9, "{a:?} {b:?}");
+        }
+    }
+    let report: serde_json::Value =
+        serde_json::from_slice(&carried(&page, "report.json")).expect("JSON");
+    assert_eq!(report["urdds"][0]["verdict"], "pass");
 }
 
 #[test]
@@ -81,23 +116,4 @@ fn a_page_takes_the_place_of_a_page_alone() {
         fs::write(&file, text).expect("written");
         assert_eq!(may_hold_page(&file), may, "{text}");
     }
-}
-
-#[test]
-fn a_folder_with_something_else_is_left_alone() {
-    let (folder, path) = made("gripper");
-    let mut collection = Collection::default();
-    collection.add(&path).expect("a URDD");
-    let site = folder.path().join("site");
-    fs::create_dir(&site).expect("a folder");
-    fs::write(site.join("mine"), "mine").expect("written");
-    let result = export(&collection, &site, &Cancellation::default(), &mut |_| {});
-    assert!(
-        matches!(result, Err(ExportError::Occupied(_))),
-        "{result:?}"
-    );
-    assert_eq!(
-        fs::read_to_string(site.join("mine")).expect("it stays"),
-        "mine"
-    );
 }

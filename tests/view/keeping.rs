@@ -56,6 +56,9 @@ fn a_generated_urdd_is_saved_once_and_passes() {
     let run = urdd::validate::validate(&[&target], &Settings::default()).expect("a run");
     let report = Report::new(&run, Severity::Info);
     assert_eq!(report.urdds[0].findings.len(), 0);
+    let revision = || server.json("/robots/gripper/files.json")["revision"].clone();
+    let saved: Value = serde_json::from_slice(&answer.body).expect("JSON");
+    assert_eq!(saved["revision"], revision());
     // From now on that folder is shown, and written to.
     fs::remove_dir_all(&path).expect("removed");
     let entry = server.json("/robots.json")[0].clone();
@@ -63,10 +66,7 @@ fn a_generated_urdd_is_saved_once_and_passes() {
         (&entry["temporary"], &entry["writable"]),
         (&json!(false), &json!(true))
     );
-    let revision = server.json("/robots/gripper/files.json")["revision"].clone();
-    let saved: Value = serde_json::from_slice(&answer.body).expect("JSON");
-    assert_eq!(saved["revision"], revision);
-    let skips = json!({ "revision": revision, "edits": [] });
+    let skips = json!({ "revision": revision(), "edits": [] });
     let answer = server.post("/robots/gripper/skips", &skips);
     assert_eq!(answer.status, 200, "{}", answer.text());
     assert_eq!(server.post("/robots/gripper/keep", &wish).status, 403);

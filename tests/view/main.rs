@@ -3,5 +3,7 @@
 mod asking;
 mod exporting;
 mod keeping;
+mod refusing;
 mod saving;
 mod served;
+mod site;

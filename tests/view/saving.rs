@@ -99,6 +99,31 @@ fn what_changed_on_disk_is_not_overwritten() {
     assert_eq!(content(&path), before);
 }
 
+/// An editor that keeps the time, or a program that sets it back.
+#[cfg(unix)]
+#[test]
+fn a_change_that_keeps_size_and_time_is_not_overwritten() {
+    let (_folder, path) = made("welding_arm");
+    let file = path.join(FOLDER).join("module.json");
+    let text = fs::read_to_string(&file).expect("a file");
+    let time = fs::metadata(&file)
+        .and_then(|metadata| metadata.modified())
+        .expect("a time");
+    let server = Running::on(&path);
+    let revision = server.json("/robots/welding_arm/files.json")["revision"].clone();
+    let changed = text
+        .replacen("true", "null", 1)
+        .replacen("false", "true ", 1);
+    assert!(changed != text && changed.len() == text.len());
+    fs::write(&file, &changed).expect("written");
+    let written = fs::File::options().write(true).open(&file).expect("it");
+    written.set_modified(time).expect("set");
+    let wish = json!({ "revision": revision, "edits": edits() });
+    let answer = server.post("/robots/welding_arm/skips", &wish);
+    assert_eq!(answer.status, 409, "{}", answer.text());
+    assert_eq!(fs::read_to_string(&file).expect("a file"), changed);
+}
+
 #[test]
 fn what_makes_no_sense_is_refused() {
     let (_folder, path) = made("welding_arm");

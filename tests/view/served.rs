@@ -137,6 +137,24 @@ fn others_are_refused() {
         "GET /app.js",
         &[("Host", &host), ("Sec-Fetch-Site", "cross-site")],
     );
+    // A person who follows a link on any page reaches the page: its HTML, and nothing of a robot.
+    let followed = [
+        ("Host", &*host),
+        ("Sec-Fetch-Site", "cross-site"),
+        ("Sec-Fetch-Mode", "navigate"),
+        ("Sec-Fetch-Dest", "document"),
+    ];
+    let page = server.raw("GET /", &followed, b"");
+    assert_eq!(page.status, 200);
+    assert!(!page.text().contains("gripper") && !page.text().contains(&*token));
+    refused("POST /", &followed);
+    refused("GET /app.js", &followed);
+    refused("GET /robots.json", &followed);
+    let framed = followed.map(|(name, value)| match name {
+        "Sec-Fetch-Dest" => (name, "iframe"),
+        _ => (name, value),
+    });
+    refused("GET /", &framed);
     let right = [
         ("Host", &*host),
         ("Origin", &*own),

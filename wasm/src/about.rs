@@ -196,7 +196,15 @@ fn meshes(part: &Urdd, kind: ModuleKind) -> Option<Value> {
             let lists = meshes.lists.iter();
             let found = lists.filter_map(|list| list.links.get(link)?.get(piece));
             let paths: Vec<&MeshPath> = found.flat_map(|mesh| &mesh.paths).collect();
-            let of = |format| paths.iter().find(|path| path.format == Some(format));
+            // Of an archive for a page in one file, some formats are left out.
+            let is_there = |path: &MeshPath| {
+                let own = files.own(meshes.profile, path.path);
+                own.is_some_and(|own| part.listing().has_file(own))
+            };
+            let of = |format| {
+                let mut of_format = paths.iter().filter(|path| path.format == Some(format));
+                of_format.find(|path| is_there(path))
+            };
             let read = [Format::Stl, Format::Obj, Format::Glb]
                 .into_iter()
                 .find_map(of);

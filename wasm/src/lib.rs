@@ -6,6 +6,7 @@
 
 mod about;
 mod answer;
+#[cfg(feature = "validate")]
 mod explain;
 mod files;
 mod memory;
@@ -17,4 +18,5 @@ mod random;
 mod reach;
 mod robot;
 mod sources;
+#[cfg(feature = "validate")]
 mod validate;

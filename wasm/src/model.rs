@@ -14,15 +14,21 @@ pub fn read(robot: &Robot) -> Result<Option<CollisionModel>, String> {
     }
 }
 
-/// `pairs` and `other_pairs` (how many), `num_parameters`, `clip_distance` (m), and `held_out`: the counts of
-/// `self_collision_model_module`.
+/// `pairs` and `other_pairs` (how many), `num_parameters`, `clip_distance` (m), `evaluation` (the counts of
+/// `self_collision_model_module`), and `rates`, each with its 95 % interval.
 pub fn about(model: &CollisionModel) -> Value {
+    let evaluation = model.evaluation();
     json!({
         "pairs": model.pairs().len(),
         "other_pairs": model.other_pairs().len(),
         "num_parameters": model.num_parameters(),
         "clip_distance": model.clip_distance(),
-        "held_out": model.held_out(),
+        "evaluation": evaluation,
+        "rates": {
+            "miss": evaluation.miss_rate(),
+            "near_contact_miss": evaluation.near_contact_miss_rate(),
+            "clear": evaluation.clear_rate(),
+        },
     })
 }
 

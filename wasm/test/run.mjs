@@ -183,19 +183,23 @@ function reaches(urdd, handle) {
 /** What the learned model says is what its own test vectors say; one that is cut short is told of. */
 function compareModel(urdd, target) {
   run("generate", "conformance/robots/six_axis_arm.urdf", "-o", target, "--modules", "all,self_collision_model");
-  const { pairs, other_pairs, clip_distance, held_out, layers, test_vectors } = read(join(target, "link_shapes_modules"), "self_collision_model_module");
+  const { pairs, other_pairs, clip_distance, evaluation, layers, test_vectors } = read(join(target, "link_shapes_modules"), "self_collision_model_module");
   const names = read(target, "chain_module").links_in_chain.map((link) => link.name);
   const open = () => {
     const files = urdd.zip("learned.zip", readFileSync(zip(target)));
     return [files, urdd.open(files)];
   };
   const [files, handle] = open();
-  assert.deepEqual(urdd.ask(handle, { ask: "collision_model" }), {
+  const { rates, ...about } = urdd.ask(handle, { ask: "collision_model" });
+  const { num_missed, num_colliding } = evaluation;
+  assert.deepEqual([rates.miss.count, rates.miss.of], [num_missed, num_colliding]);
+  assert.ok(rates.miss.lower < num_missed / num_colliding && num_missed / num_colliding < rates.miss.upper);
+  assert.deepEqual(about, {
     pairs: pairs.length,
     other_pairs: other_pairs.length,
     num_parameters: layers.reduce((sum, { weights, biases }) => sum + weights.flat().length + biases.length, 0),
     clip_distance,
-    held_out,
+    evaluation,
   });
   assert.ok(test_vectors.length > 0);
   for (const { configuration, clearances } of test_vectors) {

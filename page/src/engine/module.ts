@@ -14,13 +14,16 @@ interface Exports {
   urdd_files_read(files: number, path: number, length: number): number;
   urdd_files_close(files: number): void;
   urdd_mesh(files: number, path: number, length: number): number;
-  urdd_validate(files: number, name: number, length: number): number;
-  urdd_explain(code: number, length: number): number;
+  /** A page in one file has a module without these. */
+  urdd_validate?: (files: number, name: number, length: number) => number;
+  urdd_explain?: (code: number, length: number) => number;
   urdd_robot_open(files: number): number;
   urdd_robot_close(robot: number): void;
   urdd_robot_poses(robot: number, values: number, count: number): number;
   urdd_robot_ask(robot: number, question: number, length: number): number;
 }
+
+const NO_VALIDATOR = "This page carries no validator: drop the robot on the page of `urdd view`.";
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
@@ -89,13 +92,15 @@ export class UrddModule {
   }
 
   validate(files: number, name: string): unknown {
-    return this.with([encoder.encode(name)], ([at, length]) =>
-      this.json(this.exports.urdd_validate(files, at, length)),
-    );
+    const { urdd_validate: run } = this.exports;
+    if (!run) throw new Error(NO_VALIDATOR);
+    return this.with([encoder.encode(name)], ([at, length]) => this.json(run(files, at, length)));
   }
 
   explain(code: string): unknown {
-    return this.with([encoder.encode(code)], ([at, length]) => this.json(this.exports.urdd_explain(at, length)));
+    const { urdd_explain: run } = this.exports;
+    if (!run) throw new Error(NO_VALIDATOR);
+    return this.with([encoder.encode(code)], ([at, length]) => this.json(run(at, length)));
   }
 
   openRobot(files: number): number {

@@ -134,16 +134,28 @@ export interface CollisionModel {
   num_parameters: number;
   /** From here on distances were all the same to it, metres. */
   clip_distance: number;
-  /** How often it was right where it was not trained. */
-  held_out: {
-    first_sample_idx: number;
-    num_configurations: number;
+  /** How often it is right on 50,000 configurations that SPEC 8.8.9 fixes. */
+  evaluation: {
     num_colliding: number;
     /** In collision, and cleared all the same. */
     num_missed: number;
+    /** In collision, and within a step of 0.05 rad or m of being free. */
+    num_near_contact: number;
+    num_near_contact_missed: number;
+    num_free: number;
     /** Free, and cleared. */
     num_cleared: number;
   };
+  /** The shares of these counts. */
+  rates: { miss: Rate; near_contact_miss: Rate; clear: Rate };
+}
+
+/** A share of counted configurations, with the ends of its 95 % interval, 0 to 1. */
+export interface Rate {
+  count: number;
+  of: number;
+  lower: number;
+  upper: number;
 }
 
 /** What the model estimates of a configuration. */
@@ -257,6 +269,8 @@ export interface UrddReport {
   checks: { code: string; status: string; reason: string | null; skipped: string | null }[];
   not_checked: { codes: string[]; reason: string }[];
   geometry_not_verified: { link: number; codes: string[]; reasons: string[] }[];
+  /** Why the rates of the self-collision model were not verified; null where they were, or there is none. */
+  model_not_verified: { codes: string[]; reasons: string[] } | null;
   modules: { name: string; path: string; version: string | null; profile: string | null }[];
 }
 
@@ -278,6 +292,8 @@ export interface Explanation {
 export interface FileEntry {
   path: string;
   size: number;
+  /** Where a site has it. */
+  at?: string;
 }
 
 /** Where a robot's files lie. */
@@ -299,6 +315,7 @@ export interface Calls {
   sources: [Record<string, never>, SourceShape[]];
   reach: [Wish, Reached];
   volumes: [{ shapes: ShapeKind }, Volume[]];
+  /** The nearest pairs: `k` of them, and more where all of these are in contact. */
   proximity: [{ q: number[]; shapes: ShapeKind; k: number }, ProximityAnswer];
   skips: [{ shapes: ShapeKind }, SkipsAnswer];
   editSkips: [{ shapes: ShapeKind; edits: SkipEdit[]; skipped_reasons: string[] | null }, SkipsAnswer];

@@ -33,6 +33,8 @@ export class Store {
   private readonly faults = new Map<string, string>();
   private readonly sizes: Map<string, number>;
   private readonly local = new Map<string, File>();
+  /** Where a site has a file, if not under its own name. */
+  private readonly places = new Map<string, string>();
 
   constructor(
     private readonly module: UrddModule,
@@ -53,6 +55,7 @@ export class Store {
       this.sizes = new Map(source.files.map(({ path, file }) => [path, file.size]));
     } else {
       this.sizes = new Map(source.files.map((file) => [file.path, file.size]));
+      for (const { path, at } of source.files) if (at !== undefined) this.places.set(path, at);
     }
     for (const [path, size] of this.sizes) module.nameFile(this.handle, path, size);
   }
@@ -109,7 +112,7 @@ export class Store {
       return new Uint8Array(await file.arrayBuffer());
     }
     const { base, token } = this.source;
-    const url = base + path.split("/").map(encodeURIComponent).join("/");
+    const url = base + (this.places.get(path) ?? path.split("/").map(encodeURIComponent).join("/"));
     const response = await fetch(url, { headers: token ? { "x-urdd-token": token } : {} });
     if (response.status === 404) throw new Error("there is no such file");
     if (!response.ok) throw new Error(`it cannot be read: the server answered ${response.status}`);

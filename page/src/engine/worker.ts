@@ -112,7 +112,12 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     await ensureShapes(shapes, tell);
     engine().ask(open(), { ask: "prepare", shapes });
     const begin = performance.now();
-    const answer = engine().ask(open(), { ask: "proximity", q, shapes, k }) as Calls["proximity"][1];
+    const nearest = (k: number): Calls["proximity"][1] =>
+      engine().ask(open(), { ask: "proximity", q, shapes, k }) as Calls["proximity"][1];
+    let answer = nearest(k);
+    // Every contact is told of, however many there are.
+    for (let more = 4 * k; answer.nearest.length === more / 4 && (answer.nearest.at(-1)?.distance ?? 1) <= 0; more *= 4)
+      answer = nearest(more);
     const ms = performance.now() - begin;
     return { ...answer, model: shapes === "pieces" ? learned(q) : null, ms };
   },

@@ -1,18 +1,16 @@
-/** The validator's report: grouped and filtered, with what was expected and found, and what each rule means. */
+/** The validator's report: grouped and filtered, in the order in which to mend it. */
 
 import type { App } from "../app";
-import { message } from "../app";
 import type { Finding, Severity, UrddReport } from "../engine/protocol";
-import { linkOf, places } from "../findings";
-import type { Place } from "../findings";
+import { linkOf, namedLinks, paintOf, places, tally, toMend } from "../findings";
+import type { State } from "../state";
 import { fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
+import { card } from "./finding_card";
 
 const SEVERITIES: readonly Severity[] = ["error", "warning", "info"];
 const GROUPS = ["severity", "module", "link"] as const;
 type Grouping = (typeof GROUPS)[number];
-/** Places of a finding that are shown at first. */
-const SHOWN = 5;
 
 export function findings(app: App): HTMLElement {
   const off = new Set<Severity>();
@@ -23,7 +21,6 @@ export function findings(app: App): HTMLElement {
     { "aria-label": "Group findings by" },
     ...GROUPS.map((group) => h("option", { value: group }, `by ${group}`)),
   );
-  const painted = h("input", { type: "checkbox", id: "painted" });
   const toggles = SEVERITIES.map((severity) => {
     const button = h("button", { type: "button", class: `chip ${severity}`, "aria-pressed": "true" }, severity);
     button.addEventListener("click", () => {
@@ -40,33 +37,25 @@ export function findings(app: App): HTMLElement {
     {},
     h("div", { class: "actions" }, ...toggles.map(([, button]) => button)),
     h("div", { class: "actions" }, search, by),
-    h("div", { class: "check" }, painted, h("label", { for: "painted" }, "Paint links by their worst finding")),
+    painting(app),
   );
   const panel = h("div", { class: "panel" }, verdict, tools, list);
-  const validate = h(
-    "button",
-    {
-      type: "button",
-      click: () => {
-        void app.loadReport();
-      },
-    },
-    "Validate",
-  );
+  const validate = h("button", { type: "button", click: () => void app.loadReport() }, "Validate");
 
   const render = (): void => {
     const { report: state, robot } = app.store.now;
     const urdd = state.report?.urdds[0];
+    const counts = state.report ? tally(state.report) : null;
     for (const [severity, button] of toggles) {
-      const n = urdd?.findings.filter((f) => f.severity === severity).reduce((sum, f) => sum + f.count, 0) ?? 0;
-      button.textContent = count(n, severity === "info" ? "note" : severity);
+      const n = counts?.[severity] ?? 0;
+      button.textContent = count(n, severity, severity === "info" ? "info" : undefined);
       button.setAttribute("aria-pressed", String(!off.has(severity)));
       button.hidden = n === 0;
     }
     verdict.className = `verdict ${urdd?.verdict ?? ""}`;
     tools.hidden = !urdd;
     search.hidden = by.hidden = (urdd?.findings.length ?? 0) < 2;
-    if (!urdd) {
+    if (!urdd || !counts) {
       fill(
         verdict,
         state.error ? `The robot cannot be validated: ${state.error} ` : (state.busy ?? ""),
@@ -75,23 +64,20 @@ export function findings(app: App): HTMLElement {
       fill(list);
       return;
     }
-    fill(verdict, words(urdd));
+    fill(verdict, words(urdd, counts));
     const wanted = search.value.trim().toLowerCase();
-    const shown = urdd.findings
-      .filter(
-        (finding) =>
-          !off.has(finding.severity) && (wanted === "" || JSON.stringify(finding).toLowerCase().includes(wanted)),
-      )
-      .sort((a, b) => SEVERITIES.indexOf(a.severity) - SEVERITIES.indexOf(b.severity));
+    const shown = toMend(urdd.findings).filter(
+      (finding) =>
+        !off.has(finding.severity) && (wanted === "" || JSON.stringify(finding).toLowerCase().includes(wanted)),
+    );
     const groups = new Map<string, Finding[]>();
     for (const finding of shown) {
-      const key = groupOf(app, finding, grouping);
-      groups.set(key, [...(groups.get(key) ?? []), finding]);
+      for (const [key, part] of groupsOf(app, finding, grouping)) groups.set(key, [...(groups.get(key) ?? []), part]);
     }
     fill(
       list,
       ...[...groups].flatMap(([key, found]) => [
-        h("h2", {}, `${key} (${found.length})`),
+        h("h2", {}, `${key}: ${sum(found).toLocaleString("en")}, of ${count(found.length, "kind")}`),
         ...found.map((finding) => card(app, finding)),
       ]),
       shown.length === 0 && urdd.findings.length > 0 && h("p", { class: "empty" }, "No finding passes the filter."),
@@ -103,12 +89,6 @@ export function findings(app: App): HTMLElement {
     grouping = by.value as Grouping;
     render();
   });
-  painted.addEventListener("change", () => {
-    app.store.set({ painted: painted.checked });
-  });
-  app.store.on(["painted"], ({ painted: on }) => {
-    painted.checked = on;
-  });
   app.store.on(["report", "robot"], render);
   app.store.on(["tab", "robot"], ({ tab, robot }) => {
     if (tab === "Findings" && robot) void app.loadReport();
@@ -116,12 +96,17 @@ export function findings(app: App): HTMLElement {
   return panel;
 }
 
-function words(urdd: UrddReport): string {
+function sum(findings: readonly Finding[]): number {
+  return findings.reduce((sum, { count }) => sum + count, 0);
+}
+
+function words(urdd: UrddReport, counts: ReturnType<typeof tally>): string {
+  const found = `${count(counts.all, "finding")}: ${count(counts.error, "error")}, ${count(counts.warning, "warning")}, ${counts.info} info.`;
   switch (urdd.verdict) {
     case "pass":
-      return urdd.findings.length === 0 ? "Passes: nothing was found." : "Passes, with what is below.";
+      return urdd.findings.length === 0 ? "Passes: nothing was found." : `Passes. ${found}`;
     case "fail":
-      return "Fails: it has errors.";
+      return `Fails. ${found}`;
     case "incomplete":
       return `Not fully examined: ${urdd.reason ?? "the validator stopped"}`;
     default:
@@ -129,97 +114,83 @@ function words(urdd: UrddReport): string {
   }
 }
 
-function groupOf(app: App, finding: Finding, grouping: Grouping): string {
-  if (grouping === "severity") return { error: "Errors", warning: "Warnings", info: "Notes" }[finding.severity];
-  if (grouping === "module") return typeof finding["module"] === "string" ? finding["module"] : "The URDD as a whole";
+/** The groups of a finding; by links, its places are divided among them. */
+function groupsOf(app: App, finding: Finding, grouping: Grouping): [string, Finding][] {
+  if (grouping === "severity")
+    return [[{ error: "Errors", warning: "Warnings", info: "Info" }[finding.severity], finding]];
+  if (grouping === "module")
+    return [[typeof finding["module"] === "string" ? finding["module"] : "The URDD as a whole", finding]];
   const { robot } = app.store.now;
-  const [place] = places(finding);
-  const link = robot && place ? linkOf(robot, place) : null;
-  return link === null ? "No link" : name(robot?.links[link]?.name ?? "");
-}
-
-function card(app: App, finding: Finding): HTMLElement {
   const all = places(finding);
-  const more = h("div", { class: "explanation" });
-  const button = h("button", { type: "button", class: "tiny" }, "Explain");
-  button.addEventListener("click", () => {
-    void explain(app, finding.code, more);
-  });
-  const list = h("ul", { class: "places" }, ...all.slice(0, SHOWN).map((place) => placeRow(app, place)));
-  if (all.length > SHOWN) {
-    const rest = h("button", { type: "button", class: "tiny" }, `${all.length - SHOWN} more`);
-    rest.addEventListener("click", () => {
-      fill(list, ...all.map((place) => placeRow(app, place)));
-    });
-    list.append(h("li", {}, rest));
+  const parts = new Map<string, unknown[]>();
+  for (const place of all) {
+    const link = robot ? linkOf(robot, place) : null;
+    const key = link === null ? NO_LINK : name(robot?.links[link]?.name ?? "");
+    parts.set(key, [...(parts.get(key) ?? []), place]);
   }
-  return h(
-    "article",
-    { class: `finding ${finding.severity}` },
-    h(
-      "div",
-      { class: "heading" },
-      h("span", { class: `dot ${finding.severity}` }),
-      h("strong", {}, finding.code),
-      h("span", { class: "name", title: finding.name }, finding.name),
-      finding.count > 1 && h("span", { class: "kind" }, `× ${finding.count}`),
-      h("span", { class: "spring" }),
-      button,
-    ),
-    h("p", {}, ...prose(name(finding.message))),
-    list,
-    more,
-  );
+  const cut = finding.count - all.length;
+  if (cut > 0 && !parts.has(NO_LINK)) parts.set(NO_LINK, []);
+  return [...parts].map(([key, places]) => [
+    key,
+    { ...finding, places, count: places.length + (key === NO_LINK ? cut : 0) },
+  ]);
 }
 
-function placeRow(app: App, place: Place): HTMLElement | null {
-  const { robot } = app.store.now;
-  const link = robot ? linkOf(robot, place) : null;
-  const where = [
-    place.subject,
-    place.file ? `${place.file}${place.line ? `:${place.line}` : ""}` : null,
-    place.pointer,
-  ].filter((text): text is string => Boolean(text));
-  const [first] = where;
-  if (first === undefined && !place.message && place.expected === null && place.actual === null) return null;
-  const go = h("button", { type: "button", class: "place", title: where.map(name).join("\n") });
-  fill(go, ...prose(name(first ?? "the URDD as a whole")));
-  go.addEventListener("click", () => {
-    if (link !== null) app.select({ kind: "link", index: link });
-  });
-  if (link === null) go.disabled = true;
-  return h(
-    "li",
-    {},
-    go,
-    place.message && h("span", { class: "what" }, ...prose(name(place.message))),
-    (place.expected ?? place.actual) !== null &&
-      h(
-        "dl",
-        {},
-        place.expected !== null && h("dt", {}, "expected"),
-        place.expected !== null && h("dd", {}, name(place.expected)),
-        place.actual !== null && h("dt", {}, "found"),
-        place.actual !== null && h("dd", {}, name(place.actual)),
-      ),
-  );
-}
+const NO_LINK = "No link, or not said";
 
-async function explain(app: App, code: string, into: HTMLElement): Promise<void> {
-  if (into.childElementCount > 0) {
-    fill(into);
-    return;
-  }
-  try {
-    const rule = await app.engine.ask("explain", { code });
+/** What links are painted by, with what the colours mean. */
+function painting(app: App): HTMLElement {
+  const choice = h("select", { id: "painted" });
+  const legend = h("p", { class: "legend" });
+  choice.addEventListener("change", () => {
+    const { value } = choice;
+    app.store.set({ painted: value === "" ? null : value === "worst" ? "worst" : { code: value } });
+  });
+  app.store.on(["robot", "report"], ({ robot, report: { report } }) => {
+    const named = robot ? namedLinks(robot, report) : [];
     fill(
-      into,
-      h("p", { class: "hint" }, `SPEC ${rule.clause}`),
-      ...rule.explanation.split("\n\n").map((text) => h("p", {}, ...prose(text))),
+      choice,
+      h("option", { value: "" }, "no links"),
+      h("option", { value: "worst" }, "by their worst finding"),
+      ...named.map(({ code, links }) => h("option", { value: code }, `${code}: ${count(links.size, "link")}`)),
     );
-  } catch (error) {
-    fill(into, h("p", { class: "hint" }, message(error)));
-  }
+  });
+  app.store.on(["robot", "report", "painted"], (state) => {
+    choice.value = state.painted === null ? "" : state.painted === "worst" ? "worst" : state.painted.code;
+    // Another report may not have the rule any more.
+    if (choice.selectedIndex < 0) choice.value = "";
+    fill(legend, ...keys(state));
+  });
+  return h("div", {}, h("div", { class: "check" }, h("label", { for: "painted" }, "Paint"), choice), legend);
+}
+
+function keys({ robot, report: { report }, painted }: Readonly<State>): Node[] {
+  if (!robot || !report || painted === null) return [];
+  const worst = [...paintOf(robot, report, painted).values()];
+  const n = (kind: string): number => worst.filter((one) => one === kind).length;
+  const rest = robot.links.length - worst.length;
+  const kinds = [
+    ["error", n("error"), "with errors"],
+    ["warning", n("warning"), "with warnings"],
+    ["info", n("info"), "with info"],
+    ["unverified", n("unverified"), "not verified"],
+    ["good", rest, painted === "worst" ? "without" : "not named"],
+  ] as const;
+  const left = painted === "worst" ? namedLinks(robot, report).filter(({ isSystematic }) => isSystematic) : [];
+  return [
+    ...kinds.flatMap(([kind, n, text]) =>
+      n > 0 ? [h("span", {}, h("span", { class: `dot ${kind}` }), ` ${count(n, "link")} ${text}`)] : [],
+    ),
+    ...(left.length > 0
+      ? [
+          h(
+            "span",
+            { class: "hint" },
+            `Left out: ${left.map(({ code, links }) => `${code} (${links.size} of ${count(robot.links.length, "link")})`).join(", ")}. Choose one to see its links.`,
+          ),
+        ]
+      : []),
+  ];
 }
 
 /** What nobody can say of this URDD: grey, not green. Rules about modules that are not here come last. */

@@ -1,10 +1,13 @@
 /** The bar at the top: name, size, findings, layers, and what is about the whole page. */
 
 import type { App } from "../app";
+import { tally } from "../findings";
 import { fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { LAYERS, LAYER_HINTS, LAYER_NAMES } from "../state";
 import { toggleTheme } from "../ui/theme";
+import { absentChip } from "./absent";
+import { collision } from "./status";
 
 /** Those that the bar has room for; the panel has all. */
 const SHORT = LAYERS.slice(0, LAYERS.indexOf("spheres") + 1);
@@ -30,7 +33,7 @@ export function header(
     { class: "segments", role: "group", "aria-label": "Shown shapes; shift-click for several" },
     ...buttons.map(([, button]) => button),
   );
-  const frames = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, "Frames");
+  const frames = h("button", { type: "button", class: "quiet frames", "aria-pressed": "false" }, "Frames");
   frames.addEventListener("click", () => {
     const { overlays } = app.store.now;
     app.store.set({ overlays: { ...overlays, frames: !overlays.frames } });
@@ -50,9 +53,22 @@ export function header(
     { type: "button", class: "quiet", click: actions.picture, title: "Save the picture as PNG" },
     "Picture",
   );
+  const links = h(
+    "button",
+    { type: "button", class: "quiet fold", "aria-expanded": "false", "aria-controls": "links" },
+    "Links",
+  );
+  links.addEventListener("click", () => {
+    app.store.set({ unfolded: app.store.now.unfolded === "links" ? null : "links" });
+  });
+  app.store.on(["unfolded", "robot"], ({ unfolded, robot }) => {
+    links.setAttribute("aria-expanded", String(unfolded === "links"));
+    links.hidden = robot === null;
+  });
   const bar = h(
     "header",
     { class: "bar" },
+    links,
     title,
     chips,
     h("span", { class: "spring" }),
@@ -73,7 +89,17 @@ export function header(
       "◐",
     ),
   );
-  app.store.on(["robot", "entries", "report"], ({ robot, entries, report }) => {
+  const touching = h("button", { type: "button", class: "chip", title: "See the nearest pairs" });
+  touching.addEventListener("click", () => {
+    app.store.set({ tab: "Proximity", unfolded: "panels" });
+  });
+  app.store.on(["robot", "proximity", "contacts"], (state) => {
+    const { text, kind } = collision(state);
+    touching.hidden = state.robot === null || state.contacts === null;
+    touching.className = `chip ${kind === "bad" ? "error" : kind}`;
+    if (touching.textContent !== text) touching.textContent = text;
+  });
+  app.store.on(["robot", "entries", "report", "absent"], ({ robot, entries, report, absent }) => {
     const several = entries.length > 1;
     fill(
       title,
@@ -82,12 +108,9 @@ export function header(
         h("button", { type: "button", class: "quiet back", click: actions.gallery, "aria-label": "All robots" }, "☰"),
       h("h1", { title: robot ? name(robot.name) : "" }, robot ? name(robot.name) : "urdd"),
     );
-    const found = report.report?.urdds[0]?.findings;
-    const total = (severity: string): number | undefined =>
-      found?.filter((f) => f.severity === severity).reduce((sum, f) => sum + f.count, 0) ??
-      robot?.entry.findings?.[severity as "error"];
+    const found = report.report ? tally(report.report) : robot?.entry.findings;
     const chip = (severity: "error" | "warning"): Node | null => {
-      const n = total(severity);
+      const n = found?.[severity];
       if (!n) return null;
       return h(
         "button",
@@ -95,7 +118,7 @@ export function header(
           type: "button",
           class: `chip ${severity}`,
           click: () => {
-            app.store.set({ tab: "Findings" });
+            app.store.set({ tab: "Findings", unfolded: "panels" });
           },
         },
         count(n, severity),
@@ -112,6 +135,8 @@ export function header(
             .join(" · "),
           h("span", { class: "roomy" }, ` · ${version(robot.about.metadata, robot.about.profile)}`),
         ),
+      touching,
+      absentChip(app, robot ? absent.length : 0),
       robot?.entry.temporary && h("span", { class: "chip", title: "It goes when `urdd view` ends" }, "not saved"),
       robot &&
         robot.entry.notes.length > 0 &&
@@ -122,7 +147,7 @@ export function header(
             class: "chip",
             title: "What was assumed when it was generated",
             click: () => {
-              app.store.set({ tab: "Info" });
+              app.store.set({ tab: "Info", unfolded: "panels" });
             },
           },
           count(robot.entry.notes.length, "assumption"),

@@ -4,7 +4,7 @@ import type { App } from "../app";
 import type { Inertial } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import { fill, h } from "../ui/dom";
-import { bytes, count, dofValue, name, number } from "../ui/format";
+import { bytes, count, dofValue, lengths, name, number } from "../ui/format";
 import { linkMatrix } from "../scene/drag";
 
 function line(term: string, ...value: (string | Node | null)[]): Node[] {
@@ -15,14 +15,11 @@ function table(...lines: (Node[] | null | false)[]): HTMLElement {
   return h("dl", { class: "table" }, ...lines.flatMap((found) => found || []));
 }
 
-function vector(values: readonly number[], unit: string): string {
-  return `${values.map((x) => number(x, 4)).join(", ")} ${unit}`;
-}
-
 export function info(app: App): HTMLElement {
   const chosen = h("div", {});
   const whole = h("div", {});
-  app.store.on(["robot", "selected", "q", "poses"], ({ robot, selected, q, poses }) => {
+  app.store.on(["robot", "selected", "q", "poses", "units", "tab"], ({ robot, selected, q, poses, tab }) => {
+    if (tab !== "Info") return;
     if (!robot || !selected) fill(chosen);
     else if (selected.kind === "link") fill(chosen, ...ofLink(app, robot, selected.index, poses));
     else fill(chosen, ...ofJoint(app, robot, selected.index, q));
@@ -74,7 +71,7 @@ function ofLink(app: App, robot: RobotModel, index: number, poses: Float64Array 
       line("Index", String(index)),
       line("Joint above", jointButton(app, robot, link.parent_joint)),
       line("Joints below", count(robot.below[index]?.length ?? 0, "joint")),
-      place && line("Position", vector(place, "m")),
+      place && line("Position", lengths(place)),
       line("Convex pieces", String(pieces)),
       ...mass(link.inertial),
     ),
@@ -85,7 +82,7 @@ function mass(inertial: Inertial | null): (Node[] | null)[] {
   if (!inertial) return [line("Mass", "not given")];
   return [
     line("Mass", inertial.mass === null ? "not given" : `${number(inertial.mass, 4)} kg`),
-    line("Centre of mass", vector(inertial.position, "m")),
+    line("Centre of mass", lengths(inertial.position)),
     inertial.inertia &&
       line(
         "Inertia",
@@ -113,15 +110,15 @@ function ofJoint(app: App, robot: RobotModel, index: number, q: readonly number[
       line("Parent", linkButton(app, robot, joint.parent)),
       line("Child", linkButton(app, robot, joint.child)),
       joint.axis && line("Axis", joint.axis.map((x) => number(x)).join(", ")),
-      joint.origin && line("Origin", vector(joint.origin.position, "m")),
+      joint.origin && line("Origin", lengths(joint.origin.position)),
       position !== null && joint.type !== "Fixed" && line("Position", dofValue(position, unit)),
       limit && line("Limits", `${either(limit.lower)} to ${either(limit.upper)}`),
-      limit?.velocity != null && line("Speed limit", `${number(limit.velocity)} ${unit}/s`),
+      limit?.velocity != null && line("Speed limit", `${dofValue(limit.velocity, unit)}/s`),
       limit?.effort != null && line("Effort limit", `${number(limit.effort)} ${unit === "rad" ? "N m" : "N"}`),
       joint.mimic &&
         line(
           "Follows",
-          `${number(joint.mimic.multiplier)} × ${name(robot.dofs[joint.mimic.dof ?? -1]?.name ?? "nothing")} + ${number(joint.mimic.offset)}`,
+          `${number(joint.mimic.multiplier)} × ${name(robot.dofs[joint.mimic.dof ?? -1]?.name ?? "nothing")} + ${dofValue(joint.mimic.offset, unit)}`,
         ),
     ),
   ];

@@ -3,9 +3,20 @@
 import type { App } from "../app";
 import { message } from "../app";
 import { cut, fill, h } from "../ui/dom";
-import { count, fromShown, name, number, round, shownUnit, toShown } from "../ui/format";
+import {
+  count,
+  dofValue,
+  entry as typed,
+  fineStep,
+  fromShown,
+  name,
+  number,
+  shownUnit,
+  UNIT_NAMES,
+} from "../ui/format";
 import type { RobotModel } from "../model";
 import { Player } from "../play";
+import { refine } from "../ui/slider";
 
 interface Control {
   dof: number;
@@ -33,6 +44,16 @@ export function joints(app: App): HTMLElement {
   const play = button("Play samples", "Show the stored samples one after another (space)", () => {
     void player.toggle();
   });
+  const step = (by: "back" | "forth", text: string, title: string): HTMLButtonElement => {
+    const made = button(text, title, () => {
+      player.stop();
+      app.step(by);
+    });
+    made.setAttribute("aria-label", title);
+    return made;
+  };
+  const undo = step("back", "↶", "Take the last move back (Ctrl-Z)");
+  const redo = step("forth", "↷", "Move again (Ctrl-Shift-Z)");
   const actions = h(
     "div",
     { class: "actions" },
@@ -48,6 +69,9 @@ export function joints(app: App): HTMLElement {
       void paste(app);
     }),
     play,
+    h("span", { class: "spring" }),
+    undo,
+    redo,
   );
   const empty = h("p", { class: "empty" });
   const panel = h("div", { class: "panel" }, actions, sample, list, empty);
@@ -65,7 +89,7 @@ export function joints(app: App): HTMLElement {
             {
               type: "button",
               class: "tiny",
-              title: "Sweep this joint through its limits",
+              title: "Sweep this joint through its limits, and stop it",
               "aria-label": `Sweep ${name(found?.name ?? "")}`,
             },
             "↔",
@@ -96,7 +120,7 @@ export function joints(app: App): HTMLElement {
         h(
           "div",
           { class: "mimic" },
-          `⇄ ${name(other.name)} = ${number(other.mimic?.multiplier ?? 1)} × this${other.mimic?.offset ? ` + ${number(other.mimic.offset)}` : ""}`,
+          `⇄ ${name(other.name)} = ${number(other.mimic?.multiplier ?? 1)} × this${other.mimic?.offset ? ` + ${dofValue(other.mimic.offset, other.type === "Prismatic" ? "m" : "rad")}` : ""}`,
         ),
       );
     }
@@ -113,20 +137,21 @@ export function joints(app: App): HTMLElement {
     const found = robot.dofs[dof];
     const unit = found?.unit ?? "rad";
     const [lower, upper] = found?.bounds ?? [-OPEN[unit], OPEN[unit]];
-    const shown = (value: number): number => round(toShown(value, unit), unit === "rad" ? 2 : 3);
     const label = name(found?.name ?? "");
     const slider = h("input", {
       type: "range",
       min: lower,
       max: upper,
-      step: (upper - lower) / 2000 || 1e-6,
+      step: "any",
       "aria-label": label,
+      title: "Arrows: fine steps. Shift: ten times finer under the pointer",
       value: 0,
     });
+    refine(slider, () => fineStep(unit));
     const entry = h("input", {
       type: "number",
-      step: unit === "rad" ? 1 : 1,
-      "aria-label": `${label}, ${unit === "rad" ? "degrees" : "millimetres"}`,
+      step: "any",
+      "aria-label": `${label}, ${UNIT_NAMES[shownUnit(unit)]}`,
     });
     const row = h(
       "div",
@@ -134,8 +159,8 @@ export function joints(app: App): HTMLElement {
       named && h("span", { class: "axis" }, label.split("/").pop() ?? ""),
       slider,
       h("label", { class: "number" }, entry, h("span", {}, shownUnit(unit))),
-      h("span", { class: "limit low" }, `${number(shown(lower), 4)}${shownUnit(unit)}`),
-      h("span", { class: "limit high" }, `${number(shown(upper), 4)}${shownUnit(unit)}`),
+      h("span", { class: "limit low" }, dofValue(lower, unit)),
+      h("span", { class: "limit high" }, dofValue(upper, unit)),
     );
     slider.addEventListener("input", () => {
       player.stop();
@@ -153,7 +178,7 @@ export function joints(app: App): HTMLElement {
     return row;
   };
 
-  app.store.on(["robot"], ({ robot }) => {
+  app.store.on(["robot", "units"], ({ robot }) => {
     player.stop();
     controls = [];
     const moving = robot?.joints.flatMap((joint, index) => ((joint.dofs?.length ?? 0) > 0 ? [index] : [])) ?? [];
@@ -167,13 +192,13 @@ export function joints(app: App): HTMLElement {
         ? "This robot has no joint that moves."
         : `The joints cannot be moved: ${robot.about.faults[0]?.reason ?? "chain_module or dof_module is missing"}.`;
   });
-  app.store.on(["robot", "q"], ({ robot, q }) => {
+  app.store.on(["robot", "q", "units"], ({ robot, q }) => {
     for (const { dof, slider, entry, row } of controls) {
       const value = q[dof] ?? 0;
       const unit = robot?.dofs[dof]?.unit ?? "rad";
       const bounds = robot?.dofs[dof]?.bounds;
       if (Number(slider.value) !== value) slider.value = String(value);
-      const text = String(round(toShown(value, unit), unit === "rad" ? 2 : 3));
+      const text = typed(value, unit);
       if (document.activeElement !== entry && entry.value !== text) entry.value = text;
       row.classList.toggle("beyond", bounds ? value < bounds[0] - 1e-9 || value > bounds[1] + 1e-9 : false);
     }
@@ -194,9 +219,6 @@ export function joints(app: App): HTMLElement {
       sample.textContent = `Sample ${shown.at + 1} of ${shown.of}: poses differ by ${error(shown.position, "m")} and ${error(shown.angle, "rad")} at most`;
       sample.classList.toggle("bad", shown.position > 1e-6 || shown.angle > 1e-6);
     }
-  });
-  app.store.on(["robot"], () => {
-    play.textContent = "Play samples";
   });
   player.changed = (playing) => {
     play.textContent = playing ? "Stop" : "Play samples";

@@ -1,6 +1,6 @@
 /** What the learned self-collision model says of a configuration, beside the exact answer. */
 
-import type { Learned, ProximityAnswer } from "../engine/protocol";
+import type { Learned, ProximityAnswer, Rate } from "../engine/protocol";
 import { fill, h } from "../ui/dom";
 import { length, name } from "../ui/format";
 
@@ -46,16 +46,22 @@ function said(model: Learned, exact: ProximityAnswer): [string, "" | "bad" | "do
   return exact.in_collision ? ["held to be clear, and is in collision: missed", "bad"] : ["clear", ""];
 }
 
-function counted({ held_out: { num_colliding, num_missed } }: Learned): string {
-  return `missed ${n(num_missed)} of ${n(num_colliding)} collisions when it was counted`;
+function counted({ rates }: Learned): string {
+  return `misses ${percent(rates.miss)} of collisions, ${percent(rates.near_contact_miss)} near contact`;
 }
 
-function counts({ held_out }: Learned): string {
-  const { first_sample_idx: first, num_configurations: all, num_colliding, num_cleared } = held_out;
+function counts({ rates: { miss, near_contact_miss: near, clear } }: Learned): string {
   return (
-    `Counted on the sampled configurations ${String(first)} to ${String(first + all - 1)}, which had no part in making it. ` +
-    `Of ${n(all - num_colliding)} free ones it cleared ${n(num_cleared)}. It guarantees nothing.`
+    `Counted on 50,000 sampled configurations, with 95 % intervals: misses ${n(miss.count)} of ${n(miss.of)} collisions; ` +
+    `of ${n(near.of)} collisions within a step of 0.05 rad or m of contact it misses ${n(near.count)}; ` +
+    `clears ${percent(clear)} of ${n(clear.of)} free configurations. An estimate, not a guarantee.`
   );
+}
+
+/** A rate and its 95 % interval: `0.69 % (0.50 to 0.96 %)`. */
+function percent({ count, of, lower, upper }: Rate): string {
+  const [share, low, high] = [of === 0 ? Number.NaN : count / of, lower, upper].map((x) => (100 * x).toFixed(2));
+  return of === 0 ? "an unknown share" : `${String(share)} % (${String(low)} to ${String(high)} %)`;
 }
 
 function n(count: number): string {

@@ -3,9 +3,11 @@
 import type { App } from "../app";
 import { SHAPE_KINDS } from "../engine/protocol";
 import type { PairDistance, ProximityAnswer, ShapeKind, SkipEdit, Statistics } from "../engine/protocol";
+import { byLinks, isContact } from "../contacts";
+import type { LinkPair } from "../contacts";
 import { decide, nearer } from "../skips";
 import { cut, fill, h } from "../ui/dom";
-import { length, name, percent } from "../ui/format";
+import { count, length, name, percent } from "../ui/format";
 import type { Pair } from "../state";
 import { learnedLine } from "./learned";
 
@@ -18,9 +20,10 @@ export const SHAPE_NAMES: Record<ShapeKind, string> = {
   "piece-spheres": "spheres of pieces",
 };
 
-interface Row {
-  element: HTMLButtonElement;
-  show: (pair: PairDistance, widest: number, chosen: boolean) => void;
+/** The list is of links; their pieces are one level down. */
+interface LinkRow {
+  element: HTMLElement;
+  show: (pair: LinkPair, widest: number, chosen: Pair | null, open: boolean) => void;
 }
 
 export function proximity(app: App): HTMLElement {
@@ -46,6 +49,11 @@ export function proximity(app: App): HTMLElement {
   const list = h("div", { class: "pairs" });
   const detail = h("div", { class: "detail" });
   const empty = h("p", { class: "empty" });
+  const hint = h(
+    "p",
+    { class: "hint" },
+    "Each row is of two links. Distances are 0 in contact (SPEC 8.5), so how deep a contact is, is not known.",
+  );
   const panel = h(
     "div",
     { class: "panel" },
@@ -60,38 +68,53 @@ export function proximity(app: App): HTMLElement {
     learned.element,
     empty,
     list,
+    hint,
     detail,
   );
-  const rows: Row[] = [];
+  const rows: LinkRow[] = [];
+  /** Pairs of links whose pieces are shown. */
+  const open = new Set<string>();
   const render = (): void => {
-    const { robot, proximity, pair, shapes } = app.store.now;
+    const { robot, proximity, pair, shapes, tab } = app.store.now;
+    if (tab !== "Proximity") return;
     const { answer, error } = proximity;
-    const found = answer?.nearest.slice() ?? [];
-    if (order.value === "relative") found.sort((a, b) => (a.relative ?? Infinity) - (b.relative ?? Infinity));
-    const widest = Math.max(...found.map((pair) => pair.statistics?.max ?? pair.distance), 1e-9);
+    const nearest = answer?.nearest.slice() ?? [];
+    if (order.value === "relative") nearest.sort((a, b) => (a.relative ?? Infinity) - (b.relative ?? Infinity));
+    const found = byLinks(nearest);
+    const widest = Math.max(...nearest.map((pair) => pair.statistics?.max ?? pair.distance), 1e-9);
     while (rows.length < found.length) {
-      const made = row(app);
+      const made = linkRow(app, (key) => {
+        if (!open.delete(key)) open.add(key);
+        render();
+      });
       rows.push(made);
       list.append(made.element);
     }
     rows.forEach(({ element, show }, k) => {
       const at = found[k];
       element.hidden = !at;
-      if (at) show(at, widest, same(pair, pairOf(at)));
+      if (at) show(at, widest, pair, open.has(at.links.join()));
     });
     if (kind.value !== shapes) kind.value = shapes;
-    state.textContent = answer ? (answer.in_collision ? "In collision with itself" : "No self-collision") : "";
+    state.textContent = answer ? verdict(app) : "";
     state.className = `collision ${answer ? (answer.in_collision ? "bad" : "good") : ""}`;
     learned.show(answer);
-    empty.hidden = found.length > 0;
+    empty.hidden = nearest.length > 0;
+    hint.hidden = nearest.length === 0;
     empty.textContent = said(error, answer, robot !== null);
-    selected(app, detail, found.find((at) => same(pair, pairOf(at))) ?? null, answer);
+    selected(app, detail, nearest.find((at) => same(pair, pairOf(at))) ?? null, answer);
   };
-  app.store.on(["robot", "proximity", "pair", "shapes", "skips"], render);
-  app.store.on(["tab"], ({ tab, proximity: { answer } }) => {
-    if (tab === "Proximity" && !answer) app.measure(true);
+  app.store.on(["robot", "proximity", "pair", "shapes", "skips", "tab", "units"], render);
+  app.store.on(["robot"], () => {
+    open.clear();
   });
   return panel;
+}
+
+/** Whether the robot collides, by links. */
+function verdict(app: App): string {
+  const n = app.store.now.contacts?.pairs.length ?? 0;
+  return n === 0 ? "No self-collision" : `In collision with itself: ${count(n, "pair")} of links`;
 }
 
 function said(error: string | null, answer: ProximityAnswer | null, open: boolean): string {
@@ -111,8 +134,59 @@ export function same(a: Pair | null, b: Pair | null): boolean {
   return a !== null && b !== null && a.flat().every((x, k) => x === b.flat()[k]);
 }
 
+/** The row of two links with those of their pieces, used again for other links. */
+function linkRow(app: App, toggle: (key: string) => void): LinkRow {
+  const main = row(app);
+  const more = h("button", { type: "button", class: "tiny expand" });
+  const pieces = h("div", { class: "pieces", hidden: true });
+  const element = h("div", { class: "link-pair" }, main.element, more, pieces);
+  const below: ReturnType<typeof row>[] = [];
+  let key = "";
+  more.addEventListener("click", () => {
+    toggle(key);
+  });
+  return {
+    element,
+    show({ links, shapes }, widest, chosen, open) {
+      key = links.join();
+      const ofPieces = app.store.now.shapes.startsWith("piece");
+      const [first] = shapes;
+      const touching = shapes.filter(isContact).length;
+      const names = first?.links.map(name).join(" · ") ?? "";
+      if (first) {
+        const is = shapes.some((at) => same(chosen, pairOf(at)));
+        main.show(first, widest, is, { names: first.links, said: touching > 1 ? `${touching} pairs of pieces` : "" });
+      }
+      more.hidden = !ofPieces;
+      more.textContent = `${open ? "▾" : "▸"} ${count(shapes.length, "pair")} of pieces`;
+      more.setAttribute("aria-expanded", String(open));
+      more.setAttribute("aria-label", `${more.textContent} of ${names}`);
+      pieces.hidden = !ofPieces || !open;
+      if (pieces.hidden) return;
+      while (below.length < shapes.length) {
+        const made = row(app);
+        below.push(made);
+        pieces.append(made.element);
+      }
+      below.forEach((one, k) => {
+        const at = shapes[k];
+        one.element.hidden = !at;
+        if (at) one.show(at, widest, same(chosen, pairOf(at)), { names: pieceNames(at), said: "" });
+      });
+    },
+  };
+}
+
+function pieceNames({ links, pieces }: PairDistance): [string, string] {
+  const text = (k: 0 | 1): string => `${links[k]} · piece ${pieces[k]}`;
+  return [text(0), text(1)];
+}
+
 /** A row that is used again for another pair. */
-function row(app: App): Row {
+function row(app: App): {
+  element: HTMLButtonElement;
+  show: (pair: PairDistance, widest: number, chosen: boolean, texts: { names: [string, string]; said: string }) => void;
+} {
   const sides = [h("span", { class: "name cut" }), h("span", { class: "name cut" })] as const;
   const distance = h("span", { class: "distance" });
   const relative = h("span", { class: "relative" });
@@ -122,33 +196,29 @@ function row(app: App): Row {
   const bar = h("span", { class: "gauge" }, range, mark);
   const element = h("button", { type: "button", class: "pair" }, sides[0], distance, relative, sides[1], said, bar);
   let current: PairDistance | null = null;
+  let isChosen = false;
   element.addEventListener("click", () => {
-    if (!current) return;
-    const pair = pairOf(current);
-    app.store.set({ pair: same(app.store.now.pair, pair) ? null : pair });
+    if (current) app.store.set({ pair: isChosen ? null : pairOf(current) });
   });
   return {
     element,
-    show(pair, widest, chosen) {
+    show(pair, widest, chosen, texts) {
       current = pair;
-      const ofPieces = app.store.now.shapes.startsWith("piece");
+      isChosen = chosen;
       sides.forEach((side, k) => {
-        const link = name(pair.links[k] ?? "");
-        const text = ofPieces ? `${link} · ${pair.pieces[k] ?? 0}` : link;
+        const text = name(texts.names[k] ?? "");
         if (side.textContent !== text) {
           fill(side, ...cut(text));
-          side.title = ofPieces ? `piece ${pair.pieces[k] ?? 0} of ${link}` : link;
+          side.title = text;
         }
       });
-      distance.textContent = pair.distance <= 0 ? "0 mm" : length(pair.distance);
-      relative.textContent = pair.relative === null ? "–" : percent(pair.relative);
-      said.textContent = [
-        pair.distance <= 0 ? "contact" : "",
-        isDecided(app.store.now.skips.answer?.edits, pair.links) ? "to be skipped" : "",
-      ]
+      const touches = isContact(pair);
+      distance.textContent = touches ? "in contact" : length(pair.distance);
+      relative.textContent = touches || pair.relative === null ? "–" : percent(pair.relative);
+      said.textContent = [texts.said, isDecided(app.store.now.skips.answer?.edits, pair.links) ? "to be skipped" : ""]
         .filter(Boolean)
         .join(" · ");
-      element.classList.toggle("contact", pair.distance <= 0);
+      element.classList.toggle("contact", touches);
       element.setAttribute("aria-pressed", String(chosen));
       gauge(bar, range, mark, pair.distance, pair.statistics, widest);
     },

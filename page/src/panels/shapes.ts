@@ -1,11 +1,17 @@
 /** What stands for the links: layers with their opacity, what is drawn over them, and which links are shown. */
 
+import type { AbsentMesh } from "../absent";
 import type { App } from "../app";
+import type { RobotModel } from "../model";
 import { partColor } from "../parts";
 import type { RobotPart } from "../parts";
+import type { LayerKind } from "../state";
 import { LAYERS, LAYER_HINTS, LAYER_NAMES, OVERLAYS, OVERLAY_NAMES } from "../state";
 import { cut, fill, h } from "../ui/dom";
-import { count, name } from "../ui/format";
+import { count, length, name } from "../ui/format";
+
+/** Links that a layer's fault names. */
+const NAMED = 6;
 
 export function shapes(app: App): HTMLElement {
   const layers = LAYERS.map((layer) => {
@@ -41,6 +47,17 @@ export function shapes(app: App): HTMLElement {
     });
     return { kind, box, row: h("div", { class: "check" }, box, h("label", { for: box.id }, OVERLAY_NAMES[kind])) };
   });
+  // A tenth of a millimetre to ten metres.
+  const size = h("input", { type: "range", id: "frame-size", min: -4, max: 1, step: 0.01 });
+  const sizeText = h("span", { class: "kind" });
+  size.addEventListener("input", () => {
+    const { overlays } = app.store.now;
+    app.store.set({ frameSize: 10 ** Number(size.value), overlays: { ...overlays, frames: true } });
+  });
+  app.store.on(["frameSize", "units"], ({ frameSize }) => {
+    size.value = String(Math.log10(frameSize ?? 0.1));
+    sizeText.textContent = frameSize === null ? "by the robot's size" : length(frameSize);
+  });
   const byPart = h("input", { type: "checkbox", id: "by-part" });
   byPart.addEventListener("change", () => {
     app.store.set({ byPart: byPart.checked });
@@ -66,6 +83,7 @@ export function shapes(app: App): HTMLElement {
     parts,
     h("h2", {}, "Drawn over them"),
     h("div", { class: "checks" }, ...overlays.map(({ row }) => row)),
+    h("div", { class: "check size" }, h("label", { for: size.id }, "Size of frames"), size, sizeText),
     h(
       "div",
       { class: "headline" },
@@ -140,8 +158,8 @@ export function shapes(app: App): HTMLElement {
     );
   });
   app.store.on(
-    ["layers", "overlays", "hidden", "robot", "faults"],
-    ({ layers: now, overlays: over, hidden, faults }) => {
+    ["layers", "overlays", "hidden", "robot", "faults", "absent"],
+    ({ layers: now, overlays: over, hidden, robot, faults, absent }) => {
       for (const { layer, box, opacity, faults: line, row } of layers) {
         box.checked = now[layer].on;
         row.classList.toggle("off", !now[layer].on);
@@ -153,7 +171,10 @@ export function shapes(app: App): HTMLElement {
               ? name(found[0] ?? "")
               : `${found.length} meshes cannot be shown: ${name(found[0] ?? "")}`
             : "";
-        line.hidden = found.length === 0;
+        const gone = robot ? notFound(robot, layer, absent) : "";
+        if (gone !== "")
+          line.textContent = [gone, layer === "original" ? line.textContent : ""].filter(Boolean).join(". ");
+        line.hidden = line.textContent === "";
       }
       for (const { kind, box } of overlays) box.checked = over[kind];
       boxes.forEach((box, link) => {
@@ -162,6 +183,17 @@ export function shapes(app: App): HTMLElement {
     },
   );
   return panel;
+}
+
+/** Which meshes of a layer the URDD does not have. */
+function notFound(robot: RobotModel, layer: LayerKind, absent: readonly AbsentMesh[]): string {
+  const of = absent.filter(({ geometry }) =>
+    geometry === "Visual" ? layer === "original" || layer === "plain" : layer === "collision",
+  );
+  if (of.length === 0) return "";
+  const links = [...new Set(of.map(({ link }) => name(robot.links[link]?.name ?? "")))];
+  const rest = links.length > NAMED ? ` and ${links.length - NAMED} more` : "";
+  return `${count(of.length, "mesh was", "meshes were")} not found: ${links.slice(0, NAMED).join(", ")}${rest}`;
 }
 
 function partRow(part: RobotPart, index: number): HTMLElement {

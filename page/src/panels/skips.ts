@@ -29,7 +29,13 @@ export function skips(app: App): HTMLElement {
     role: "application",
     "aria-label": "Skips of pairs of shapes; arrows move",
   });
-  const up = h("button", { type: "button", class: "tiny" }, "All links");
+  // At the top, where nothing that they change moves them.
+  const up = h("button", { type: "button", class: "tiny", "aria-pressed": "true" }, "Links");
+  const into = h(
+    "button",
+    { type: "button", class: "tiny", "aria-pressed": "false", title: "The pieces of the chosen pair of links" },
+    "Its pieces",
+  );
   const legend = h("div", { class: "legend" });
   const said = h("p", { class: "hint said", "aria-live": "polite" });
   const chosen = h("div", {});
@@ -40,11 +46,12 @@ export function skips(app: App): HTMLElement {
     { class: "headline" },
     h("h2", {}, "Skipped pairs"),
     h("span", { class: "spring" }),
-    up,
+    h("span", { class: "segments level", role: "group", "aria-label": "Level" }, up, into),
     kind,
   );
   const labels = h("div", { class: "labels", "aria-hidden": "true" });
-  const matrix = h("div", { class: "matrix-box" }, labels, canvas);
+  const columns = h("div", { class: "labels columns-of", "aria-hidden": "true" });
+  const matrix = h("div", { class: "matrix-box" }, columns, labels, canvas);
   const panel = h("div", { class: "panel" }, headline, matrix, said, legend, chosen, edits, empty);
   const reload = (shapes: ShapeKind): void => {
     kind.value = shapes;
@@ -58,12 +65,20 @@ export function skips(app: App): HTMLElement {
     down = null;
     reload("hulls");
   });
+  into.addEventListener("click", () => {
+    const { pair } = app.store.now;
+    if (!pair) return;
+    down = [pair[0][0], pair[1][0]];
+    reload("pieces");
+  });
   const render = (): void => {
     const { skips: state, robot, pair } = app.store.now;
     const { answer, error } = state;
     const has = robot !== null && answer !== null && answer.places.length > 0;
     for (const element of [matrix, legend, said]) element.hidden = !has;
-    up.hidden = down === null;
+    up.setAttribute("aria-pressed", String(down === null));
+    into.setAttribute("aria-pressed", String(down !== null));
+    into.disabled = pair === null;
     empty.hidden = has;
     empty.textContent = error
       ? `There are no skips to show: ${error}`
@@ -75,8 +90,11 @@ export function skips(app: App): HTMLElement {
     if (!has) return;
     const shown = region(answer, down);
     const named = shown.rows.length <= MOST_LABELS;
+    const across = shown.columns.length <= MOST_LABELS;
     labels.hidden = !named;
+    columns.hidden = !across;
     fill(labels, ...(named ? shown.rows.map((shape) => label(robot, answer, shape, pair)) : []));
+    fill(columns, ...(across ? shown.columns.map((shape) => label(robot, answer, shape, pair)) : []));
     draw(canvas, answer, shown, pair);
     fill(
       legend,
@@ -88,16 +106,16 @@ export function skips(app: App): HTMLElement {
       }),
       h("span", { class: "hint" }, "Strong: skipped. Pale: checked."),
     );
-    said.textContent = summary(answer);
-    if (pair)
-      fill(
-        chosen,
-        ...decision(app, robot, answer, pair, (links) => {
-          down = links;
-          reload("pieces");
-        }),
-      );
+    said.textContent = standing();
+    if (pair) fill(chosen, ...decision(app, robot, answer, pair));
     fill(edits, ...listed(app, answer));
+  };
+  /** Of the chosen pair, or of all. */
+  const standing = (): string => {
+    const { skips: state, robot, pair } = app.store.now;
+    if (!state.answer || !robot) return "";
+    const at = pair && shapesOf(state.answer, pair);
+    return at ? words(robot, state.answer, at) : summary(state.answer);
   };
   const under = (event: PointerEvent): [number, number] | null => {
     const { answer } = app.store.now.skips;
@@ -119,8 +137,7 @@ export function skips(app: App): HTMLElement {
     if (place && robot && answer) said.textContent = words(robot, answer, place);
   });
   canvas.addEventListener("pointerleave", () => {
-    const { answer } = app.store.now.skips;
-    if (answer) said.textContent = summary(answer);
+    said.textContent = standing();
   });
   canvas.addEventListener("pointerdown", (event) => {
     const place = under(event);
@@ -194,14 +211,32 @@ function words(robot: RobotModel, answer: SkipsAnswer, [i, j]: [number, number])
   return `${of(i)} · ${of(j)}: ${reason}, ${isSkipped(answer, i, j) ? "skipped" : "checked"}`;
 }
 
+/** The rows of a pair of shapes. */
+function shapesOf(answer: SkipsAnswer, pair: Pair): [number, number] | null {
+  const ofPieces = answer.shapes.startsWith("piece");
+  const [i = -1, j = -1] = pair.map(([link, piece]) =>
+    answer.places.findIndex(([other, k]) => other === link && (!ofPieces || k === piece)),
+  );
+  return i < 0 || j < 0 ? null : [i, j];
+}
+
+/** Why pairs of shapes are skipped or not: the reasons with their numbers, and what a person decided. */
+function whys(answer: SkipsAnswer, pairs: [number, number][], links: [string, string]): string {
+  const reasons = new Map<string, number>();
+  for (const [i, j] of pairs) {
+    const text = REASONS.get(letterAt(answer, i, j)) ?? "no reason given";
+    reasons.set(text, (reasons.get(text) ?? 0) + 1);
+  }
+  const edit = answer.edits
+    ?.filter(({ link_a, link_b }) => [link_a, link_b].sort().join("\0") === links.slice().sort().join("\0"))
+    .pop();
+  const found = [...reasons].map(([text, n]) => (pairs.length > 1 ? `${text} (${n.toLocaleString("en")})` : text));
+  const decided = edit && `decided: ${edit.skip ? "skip" : "check"}${edit.reason ? `, ${name(edit.reason)}` : ""}`;
+  return [found.join(", "), decided].filter(Boolean).join("; ");
+}
+
 /** What can be decided of the chosen pair of links. */
-function decision(
-  app: App,
-  robot: RobotModel,
-  answer: SkipsAnswer,
-  pair: Pair,
-  enter: (links: [number, number]) => void,
-): Node[] {
+function decision(app: App, robot: RobotModel, answer: SkipsAnswer, pair: Pair): Node[] {
   const links: [number, number] = [pair[0][0], pair[1][0]];
   const [a, b] = links.map((link) => robot.links[link]?.name ?? "") as [string, string];
   const pairs = answer.places.flatMap(([first], i) =>
@@ -218,24 +253,12 @@ function decision(
         : skipped === 0
           ? "checked"
           : `${skipped} of ${pairs.length} skipped`;
-  const title = [h("h2", {}, `${name(a)} · ${name(b)}: ${state}`)];
-  const into = h(
-    "button",
-    {
-      type: "button",
-      class: "tiny",
-      click: () => {
-        enter(links);
-      },
-    },
-    "Its pieces",
-  );
+  const title = [
+    h("h2", {}, `${name(a)} · ${name(b)}: ${state}`),
+    h("p", { class: "why" }, `Reason: ${whys(answer, pairs, [a, b])}`),
+  ];
   if (answer.edits === null)
-    return [
-      ...title,
-      into,
-      h("p", { class: "hint" }, "A legacy URDD has no edits: generate a new one to decide on skips."),
-    ];
+    return [...title, h("p", { class: "hint" }, "A legacy URDD has no edits: generate a new one to decide on skips.")];
   if (links[0] === links[1])
     return [...title, h("p", { class: "hint" }, "Shapes of one link are never checked against each other.")];
   const reason = h("input", {
@@ -265,7 +288,6 @@ function decision(
       button("Skip all relatively nearer", "Every pair of links whose distance is a smaller share of its mean", () => {
         void nearer(app, links, "relative", reason.value.trim());
       }),
-      into,
     ),
   ];
 }

@@ -2,40 +2,66 @@
 
 import type { App } from "../app";
 import { fill, h } from "../ui/dom";
-import { number } from "../ui/format";
+import { count, name, number, UNIT_NAMES } from "../ui/format";
+import type { Units } from "../ui/format";
 import type { State } from "../state";
 import { SHAPE_NAMES } from "./proximity";
+
+/** Pairs of links that are named. */
+const NAMED = 2;
 
 /** What is being loaded, in words. */
 export function said({ title = "Loading", what, done, of }: NonNullable<State["loading"]>): string {
   return `${title} ${what}${of > 0 ? `, ${done} of ${of}` : ""}`;
 }
 
+/** Whether the robot collides: in a few words, and as a class. */
+export function collision({ robot, proximity, contacts }: Readonly<State>): {
+  text: string;
+  kind: string;
+  more: string;
+} {
+  const { answer, error } = proximity;
+  if (error !== null || !robot?.moves)
+    return { text: "collisions not known", kind: "open", more: error ?? "the joints cannot be moved" };
+  if (!answer || !contacts) return { text: "looking for collisions…", kind: "open", more: "" };
+  const pairs = contacts.pairs.map(({ links }) => links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "));
+  if (pairs.length === 0) return { text: "no self-collision", kind: "good", more: "" };
+  const rest = pairs.length > NAMED ? ` and ${pairs.length - NAMED} more` : "";
+  return {
+    text: `self-collision: ${count(pairs.length, "pair")} of links`,
+    kind: "bad",
+    more: pairs.slice(0, NAMED).join(", ") + rest,
+  };
+}
+
 export function status(app: App): HTMLElement {
+  const verdict = h("span", { class: "verdict-now", role: "status" });
   const left = h("div", { class: "left" });
   const middle = h("div", { class: "note", "aria-live": "polite" });
-  const right = h("div", { class: "right" });
-  app.store.on(["proximity", "robot", "loading", "shapes"], ({ proximity: { answer }, robot, loading, shapes }) => {
-    if (loading) {
-      fill(left, h("span", {}, said(loading)));
-    } else if (robot && answer) {
+  const what = h("span", { class: "wide-only" });
+  const right = h("div", { class: "right" }, what, ...switches(app));
+  app.store.on(["proximity", "contacts", "robot", "loading", "shapes"], (state) => {
+    const { proximity, robot, loading, shapes } = state;
+    const { text, kind, more } = collision(state);
+    verdict.hidden = robot === null;
+    const line = `● ${text}`;
+    // It is read out when it changes, and not with every move.
+    if (verdict.textContent !== line) verdict.textContent = line;
+    verdict.className = `verdict-now ${kind}`;
+    verdict.title = more;
+    const { answer } = proximity;
+    if (loading) fill(left, h("span", {}, said(loading)));
+    else if (robot && answer) {
       const skipped = answer.of === null ? null : answer.of - answer.pairs;
       fill(
         left,
-        h(
-          "span",
-          { class: answer.in_collision ? "bad" : "good" },
-          answer.in_collision ? "● self-collision" : "● no self-collision",
-        ),
-        h("span", {}, `${answer.pairs.toLocaleString("en")} pairs of ${SHAPE_NAMES[shapes]} checked`),
-        skipped !== null && h("span", {}, `${skipped.toLocaleString("en")} skipped`),
-        h("span", {}, `${number(answer.ms, 2)} ms`),
+        more !== "" && h("span", { class: "bad" }, more),
+        h("span", { class: "wide-only" }, `${count(answer.pairs, "pair")} of ${SHAPE_NAMES[shapes]} checked`),
+        skipped !== null && h("span", { class: "wide-only" }, `${skipped.toLocaleString("en")} skipped`),
+        h("span", { class: "wide-only" }, `${number(answer.ms, 2)} ms`),
       );
-    } else
-      fill(
-        left,
-        h("span", {}, robot ? "Drag a joint to move it · shift-drag a link to pull it · space plays the samples" : ""),
-      );
+    } else fill(left, h("span", {}, robot ? name(more) : ""));
   });
   app.store.on(["note"], ({ note }) => {
     fill(middle, note);
@@ -43,8 +69,27 @@ export function status(app: App): HTMLElement {
   app.store.on(["robot", "q", "sample"], ({ robot, q, sample }) => {
     const is = (key: "zero" | "middle"): boolean =>
       robot?.about[key]?.every((value, dof) => Math.abs(value - (q[dof] ?? 0)) < 1e-9) ?? false;
-    const what = sample ? `sample ${sample.at + 1}` : is("zero") ? "q = zero" : is("middle") ? "q = middle" : "q";
-    fill(right, robot?.moves ? h("span", {}, what) : null, robot && h("span", {}, "mm · deg"));
+    const text = sample ? `sample ${sample.at + 1}` : is("zero") ? "q = zero" : is("middle") ? "q = middle" : "";
+    what.textContent = robot?.moves ? text : "";
   });
-  return h("footer", { class: "status" }, left, middle, h("span", { class: "spring" }), right);
+  return h("footer", { class: "status" }, verdict, left, middle, h("span", { class: "spring" }), right);
+}
+
+/** The units of all numbers; a click changes them. */
+function switches(app: App): HTMLElement[] {
+  const make = <K extends keyof Units>(key: K, both: readonly [Units[K], Units[K]]): HTMLElement => {
+    const button = h("button", { type: "button", class: "tiny unit" });
+    button.addEventListener("click", () => {
+      const { units } = app.store.now;
+      app.setUnits({ ...units, [key]: units[key] === both[0] ? both[1] : both[0] });
+    });
+    app.store.on(["units"], ({ units }) => {
+      const [now, other] = units[key] === both[0] ? both : [both[1], both[0]];
+      button.textContent = now;
+      button.title = `In ${UNIT_NAMES[now]}. Click for ${UNIT_NAMES[other]}`;
+      button.setAttribute("aria-label", `${now}: ${key === "length" ? "lengths" : "angles"} in ${UNIT_NAMES[now]}`);
+    });
+    return button;
+  };
+  return [make("length", ["mm", "m"]), make("angle", ["°", "rad"])];
 }

@@ -31,7 +31,7 @@ export function tree(app: App): HTMLElement {
   const empty = h("p", { class: "empty" });
   const panel = h(
     "nav",
-    { class: "tree", "aria-label": "Links and joints" },
+    { class: "tree", id: "links", "aria-label": "Links and joints" },
     h("div", { class: "search" }, search),
     list,
     empty,
@@ -58,6 +58,8 @@ export function tree(app: App): HTMLElement {
     element.addEventListener("click", (event) => {
       if (event.altKey) app.hide([link], !app.store.now.hidden.has(link));
       else app.select({ kind: "link", index: link });
+      // Where the tree lies over the picture, the link is seen now.
+      if (app.store.now.unfolded === "links") app.store.set({ unfolded: null });
     });
     element.addEventListener("dblclick", () => {
       app.store.set({ tab: "Joints" });
@@ -117,7 +119,7 @@ export function tree(app: App): HTMLElement {
     if (next) app.select({ kind: "link", index: next.link });
   });
 
-  app.store.on(["robot", "q"], ({ robot, q }) => {
+  app.store.on(["robot", "q", "units"], ({ robot, q }) => {
     if (!robot) return;
     for (const row of rows) {
       const joint = robot.links[row.link]?.parent_joint ?? null;

@@ -18,6 +18,7 @@ import type { LinkMesh, ShapeKind, SourceShape, Volume } from "../engine/protoco
 import type { RobotModel } from "../model";
 import { LAYERS } from "../state";
 import type { LayerKind } from "../state";
+import { rimmed } from "./rim";
 import type { MeshData, RobotScene } from "./robot";
 import { bare, dressed, isTextured } from "./sources";
 
@@ -83,7 +84,7 @@ function missing(layer: string): string {
 }
 
 function material(color: Color, opacity = 1): MeshLambertMaterial {
-  return new MeshLambertMaterial({ color, opacity, transparent: opacity < 1 });
+  return rimmed(new MeshLambertMaterial({ color, opacity, transparent: opacity < 1 }));
 }
 
 function solid(layer: LayerKind, scene: RobotScene, mesh: LinkMesh): string | null {

@@ -30,8 +30,14 @@ export class Overlays {
   readonly group = new Group();
   private readonly frames: Group[] = [];
 
-  /** Makes what is asked for. `size` is that of the robot, metres. */
-  make(model: RobotModel, on: Record<OverlayKind, boolean>, size: number, selected: number | null): void {
+  /** Makes what is asked for. `size` is that of the robot, `frame` the length of a frame's axes, metres. */
+  make(
+    model: RobotModel,
+    on: Record<OverlayKind, boolean>,
+    size: number,
+    frame: number,
+    selected: number | null,
+  ): void {
     this.clear();
     this.frames.length = 0;
     for (const link of model.links) {
@@ -39,7 +45,7 @@ export class Overlays {
       group.matrixAutoUpdate = false;
       this.group.add(group);
       this.frames.push(group);
-      if (on.frames) group.add(above(new AxesHelper(size * 0.07)));
+      if (on.frames) group.add(above(new AxesHelper(frame)));
       const joint = link.parent_joint === null ? null : model.joints[link.parent_joint];
       if (on.axes && joint?.axis && joint.type !== "Fixed") group.add(axis(joint.axis, size));
       if (link.inertial) {

@@ -45,9 +45,13 @@ export class View {
       this.invalidate();
       for (const listener of this.moved) listener();
     });
+  }
+
+  /** Draws as large as this element, whenever its size changes. */
+  follow(element: HTMLElement): void {
     new ResizeObserver(() => {
       this.resize();
-    }).observe(canvas.parentElement ?? canvas);
+    }).observe(element);
     this.resize();
   }
 
@@ -94,7 +98,7 @@ export class View {
     this.bounds = bounds.clone();
     const sphere = bounds.getBoundingSphere(new Sphere());
     const radius = Math.max(sphere.radius, 1e-4);
-    const half = Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) * (Math.PI / 360);
+    const half = this.half();
     const away = from?.clone() ?? this.camera.position.clone().sub(this.controls.target);
     away.normalize().multiplyScalar((radius * 1.1) / Math.sin(half));
     this.controls.target.copy(sphere.center);
@@ -132,8 +136,23 @@ export class View {
     const box = (this.canvas.parentElement ?? this.canvas).getBoundingClientRect();
     const [width, height] = [Math.max(1, box.width), Math.max(1, box.height)];
     this.renderer.setSize(width, height, false);
+    const before = this.half();
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    // What was in the picture stays in it, as large as there is room.
+    if (!this.bounds.isEmpty()) {
+      const { target } = this.controls;
+      this.camera.position
+        .sub(target)
+        .multiplyScalar(Math.sin(before) / Math.sin(this.half()))
+        .add(target);
+      this.controls.update();
+    }
     this.draw();
+  }
+
+  /** Half the angle of the picture's shorter side. */
+  private half(): number {
+    return Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) * (Math.PI / 360);
   }
 }

@@ -62,7 +62,7 @@ export class Witness {
         .add(points[0] ?? new Vector3())
         .add(points[1] ?? new Vector3())
         .divideScalar(2);
-      this.label.textContent = touching ? "contact" : length(pair.distance);
+      this.label.textContent = touching ? "in contact" : length(pair.distance);
       this.label.classList.toggle("touching", touching);
     }
     this.view.invalidate();

@@ -18,40 +18,96 @@ export function number(value: number, digits = 3): string {
   return signed(short === "-0" ? "0" : short);
 }
 
-/** A length in metres, as mm or m. */
+/** The units in which lengths and angles are shown everywhere. */
+export interface Units {
+  length: "mm" | "m";
+  angle: "°" | "rad";
+}
+
+export const UNIT_NAMES = { mm: "millimetres", m: "metres", "°": "degrees", rad: "radians" } as const;
+
+const KEY = "urdd-units";
+const units: Units = { length: "mm", angle: "°" };
+
+/** The units as a person chose them last. */
+export function keptUnits(): Units {
+  try {
+    const [length, angle] = (localStorage.getItem(KEY) ?? "").split(" ");
+    if (length === "m") units.length = "m";
+    if (angle === "rad") units.angle = "rad";
+  } catch {
+    // A frame that may keep nothing, as in a notebook.
+  }
+  return { ...units };
+}
+
+export function keepUnits({ length, angle }: Units): void {
+  Object.assign(units, { length, angle });
+  try {
+    localStorage.setItem(KEY, `${length} ${angle}`);
+  } catch {
+    // They hold until the page is left.
+  }
+}
+
+/** A length in metres, in the unit that is shown. */
 export function length(metres: number, digits = 3): string {
-  if (metres === 0) return "0 mm";
-  const size = Math.abs(metres);
-  if (size < 1e-6) return "< 0.001 mm";
-  return size < 1 ? `${number(metres * 1000, digits)} mm` : `${number(metres, digits)} m`;
+  if (metres === 0) return `0 ${units.length}`;
+  if (Math.abs(metres) < 1e-6) return units.length === "mm" ? "< 0.001 mm" : "< 0.000001 m";
+  return units.length === "mm" ? `${plain(metres * 1000, digits)} mm` : `${plain(metres, digits)} m`;
 }
 
-export function degrees(radians: number): number {
-  return (radians * 180) / Math.PI;
+/** As `number`, but millimetres of a large robot keep all their digits before the point. */
+function plain(value: number, digits: number): string {
+  return number(value, Math.max(digits, Math.floor(Math.log10(Math.abs(value))) + 1));
 }
 
-export function radians(degrees: number): number {
-  return (degrees * Math.PI) / 180;
+/** Several lengths in metres. */
+export function lengths(values: readonly number[], digits = 4): string {
+  return `${values.map((value) => number(toShown(value, "m"), digits)).join(", ")} ${units.length}`;
 }
 
-/** The value of a DOF: degrees or mm. */
+/** The value of a DOF. */
 export function dofValue(value: number, unit: Unit): string {
-  return unit === "rad" ? `${number(round(degrees(value), 1), 4)}°` : `${number(round(value * 1000, 2), 5)} mm`;
+  return `${entered(value, unit)}${shownUnit(unit) === "°" ? "°" : ` ${shownUnit(unit)}`}`;
 }
 
 export type Unit = "rad" | "m";
 
-/** What a person types for a DOF, and its unit. */
-export function shownUnit(unit: Unit): string {
-  return unit === "rad" ? "°" : "mm";
+/** The unit in which a DOF is shown and typed. */
+export function shownUnit(unit: Unit): keyof typeof UNIT_NAMES {
+  return unit === "rad" ? units.angle : units.length;
+}
+
+/** How much of a unit that is shown is one of the library's. */
+function scale(unit: Unit): number {
+  if (unit === "rad") return units.angle === "°" ? 180 / Math.PI : 1;
+  return units.length === "mm" ? 1000 : 1;
 }
 
 export function toShown(value: number, unit: Unit): number {
-  return unit === "rad" ? degrees(value) : value * 1000;
+  return value * scale(unit);
 }
 
 export function fromShown(value: number, unit: Unit): number {
-  return unit === "rad" ? radians(value) : value / 1000;
+  return value / scale(unit);
+}
+
+/** Digits after the point that are worth showing: a hundredth of a degree or millimetre, or less. */
+const DECIMALS = { "°": 2, mm: 2, rad: 4, m: 5 } as const;
+
+/** A value as a person would type it, without the unit. */
+export function entry(value: number, unit: Unit): string {
+  return String(round(toShown(value, unit), DECIMALS[shownUnit(unit)]));
+}
+
+function entered(value: number, unit: Unit): string {
+  return signed(entry(value, unit));
+}
+
+/** The smallest step of a slider, in the library's unit: 0.1°, 0.1 mm, 0.001 rad. */
+export function fineStep(unit: Unit): number {
+  return unit === "m" ? 1e-4 : units.angle === "°" ? Math.PI / 1800 : 1e-3;
 }
 
 export function round(value: number, decimals: number): number {

@@ -1,15 +1,19 @@
 /** Tabs as the ARIA practices have them: arrows move between them. */
 
 import type { App } from "../app";
+import { tally } from "../findings";
 import { TABS } from "../state";
 import type { Tab } from "../state";
 import { fill, h } from "./dom";
+import { count } from "./format";
 
 export function tabs(app: App, panels: Record<Tab, HTMLElement>): HTMLElement {
   const buttons = TABS.map((tab) => {
     const button = h("button", { type: "button", role: "tab", id: `tab-${tab}`, "aria-controls": `panel-${tab}` }, tab);
     button.addEventListener("click", () => {
-      app.store.set({ tab });
+      // Where panels fold, a second click folds.
+      const { tab: now, unfolded } = app.store.now;
+      app.store.set({ tab, unfolded: now === tab && unfolded === "panels" ? null : "panels" });
     });
     return button;
   });
@@ -21,7 +25,7 @@ export function tabs(app: App, panels: Record<Tab, HTMLElement>): HTMLElement {
     const at = TABS.indexOf(app.store.now.tab);
     const next = (at + step + TABS.length) % TABS.length;
     const tab = TABS[next];
-    if (tab) app.store.set({ tab });
+    if (tab) app.store.set({ tab, unfolded: "panels" });
     buttons[next]?.focus();
   });
   const bodies = TABS.map((tab) => {
@@ -44,9 +48,17 @@ export function tabs(app: App, panels: Record<Tab, HTMLElement>): HTMLElement {
     });
   });
   app.store.on(["report"], ({ report }) => {
-    const n = report.report?.urdds[0]?.findings.length ?? 0;
+    const counts = report.report ? tally(report.report) : null;
+    const kind = counts?.error ? "error" : counts?.warning ? "warning" : "info";
     const button = buttons[TABS.indexOf("Findings")];
-    if (button) fill(button, "Findings", n > 0 && h("span", { class: "badge" }, String(n)));
+    if (!button) return;
+    const badge = h("span", { class: `badge ${kind}` }, counts?.all.toLocaleString("en"));
+    fill(button, "Findings", counts !== null && counts.all > 0 && badge);
+    button.title = counts ? `${count(counts.all, "finding")}, as \`urdd validate\` counts them` : "";
   });
-  return h("aside", { class: "tabs" }, list, ...bodies);
+  const panel = h("aside", { class: "tabs" }, list, ...bodies);
+  app.store.on(["unfolded"], ({ unfolded }) => {
+    document.documentElement.dataset["unfolded"] = unfolded ?? "";
+  });
+  return panel;
 }

@@ -15,6 +15,7 @@ Lengths are metres, angles radians, poses matrices (4, 4) in the frame of the ro
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Any
 
 from . import errors
@@ -30,6 +31,7 @@ from ._answers import (
     ObstaclePair,
     Pair,
     PairDistance,
+    Rate,
     ShapeKind,
     SkipReason,
     Skips,
@@ -57,6 +59,7 @@ from .errors import (
     OpenError,
     UnknownNameError,
     UrddError,
+    ValidationError,
 )
 
 if TYPE_CHECKING:
@@ -100,6 +103,7 @@ __all__ = [
     "PinocchioRobot",
     "Proximity",
     "PybulletRobot",
+    "Rate",
     "Robot",
     "Rule",
     "ShapeKind",
@@ -110,6 +114,7 @@ __all__ = [
     "Spheres",
     "UnknownNameError",
     "UrddError",
+    "ValidationError",
     "Visual",
     "World",
     "__version__",
@@ -142,9 +147,13 @@ _LATER = {
 }
 
 
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
 def __getattr__(name: str) -> Any:
     if name not in _LATER:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}", name=name, obj=sys.modules[__name__])
     from importlib import import_module
 
     module = import_module(f".{_LATER[name]}", __name__)

@@ -56,6 +56,26 @@ class LearnedPair:
 
 
 @dataclass(frozen=True)
+class Rate:
+    """A share of counted configurations, with its 95 % interval (Wilson's, SPEC 8.8.11)."""
+
+    count: int
+    """How many."""
+    of: int
+    """Out of how many."""
+    lower: float
+    """The lower end of the interval, 0 to 1."""
+    upper: float
+    """The upper end of the interval, 0 to 1."""
+
+    def __str__(self) -> str:
+        if self.of == 0:
+            return "none of 0"
+        share, lower, upper = (f"{100 * x:.2f}" for x in (self.count / self.of, self.lower, self.upper))
+        return f"{share} % ({lower} to {upper} %) of {self.of:,}"
+
+
+@dataclass(frozen=True)
 class ObstaclePair:
     """A shape of a robot, and an obstacle."""
 

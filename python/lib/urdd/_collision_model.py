@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 from numpy.typing import ArrayLike
 
 from . import _urdd
-from ._answers import LearnedPair
+from ._answers import LearnedPair, Rate
 from ._arrays import Bools, Floats, Indices, configurations, scalar
 from .errors import ModuleMissingError, UnknownNameError
 
 if TYPE_CHECKING:
     # It takes time to import.
-    from .modules import HeldOutCounts
+    from .modules import ModelEvaluation
 
 MODULE = "self_collision_model_module"
 
@@ -23,8 +23,8 @@ class CollisionModel:
     """A network that estimates how near pairs of links are to each other: ``robot.collision_model()``.
 
     It is for passing over configurations that are far from any contact; the others are checked exactly. **It is an
-    estimate, and guarantees nothing**: :attr:`held_out` says how many collisions it missed among configurations that it
-    was not trained on.
+    estimate, not a guarantee**: :attr:`miss_rate` says how many collisions it misses among configurations that it was
+    not trained on.
 
     A *clearance* is in metres; 0 or less means that the pair may be in contact. Distances from :attr:`clip_distance` on
     were all the same in training, so a large clearance says that the links are apart, and not how far.
@@ -82,14 +82,29 @@ class CollisionModel:
         return self._core.num_parameters
 
     @property
-    def held_out(self) -> HeldOutCounts:
-        """How often it was right on configurations that had no part in making it, as its module says:
-        ``num_configurations`` were looked at; of the ``num_colliding`` in collision it cleared ``num_missed`` all the
-        same; of the others it cleared ``num_cleared``. They are the sampled configurations (SPEC 9.3) from
-        ``first_sample_idx`` on."""
-        from .modules import HeldOutCounts
+    def evaluation(self) -> ModelEvaluation:
+        """How often it is right on 50,000 configurations that no model is made on (SPEC 8.8.9), as its module says. Of
+        the ``num_colliding`` in collision it clears ``num_missed``; of those that are also within a step of 0.05 rad or
+        m of being free, ``num_near_contact``, it clears ``num_near_contact_missed``; of the ``num_free`` others it
+        clears ``num_cleared``. ``urdd validate`` counts again."""
+        from .modules import ModelEvaluation
 
-        return HeldOutCounts(*self._core.held_out)
+        return ModelEvaluation(*self._core.evaluation)
+
+    @property
+    def miss_rate(self) -> Rate:
+        """The share of collisions that it misses, with its 95 % interval."""
+        return Rate(*self._core.rates[0])
+
+    @property
+    def near_contact_miss_rate(self) -> Rate:
+        """The share of collisions within a step of 0.05 rad or m of being free that it misses."""
+        return Rate(*self._core.rates[1])
+
+    @property
+    def clear_rate(self) -> Rate:
+        """The share of free configurations that it clears."""
+        return Rate(*self._core.rates[2])
 
     # What it says.
 
@@ -105,7 +120,7 @@ class CollisionModel:
 
     def may_collide(self, q: ArrayLike) -> Bools:
         """(...): whether a clearance is 0 or less, or not known. Where not, the configuration is *cleared*: most likely
-        free of collisions, and not surely (:attr:`held_out`). Where so, :meth:`Robot.in_collision` says what is right.
+        free of collisions, and not surely (:attr:`miss_rate`). Where so, :meth:`Robot.in_collision` says what is right.
         """
         rows, batch = configurations(q, self._dof_names)
         return scalar(self._core.may_collide(rows).reshape(batch))
@@ -152,11 +167,9 @@ class CollisionModel:
         return at, (self._path,)
 
     def __repr__(self) -> str:
-        _, count, colliding, missed, _ = self._core.held_out
         return (
             f"<urdd.CollisionModel: an estimate for {self.num_pairs} pairs of links, "
-            f"{self.num_parameters:,} parameters; "
-            f"misses {missed:,} of {colliding:,} collisions in {count:,} configurations>"
+            f"{self.num_parameters:,} parameters; misses {self.miss_rate} collisions>"
         )
 
 
@@ -172,8 +185,7 @@ def missing(error: ModuleMissingError) -> ModuleMissingError:
     if error.module != MODULE:
         return error
     return ModuleMissingError(
-        f"{MODULE} is missing: it is made where it is asked for, with `urdd generate ROBOT.urdf -o DIR --modules "
-        f"all,self_collision_model` or `urdd.generate(..., modules=['all', 'self_collision_model'])`. That trains a "
-        f"network, and notes where one would be of no use",
+        f'{MODULE} is missing: it is made where it is asked for: urdd.generate(urdf, folder, modules=["all", '
+        f'"self_collision_model"]). That trains a network, and notes where one would be of no use',
         error.module,
     )

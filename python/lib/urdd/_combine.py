@@ -94,7 +94,7 @@ def combine(
     target = Path(output)
     if isinstance(source, (str, os.PathLike)):
         recipe = Path(source)
-        if recipe.suffix != ".toml":
+        if recipe.suffix != ".toml" or recipe.is_dir():
             raise CombineError(
                 f"{recipe}: a recipe is a .toml file; to put two robots together: "
                 f"urdd.combine([{str(recipe)!r}, other], {str(target)!r}, at=link)",

@@ -74,6 +74,11 @@ class Described:
         """The unit of each DOF: ``rad`` or ``m``."""
         return tuple(self._core.dof_units())
 
+    @cached_property
+    def root_link(self) -> str:
+        """The name of the link that all others hang on, in whose frame poses are."""
+        return self.link_names[self.modules.chain.root_idx]
+
     @property
     def num_links(self) -> int:
         """Number of links."""
@@ -152,9 +157,6 @@ class Described:
 def _check_is_no_urdf(path: Path) -> None:
     if path.suffix.lower() in (".urdf", ".xacro"):
         folder = path.name.split(".")[0]
-        raise OpenError(
-            f"{path}: this is a URDF, and no URDD; make one: urdd.generate({str(path)!r}, {folder!r}), or "
-            f"`urdd generate {path} -o {folder}`"
-        )
+        raise OpenError(f"{path}: this is a URDF, and no URDD; make one: urdd.generate({str(path)!r}, {folder!r})")
     if path.name == "urdd.json":
         raise OpenError(f"{path}: this is a file of a URDD; give the folder that it lies in")

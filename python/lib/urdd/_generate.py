@@ -131,8 +131,9 @@ def generate(
         xacro_timeout: how long the program xacro may take, seconds.
         drop_edits: drops the edits of skips in the URDD that is replaced.
         force: writes into a folder that holds something else than a URDD of this program.
-        progress: is called with a module's name, how many modules are done, and how many there are; while a module is
-            made that takes long, also with ``"MODULE: step"``, how many steps of it are done, and how many there are.
+        progress: is called when a module is begun, with its name, how many modules are done, and how many there are,
+            and at last with all done; while a module is made that takes long, also with ``"MODULE: step"``, how many
+            steps of it are done, and how many there are.
 
     Raises:
         GenerateError: where the source is no robot, or the URDD cannot be written.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from sys import maxsize
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ._answers import InverseSolutions
 from ._arrays import Floats, configurations, numbers, points
+from ._options import whole
 from .errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -43,26 +45,25 @@ def solve(
             raise ConfigurationError(f"bounds must have the shape ({robot.num_dofs}, 2), and have {limits.shape}")
     if not (position_tolerance >= 0 and rotation_tolerance >= 0):
         raise ConfigurationError("tolerances must be numbers, and not negative")
-    q, reached, errors, effort = robot.core.inverse(
+    found = robot.core.inverse(
         robot.index(link),
         goals if goals.ndim == 3 else goals[:, None, :],
         starts,
         three(point, "a point"),
         (float(position_tolerance), float(rotation_tolerance)),
-        int(iterations),
-        int(restarts),
-        int(seed),
+        whole(iterations, "iterations", 0, maxsize),
+        whole(restarts, "restarts", 0, maxsize),
+        whole(seed, "a seed", 0, 2**64 - 1),
         limits,
     )
-    both = np.array(errors, dtype=np.float64).reshape(count, 2)
-    counts = np.array(effort, dtype=np.uintp).reshape(count, 2)
+    told = found[:, robot.num_dofs :].T
     return InverseSolutions(
-        q=q,
-        reached=np.array(reached, dtype=np.bool_),
-        position_error=both[:, 0],
-        rotation_error=both[:, 1],
-        restarts=counts[:, 0],
-        iterations=counts[:, 1],
+        q=np.ascontiguousarray(found[:, : robot.num_dofs]),
+        reached=told[0] > 0,
+        position_error=np.ascontiguousarray(told[1]),
+        rotation_error=np.ascontiguousarray(told[2]),
+        restarts=told[3].astype(np.uintp),
+        iterations=told[4].astype(np.uintp),
     )
 
 

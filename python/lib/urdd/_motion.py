@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from operator import index
+from sys import maxsize
+
 from numpy.typing import ArrayLike
 
 from ._answers import InverseSolution, InverseSolutions
 from ._arrays import Bools, Floats, configurations, scalar
 from ._description import Described
 from ._inverse import as_targets, solve, three
+from ._options import whole
 
 #: The sequence of configurations repeats itself after so many (SPEC 9.3).
 _CONFIGURATIONS = 2**32
@@ -50,12 +54,16 @@ class Moving(Described):
 
         They are those that the specification defines (SPEC 9.3), the same in every program, on every machine and for
         every ``n``: from number 0 on, and with a seed from ``seed * 0x9E3779B9 % 2**32`` on.
+
+        Raises:
+            MemoryError: where there is not enough memory, as of everything that gives an array.
         """
-        count, start = 1 if n is None else int(n), int(seed)
+        count = 1 if n is None else index(n)
         if count < 0:
             raise ValueError(f"the number of configurations must not be negative, and is {count}")
-        if not 0 <= start < _CONFIGURATIONS:
-            raise ValueError(f"a seed is from 0 to 2**32 - 1, and this is {start}")
+        if count > maxsize:
+            raise MemoryError(f"{count} configurations are more than any memory holds: ask for fewer at once")
+        start = whole(seed, "a seed", 0, _CONFIGURATIONS - 1)
         found = self._core.sample(count, start * _SEED_STRIDE % _CONFIGURATIONS)
         return found[0] if n is None else found
 
@@ -116,7 +124,8 @@ class Moving(Described):
         """Inverse kinematics: a configuration, within bounds, in which a link is where it should be.
 
         By damped least squares from ``start`` (:attr:`zero` unless you say otherwise), then from random configurations.
-        Mimic joints follow. Collisions are not looked at. The same question has the same answer.
+        Mimic joints follow. Collisions are not looked at. The same question has the same answer. Many targets are
+        answered on all threads by :meth:`ik_batch`.
 
         Args:
             link: the link.

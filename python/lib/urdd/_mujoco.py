@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class MujocoRobot:
-    """A robot for MuJoCo. Its positions are in MuJoCo's own order: :meth:`qpos` and :meth:`dofs` map configurations.
+    """A robot for MuJoCo. Its ``qpos`` is in MuJoCo's own order: :meth:`q` and :meth:`dofs` map configurations.
 
     A floating joint is three slides and a ball, a planar one two slides and a hinge. Mimic joints are joints of their
-    own, held by equality constraints, which :meth:`qpos` sets.
+    own, held by equality constraints, which :meth:`q` sets.
     """
 
     model: Any
@@ -33,8 +33,8 @@ class MujocoRobot:
     """What MuJoCo's format could not say, or says in another way."""
     _places: tuple[tuple[Joint, tuple[int, ...]], ...]
 
-    def qpos(self, q: ArrayLike) -> Floats:
-        """(..., nq): MuJoCo's positions of one of our configurations (..., dofs)."""
+    def q(self, q: ArrayLike) -> Floats:
+        """(..., nq): MuJoCo's ``qpos`` of one of our configurations (..., dofs)."""
         rows, batch = configurations(q, self.dof_names)
         found = np.zeros((len(rows), self.model.nq))
         for joint, at in self._places:
@@ -47,9 +47,9 @@ class MujocoRobot:
                 found[:, at[slides] : at[slides] + 4] = quaternion_of(rows[:, joint.dofs[slides:]])
         return found.reshape(*batch, self.model.nq)
 
-    def dofs(self, qpos: ArrayLike) -> Floats:
-        """(..., dofs): our configuration of MuJoCo's positions (..., nq). What mimic joints say is not looked at."""
-        rows, batch = positions(qpos, self.model.nq, "MuJoCo's")
+    def dofs(self, q: ArrayLike) -> Floats:
+        """(..., dofs): our configuration of MuJoCo's ``qpos`` (..., nq). What mimic joints say is not looked at."""
+        rows, batch = positions(q, self.model.nq, "MuJoCo's")
         found = np.zeros((len(rows), len(self.dof_names)))
         for joint, at in self._places:
             if joint.mimic is not None:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
+from operator import index
 from pathlib import Path
-from typing import Literal, TypedDict
+from typing import Literal, SupportsIndex, TypedDict
 
-__all__ = ["GenerateOptions", "MakingOptions", "options_of", "words"]
+__all__ = ["GenerateOptions", "MakingOptions", "options_of", "whole", "words"]
 
 
 class MakingOptions(TypedDict, total=False):
@@ -71,7 +73,10 @@ def options_of(
     """All options; what is not given is as usual."""
     unknown = given.keys() - MakingOptions.__annotations__.keys()
     if unknown:
-        raise TypeError(f"{asker}() got an unexpected keyword argument {min(unknown)!r}")
+        name = min(unknown)
+        near = get_close_matches(name, MakingOptions.__annotations__, n=1)
+        meant = f". Did you mean {near[0]!r}?" if near else ""
+        raise TypeError(f"{asker}() got an unexpected keyword argument {name!r}{meant}")
     modules, skip, tolerance = given.get("modules"), given.get("skip"), given.get("piece_tolerance")
     return GenerateOptions(
         modules=None if modules is None else words(modules, "modules"),
@@ -79,9 +84,9 @@ def options_of(
         allowed_folders=[Path(folder) for folder in given.get("allowed_folders", ())],
         geometry=given.get("geometry", "visual"),
         mesh_formats=words(given.get("mesh_formats", ("glb", "stl", "obj")), "mesh_formats"),
-        pieces=int(given.get("pieces", 7)),
+        pieces=whole(given.get("pieces", 7), "pieces", 1, 64),
         piece_tolerance=None if tolerance is None else float(tolerance),
-        samples=int(given.get("samples", 1000)),
+        samples=whole(given.get("samples", 1000), "samples", 1, 100_000),
         skip=None if skip is None else words(skip, "skip"),
         strict=bool(given.get("strict", False)),
         xacro=bool(given.get("xacro", False)),
@@ -90,6 +95,14 @@ def options_of(
         drop_edits=bool(given.get("drop_edits", False)),
         force=bool(given.get("force", False)),
     )
+
+
+def whole(given: SupportsIndex, what: str, least: int, most: int) -> int:
+    """A whole number, which is from ``least`` to ``most``."""
+    number = index(given)
+    if not least <= number <= most:
+        raise ValueError(f"{what} must be from {least:,} to {most:,}, and is {number:,}")
+    return number
 
 
 def words(given: Iterable[str], what: str) -> list[str]:

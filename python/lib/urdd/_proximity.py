@@ -3,28 +3,35 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _urdd
-from ._answers import Pair, PairDistance
+from ._answers import Pair, PairDistance, ShapeKind
 from ._arrays import Bools, Floats, Indices, configurations, one_configuration, scalar
+
+if TYPE_CHECKING:
+    from . import _urdd
+    from ._robot import Robot
 
 
 class Proximity:
     """The shapes of one kind, prepared for distances: ``robot.proximity("pieces")``.
 
     Distances are right within 1e-9 m, and 0 for shapes that touch or overlap: depths of penetration are not given.
+
+    It is pickled as its robot, which is its path, and its kind.
     """
 
-    def __init__(self, core: _urdd.Proximity, link_names: tuple[str, ...], dof_names: tuple[str, ...]) -> None:
-        self._core = core
-        self._link_names = link_names
-        self._dof_names = dof_names
+    def __init__(self, robot: Robot, kind: ShapeKind) -> None:
+        self._robot = robot
+        self._core = robot.core.proximity(kind)
+        self._link_names = robot.link_names
+        self._dof_names = robot.dof_names
 
     @property
-    def kind(self) -> str:
+    def kind(self) -> ShapeKind:
         """Of which kind the shapes are."""
         return self._core.kind
 
@@ -69,7 +76,7 @@ class Proximity:
         """The ``k`` nearest pairs in one configuration, nearest first; fewer where there are fewer pairs."""
         if k < 0:
             raise ValueError(f"the number of pairs must not be negative, and is {k}")
-        return self._answers(self._core.nearest(one_configuration(q, self._dof_names), k))
+        return self._answers(self._core.nearest(one_configuration(q, self._dof_names), min(k, self.num_pairs)))
 
     def collisions(self, q: ArrayLike) -> list[PairDistance]:
         """The pairs that touch or overlap in one configuration."""
@@ -86,6 +93,9 @@ class Proximity:
             )
             for links, pieces, distance, relative, points in found
         ]
+
+    def __reduce__(self) -> tuple[type[Proximity], tuple[Robot, ShapeKind]]:
+        return type(self), (self._robot, self.kind)
 
     def __repr__(self) -> str:
         return f"<urdd.Proximity of {self.kind}: {self.num_shapes} shapes, {self.num_pairs} pairs that are not skipped>"

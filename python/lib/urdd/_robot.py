@@ -13,7 +13,6 @@ from ._collision_model import CollisionModel, missing
 from ._motion import Moving
 from ._proximity import Proximity
 from ._shapes import boxes, convex, skips, spheres, visuals
-from ._urdd import Among as AmongCore
 from ._world import Among, World
 from .errors import ModuleMissingError, UrddError
 
@@ -26,20 +25,28 @@ if TYPE_CHECKING:
     from ._show import Frame, Shown, ShownByViser
 
 
-def load(path: str | os.PathLike[str]) -> Robot:
+def load(path: str | os.PathLike[str], *, validate: bool = False) -> Robot:
     """The robot in a folder or a zip archive.
 
-    Nothing of it is read before it is asked for, and no mesh before shapes are.
+    Nothing of it is read before it is asked for, and no mesh before shapes are. **It is not validated**: a URDD with
+    errors is a robot as far as its modules can be read, and gives what they say. With ``validate`` it is checked first,
+    as by :func:`urdd.validate`, which takes from some tenths of a second to some seconds.
 
     Raises:
         OpenError: where there is no URDD.
+        ValidationError: with ``validate``, where it does not pass; ``findings`` says what was found.
 
     >>> import urdd
     >>> robot = urdd.load("welding_arm")
     >>> robot.num_dofs
     6
     """
-    return Robot(path)
+    robot = Robot(path)
+    if validate:
+        from ._validate import check
+
+        check(robot.path)
+    return robot
 
 
 class Robot(Moving):
@@ -51,14 +58,15 @@ class Robot(Moving):
     with the same axes. Links are in the order of :attr:`link_names`.
 
     Arrays are copied before the interpreter is let go: threads may ask one robot at the same time, and work in
-    parallel. Ctrl-C stops what takes long. A robot is pickled as its path.
+    parallel. Ctrl-C stops what takes long. Where there is not enough memory for an answer, that is a ``MemoryError``:
+    ask for fewer configurations at once. A robot is pickled as its path.
     """
 
     # Collisions.
 
     def proximity(self, kind: ShapeKind = "pieces") -> Proximity:
         """The shapes of a kind, prepared for distances. It is prepared once, and then kept."""
-        return Proximity(self._core.proximity(kind), self.link_names, self.dof_names)
+        return Proximity(self, kind)
 
     def in_collision(self, q: ArrayLike, kind: ShapeKind = "pieces") -> Bools:
         """(...): whether the robot collides with itself. As :meth:`Proximity.in_collision`."""
@@ -97,8 +105,7 @@ class Robot(Moving):
         Raises:
             UnknownNameError: where an obstacle ignores a link that is not there, with the nearest name.
         """
-        core = AmongCore(self._core.proximity(kind), world.obstacles())
-        return Among(core, kind, world.names, self.link_names, self.dof_names)
+        return Among(self, world, kind)
 
     # Shapes.
 
@@ -161,21 +168,28 @@ class Robot(Moving):
         return to_pinocchio(self, shapes)
 
     def to_mujoco(self, shapes: ShapeKind = "pieces", *, visuals: bool = True) -> MujocoRobot:
-        """MuJoCo's model, with shapes of this kind as its geoms, and the skips as excluded pairs of bodies."""
+        """MuJoCo's model, with shapes of this kind as its geoms, and the skips as excluded pairs."""
         from ._mujoco import to_mujoco
 
         return to_mujoco(self, shapes, visuals=visuals)
 
-    def to_pybullet(self, client: int = 0, shapes: ShapeKind = "pieces", *, visuals: bool = False) -> PybulletRobot:
-        """Loads the robot into a client of PyBullet, with shapes of this kind, its root fixed; pairs of links all of
-        whose shapes are skipped do not collide there.
+    def to_pybullet(
+        self, client: int = 0, shapes: ShapeKind = "pieces", *, visuals: bool = False, keep_pairs: bool = False
+    ) -> PybulletRobot:
+        """Loads the robot into a client of PyBullet, with shapes of this kind, its root fixed.
+
+        PyBullet knows pairs of links, and not of their pieces. Links all of whose pairs of pieces are skipped do not
+        collide there. Nor do links of which some pieces are always in contact, in contact in the default configuration,
+        or on links that a joint connects, and are skipped for that, while other pieces are checked: with these pieces
+        they would touch at all times. What is lost by that is in :attr:`PybulletRobot.notes`. With ``keep_pairs`` such
+        links collide, with all of their pieces.
 
         Raises:
             ExportError: for planar, floating and spherical joints, which PyBullet does not read.
         """
         from ._pybullet import to_pybullet
 
-        return to_pybullet(self, client, shapes, visuals=visuals)
+        return to_pybullet(self, client, shapes, visuals=visuals, keep_pairs=keep_pairs)
 
     @overload
     def show(

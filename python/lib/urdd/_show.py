@@ -44,6 +44,8 @@ class ShownByViser:
         self._frames = frames
         self.server = server
         """``viser.ViserServer``."""
+        self.address: str = f"http://127.0.0.1:{server.get_port()}"
+        """What to open."""
 
     def set(self, q: ArrayLike) -> None:
         """Shows another configuration (dofs,)."""
@@ -59,6 +61,15 @@ class ShownByViser:
         """Stops serving."""
         self.server.stop()
 
+    def __enter__(self) -> ShownByViser:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<urdd.ShownByViser at {self.address}>"
+
 
 class Frame:
     """The page with one robot, for a notebook: the last expression of a cell shows it."""
@@ -69,13 +80,13 @@ class Frame:
         self._height = height
 
     def _repr_html_(self) -> str:
-        # The page keeps its theme in the browser's storage, which is of an origin. Its policy allows its own scripts
-        # alone.
+        # Without `allow-same-origin` the frame has an origin of its own: its scripts reach neither the notebook nor its
+        # server. A person may download the picture, and decisions on skips.
         style = f"width: 100%; height: {self._height}px; border: 0"
         import html
 
         page = html.escape(self.text)
-        return f'<iframe sandbox="allow-scripts allow-same-origin" style="{style}" srcdoc="{page}"></iframe>'
+        return f'<iframe sandbox="allow-scripts allow-downloads" style="{style}" srcdoc="{page}"></iframe>'
 
 
 def show(
@@ -101,7 +112,8 @@ def show(
     viser = need("viser", "viser", "show(backend='viser')")
     from ._trimesh import link_mesh
 
-    server = viser.ViserServer(**({} if port is None else {"port": port}))
+    # For this machine alone; viser listens to all others too, unless it is told.
+    server = viser.ViserServer(host="127.0.0.1", **({} if port is None else {"port": port}))
     frames: dict[str, Any] = {}
     for link, mesh in zip(robot.link_names, robot.modules.plain_meshes.link_meshes, strict=True):
         if mesh is not None:
@@ -109,7 +121,7 @@ def show(
     shown = ShownByViser(robot, server, frames)
     shown.set(robot.zero if row is None else row)
     if open_browser:
-        _open(f"http://127.0.0.1:{server.get_port()}")
+        _open(shown.address)
     return shown
 
 

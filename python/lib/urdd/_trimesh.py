@@ -30,7 +30,7 @@ def to_trimesh(robot: Robot, q: ArrayLike | None = None, kind: MeshKind = "plain
     """As :meth:`urdd.Robot.to_trimesh`."""
     trimesh = need("trimesh", "trimesh", "to_trimesh")
     row = one_configuration(robot.zero if q is None else q, robot.dof_names)[0]
-    scene = trimesh.Scene(base_frame=robot.link_names[robot.modules.chain.root_idx])
+    scene = trimesh.Scene(base_frame=robot.root_link)
     for link, pose in robot.link_poses(row).items():
         for piece, mesh in enumerate(_meshes(robot, trimesh, link, kind)):
             scene.add_geometry(mesh, node_name=f"{link}/{piece}", geom_name=f"{link}/{piece}", transform=pose)

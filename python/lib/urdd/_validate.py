@@ -10,12 +10,15 @@ from typing import TYPE_CHECKING, Literal
 
 from . import _urdd
 from ._options import words
-from .errors import OpenError
+from .errors import OpenError, ValidationError
 
 if TYPE_CHECKING:
     from .report import Report
 
-__all__ = ["Rule", "ValidateOptions", "explain", "validate"]
+__all__ = ["Rule", "ValidateOptions", "check", "explain", "validate"]
+
+#: Errors that the message of a :class:`ValidationError` says, at most.
+_SHOWN = 5
 
 
 @dataclass(frozen=True)
@@ -99,6 +102,27 @@ def validate(
     from .report import read_report
 
     return read_report(_urdd.validate([Path(path) for path in paths], options))
+
+
+def check(path: Path) -> None:
+    """That the URDD at a path passes.
+
+    Raises:
+        ValidationError: with what was found.
+    """
+    report = validate(path)
+    failed = [urdd for urdd in report.urdds if urdd.verdict != "pass"]
+    if not failed:
+        return
+    found = [finding for urdd in failed for finding in urdd.findings if finding.severity == "error"]
+    lines = [f"{path}: does not pass validation ({failed[0].verdict}); `findings` of this error says all"]
+    lines += [urdd.reason for urdd in failed if urdd.reason is not None]
+    for finding in found[:_SHOWN]:
+        place = "".join(part for part in (finding.file, finding.pointer and f"#{finding.pointer}") if part)
+        lines.append(f"{finding.code} {place}: {finding.message}")
+    if len(found) > _SHOWN:
+        lines.append(f"and {len(found) - _SHOWN} more")
+    raise ValidationError("\n".join(lines), report)
 
 
 def explain(code: str) -> Rule:

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from sys import maxsize
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _urdd
-from ._answers import ObstacleDistance, ObstaclePair
+from ._answers import ObstacleDistance, ObstaclePair, ShapeKind
 from ._arrays import Bools, Floats, Indices, configurations, numbers, one_configuration, scalar
 from ._inverse import as_targets, three
 from ._options import words
 from .errors import ConfigurationError, ObstacleError
+
+if TYPE_CHECKING:
+    from ._robot import Robot
 
 __all__ = ["Among", "World"]
 
@@ -141,6 +146,12 @@ class World:
     def __repr__(self) -> str:
         return f"<urdd.World: {', '.join(f'{name} ({made.shape})' for name, made in self._made.items()) or 'empty'}>"
 
+    def __copy__(self) -> World:
+        # Obstacles do not change: both worlds hold the same ones.
+        found = type(self)()
+        found._made = dict(self._made)
+        return found
+
     def __getstate__(self) -> list[tuple[str, str, tuple[Any, ...], list[str]]]:
         return [(name, made.shape, made.what, made.ignore) for name, made in self._made.items()]
 
@@ -192,31 +203,28 @@ class Among:
 
     Skips do not count: every shape is tested against every obstacle, but for links that the obstacle ignores. Distances
     are 0 for what touches or overlaps: depths of penetration are not given.
+
+    It is pickled as its robot, which is its path, its kind, and the world.
     """
 
-    def __init__(
-        self,
-        core: _urdd.Among,
-        kind: str,
-        obstacle_names: tuple[str, ...],
-        link_names: tuple[str, ...],
-        dof_names: tuple[str, ...],
-    ) -> None:
-        self._core = core
-        self._kind = kind
-        self._obstacle_names = obstacle_names
-        self._link_names = link_names
-        self._dof_names = dof_names
+    def __init__(self, robot: Robot, world: World, kind: ShapeKind) -> None:
+        self._robot = robot
+        # What is added to the world afterwards does not count.
+        self._world = copy(world)
+        self._kind: ShapeKind = kind
+        self._core = _urdd.Among(robot.core.proximity(kind), world.obstacles())
+        self._link_names = robot.link_names
+        self._dof_names = robot.dof_names
 
     @property
-    def kind(self) -> str:
+    def kind(self) -> ShapeKind:
         """Of which kind the robot's shapes are."""
         return self._kind
 
     @property
     def obstacle_names(self) -> tuple[str, ...]:
         """The names of the obstacles."""
-        return self._obstacle_names
+        return self._world.names
 
     @cached_property
     def pair_indices(self) -> Indices:
@@ -232,7 +240,7 @@ class Among:
     def pairs(self) -> list[ObstaclePair]:
         """The pairs of a shape and an obstacle, in the order of :meth:`distances`."""
         return [
-            ObstaclePair(self._link_names[link], piece, self._obstacle_names[obstacle])
+            ObstaclePair(self._link_names[link], piece, self.obstacle_names[obstacle])
             for link, piece, obstacle in self.pair_indices.tolist()
         ]
 
@@ -256,11 +264,13 @@ class Among:
         Each convex piece of a mesh counts for itself."""
         if k < 0:
             raise ValueError(f"the number of pairs must not be negative, and is {k}")
+        # More than there are would be no number for the compiled part.
+        k = min(k, maxsize)
         return [
             ObstacleDistance(
                 self._link_names[link],
                 piece,
-                self._obstacle_names[obstacle],
+                self.obstacle_names[obstacle],
                 distance,
                 np.array(points, dtype=np.float64),
             )
@@ -268,6 +278,9 @@ class Among:
                 one_configuration(q, self._dof_names), k
             )
         ]
+
+    def __reduce__(self) -> tuple[type[Among], tuple[Robot, World, ShapeKind]]:
+        return type(self), (self._robot, self._world, self._kind)
 
     def __repr__(self) -> str:
         return f"<urdd.Among: {self.kind} and {len(self.obstacle_names)} obstacles, {self.num_pairs} pairs>"

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    # It takes time to import.
+    from .report import Finding, Report
 
 __all__ = [
     "CombineError",
@@ -17,6 +21,7 @@ __all__ = [
     "Place",
     "UnknownNameError",
     "UrddError",
+    "ValidationError",
 ]
 
 
@@ -100,6 +105,20 @@ class ObstacleError(UrddError, ValueError):
 
 class ExportError(UrddError):
     """A format that cannot hold the robot."""
+
+
+class ValidationError(UrddError, ValueError):
+    """A URDD that does not pass validation."""
+
+    def __init__(self, message: str, report: Report) -> None:
+        super().__init__(message, report)
+        self.report: Report = report
+        """What the validator found: as :func:`urdd.validate` returns it."""
+
+    @property
+    def findings(self) -> list[Finding]:
+        """What was found, of every severity."""
+        return [finding for urdd in self.report.urdds for finding in urdd.findings]
 
 
 class _MakingError(UrddError):

@@ -41,7 +41,6 @@ __all__ = [
     "Generator",
     "Geometry",
     "GeometryKind",
-    "HeldOutCounts",
     "Inertia",
     "Inertial",
     "Joint",
@@ -67,6 +66,7 @@ __all__ = [
     "MeshFiles",
     "MeshReference",
     "Mimic",
+    "ModelEvaluation",
     "ModelInput",
     "ModelLayer",
     "ModelPair",
@@ -1357,25 +1357,29 @@ class SampleRange:
 
 
 @dataclass(frozen=True)
-class HeldOutCounts:
-    """How often the model was right on sampled configurations that follow each other. A configuration is in
-    collision where a pair of links in `pairs` or `other_pairs` is in contact; the model clears it where no
-    clearance is 0 or less."""
-
-    first_sample_idx: int
-    """The first configuration."""
-
-    num_configurations: int
-    """How many there are."""
+class ModelEvaluation:
+    """How often the model is right on the sampled configurations 2^31 to 2^31 + 49,999, which have no part in
+    making any model. A configuration is in collision where a pair of links in `pairs` or `other_pairs` is in
+    contact, and free otherwise. The model clears a configuration where every clearance is above 0."""
 
     num_colliding: int
-    """How many of them are in collision."""
+    """Number of configurations in collision."""
 
     num_missed: int
-    """How many of those the model clears all the same: the misses."""
+    """Number of these that the model clears: the misses."""
+
+    num_near_contact: int
+    """Number of configurations in collision that are near contact: a step of at most 0.05 rad or 0.05 m in each DOF
+    makes them free (SPEC 8.8.10)."""
+
+    num_near_contact_missed: int
+    """Number of these that the model clears."""
+
+    num_free: int
+    """Number of free configurations."""
 
     num_cleared: int
-    """How many configurations without a collision the model clears."""
+    """Number of these that the model clears."""
 
 
 @dataclass(frozen=True)
@@ -1392,8 +1396,8 @@ class ModelTestVector:
 @dataclass(frozen=True)
 class SelfCollisionModelModule:
     """A network that estimates, for a configuration, how near pairs of links are to each other. It is for passing
-    over configurations that are far from any contact; it guarantees nothing. How often it was wrong on
-    configurations that it was not trained on is stated."""
+    over configurations that are far from any contact. It is an estimate, not a guarantee: `evaluation` says how
+    often it is wrong."""
 
     trained_on: str
     """Of the shapes and the kinematics that it was trained on: SHA-256 of the text that SPEC 8.8.7 defines."""
@@ -1420,8 +1424,8 @@ class SelfCollisionModelModule:
     calibration: SampleRange
     """The sampled configurations that decided when training ended and what the margins are."""
 
-    held_out: HeldOutCounts
-    """What came of sampled configurations that had no part in making it."""
+    evaluation: ModelEvaluation
+    """How often it is right on the sampled configurations that SPEC 8.8.9 fixes."""
 
     test_vectors: list[ModelTestVector]
     """What it gives in some configurations."""
@@ -2116,12 +2120,13 @@ def _sample_range(v: Any) -> SampleRange:
     )
 
 
-def _held_out_counts(v: Any) -> HeldOutCounts:
-    return HeldOutCounts(
-        first_sample_idx=int(v["first_sample_idx"]),
-        num_configurations=int(v["num_configurations"]),
+def _model_evaluation(v: Any) -> ModelEvaluation:
+    return ModelEvaluation(
         num_colliding=int(v["num_colliding"]),
         num_missed=int(v["num_missed"]),
+        num_near_contact=int(v["num_near_contact"]),
+        num_near_contact_missed=int(v["num_near_contact_missed"]),
+        num_free=int(v["num_free"]),
         num_cleared=int(v["num_cleared"]),
     )
 
@@ -2143,7 +2148,7 @@ def _self_collision_model_module(v: Any) -> SelfCollisionModelModule:
         other_pairs=[_link_pair(x) for x in v["other_pairs"]],
         training=_sample_range(v["training"]),
         calibration=_sample_range(v["calibration"]),
-        held_out=_held_out_counts(v["held_out"]),
+        evaluation=_model_evaluation(v["evaluation"]),
         test_vectors=[_model_test_vector(x) for x in v["test_vectors"]],
     )
 
@@ -2251,8 +2256,8 @@ class Modules(Reading):
     @property
     def self_collision_model(self) -> SelfCollisionModelModule:
         """A network that estimates, for a configuration, how near pairs of links are to each other. It is for
-        passing over configurations that are far from any contact; it guarantees nothing. How often it was wrong
-        on configurations that it was not trained on is stated."""
+        passing over configurations that are far from any contact. It is an estimate, not a guarantee:
+        `evaluation` says how often it is wrong."""
         return self._read("self_collision_model_module", _self_collision_model_module)
 
 

@@ -16,6 +16,7 @@ __all__ = [
     "Kind",
     "LinkNotVerified",
     "Magnitude",
+    "ModelNotVerified",
     "Module",
     "NotChecked",
     "Place",
@@ -137,6 +138,10 @@ class Urdd:
 
     geometry_not_verified: list[LinkNotVerified]
     """Links whose geometry was not verified by every rule, in order of index."""
+
+    model_not_verified: ModelNotVerified | None
+    """Why the rates of `self_collision_model_module` were not verified; null where they were, and where there is no
+    such module."""
 
 
 @dataclass(frozen=True)
@@ -321,6 +326,17 @@ class LinkNotVerified:
 
 
 @dataclass(frozen=True)
+class ModelNotVerified:
+    """Why the rates of the self-collision model were not verified."""
+
+    codes: list[str]
+    """The rules that did not verify them."""
+
+    reasons: list[str]
+    """Why not."""
+
+
+@dataclass(frozen=True)
 class StaleIgnore:
     """An ignore of the settings that matched nothing."""
 
@@ -388,6 +404,7 @@ def _urdd(v: Any) -> Urdd:
         findings=[_finding(x) for x in v["findings"]],
         not_checked=[_not_checked(x) for x in v["not_checked"]],
         geometry_not_verified=[_link_not_verified(x) for x in v["geometry_not_verified"]],
+        model_not_verified=None if v["model_not_verified"] is None else _model_not_verified(v["model_not_verified"]),
     )
 
 
@@ -473,6 +490,13 @@ def _not_checked(v: Any) -> NotChecked:
 def _link_not_verified(v: Any) -> LinkNotVerified:
     return LinkNotVerified(
         link=int(v["link"]),
+        codes=v["codes"],
+        reasons=v["reasons"],
+    )
+
+
+def _model_not_verified(v: Any) -> ModelNotVerified:
+    return ModelNotVerified(
         codes=v["codes"],
         reasons=v["reasons"],
     )

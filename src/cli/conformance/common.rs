@@ -1,30 +1,42 @@
 //! What the commands that run somebody's program have in common.
 
+use std::fmt::Display;
 use std::fs::{self, File};
-use std::io::{IsTerminal, Write};
+use std::io::{BufRead, BufReader, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::cli::output;
+use crate::cli::signals::Signals;
 use crate::conformance::skips::{self, Skip};
+use crate::directory::regular;
 use crate::format::escape;
+use crate::process;
+
+/// Longest skip list that is read, bytes.
+const MAX_SKIP_BYTES: u64 = 1 << 20;
+
+/// Longest line of a log, bytes; what a command printed is 2,000 at most.
+const MAX_LOG_LINE: u64 = 1 << 20;
 
 /// Exit status: everything passed but what is skipped.
-pub const PASSED: u8 = 0;
+const PASSED: u8 = 0;
 /// Exit status: something did not, or a skip is stale.
-pub const FAILED: u8 = 1;
+const FAILED: u8 = 1;
 /// Exit status: wrong usage, or nothing could be run.
-pub const USAGE: u8 = 2;
+const USAGE: u8 = 2;
 
 /// Arguments of both commands.
 #[derive(Args)]
 pub struct RunArguments {
-    /// Seconds that the command may take each time; then it and all that it started is killed.
+    /// Seconds that the command may take each time; then it and all that it started is killed (docs/security.md says how far).
     #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..))]
     timeout: u64,
 
@@ -41,8 +53,13 @@ pub struct RunArguments {
     output: Option<PathBuf>,
 
     /// Writes each result to a file as soon as it is there, as a line of JSON: what was done stays when the run is stopped.
+    /// A file that is there and is not such a log is left alone.
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
+
+    /// Lets --log write over a file that is not a log.
+    #[arg(long, requires = "log")]
+    force: bool,
 
     /// How many commands run at a time.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
@@ -82,6 +99,7 @@ impl RunArguments {
         let log = match &self.log {
             None => None,
             Some(path) => {
+                self.check_log(path)?;
                 let file = File::create(path);
                 let file = file.map_err(|error| cannot_write(path, &error))?;
                 Some((path.clone(), file))
@@ -107,14 +125,32 @@ impl RunArguments {
         })
     }
 
+    /// An error where the log would take the place of something else.
+    fn check_log(&self, path: &Path) -> Result<(), String> {
+        output::check_name(path)?;
+        if self.output.as_deref() == Some(path) {
+            return Err("--log and --output name the same file: give two".to_owned());
+        }
+        // Devices and pipes are written to.
+        let is_there = fs::metadata(path).is_ok_and(|there| there.is_file() && there.len() > 0);
+        match is_there && !self.force && !is_log(path) {
+            true => Err(format!(
+                "{}: this file is there already, and is not a log of this command: give another one, or --force to write over it",
+                escape::line(&path.display().to_string())
+            )),
+            false => Ok(()),
+        }
+    }
+
     /// The skip list.
     pub fn skips(&self, words: usize, form: &'static str) -> Result<Vec<Skip>, String> {
         let Some(file) = &self.skip else {
             return Ok(Vec::new());
         };
         let shown = file.display();
-        let text = fs::read_to_string(file)
-            .map_err(|error| format!("{shown}: cannot be read: {error}"))?;
+        let unreadable = |reason: &dyn Display| format!("{shown}: cannot be read: {reason}");
+        let bytes = regular::read(file, MAX_SKIP_BYTES).map_err(|error| unreadable(&error))?;
+        let text = String::from_utf8(bytes).map_err(|_| unreadable(&"it is not UTF-8"))?;
         skips::read(&text, words, form).map_err(|error| format!("{shown}: {error}"))
     }
 
@@ -128,6 +164,44 @@ impl RunArguments {
         match self.format {
             Format::Human => output::print(human),
             Format::Json => output::print(&json),
+        }
+    }
+}
+
+/// Whether a file begins as what [`Follow::done`] writes.
+fn is_log(file: &Path) -> bool {
+    let Ok(file) = regular::open(file) else {
+        return false;
+    };
+    let mut line = Vec::new();
+    let mut reader = BufReader::new(file.take(MAX_LOG_LINE));
+    let read = reader.read_until(b'\n', &mut line);
+    let value: Option<Value> = read.ok().and_then(|_| serde_json::from_slice(&line).ok());
+    let has = |key: &str| value.as_ref().is_some_and(|value| value.get(key).is_some());
+    has("end") && (has("id") || has("robot"))
+}
+
+/// Runs a command that runs other programs, until a signal asks to stop; whether everything passed, or a message.
+pub fn run(result: impl FnOnce(&Signals) -> Result<bool, String>) -> ExitCode {
+    let signals = match Signals::listen() {
+        Ok(signals) => signals,
+        Err(error) => {
+            output::error(&error.to_string());
+            return ExitCode::from(USAGE);
+        }
+    };
+    process::adopt_orphans();
+    let result = result(&signals);
+    if let Some(status) = signals.status() {
+        output::error("stopped by a signal; all that was started has ended");
+        return ExitCode::from(status);
+    }
+    match result {
+        Ok(true) => ExitCode::from(PASSED),
+        Ok(false) => ExitCode::from(FAILED),
+        Err(message) => {
+            output::error(&message);
+            ExitCode::from(USAGE)
         }
     }
 }

@@ -5,8 +5,8 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::common::{FAILED, PASSED, RunArguments, USAGE};
-use crate::cli::output;
+use super::common::{self, RunArguments};
+use crate::cli::signals::Signals;
 use crate::cli::words::Class;
 use crate::conformance::process::Template;
 use crate::conformance::producer::{Event, Plan, SKIP_FORM, run as run_producer};
@@ -17,7 +17,8 @@ use crate::format::conformance::{ModuleStatus, ProducerResult, RobotScore, Score
 #[command(
     after_help = "In COMMAND, {urdf} stands for a URDF file and {out} for the folder that is to become its URDD; the \
     command runs once for each robot.\n\nExit status: 0 every robot passed but those skipped; 1 some did not, or a \
-    skip is stale; 2 wrong usage."
+    skip is stale; 2 wrong usage; 129, 130 or \
+    143 stopped by a signal: SIGHUP, SIGINT, SIGTERM."
 )]
 pub struct ProducerArguments {
     /// The conformance class to ask for.
@@ -34,17 +35,10 @@ pub struct ProducerArguments {
 
 /// Runs `urdd conformance producer`.
 pub fn run(arguments: &ProducerArguments) -> ExitCode {
-    match result(arguments) {
-        Ok(true) => ExitCode::from(PASSED),
-        Ok(false) => ExitCode::from(FAILED),
-        Err(message) => {
-            output::error(&message);
-            ExitCode::from(USAGE)
-        }
-    }
+    common::run(|signals| result(arguments, signals))
 }
 
-fn result(arguments: &ProducerArguments) -> Result<bool, String> {
+fn result(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, String> {
     let command = Template::new(&arguments.run.command, &["urdf", "out"])
         .map_err(|error| error.to_string())?;
     let plan = Plan {
@@ -55,6 +49,7 @@ fn result(arguments: &ProducerArguments) -> Result<bool, String> {
         skips: arguments.run.skips(2, SKIP_FORM)?,
         jobs: arguments.run.jobs().unwrap_or(1),
         keep: arguments.run.keep.clone(),
+        cancellation: signals.cancellation(),
     };
     let follow = arguments.run.follow()?;
     let observe = |event: &Event| match event {

@@ -6,8 +6,8 @@ use std::process::ExitCode;
 use clap::Args;
 use semver::Version;
 
-use super::common::{FAILED, PASSED, RunArguments, USAGE};
-use crate::cli::output;
+use super::common::{self, RunArguments};
+use crate::cli::signals::Signals;
 use crate::conformance::process::Template;
 use crate::conformance::validator::{Event, Judged, Plan, SKIP_FORM, run as run_validator};
 use crate::format::conformance::{CaseFault, CaseScore, ValidatorResult};
@@ -18,7 +18,8 @@ use crate::format::registry::SPEC_VERSION;
 #[command(
     after_help = "In COMMAND, {dir} stands for the folder of a URDD; the command runs once for each case. Exit status 0 \
     accepts, 1 (or --reject-status) rejects; everything else, a signal and the time limit too, is no verdict, and wrong.\n\nExit status: 0 \
-    every case was judged right but those skipped; 1 some were not, or a skip is stale; 2 wrong usage."
+    every case was judged right but those skipped; 1 some were not, or a skip is stale; 2 wrong usage; 129, 130 or \
+    143 stopped by a signal: SIGHUP, SIGINT, SIGTERM."
 )]
 pub struct ValidatorArguments {
     /// The version of the specification that the validator judges by; cases of others are not run.
@@ -43,17 +44,10 @@ pub struct ValidatorArguments {
 
 /// Runs `urdd conformance validator`.
 pub fn run(arguments: &ValidatorArguments) -> ExitCode {
-    match result(arguments) {
-        Ok(true) => ExitCode::from(PASSED),
-        Ok(false) => ExitCode::from(FAILED),
-        Err(message) => {
-            output::error(&message);
-            ExitCode::from(USAGE)
-        }
-    }
+    common::run(|signals| result(arguments, signals))
 }
 
-fn result(arguments: &ValidatorArguments) -> Result<bool, String> {
+fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, String> {
     let command =
         Template::new(&arguments.run.command, &["dir"]).map_err(|error| error.to_string())?;
     let plan = Plan {
@@ -66,6 +60,7 @@ fn result(arguments: &ValidatorArguments) -> Result<bool, String> {
         reject_status: arguments.reject_status,
         jobs: arguments.run.jobs(),
         keep: arguments.run.keep.clone(),
+        cancellation: signals.cancellation(),
     };
     let follow = arguments.run.follow()?;
     let observe = |event: &Event| match event {

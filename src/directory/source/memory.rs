@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::sync::Arc;
 
-use super::tree::{Node, Tree};
+use super::tree::{Item, Node, Tree};
 use super::{OpenFile, Source};
 use crate::directory::listing::Listing;
 use crate::directory::path::{self, PathFault};
@@ -26,14 +26,17 @@ impl Memory {
         name: &str,
         files: BTreeMap<String, Arc<[u8]>>,
     ) -> Result<Self, (String, PathFault)> {
-        let mut tree = Tree::default();
-        for (file, data) in files {
-            path::check(&file).map_err(|fault| (file.clone(), fault))?;
+        let item = |(path, data): (String, Arc<[u8]>)| {
+            path::check(&path).map_err(|fault| (path.clone(), fault))?;
             let size = data.len() as u64;
-            if !tree.insert(&file, Node::File { size, data }, true) {
-                return Err((file, PathFault::Taken));
-            }
-        }
+            Ok(Item {
+                path,
+                utf8: true,
+                node: Node::File { size, data },
+            })
+        };
+        let items = files.into_iter().map(item).collect::<Result<_, _>>()?;
+        let tree = Tree::new(items).map_err(|path| (path, PathFault::Taken))?;
         Ok(Memory {
             name: name.to_owned(),
             tree,

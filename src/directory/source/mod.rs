@@ -4,6 +4,7 @@ mod archive;
 mod disk;
 mod memory;
 mod tree;
+mod zip_list;
 
 use std::fmt;
 use std::io::Read;

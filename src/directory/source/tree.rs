@@ -1,6 +1,6 @@
-//! Folders, files and links that lie on no disk.
+//! Folders, files and links that are not on disk.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::cmp::Ordering;
 
 use crate::directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use crate::directory::listing::{Entry, EntryKind, Listing};
@@ -9,7 +9,7 @@ use crate::directory::read_error::ReadError;
 /// Most symbolic links that one path is followed through, as on Linux.
 const MAX_LINKS: usize = 40;
 
-/// What lies at a path.
+/// What is at a path.
 #[derive(Debug)]
 pub enum Node<T> {
     Folder,
@@ -18,43 +18,42 @@ pub enum Node<T> {
     Other,
 }
 
-/// What lies below a root, by path.
+/// A path and what is there.
 #[derive(Debug)]
-pub struct Tree<T> {
-    nodes: BTreeMap<String, Node<T>>,
-    not_utf8: BTreeSet<String>,
+pub struct Item<T> {
+    pub path: String,
+    pub utf8: bool,
+    pub node: Node<T>,
 }
 
-impl<T> Default for Tree<T> {
-    fn default() -> Self {
-        Tree {
-            nodes: BTreeMap::new(),
-            not_utf8: BTreeSet::new(),
-        }
-    }
+/// What is below a root. Each path is stored once: the folders above it follow from it, however many there are.
+#[derive(Debug)]
+pub struct Tree<T> {
+    /// In the order of their parts, so that what is below a folder follows the folder.
+    items: Vec<Item<T>>,
 }
 
 impl<T> Tree<T> {
-    /// Puts a node at a path, and the folders above it. `false` where something else is there.
-    pub fn insert(&mut self, path: &str, node: Node<T>, utf8: bool) -> bool {
-        for (slash, _) in path.match_indices('/') {
-            let above = self.nodes.entry(path[..slash].to_owned());
-            if !matches!(above.or_insert(Node::Folder), Node::Folder) {
-                return false;
+    /// Of items in any order.
+    ///
+    /// # Errors
+    /// A path that is there twice, or that is a file's and a folder's at once.
+    pub fn new(mut items: Vec<Item<T>>) -> Result<Self, String> {
+        items.sort_by(|a, b| in_parts(&a.path, &b.path));
+        for pair in items.windows(2) {
+            let [first, second] = pair else { continue };
+            let is_folder = |item: &Item<T>| matches!(item.node, Node::Folder);
+            let clash = match second.path.strip_prefix(&*first.path) {
+                Some("") => !(is_folder(first) && is_folder(second)),
+                Some(rest) => rest.starts_with('/') && !is_folder(first),
+                None => false,
+            };
+            if clash {
+                return Err(second.path.clone());
             }
         }
-        if !utf8 {
-            self.not_utf8.insert(path.to_owned());
-        }
-        let is_folder = matches!(node, Node::Folder);
-        match self.nodes.get(path) {
-            Some(Node::Folder) => is_folder,
-            Some(_) => false,
-            None => {
-                self.nodes.insert(path.to_owned(), node);
-                true
-            }
-        }
+        items.dedup_by(|second, first| second.path == first.path);
+        Ok(Tree { items })
     }
 
     /// The file at a path, links followed.
@@ -68,34 +67,64 @@ impl<T> Tree<T> {
     /// All of it, as of a folder on disk.
     pub fn listing(&self) -> Listing {
         let mut listing = Listing::default();
-        for (path, node) in &self.nodes {
-            let depth = path.matches('/').count();
+        let mut before = "";
+        for item in &self.items {
+            let known = shared_parts(before, &item.path);
+            let slashes = item.path.match_indices('/').map(|(slash, _)| slash);
+            for (depth, slash) in slashes.enumerate().take(MAX_FOLDER_DEPTH).skip(known) {
+                listing.cut |= depth + 1 >= MAX_FOLDER_DEPTH;
+                listing.entries.push(Entry {
+                    path: item.path[..slash].to_owned(),
+                    kind: EntryKind::Folder,
+                    size: 0,
+                    utf8: true,
+                });
+            }
+            before = &item.path;
+            let depth = item.path.matches('/').count();
+            if depth < MAX_FOLDER_DEPTH {
+                let (kind, size) = self.kind(item);
+                listing.cut |= kind == EntryKind::Folder && depth + 1 >= MAX_FOLDER_DEPTH;
+                listing.entries.push(Entry {
+                    path: item.path.clone(),
+                    kind,
+                    size,
+                    utf8: item.utf8,
+                });
+            }
             if listing.entries.len() >= MAX_FILES {
-                listing.cut = true;
+                listing.cut |= listing.entries.len() > MAX_FILES;
+                listing.entries.truncate(MAX_FILES);
                 break;
             }
-            if depth >= MAX_FOLDER_DEPTH {
-                continue;
-            }
-            let (kind, size) = match node {
-                Node::Folder => (EntryKind::Folder, 0),
-                Node::File { size, .. } => (EntryKind::File, *size),
-                Node::Other => (EntryKind::Other, 0),
-                Node::Link(_) => match self.follow(path) {
-                    Ok(Node::File { size, .. }) => (EntryKind::File, *size),
-                    Err(ReadError::LeavesRoot) => (EntryKind::LinkOut, 0),
-                    _ => (EntryKind::Link, 0),
-                },
-            };
-            listing.cut |= kind == EntryKind::Folder && depth + 1 >= MAX_FOLDER_DEPTH;
-            listing.entries.push(Entry {
-                path: path.clone(),
-                kind,
-                size,
-                utf8: !self.not_utf8.contains(path),
-            });
         }
+        listing.entries.sort_by(|a, b| a.path.cmp(&b.path));
         listing
+    }
+
+    fn kind(&self, item: &Item<T>) -> (EntryKind, u64) {
+        match &item.node {
+            Node::Folder => (EntryKind::Folder, 0),
+            Node::File { size, .. } => (EntryKind::File, *size),
+            Node::Other => (EntryKind::Other, 0),
+            Node::Link(_) => match self.follow(&item.path) {
+                Ok(Node::File { size, .. }) => (EntryKind::File, *size),
+                Err(ReadError::LeavesRoot) => (EntryKind::LinkOut, 0),
+                _ => (EntryKind::Link, 0),
+            },
+        }
+    }
+
+    /// What is at a path itself.
+    fn get(&self, path: &str) -> Option<&Node<T>> {
+        let place = self
+            .items
+            .partition_point(|item| in_parts(&item.path, path).is_lt());
+        let rest = self.items.get(place)?.path.strip_prefix(path)?;
+        match rest {
+            "" => Some(&self.items[place].node),
+            _ => rest.starts_with('/').then_some(&Node::Folder),
+        }
     }
 
     /// What a path leads to.
@@ -123,7 +152,7 @@ impl<T> Tree<T> {
                 at.push('/');
             }
             at.push_str(part);
-            node = self.nodes.get(&at).ok_or(ReadError::Missing)?;
+            node = self.get(&at).ok_or(ReadError::Missing)?;
             if let Node::Link(target) = node {
                 links += 1;
                 if target.starts_with('/') {
@@ -140,5 +169,78 @@ impl<T> Tree<T> {
             }
         }
         Ok(node)
+    }
+}
+
+/// The order of paths part by part: what is below a folder stands together, right after it.
+fn in_parts(a: &str, b: &str) -> Ordering {
+    a.split('/').cmp(b.split('/'))
+}
+
+/// How many folders above `path` are above `before` too, or are `before` itself.
+fn shared_parts(before: &str, path: &str) -> usize {
+    let folders = path.matches('/').count();
+    let pairs = before.split('/').zip(path.split('/')).take(folders);
+    pairs.take_while(|(a, b)| a == b).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tree(paths: &[&str]) -> Result<Tree<()>, String> {
+        let item = |path: &&str| {
+            let node = match path.strip_suffix('/') {
+                Some(_) => Node::Folder,
+                None => Node::File { size: 1, data: () },
+            };
+            let path = path.trim_end_matches('/').to_owned();
+            let utf8 = true;
+            Item { path, utf8, node }
+        };
+        Tree::new(paths.iter().map(item).collect())
+    }
+
+    #[test]
+    fn folders_follow_from_paths() {
+        let tree = tree(&["a/b/c", "a.b", "a/b.c", "a-/x", "d/", "d/"]).expect("a tree");
+        let listing = tree.listing();
+        let paths: Vec<&str> = listing.entries.iter().map(|entry| &*entry.path).collect();
+        let expected = ["a", "a-", "a-/x", "a.b", "a/b", "a/b.c", "a/b/c", "d"];
+        assert_eq!(paths, expected);
+        for path in ["a", "a-", "a/b", "d"] {
+            assert!(listing.has_folder(path), "{path}");
+            assert_eq!(tree.file(path), Err(ReadError::NotAFile));
+        }
+        for path in ["a.b", "a/b.c", "a/b/c", "a-/x"] {
+            assert!(listing.has_file(path), "{path}");
+            assert!(tree.file(path).is_ok(), "{path}");
+        }
+        for path in ["b", "a/c", "a/b/c/d", "a/b/", "a/b/cc"] {
+            assert!(tree.file(path).is_err(), "{path}");
+        }
+    }
+
+    #[test]
+    fn a_path_has_one_meaning() {
+        for (paths, clash) in [
+            (&["a", "a"][..], "a"),
+            (&["a", "a.b", "a/b"], "a/b"),
+            (&["a", "a/"], "a"),
+            (&["x/a/b/c", "x/a"], "x/a/b/c"),
+        ] {
+            assert_eq!(tree(paths).err().as_deref(), Some(clash), "{paths:?}");
+        }
+        assert!(tree(&["a/", "a/b", "a.b", "ab"]).is_ok());
+    }
+
+    #[test]
+    fn levels_beyond_the_limit_are_not_listed() {
+        let deep = vec!["d"; 40].join("/");
+        let listing = tree(&["d/x", &deep]).expect("a tree").listing();
+        assert!(listing.cut);
+        let folders = listing.entries.iter().filter(|e| e.path.ends_with('d'));
+        assert_eq!(folders.count(), MAX_FOLDER_DEPTH);
+        assert!(tree(&[&deep]).expect("a tree").file(&deep).is_ok());
     }
 }

@@ -23,8 +23,6 @@ const HALF_THICKNESS: f64 = 1e-6;
 pub(super) struct Made {
     pub assets: Element,
     pub files: Vec<(String, Vec<u8>)>,
-    /// Whether moving bodies without mass need a least one.
-    pub bounded: bool,
     /// Whether moments break the triangle inequality.
     pub balanced: bool,
     pub notes: Vec<Note>,
@@ -40,7 +38,7 @@ pub(super) struct Bodies<'a> {
     assets: Element,
     /// Paths that are assets already.
     named: HashSet<String>,
-    bounded: bool,
+    inertials: Vec<Option<Element>>,
     balanced: bool,
     notes: Vec<Note>,
 }
@@ -54,6 +52,11 @@ impl<'a> Bodies<'a> {
             ShapeKind::Hulls => subject.robot.shapes(ShapeKind::Boxes)?,
             _ => Vec::new(),
         };
+        let mut notes = Vec::new();
+        if shapes.iter().all(Vec::is_empty) {
+            notes.push(Note::NoShapes(kind));
+        }
+        let (inertials, balanced) = inertia::inertials(subject, &mut notes);
         Ok(Bodies {
             subject,
             shapes,
@@ -62,9 +65,9 @@ impl<'a> Bodies<'a> {
             files: MeshFiles::new(subject),
             assets: Element::new("asset"),
             named: HashSet::new(),
-            bounded: false,
-            balanced: false,
-            notes: Vec::new(),
+            inertials,
+            balanced,
+            notes,
         })
     }
 
@@ -72,7 +75,6 @@ impl<'a> Bodies<'a> {
         Made {
             assets: self.assets,
             files: self.files.into_files(),
-            bounded: self.bounded,
             balanced: self.balanced,
             notes: self.notes,
         }
@@ -85,8 +87,7 @@ impl<'a> Bodies<'a> {
         let mut elements: Vec<Option<Element>> = self.subject.links.iter().map(|_| None).collect();
         // From the leaves up, so that a long chain takes no deep stack here.
         for &link in self.subject.tree.order.iter().rev() {
-            let is_world = link == root && self.subject.links[link] == "world";
-            let mut element = match is_world {
+            let mut element = match self.is_world(link) {
                 true => world.clone(),
                 false => self.frame(link),
             };
@@ -100,10 +101,15 @@ impl<'a> Bodies<'a> {
             elements[link] = Some(element);
         }
         Ok(match elements[root].take() {
-            Some(element) if self.subject.links[root] == "world" => element,
+            Some(element) if self.is_world(root) => element,
             Some(element) => world.holding(element),
             None => world,
         })
+    }
+
+    /// Whether a link is MuJoCo's own body `world`.
+    fn is_world(&self, link: usize) -> bool {
+        link == self.subject.tree.root && self.subject.links[link] == "world"
     }
 
     /// A body where its joint has it.
@@ -128,7 +134,11 @@ impl<'a> Bodies<'a> {
         if let Some((view, source)) = joint {
             joints = joint::joints(view, source, &mut self.notes);
         }
-        self.mass(link, !joints.is_empty(), element);
+        if let Some(inertial) = self.inertials[link].take()
+            && !self.is_world(link)
+        {
+            element.push(inertial);
+        }
         for joint in joints {
             element.push(joint);
         }
@@ -149,26 +159,11 @@ impl<'a> Bodies<'a> {
         Ok(())
     }
 
-    fn mass(&mut self, link: usize, moves: bool, element: &mut Element) {
-        let source = &self.subject.view.links[link];
-        match source.inertial.as_ref().map(inertia::inertial) {
-            Some(Ok((inertial, breaks_triangle))) => {
-                element.push(inertial);
-                self.balanced |= breaks_triangle;
-            }
-            Some(Err(reason)) => {
-                self.bounded |= moves;
-                self.notes.push(Note::Inertia {
-                    link: source.name.clone(),
-                    reason,
-                });
-            }
-            None => self.bounded |= moves,
-        }
-    }
-
     fn geom(&mut self, link: usize, shape: LinkShape) -> Result<Element, ExportError> {
-        let geom = Element::new("geom").with("class", "collision");
+        let name = geom_name(&self.subject.links[link], shape.piece);
+        let geom = Element::new("geom")
+            .with("name", name)
+            .with("class", "collision");
         Ok(match shape.solid {
             Solid::Mesh(mesh) if is_flat(&mesh) => {
                 let found = self
@@ -223,6 +218,11 @@ impl<'a> Bodies<'a> {
         self.named.insert(path);
         Ok(name)
     }
+}
+
+/// The name of the geom of a shape: no two are alike, whatever the links are called.
+pub(super) fn geom_name(link: &str, piece: usize) -> String {
+    format!("{link}/{piece}")
 }
 
 fn cuboid(geom: Element, pose: &Isometry3<f64>, half_extents: [f64; 3]) -> Element {

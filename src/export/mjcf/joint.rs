@@ -46,6 +46,23 @@ pub(super) fn joints(joint: &Joint, source: &Source, notes: &mut Vec<Note>) -> V
     }
 }
 
+/// The names of the joints that together are a URDF's.
+pub(super) fn names(joint: &Joint) -> Vec<String> {
+    let name = joint.name.as_str();
+    let part = |part: &str| format!("{name}/{part}");
+    match joint.joint_type {
+        JointType::Fixed => Vec::new(),
+        JointType::Floating => vec![
+            part("trans_x"),
+            part("trans_y"),
+            part("trans_z"),
+            name.to_owned(),
+        ],
+        JointType::Planar => vec![part("trans_x"), part("trans_y"), part("rot")],
+        _ => vec![name.to_owned()],
+    }
+}
+
 fn of_one(joint: &Joint, source: &Source, kind: &'static str, notes: &mut Vec<Note>) -> Element {
     let mut element = Element::new("joint")
         .with("name", joint.name.as_str())

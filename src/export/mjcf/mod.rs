@@ -1,8 +1,9 @@
-//! MJCF: bodies, joints, our shapes as geoms, and pairs of links that need no check as `<exclude>`.
+//! MJCF: bodies, joints, our shapes as geoms, and pairs that need no check, piece by piece.
 //!
 //! A floating joint is three slides and a ball, whatever it sits on, so that its position is that of the child in the
 //! joint's frame, as here; a free joint's would be in the world. The root link is fixed to the world. Mimics are
-//! equality constraints, which MuJoCo holds in simulation: whoever sets positions sets those of mimic joints too.
+//! equality constraints, chains resolved, which MuJoCo holds in simulation: whoever sets positions sets those of mimic
+//! joints too.
 //! MuJoCo's own filter of parents and children is switched off, so that the pairs are those of the URDD; it never
 //! checks two bodies without a joint between them.
 
@@ -13,9 +14,11 @@ mod joint;
 use super::Export;
 use super::element::Element;
 use super::error::{ExportError, Note};
+use super::names::check_unique;
 use super::numbers::numbers;
 use super::subject::Subject;
-use body::{Bodies, Made};
+use crate::document::rigid_groups::RigidGroups;
+use body::{Bodies, Made, geom_name};
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut bodies = Bodies::new(subject)?;
@@ -23,7 +26,6 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let Made {
         assets,
         files,
-        bounded,
         balanced,
         mut notes,
     } = bodies.finish();
@@ -32,11 +34,6 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         .with("autolimits", "true");
     if balanced {
         compiler = compiler.with("balanceinertia", "true");
-    }
-    if bounded {
-        compiler = compiler
-            .with("boundmass", "1e-6")
-            .with("boundinertia", "1e-9");
     }
     let mut root = Element::new("mujoco").with("model", subject.urdf.name.as_str());
     root.push(compiler);
@@ -55,11 +52,10 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     if !contact.is_empty() {
         root.push(contact);
     }
-    notes.extend(subject.notes());
-    let mut comments = subject.origin()?;
-    comments.push(format!("Geoms for collision: {}.", subject.options.shapes));
+    check_joints(subject)?;
+    let what = format!("Geoms for collision: {}.", subject.options.shapes);
     Ok(Export {
-        text: root.document(&comments),
+        text: root.document(&subject.comments(what, &notes)?),
         files,
         notes,
     })
@@ -81,27 +77,52 @@ fn classes() -> Element {
         .holding(geom("visual", visual))
 }
 
+/// What MuJoCo does not check, and, where the shapes of two links differ, what it does: an `<exclude>` is of two bodies,
+/// and a `<pair>` of two geoms is checked in spite of it. Bits (`contype`, `conaffinity`) would not do: there are 32, and
+/// a robot has hundreds of shapes that differ.
 fn contact(subject: &Subject) -> Element {
     let mut contact = Element::new("contact");
-    for pair in subject.disabled() {
-        let [a, b] = pair.links.map(|link| subject.links[link].as_str());
+    let groups = RigidGroups::new(&subject.view, &subject.tree);
+    let mut pairs = Vec::new();
+    for pair in &subject.pairs {
+        if !pair.disabled && pair.mixed.is_none() {
+            continue;
+        }
+        let [a, b] = pair.names.each_ref().map(String::as_str);
         contact.push(Element::new("exclude").with("body1", a).with("body2", b));
+        let [one, other] = pair.links.map(|link| groups.of_link[link]);
+        // Links that never move against each other touch always or never: MuJoCo does not look at them.
+        if let Some(mixed) = &pair.mixed
+            && one != other
+        {
+            let geoms = |pieces: &[usize; 2]| {
+                let pair = Element::new("pair").with("geom1", geom_name(a, pieces[0]));
+                pair.with("geom2", geom_name(b, pieces[1]))
+            };
+            pairs.extend(mixed.checked.iter().map(geoms));
+        }
+    }
+    for pair in pairs {
+        contact.push(pair);
     }
     contact
+}
+
+/// Joints of several DOFs are several joints here, whose names may be those of others.
+fn check_joints(subject: &Subject) -> Result<(), ExportError> {
+    let names = subject.view.joints.iter().flat_map(joint::names);
+    let names: Vec<String> = names.collect();
+    check_unique(subject.format, "joint", names.iter().map(String::as_str))
 }
 
 /// The mimics: `position = offset + multiplier * position of the driver`.
 fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
     let mut equality = Element::new("equality");
-    for joint in &subject.view.joints {
-        let Some(mimic) = joint.active_mimic() else {
+    for (joint, mimic) in subject.view.joints.iter().zip(&subject.mimics.by_joint) {
+        let Some(mimic) = mimic else {
             continue;
         };
-        let driver = subject.view.joint(&mimic.joint);
-        let driver = driver.map(|driver| &subject.view.joints[driver]);
-        let Some(driver) = driver else {
-            continue;
-        };
+        let driver = &subject.view.joints[mimic.driver];
         let mut element = Element::new("joint").with("joint1", joint.name.as_str());
         let factor = match driver.num_dofs() {
             1 => {

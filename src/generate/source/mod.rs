@@ -12,6 +12,7 @@ use super::fault::{Fault, PlacedFault};
 use super::meshes::package::Packages;
 use super::note::{Note, Remark};
 use super::urdf::{self, Reading};
+use crate::cancellation::Cancellation;
 use crate::directory::path::portable;
 use crate::directory::position::LineIndex;
 use crate::format::urdf::UrdfModule;
@@ -65,6 +66,7 @@ pub(crate) fn load(
     path: &Path,
     xacro: &XacroSettings,
     packages: &Packages,
+    cancellation: &Cancellation,
 ) -> Result<Source, GenerateError> {
     let shown = path.display().to_string();
     let unreadable = |reason: String| GenerateError::Read {
@@ -86,7 +88,7 @@ pub(crate) fn load(
         .extension()
         .is_some_and(|extension| extension == "xacro");
     if is_xacro_file || (xacro.expand_urdf && text.contains("<xacro:")) {
-        text = xacro::expand(path, &shown, xacro, packages)?;
+        text = xacro::expand(path, &shown, xacro, packages, cancellation)?;
         is_verbatim = false;
     }
     let names = names(&canonical);

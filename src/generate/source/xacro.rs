@@ -6,25 +6,24 @@
 use std::ffi::OsString;
 use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::{Command, ExitStatus};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use process_wrap::std::{ChildWrapper, CommandWrap};
 use tempfile::TempDir;
 
+use crate::cancellation::{Cancellation, Cancelled};
 use crate::generate::bounded::{MAX_SOURCE_BYTES, read_up_to};
 use crate::generate::error::GenerateError;
 use crate::generate::meshes::package::Packages;
+use crate::process::{Ended, Running};
 
 /// How much of what it says is read, bytes.
 const MAX_WORDS: u64 = 1 << 20;
 /// Most of its last lines that are passed on, and most characters of them.
 const MOST_LINES: usize = 3;
 const MOST_CHARACTERS: usize = 1000;
-/// How often a running program is looked at.
-const PAUSE: Duration = Duration::from_millis(5);
 /// How long its last words are waited for, where something holds its output open.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 
@@ -53,12 +52,13 @@ impl Default for XacroSettings {
 /// The URDF that a xacro file makes.
 ///
 /// # Errors
-/// Where there is no such program, or it fails, takes too long, or writes too much.
+/// Where there is no such program, or it fails, takes too long, or writes too much; where it is asked to stop.
 pub(super) fn expand(
     path: &Path,
     shown: &str,
     settings: &XacroSettings,
     packages: &Packages,
+    cancellation: &Cancellation,
 ) -> Result<String, GenerateError> {
     let failed = |reason: String| GenerateError::Xacro {
         file: shown.to_owned(),
@@ -72,86 +72,45 @@ pub(super) fn expand(
     let mut command = Command::new("xacro");
     command.arg(&path).args(&settings.arguments);
     given.tell(&mut command);
-    command
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    let mut command = CommandWrap::from(command);
-    #[cfg(unix)]
-    command.wrap(process_wrap::std::ProcessGroup::leader());
-    #[cfg(windows)]
-    command.wrap(process_wrap::std::JobObject);
-    let mut child = command.spawn().map_err(|error| match error.kind() {
+    let mut running = Running::start(command).map_err(|error| match error.kind() {
         ErrorKind::NotFound => GenerateError::NoXacro {
             file: shown.to_owned(),
         },
         _ => failed(error.to_string()),
     })?;
-    let ended = wait(&mut *child, settings.time_limit);
-    // What it started goes too; there may be nothing left, which is no error.
-    let _ = child.start_kill();
-    let _ = child.wait();
-    let Ended {
-        status,
-        output,
-        words,
-    } = ended.map_err(failed)?;
-    if !status.success() {
-        return Err(failed(
-            last_lines(&words).unwrap_or_else(|| status.to_string()),
-        ));
-    }
-    String::from_utf8(output).map_err(|_| failed("what it writes is not UTF-8".to_owned()))
-}
-
-/// How the program ended.
-struct Ended {
-    status: ExitStatus,
-    output: Vec<u8>,
-    words: Vec<u8>,
-}
-
-fn wait(child: &mut dyn ChildWrapper, limit: Duration) -> Result<Ended, String> {
-    let output = child
-        .stdout()
-        .take()
-        .map(|out| read_beside(out, MAX_SOURCE_BYTES));
-    let words = child.stderr().take().map(|err| read_beside(err, MAX_WORDS));
-    let (Some(output), Some(words)) = (output, words) else {
-        return Err("its output cannot be read".to_owned());
+    let (Some(output), Some(words)) = running.streams() else {
+        return Err(failed("its output cannot be read".to_owned()));
     };
-    let start = Instant::now();
+    let output = read_beside(output, MAX_SOURCE_BYTES);
+    let words = read_beside(words, MAX_WORDS);
     let mut written = None;
-    let status = loop {
+    let ended = running.wait(settings.time_limit, cancellation, || {
         if written.is_none() {
             written = output.try_recv().ok();
         }
-        if let Some(Err(why)) = &written {
-            return Err(format!("its output: {why}"));
-        }
-        match child.try_wait() {
-            Ok(Some(status)) => break status,
-            Ok(None) if start.elapsed() >= limit => {
-                return Err(format!(
-                    "it took more than {} s and was stopped",
-                    limit.as_secs()
-                ));
-            }
-            Ok(None) => thread::sleep(PAUSE),
-            Err(error) => return Err(error.to_string()),
+        matches!(written, Some(Err(_)))
+    });
+    let status = match ended.map_err(|error| failed(error.to_string()))? {
+        Ended::Itself(status) => Some(status),
+        Ended::Enough => None,
+        Ended::Cancelled => return Err(Cancelled.into()),
+        Ended::TimeLimit => {
+            let limit = settings.time_limit.as_secs();
+            return Err(failed(format!(
+                "it took more than {limit} s and was stopped"
+            )));
         }
     };
-    let unread = "its output does not end".to_owned();
-    let written = match written {
-        Some(written) => written,
-        None => output.recv_timeout(LAST_WORDS).unwrap_or(Err(unread)),
-    };
-    let words = words.recv_timeout(LAST_WORDS);
-    Ok(Ended {
-        status,
-        output: written.map_err(|why| format!("its output: {why}"))?,
-        words: words.ok().and_then(Result::ok).unwrap_or_default(),
-    })
+    let unread = || Err("it does not end".to_owned());
+    let written =
+        written.unwrap_or_else(|| output.recv_timeout(LAST_WORDS).unwrap_or_else(|_| unread()));
+    let written = written.map_err(|why| failed(format!("its output: {why}")))?;
+    if let Some(status) = status.filter(|status: &ExitStatus| !status.success()) {
+        let words = words.recv_timeout(LAST_WORDS).ok().and_then(Result::ok);
+        let words = last_lines(&words.unwrap_or_default());
+        return Err(failed(words.unwrap_or_else(|| status.to_string())));
+    }
+    String::from_utf8(written).map_err(|_| failed("what it writes is not UTF-8".to_owned()))
 }
 
 /// Reads a stream beside the program, so that it never waits for us.

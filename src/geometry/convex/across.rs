@@ -57,6 +57,14 @@ pub fn any_touches(level: Level, pairs: &[PlacedPair]) -> bool {
         .any(|pairs| dispatch!(level, simd => eight_touch(simd, pairs)) != 0)
 }
 
+/// Which of up to [`AT_ONCE`] pairs touch or overlap, as [`any_touches`]: bit `k` is set where pair `k` does.
+pub fn touching(level: Level, pairs: &[PlacedPair]) -> u64 {
+    match pairs.is_empty() {
+        true => 0,
+        false => dispatch!(level, simd => eight_touch(simd, &pairs[..pairs.len().min(LANES)])),
+    }
+}
+
 /// The distance of each pair with the points at which it is, in the frame of the pair's first shape.
 pub fn witnesses(level: Level, pairs: &[PlacedPair]) -> Vec<Witness> {
     let mut found = Vec::with_capacity(pairs.len());

@@ -108,14 +108,38 @@ impl BodyPairs {
 
     /// Whether any pair of bodies is in contact.
     pub fn any_touches(&self, poses: &[Isometry3<f64>]) -> bool {
+        self.any_touches_and_work(poses).0
+    }
+
+    /// Whether any pair of bodies is in contact, and how many pairs of shapes had to be compared beyond their spheres.
+    pub fn any_touches_and_work(&self, poses: &[Isometry3<f64>]) -> (bool, usize) {
         let mut near = Near::default();
+        let mut compared = 0;
         for (number, pair) in self.near(poses, 0.0) {
             near.add(number, pair);
+            compared += 1;
             if near.is_full() && near.touch(self.level) {
-                return true;
+                return (true, compared);
             }
         }
-        near.touch(self.level)
+        (near.touch(self.level), compared)
+    }
+
+    /// The numbers of the pairs of bodies that are in contact, ascending.
+    pub fn touching(&self, poses: &[Isometry3<f64>]) -> Vec<usize> {
+        let mut near = Near::default();
+        let mut found: Vec<usize> = Vec::new();
+        for (number, pair) in self.near(poses, 0.0) {
+            if found.last() == Some(&number) {
+                continue;
+            }
+            near.add(number, pair);
+            if near.is_full() {
+                near.take_touching(self.level, &mut found);
+            }
+        }
+        near.take_touching(self.level, &mut found);
+        found
     }
 
     /// The pairs of shapes whose spheres are no farther apart than `limit`, each with the number of its pair of bodies.
@@ -180,6 +204,15 @@ impl<'a> Near<'a> {
         for (number, found) in self.numbers.drain(..).zip(found) {
             distances[number] = distances[number].min(found);
         }
+        self.pairs.clear();
+    }
+
+    /// Adds the pairs of bodies in contact of those that wait.
+    fn take_touching(&mut self, level: Level, found: &mut Vec<usize>) {
+        let touching = across::touching(level, &self.pairs);
+        let in_contact = |(k, number): (usize, usize)| (touching >> k & 1 == 1).then_some(number);
+        found.extend(self.numbers.drain(..).enumerate().filter_map(in_contact));
+        found.dedup();
         self.pairs.clear();
     }
 

@@ -111,7 +111,8 @@ impl ForwardKinematics {
     /// configurations.
     ///
     /// What of `start` is out of bounds is moved to the nearest bound. DOFs that do not move the link stay as they are
-    /// there; the bounds of rotation vectors are not looked at. A goal for a link that is not there is not reached.
+    /// there; the bounds of rotation vectors are not looked at. A goal for a link that is not there is not reached. When
+    /// `stop` says so, the search gives up before the next restart.
     ///
     /// # Errors
     /// Where `start` has another length, or a value that is not finite.
@@ -121,6 +122,7 @@ impl ForwardKinematics {
         start: &[f64],
         space: &ConfigurationSpace,
         settings: &InverseSettings,
+        stop: &dyn Fn() -> bool,
     ) -> Result<Inverse, ConfigurationError> {
         self.check(start)?;
         let path = Path::new(self, goal, space.bounds());
@@ -129,7 +131,12 @@ impl ForwardKinematics {
         path.confine(&mut first);
         let mut best = descent.from(first.clone());
         let mut restarts = 0;
-        while !best.reached && restarts < settings.restarts && !path.dofs.is_empty() {
+        let most = if path.dofs.is_empty() {
+            0
+        } else {
+            settings.restarts
+        };
+        while !best.reached && restarts < most && !stop() {
             restarts += 1;
             let mut begin = first.clone();
             let other = space.sampled(settings.seed.wrapping_add(restarts as u64));

@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::{Placed, Proximity};
+use super::{Group, Placed, Proximity};
 use crate::cancellation::Cancellation;
+use crate::robot::batch::{check_room, fill, room};
 use crate::robot::error::RobotError;
 
 /// Configurations that one thread works on at once.
@@ -50,11 +51,35 @@ impl Proximity {
     /// Whether the robot collides with itself in each configuration, as [`Proximity::in_collision`].
     ///
     /// # Errors
-    /// [`RobotError::Batch`] where the values are no whole number of configurations; and as
-    /// [`Proximity::distances`], for the first configuration that has none.
+    /// [`RobotError::Batch`] where the values are no whole number of configurations; [`RobotError::Memory`] where there is
+    /// not enough memory; and as [`Proximity::distances`], for the first configuration that has none.
     pub fn in_collision_batch(&self, configurations: &[f64]) -> Result<Vec<bool>, RobotError> {
         self.until(&Cancellation::default())
             .in_collision_batch(configurations)
+    }
+
+    /// For each two links with pairs of shapes, by index: in how many of the configurations shapes of theirs touch.
+    ///
+    /// # Errors
+    /// As [`Proximity::in_collision_batch`].
+    pub(crate) fn contacts_of_links(
+        &self,
+        configurations: &[f64],
+    ) -> Result<Vec<([usize; 2], usize)>, RobotError> {
+        let count = self.motion.batch(configurations)?;
+        let dofs = self.num_dofs();
+        let found = (0..count).into_par_iter().map(|k| {
+            let mut placed = Placed::default();
+            self.place(&configurations[k * dofs..(k + 1) * dofs], &mut placed)?;
+            self.place_centres(&mut placed);
+            let touches = |group: &Group| self.any_touches(&placed, std::slice::from_ref(group));
+            Ok(self.groups.iter().map(touches).collect())
+        });
+        let found: Vec<Vec<bool>> = found.collect::<Result<_, RobotError>>()?;
+        let groups = self.groups.iter().enumerate();
+        Ok(groups
+            .map(|(at, group)| (group.links, found.iter().filter(|one| one[at]).count()))
+            .collect())
     }
 
     /// The least distance in each configuration, metres, as [`Proximity::self_distance`]: infinite where there is no
@@ -84,8 +109,24 @@ impl Until<'_> {
     /// # Errors
     /// As there, and [`RobotError::Cancelled`].
     pub fn in_collision_batch(&self, configurations: &[f64]) -> Result<Vec<bool>, RobotError> {
-        self.each(configurations, |q, placed| {
-            self.proximity.collides(q, placed)
+        let mut answers = room(self.count(configurations)?, 1)?;
+        self.in_collision_batch_into(configurations, &mut answers)?;
+        Ok(answers)
+    }
+
+    /// As [`Proximity::in_collision_batch`], into `out`.
+    ///
+    /// # Errors
+    /// As there, [`RobotError::Room`] where `out` has another number of values than there are answers, and
+    /// [`RobotError::Cancelled`].
+    pub fn in_collision_batch_into(
+        &self,
+        configurations: &[f64],
+        out: &mut [bool],
+    ) -> Result<(), RobotError> {
+        self.fill(configurations, 1, out, |q, placed, out| {
+            out[0] = self.proximity.collides(q, placed)?;
+            Ok(())
         })
     }
 
@@ -94,11 +135,26 @@ impl Until<'_> {
     /// # Errors
     /// As there, and [`RobotError::Cancelled`].
     pub fn self_distance_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
-        self.each(configurations, |q, placed| {
+        let mut distances = room(self.count(configurations)?, 1)?;
+        self.self_distance_batch_into(configurations, &mut distances)?;
+        Ok(distances)
+    }
+
+    /// As [`Proximity::self_distance_batch`], into `out`.
+    ///
+    /// # Errors
+    /// As [`Until::in_collision_batch_into`].
+    pub fn self_distance_batch_into(
+        &self,
+        configurations: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
+        self.fill(configurations, 1, out, |q, placed, out| {
             let least = self.proximity.least(q, 1, placed)?;
-            Ok(least
+            out[0] = least
                 .first()
-                .map_or(f64::INFINITY, |(distance, _)| *distance))
+                .map_or(f64::INFINITY, |(distance, _)| *distance);
+            Ok(())
         })
     }
 
@@ -107,60 +163,39 @@ impl Until<'_> {
     /// # Errors
     /// As there, and [`RobotError::Cancelled`].
     pub fn distances_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
-        let (count, dofs, pairs) = (
-            self.count(configurations)?,
-            self.proximity.num_dofs(),
-            self.proximity.pairs.len(),
-        );
-        let mut values = vec![0.0; count * pairs];
-        if pairs == 0 {
-            return Ok(values);
-        }
-        let faults: Vec<RobotError> = values
-            .par_chunks_mut(BLOCK * pairs)
-            .enumerate()
-            .filter_map(|(block, out)| {
-                let mut placed = Placed::default();
-                let mut rows = out.chunks_mut(pairs).enumerate();
-                rows.find_map(|(k, row)| {
-                    if let Err(error) = self.cancellation.check() {
-                        return Some(error.into());
-                    }
-                    let at = (block * BLOCK + k) * dofs;
-                    let q = &configurations[at..at + dofs];
-                    self.proximity.values_into(q, &mut placed, row).err()
-                })
-            })
-            .collect();
-        match faults.into_iter().next() {
-            Some(error) => Err(error),
-            None => Ok(values),
-        }
+        let mut distances = room(self.count(configurations)?, self.proximity.pairs.len())?;
+        self.distances_batch_into(configurations, &mut distances)?;
+        Ok(distances)
     }
 
-    fn each<T: Send>(
+    /// As [`Proximity::distances_batch`], into `out`.
+    ///
+    /// # Errors
+    /// As [`Until::in_collision_batch_into`].
+    pub fn distances_batch_into(
         &self,
         configurations: &[f64],
-        ask: impl Fn(&[f64], &mut Placed) -> Result<T, RobotError> + Sync,
-    ) -> Result<Vec<T>, RobotError> {
-        let (count, dofs) = (self.count(configurations)?, self.proximity.num_dofs());
-        let blocks: Vec<Result<Vec<T>, RobotError>> = (0..count.div_ceil(BLOCK))
-            .into_par_iter()
-            .map(|block| {
-                let mut placed = Placed::default();
-                let own = block * BLOCK..count.min((block + 1) * BLOCK);
-                own.map(|k| {
-                    self.cancellation.check()?;
-                    ask(&configurations[k * dofs..(k + 1) * dofs], &mut placed)
-                })
-                .collect()
-            })
-            .collect();
-        let mut answers = Vec::with_capacity(count);
-        for block in blocks {
-            answers.extend(block?);
-        }
-        Ok(answers)
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
+        let pairs = self.proximity.pairs.len();
+        self.fill(configurations, pairs, out, |q, placed, out| {
+            self.proximity.values_into(q, placed, out)
+        })
+    }
+
+    fn fill<T: Send>(
+        &self,
+        configurations: &[f64],
+        width: usize,
+        out: &mut [T],
+        ask: impl Fn(&[f64], &mut Placed, &mut [T]) -> Result<(), RobotError> + Sync,
+    ) -> Result<(), RobotError> {
+        check_room(out.len(), self.count(configurations)?, width)?;
+        let dofs = self.proximity.num_dofs();
+        fill(out, width, BLOCK, Placed::default, |placed, k, out| {
+            self.cancellation.check()?;
+            ask(&configurations[k * dofs..(k + 1) * dofs], placed, out)
+        })
     }
 
     /// How many configurations follow each other; of a robot without DOFs one, and no value.

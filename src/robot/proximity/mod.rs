@@ -25,6 +25,7 @@ use super::Robot;
 use super::error::RobotError;
 use super::kinematics::Motion;
 use super::shapes::ShapeKind;
+use super::skips::Skips;
 use super::statistics::AllStatistics;
 use crate::geometry::convex::Level;
 
@@ -95,8 +96,34 @@ impl Robot {
     /// Where a module is missing or of no use: that of the shapes, of the skips, `chain_module` or `dof_module`; and
     /// where a mesh cannot be read.
     pub fn proximity(&self, kind: ShapeKind) -> Result<Proximity, RobotError> {
-        let motion = Arc::clone(self.shared_motion()?);
         let skips = self.skips(kind)?;
+        let is_skipped = |(i, j)| skips.is_skipped(i, j);
+        self.prepared(kind, &skips, |_, both| !both.is_some_and(is_skipped))
+    }
+
+    /// As [`Robot::proximity`], for the pairs of shapes that are `wanted` instead of those that are not skipped. A shape
+    /// is given by its link and its piece.
+    ///
+    /// # Errors
+    /// As [`Robot::proximity`].
+    pub(crate) fn proximity_of(
+        &self,
+        kind: ShapeKind,
+        wanted: impl Fn([(usize, usize); 2]) -> bool,
+    ) -> Result<Proximity, RobotError> {
+        self.prepared(kind, &self.skips(kind)?, |shapes, _| {
+            wanted(shapes.map(|shape| (shape.link, shape.piece)))
+        })
+    }
+
+    /// `wanted` says which pairs of shapes count, by the shapes and by their indices in the skips.
+    fn prepared(
+        &self,
+        kind: ShapeKind,
+        skips: &Skips,
+        wanted: impl Fn([&Shape; 2], Option<(usize, usize)>) -> bool,
+    ) -> Result<Proximity, RobotError> {
+        let motion = Arc::clone(self.shared_motion()?);
         let statistics = self.statistics(kind)?;
         let index: HashMap<(usize, usize), usize> = skips
             .places()
@@ -128,7 +155,7 @@ impl Robot {
         for (i, a) in shapes.iter().enumerate() {
             for (j, b) in shapes.iter().enumerate().skip(i + 1) {
                 let both = indices[i].zip(indices[j]);
-                if a.link == b.link || both.is_some_and(|(i, j)| skips.is_skipped(i, j)) {
+                if a.link == b.link || !wanted([a, b], both) {
                     continue;
                 }
                 let recorded = |all: &AllStatistics| both.and_then(|(i, j)| all.pair(i, j));

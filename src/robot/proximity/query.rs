@@ -1,7 +1,7 @@
 //! Questions about one configuration.
 
 use super::body::Body;
-use super::{PairDistance, Placed, Proximity, dot, to_root};
+use super::{Group, PairDistance, Placed, Proximity, dot, to_root};
 use crate::geometry::convex::across::{self, AT_ONCE, PlacedPair};
 use crate::robot::error::RobotError;
 
@@ -92,8 +92,13 @@ impl Proximity {
     ) -> Result<bool, RobotError> {
         self.place(configuration, placed)?;
         self.place_centres(placed);
+        Ok(self.any_touches(placed, &self.groups))
+    }
+
+    /// Whether shapes of one of these groups touch, in the pose in which the robot is placed.
+    pub(super) fn any_touches(&self, placed: &Placed, groups: &[Group]) -> bool {
         let mut near: Vec<PlacedPair> = Vec::with_capacity(AT_ONCE);
-        for group in &self.groups {
+        for group in groups {
             if self.are_apart(placed, group.links) {
                 continue;
             }
@@ -103,18 +108,18 @@ impl Proximity {
                     continue;
                 }
                 let Some(pair) = self.convex(pair, pose) else {
-                    return Ok(true);
+                    return true;
                 };
                 near.push(pair);
                 if near.len() == AT_ONCE {
                     if across::any_touches(self.level, &near) {
-                        return Ok(true);
+                        return true;
                     }
                     near.clear();
                 }
             }
         }
-        Ok(!near.is_empty() && across::any_touches(self.level, &near))
+        !near.is_empty() && across::any_touches(self.level, &near)
     }
 
     /// The distances and pairs of the `k` nearest, nearest first.

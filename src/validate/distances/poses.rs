@@ -87,6 +87,15 @@ impl Poses {
         Ok((configuration, poses))
     }
 
+    /// The poses in any configuration.
+    ///
+    /// # Errors
+    /// Where numbers go beyond 64 bits.
+    pub fn of(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, SkipReason> {
+        let poses = self.kinematics.link_poses(configuration);
+        poses.map_err(|error| SkipReason::Kinematics(error.to_string()))
+    }
+
     /// The poses in some of the sampled configurations.
     ///
     /// # Errors

@@ -2,6 +2,5 @@
 //! those who train and use models but the distances of shapes.
 
 pub mod counts;
-pub mod fisher;
 pub mod network;
 pub mod pairs;

@@ -3,7 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 use sha2::{Digest, Sha256};
 
-use crate::format::self_collision_model::{ModelInput, SelfCollisionModelModule};
+use crate::format::self_collision_model::{
+    CONFIRMATION_SECOND, ModelInput, SelfCollisionModelModule,
+};
 use crate::kinematics::rotation::from_rotation_vector;
 
 /// How many values an input gives.
@@ -15,8 +17,8 @@ pub fn width(input: &ModelInput) -> usize {
     }
 }
 
-/// The first of the sampled configurations that rates are held to: SPEC 8.8.10.
-pub fn first_fresh(model: &SelfCollisionModelModule) -> u32 {
+/// The first sampled configuration of the second confirmation: SPEC 8.8.12.
+pub fn second_confirmation(model: &SelfCollisionModelModule) -> u32 {
     let mut hash = Sha256::new();
     for layer in &model.layers {
         for number in layer.weights.iter().flatten().chain(&layer.biases) {
@@ -28,7 +30,8 @@ pub fn first_fresh(model: &SelfCollisionModelModule) -> u32 {
     }
     let digest = hash.finalize();
     let first = digest.iter().take(4);
-    first.fold(0, |number, byte| number << 8 | u32::from(*byte))
+    let bits = first.fold(0, |number, byte| number << 8 | u32::from(*byte));
+    CONFIRMATION_SECOND + (bits >> 3)
 }
 
 /// A network of which the lists are as long as they must be.

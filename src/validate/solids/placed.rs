@@ -10,9 +10,10 @@ use super::surface::{self, Difference, Likeness};
 use crate::document::urdd::Urdd;
 use crate::document::usable_geometry::UsableGeometry;
 use crate::format::meshes::GeometryKind;
+use crate::format::readable::metres;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::geometry::Mesh;
-use crate::validate::finding::{metres, point};
+use crate::validate::finding::point;
 use crate::validate::part::Why;
 use crate::validate::tolerance::{PRIMITIVE_AREA, PRIMITIVE_SAG, placing_resolution};
 

@@ -55,7 +55,7 @@ impl Difference {
         if self.distance > 0.0 {
             text.push_str(&format!(
                 ", corners {} apart",
-                crate::validate::finding::metres(self.distance)
+                crate::format::readable::metres(self.distance)
             ));
         }
         text.push_str(&format!(

@@ -21,13 +21,15 @@ pub struct Problem {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Error)]
 pub enum Fault {
     /// Not well-formed XML.
-    #[error("this is not well-formed XML: {0}")]
+    #[error("not well-formed XML: {0}")]
     NotXml(String),
     /// The outermost element is another.
-    #[error("the outermost element of a URDF is `robot`")]
+    #[error(
+        "the outermost element is not `<robot>`; a URDF is one `<robot>` with everything inside it"
+    )]
     NotRobot,
     /// An attribute that a reader cannot do without.
-    #[error("`<{element}>` needs the attribute `{attribute}`")]
+    #[error("`<{element}>` does not have the attribute `{attribute}`; add it")]
     MissingAttribute {
         /// The element.
         element: &'static str,
@@ -35,7 +37,7 @@ pub enum Fault {
         attribute: &'static str,
     },
     /// An element that a reader cannot do without.
-    #[error("a `<{parent}>` needs a `<{element}>`")]
+    #[error("`<{parent}>` does not have a `<{element}>`; add it")]
     MissingElement {
         /// The element that is not there.
         element: &'static str,
@@ -44,7 +46,7 @@ pub enum Fault {
     },
     /// Not as many numbers as are needed, or something that is no number.
     #[error(
-        "`{attribute}` of `<{element}>` must be {} with nothing but white space between them",
+        "`{attribute}` of `<{element}>` is not {}",
         numbers_wanted(*.count)
     )]
     NotNumbers {
@@ -56,7 +58,7 @@ pub enum Fault {
         count: usize,
     },
     /// A size that is not finite.
-    #[error("`{attribute}` of `<{element}>` must be finite")]
+    #[error("`{attribute}` of `<{element}>` is not finite; write a number of at most 1.7e308")]
     NotFinite {
         /// The element.
         element: &'static str,
@@ -64,19 +66,21 @@ pub enum Fault {
         attribute: &'static str,
     },
     /// A rotation that is given in two ways.
-    #[error("`rpy` and `quat_xyzw` both say the rotation of an `<origin>`; keep one of them")]
+    #[error("`<origin>` has both `rpy` and `quat_xyzw`; keep one of them")]
     TwoRotations,
     /// A joint type that URDF does not define.
     #[error(
-        "the type of a joint is one of revolute, continuous, prismatic, fixed, floating, planar, spherical"
+        "`<joint>` has a type that URDF does not define; write revolute, continuous, prismatic, fixed, floating, planar or spherical"
     )]
     UnknownJointType,
 }
 
 fn numbers_wanted(count: usize) -> String {
     match count {
-        1 => "one number,".to_owned(),
-        _ => format!("{count} numbers,"),
+        1 => "a number; write one number, without a unit".to_owned(),
+        _ => format!(
+            "{count} numbers; write {count} numbers with spaces between them, without commas"
+        ),
     }
 }
 
@@ -103,20 +107,10 @@ pub(super) fn not_xml(error: &XmlError, text: &str) -> Problem {
         .char_indices()
         .nth((place.col as usize).saturating_sub(1))
         .map_or(rest.len(), |(offset, _)| offset);
-    let words = match error {
-        XmlError::Parser(roxmltree::Error::UnexpectedDeclaration(_)) => {
-            "the XML declaration `<?xml …?>` must stand at the very start of the file, once"
-                .to_owned()
-        }
-        XmlError::Parser(roxmltree::Error::NodesLimitReached) => {
-            "it has too many elements".to_owned()
-        }
-        // The place stands beside the message already.
-        other => other.words(),
-    };
     Problem {
         offset: start + column,
-        fault: Fault::NotXml(words),
+        // The place stands beside the message already.
+        fault: Fault::NotXml(error.words(text)),
         actual: None,
     }
 }

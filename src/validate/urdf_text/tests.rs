@@ -54,7 +54,7 @@ fn what_is_not_finite_is_absent() {
         faults(
             "<link name='a'><visual><geometry><sphere radius='inf'/></geometry></visual></link>"
         ),
-        ["`radius` of `<sphere>` must be finite"]
+        ["`radius` of `<sphere>` is not finite; write a number of at most 1.7e308"]
     );
 }
 
@@ -137,13 +137,13 @@ fn says_what_cannot_be_read() {
              <origin xyz='0 x 0 1'/></collision></link>"
         ),
         [
-            "`<link>` needs the attribute `name`",
-            "a `<joint>` needs a `<child>`",
-            "the type of a joint is one of revolute, continuous, prismatic, fixed, floating, planar, spherical",
-            "`<parent>` needs the attribute `link`",
-            "`<mesh>` needs the attribute `filename`",
-            "`<cylinder>` needs the attribute `length`",
-            "`xyz` of `<origin>` must be 3 numbers, with nothing but white space between them",
+            "`<link>` does not have the attribute `name`; add it",
+            "`<joint>` does not have a `<child>`; add it",
+            "`<joint>` has a type that URDF does not define; write revolute, continuous, prismatic, fixed, floating, planar or spherical",
+            "`<parent>` does not have the attribute `link`; add it",
+            "`<mesh>` does not have the attribute `filename`; add it",
+            "`<cylinder>` does not have the attribute `length`; add it",
+            "`xyz` of `<origin>` is not 3 numbers; write 3 numbers with spaces between them, without commas",
         ]
     );
     assert_eq!(read("<urdf/>").problems[0].fault, Fault::NotRobot);

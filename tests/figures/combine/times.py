@@ -57,7 +57,7 @@ for name in ["gripper", "hand", "quadruped"]:
 for name in ["z1", "robotiq_140"]:
     # Legacy URDDs, whose URDFs name packages that are nowhere.
     recipe(name, [(name, shared / "corpus" / name, None)])
-    run("combine", f"{name}.toml", "-o", name)
+    run("combine", f"{name}.toml", "-o", name, "--allow-folder", shared / "corpus")
 
 ROBOTS = {
     "b1_z1_robotiq_140": [

@@ -1,31 +1,47 @@
 """Loads what `urdd export` writes into the programs that it is for, and compares numbers.
 
-    pip install mujoco==4.0.0 pin==4.1.0 pybullet==3.2.7 drake==1.51.1 numpy
-    cargo build --release
+    pip install mujoco==4.0.0 pin==4.1.0 drake==1.51.1 yourdfpy==0.0.60 numpy
+    cargo build
     urdd generate ROBOT.urdf -o URDD            # for each robot
-    python3 tests/figures/exports/peers.py target/release/urdd URDD...
+    python3 tests/figures/exports/peers.py target/debug/urdd URDD... [--json tests/figures/exports/results.json]
 
-For each URDD, at its own kinematics samples: the poses of all links by MuJoCo (MJCF) and Pinocchio (URDF) beside those
-of the module; the pairs of links that MuJoCo finds in contact beside `urdd check-collisions`; the pairs that Drake
-would check beside those that the SRDF leaves; the number of shapes that PyBullet loads. Exits with 1 where poses differ
-by more than 1e-9, or a set of pairs differs.
+What is compared, for each URDD:
+
+- MuJoCo (MJCF): the poses of all links at the kinematics samples; the total mass; for CONFIGURATIONS sampled
+  configurations the pairs of pieces in contact beside `urdd check-collisions`; a simulation at rest.
+- Pinocchio with coal (URDF and SRDF): poses, mass, and the pairs of links in contact among those that the SRDF leaves.
+- yourdfpy (URDF): poses.
+- Drake (its URDF): poses, mass, and the pairs of links in contact.
+
+Exits with 1 where poses differ by more than 1e-9, masses by more than what the file itself names, or answers by more than
+a band of 10 micrometres around contact and the pairs of links that the file names.
 """
 
 import json
+import os
 import pathlib
+import platform
+import re
 import subprocess
 import sys
 import tempfile
+import time
 import xml.etree.ElementTree as ET
 
 import mujoco
 import numpy as np
 import pinocchio as pin
-import pybullet
 
 POSE_TOLERANCE = 1e-9
-# Contact within this of the surfaces is rounding of binary32 meshes.
-CONTACT_TOLERANCE = 1e-6
+# Contact within this is a matter of binary32 meshes and of each program's own tolerance.
+BAND = 1e-5
+CONFIGURATIONS = 100
+NAMED = re.compile(r"links `(.*?)` and `(.*?)` are (disabled|checked) as a whole.*?(?:in (\d+) of (\d+) sampled)?\.? -->")
+
+
+def has_several(urdd):
+    """Whether a joint has several DOFs, which Pinocchio and yourdfpy read otherwise, or not at all."""
+    return any(joint["joint_type"] in ("Planar", "Floating", "Spherical") for joint in urdd.joints)
 
 
 def quaternion_of_vector(v):
@@ -36,65 +52,95 @@ def quaternion_of_vector(v):
     return np.concatenate([[np.cos(angle / 2)], np.sin(angle / 2) * np.asarray(v) / angle])
 
 
+def matrix_of_vector(v):
+    w, x, y, z = quaternion_of_vector(v)
+    return pin.Quaternion(w, x, y, z).matrix()
+
+
+def rpy_of_matrix(r):
+    return [
+        np.arctan2(r[2, 1], r[2, 2]),
+        np.arctan2(-r[2, 0], np.hypot(r[0, 0], r[1, 0])),
+        np.arctan2(r[1, 0], r[0, 0]),
+    ]
+
+
 class Urdd:
-    def __init__(self, root):
+    def __init__(self, program, root):
+        self.program = program
         self.root = pathlib.Path(root)
         self.paths = {m["name"]: m["path"] for m in json.loads((self.root / "urdd.json").read_text())["modules"]}
         self.dof = self.document("dof_module")
         self.samples = self.document("kinematics_samples_module")["samples"]
-        self.names = [link["name"] for link in self.document("urdf_module")["links"]]
+        self.links = self.document("urdf_module")["links"]
+        self.names = [link["name"] for link in self.links]
         self.joints = self.document("urdf_module")["joints"]
+        self.mass = sum(((link["inertial"] or {}).get("mass") or {}).get("value", 0.0) for link in self.links)
 
     def document(self, module):
         return json.loads((self.root / self.paths[module] / "module.json").read_text())
 
     def values(self, q):
-        """The values of each joint by name: of one DOF with mimics followed, of several as a list."""
-        by_dof = {dof["name"]: value for dof, value in zip(self.dof["dofs"], q)}
+        """The values of each joint by name, by the URDD's own resolved mimics."""
         values = {}
-        pending = {joint["name"]: joint for joint in self.joints}
-        while pending:
-            before = len(pending)
-            for name, joint in list(pending.items()):
-                mimic = joint["mimic"] if joint["joint_type"] != "Fixed" else None
-                if joint["joint_type"] == "Fixed":
-                    values[name] = [0.0]
-                elif mimic is None:
-                    parts = [v for dof, v in by_dof.items() if dof == name or dof.startswith(name + "/")]
-                    values[name] = parts
-                elif mimic["joint"] in values:
-                    factor = 1.0 if mimic["multiplier"] is None else mimic["multiplier"]
-                    values[name] = [factor * values[mimic["joint"]][0] + (mimic["offset"] or 0.0)]
-                else:
-                    continue
-                del pending[name]
-            assert len(pending) < before, "mimics in a circle"
+        dofs, mimics = self.dof["joint_idx_to_dof_idxs_mapping"], self.dof["joint_idx_to_mimic_mapping"]
+        for joint, of_joint, mimic in zip(self.joints, dofs, mimics):
+            values[joint["name"]] = [q[dof] for dof in of_joint] or [0.0]
+            if mimic:
+                driver = 0.0 if mimic["dof_idx"] is None else q[mimic["dof_idx"]]
+                values[joint["name"]] = [mimic["multiplier"] * driver + mimic["offset"]]
         return values
+
+    def export(self, kind, file, *more):
+        command = [self.program, "export", kind, str(self.root), "-o", str(file), "--force", *more]
+        done = subprocess.run(command, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        return file.read_text()
+
+    def collisions(self, count):
+        """Of sampled configurations the values, and the pairs of pieces in contact."""
+        command = [self.program, "check-collisions", str(self.root), "--random", str(count), "--format", "json"]
+        done = subprocess.run(command, capture_output=True, text=True)
+        assert done.returncode in (0, 1), done.stderr
+        for line in done.stdout.splitlines():
+            said = json.loads(line)
+            pairs = {tuple(sorted(zip(pair["links"], pair["pieces"]))) for pair in said["touching"]}
+            yield said["values"], pairs
 
 
 def worst(poses, expected):
     """The greatest difference of positions (m) and of rotation matrices."""
-    position = rotation = 0.0
+    difference = 0.0
     for (p, r), pose in zip(poses, expected):
         w, x, y, z = pose["quaternion_wxyz"]
-        matrix = pin.Quaternion(w, x, y, z).matrix()
-        position = max(position, np.abs(p - np.array(pose["position"])).max())
-        rotation = max(rotation, np.abs(r - matrix).max())
-    return max(position, rotation)
+        difference = max(difference, np.abs(p - np.array(pose["position"])).max())
+        difference = max(difference, np.abs(r - pin.Quaternion(w, x, y, z).matrix()).max())
+    return float(difference)
 
 
-def by_mujoco(program, urdd, folder):
+def of_links(pairs):
+    return {tuple(sorted(link for link, _ in pair)) for pair in pairs}
+
+
+def named(text):
+    """The pairs of links of which a file says that its answers differ: disabled or checked, in how many configurations."""
+    found = {}
+    for a, b, done, lost, samples in NAMED.findall(text):
+        found[tuple(sorted((a, b)))] = (done, int(lost or 0), int(samples or 0))
+    return found
+
+
+def by_mujoco(urdd, folder):
     file = folder / "mujoco.xml"
-    export(program, "mjcf", urdd, file)
+    text = urdd.export("mjcf", file)
     model = mujoco.MjModel.from_xml_path(str(file))
     data = mujoco.MjData(model)
     links = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name) for name in urdd.names]
     links = [0 if link < 0 else link for link in links]
-    difference, missed, extra, seen = 0.0, set(), set(), 0
-    touching = collisions(program, urdd)
-    disabled = disabled_pairs(program, urdd, folder)
-    for sample, expected_pairs in zip(urdd.samples, touching):
-        values = urdd.values(sample["configuration"])
+    geoms = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, geom) for geom in range(model.ngeom)]
+
+    def place(q):
+        values = urdd.values(q)
         for joint in range(model.njnt):
             name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, joint)
             at, kind = model.jnt_qposadr[joint], model.jnt_type[joint]
@@ -104,151 +150,397 @@ def by_mujoco(program, urdd, folder):
                 data.qpos[at] = values[name][0]
             else:
                 owner, part = name.rsplit("/", 1)
-                place = {"trans_x": 0, "trans_y": 1, "trans_z": 2, "rot": 2}[part]
-                data.qpos[at] = values[owner][place]
+                data.qpos[at] = values[owner][{"trans_x": 0, "trans_y": 1, "trans_z": 2, "rot": 2}[part]]
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
-        poses = [(data.xpos[link], data.xmat[link].reshape(3, 3)) for link in links]
-        difference = max(difference, worst(poses, sample["link_poses"]))
-        mujoco.mj_collision(model, data)
-        found = {}
-        for contact in data.contact[: data.ncon]:
-            a, b = (urdd.names[links.index(model.geom_bodyid[geom])] for geom in contact.geom)
-            key = tuple(sorted((a, b)))
-            found[key] = min(found.get(key, 0.0), contact.dist)
-        seen += len(found)
-        # Of a pair that is disabled as a whole, urdd checks some pieces.
-        missed |= expected_pairs - found.keys() - disabled
-        extra |= {pair for pair, dist in found.items() if pair not in expected_pairs and dist < -CONTACT_TOLERANCE}
-    return difference, missed, extra, seen
 
-
-def collisions(program, urdd):
-    """Pairs of links in contact at each sample, by urdd."""
-    lines = "\n".join(json.dumps(sample["configuration"]) for sample in urdd.samples)
-    command = [program, "check-collisions", str(urdd.root), "-c", "-", "--format", "json"]
-    done = subprocess.run(command, input=lines + "\n", capture_output=True, text=True)
-    assert done.returncode in (0, 1), done.stderr
-    pairs = []
-    for line in done.stdout.splitlines():
-        touching = json.loads(line)["touching"]
-        pairs.append({tuple(sorted(pair["links"])) for pair in touching})
-    return pairs
-
-
-def by_pinocchio(program, urdd, folder):
-    file = folder / "robot.urdf"
-    export(program, "urdf", urdd, file)
-    model = pin.buildModelFromUrdf(str(file))
-    geometry = pin.buildGeomFromUrdf(model, str(file), pin.GeometryType.COLLISION, str(folder))
-    data = model.createData()
     difference = 0.0
     for sample in urdd.samples:
-        values = urdd.values(sample["configuration"])
-        q = pin.neutral(model)
-        for idx in range(1, model.njoints):
-            joint, value = model.joints[idx], values[model.names[idx]]
-            if joint.nq == 1:
-                q[joint.idx_q] = value[0]
-            elif joint.nq == 2:
-                q[joint.idx_q : joint.idx_q + 2] = [np.cos(value[0]), np.sin(value[0])]
-            elif joint.nq == 7:
-                w, x, y, z = quaternion_of_vector(value[3:])
-                q[joint.idx_q : joint.idx_q + 7] = [*value[:3], x, y, z, w]
-            else:
-                return None, geometry.ngeoms
-        pin.framesForwardKinematics(model, data, q)
-        poses = []
-        for name in urdd.names:
-            frame = data.oMf[model.getFrameId(name, pin.FrameType.BODY)]
-            poses.append((frame.translation, frame.rotation))
+        place(sample["configuration"])
+        poses = [(data.xpos[link], data.xmat[link].reshape(3, 3)) for link in links]
         difference = max(difference, worst(poses, sample["link_poses"]))
-    return difference, geometry.ngeoms
+    rigid = urdd_rigid(urdd)
+    missed, more, seen, lasted = set(), set(), 0, []
+    for q, expected in urdd.collisions(CONFIGURATIONS):
+        place(q)
+        begun = time.perf_counter()
+        mujoco.mj_collision(model, data)
+        lasted.append(time.perf_counter() - begun)
+        found = {}
+        for contact in data.contact[: data.ncon]:
+            pair = tuple(sorted(tuple_of(geoms[geom]) for geom in contact.geom))
+            found[pair] = min(found.get(pair, 0.0), contact.dist)
+        seen += len(expected)
+        for pair in expected - found.keys():
+            ids = [geoms.index(f"{link}/{piece}") for link, piece in pair]
+            if rigid[pair[0][0]] == rigid[pair[1][0]]:
+                continue
+            if mujoco.mj_geomDistance(model, data, *ids, 1.0, None) < -BAND:
+                missed.add(pair)
+        more |= {pair for pair, depth in found.items() if pair not in expected and depth < -BAND}
+    # At rest: no contact in the default configuration, nothing moves without gravity, nothing diverges with it.
+    zero = next(sample for sample in urdd.samples if sample["kind"] == "Zero")["configuration"]
+    bounds = urdd.document("bounds_module")
+    zero = [min(max(v, lo), hi) for v, (lo, hi) in zip(zero, bounds["bounds"])]
+    place(zero)
+    start = data.qpos.copy()
+    mujoco.mj_forward(model, data)
+    contacts = int(data.ncon)
+    model.opt.gravity[:] = 0
+    for _ in range(100):
+        mujoco.mj_step(model, data)
+    drift = float(np.abs(data.qpos - start).max()) if model.nq else 0.0
+    model.opt.gravity[:] = (0, 0, -9.81)
+    for _ in range(200):
+        mujoco.mj_step(model, data)
+    warned = sum(int(warning.number) for warning in data.warning)
+    masses = float(model.body_mass.sum())
+    kept = sum(
+        link["inertial"]["mass"]["value"]
+        for link in urdd.links
+        if link["name"] == "world" and link["inertial"] and link["inertial"]["mass"]
+    )
+    assumed = 1e-9 * text.count("1e-9 kg and 1e-9 kg m")
+    said = {
+        "poses": difference,
+        "mass": masses,
+        "mass_difference": abs(masses - (urdd.mass - kept)),
+        "geoms": int((model.geom_group == 3).sum()),
+        "pairs": int(model.npair),
+        "excludes": int(model.nexclude),
+        "contacts": seen,
+        "missed": sorted(missed),
+        "more": sorted(more),
+        "collision_us": float(np.median(lasted) * 1e6),
+        "contacts_at_rest": contacts,
+        "drift_at_rest": drift,
+        "warnings": warned,
+    }
+    expected_at_rest = default_contacts(urdd, zero)
+    said["failed"] = bool(
+        difference > POSE_TOLERANCE
+        or missed
+        or more
+        or said["mass_difference"] > assumed + 1e-12 * max(1.0, urdd.mass)
+        or (contacts > 0) != expected_at_rest
+        or (not expected_at_rest and drift > 1e-9)
+        or warned
+        or not np.isfinite(data.qpos).all()
+    )
+    return said
 
 
-def by_pybullet(folder):
-    client = pybullet.connect(pybullet.DIRECT)
-    body = pybullet.loadURDF(str(folder / "robot.urdf"), useFixedBase=True)
-    links = range(-1, pybullet.getNumJoints(body))
-    count = sum(len(pybullet.getCollisionShapeData(body, link)) for link in links)
-    pybullet.disconnect(client)
-    return count
+def default_contacts(urdd, q):
+    command = [urdd.program, "check-collisions", str(urdd.root), "-c", "-", "--format", "json"]
+    done = subprocess.run(command, input=json.dumps(q) + "\n", capture_output=True, text=True)
+    return json.loads(done.stdout.splitlines()[0])["in_collision"]
 
 
-def by_drake(program, urdd, folder):
-    from pydrake.all import AddMultibodyPlantSceneGraph, DiagramBuilder, Parser
-
-    file = folder / "drake.urdf"
-    export(program, "drake", urdd, file)
-    builder = DiagramBuilder()
-    plant, scene = AddMultibodyPlantSceneGraph(builder, 0.0)
-    Parser(plant).AddModels(str(file))
-    plant.Finalize()
-    inspector = scene.model_inspector()
-
-    def name(geometry):
-        return plant.GetBodyFromFrameId(inspector.GetFrameId(geometry)).name()
-
-    candidates = {tuple(sorted((name(a), name(b)))) for a, b in inspector.GetCollisionCandidates()}
-    return candidates
+def tuple_of(geom):
+    link, piece = geom.rsplit("/", 1)
+    return link, int(piece)
 
 
-def export(program, kind, urdd, file):
-    subprocess.run([program, "export", kind, str(urdd.root), "-o", str(file), "--force"], check=True, capture_output=True)
-
-
-def disabled_pairs(program, urdd, folder):
-    """Pairs of links that the SRDF disables."""
-    export(program, "srdf", urdd, folder / "robot.srdf")
-    pairs = ET.parse(folder / "robot.srdf").getroot().iter("disable_collisions")
-    return {tuple(sorted((pair.get("link1"), pair.get("link2")))) for pair in pairs}
-
-
-def checked_pairs(program, urdd, folder):
-    """Pairs of links with shapes that the SRDF does not disable and that can move against each other."""
-    disabled = disabled_pairs(program, urdd, folder)
-    shaped = [urdd.names[link] for link in urdd.document("link_shapes_skips_module")["full_shapes"]]
+def urdd_rigid(urdd):
+    """For each link the first of those that fixed joints hold together with it."""
     rigid = {name: name for name in urdd.names}
     for _ in urdd.joints:
         for joint in urdd.joints:
             if joint["joint_type"] == "Fixed":
                 rigid[joint["child"]["link"]] = rigid[joint["parent"]["link"]]
-    pairs = {tuple(sorted((a, b))) for a in shaped for b in shaped if rigid[a] != rigid[b]}
-    return pairs - disabled, rigid
+    return rigid
+
+
+def judged(found, depth, expected, names, may_miss):
+    """Pairs of links that a program misses or has besides, but for the band and those that the file names."""
+    missed = {pair for pair in expected - found if not may_miss(pair) and names.get(pair, ("",))[0] != "disabled"}
+    more = {
+        pair
+        for pair in found - expected
+        if names.get(pair, ("",))[0] != "checked" and depth(pair) > BAND
+    }
+    return missed, more
+
+
+def by_pinocchio(urdd, folder):
+    file = folder / "robot.urdf"
+    urdd.export("urdf", file)
+    # Pinocchio takes a mimic only where its driver comes first in its own, alphabetical, order; otherwise it reads the
+    # joint as one that moves freely, and is given the position that the URDD resolves.
+    followed = True
+    try:
+        model = pin.buildModelFromUrdf(str(file), pin.JointModelFreeFlyer(), mimic=True)
+    except ValueError as error:
+        if "parent joint of the mimic joint is not in" not in str(error):
+            raise
+        followed = False
+        model = pin.buildModelFromUrdf(str(file), pin.JointModelFreeFlyer())
+    data = model.createData()
+
+    def place(values):
+        q = pin.neutral(model)
+        for idx in range(2, model.njoints):
+            joint, value = model.joints[idx], values[model.names[idx]]
+            if joint.shortname().startswith("JointModelMimic"):
+                continue
+            if joint.nq == 1:
+                q[joint.idx_q] = value[0]
+            elif joint.nq == 4:
+                raise ValueError("a planar joint is read without its axis")
+            elif joint.nq == 2:
+                q[joint.idx_q : joint.idx_q + 2] = [np.cos(value[0]), np.sin(value[0])]
+            else:
+                w, x, y, z = quaternion_of_vector(value[3:])
+                q[joint.idx_q : joint.idx_q + 7] = [*value[:3], x, y, z, w]
+        return q
+
+    difference = 0.0
+    for sample in urdd.samples:
+        pin.framesForwardKinematics(model, data, place(urdd.values(sample["configuration"])))
+        frames = [data.oMf[model.getFrameId(name, pin.FrameType.BODY)] for name in urdd.names]
+        poses = [(frame.translation, frame.rotation) for frame in frames]
+        difference = max(difference, worst(poses, sample["link_poses"]))
+    total = pin.computeTotalMass(model)
+    said = {
+        "poses": difference,
+        "mass": float(total),
+        "mimics_followed": followed,
+        "mimics": sum("Mimic" in joint.shortname() for joint in model.joints),
+        "failed": difference > POSE_TOLERANCE or abs(total - urdd.mass) > 1e-9 * max(1.0, urdd.mass),
+    }
+    for keep in ([], ["--keep-pairs"]):
+        said["keep" if keep else "pairs"] = pinocchio_pairs(urdd, folder, file, model, data, place, keep)
+        said["failed"] |= bool(said["keep" if keep else "pairs"]["missed"] or said["keep" if keep else "pairs"]["more"])
+    return said
+
+
+def pinocchio_pairs(urdd, folder, file, model, data, place, keep):
+    text = urdd.export("srdf", folder / "robot.srdf", *keep)
+    names = named(text)
+    geometry = pin.buildGeomFromUrdf(model, str(file), pin.GeometryType.COLLISION, str(folder))
+    for of in geometry.geometryObjects:
+        if hasattr(of.geometry, "buildConvexRepresentation"):
+            of.geometry.buildConvexRepresentation(False)
+            of.geometry = of.geometry.convex
+    geometry.addAllCollisionPairs()
+    pin.removeCollisionPairs(model, geometry, str(folder / "robot.srdf"))
+    links = [model.frames[of.parentFrame].name for of in geometry.geometryObjects]
+    of_data = pin.GeometryData(geometry)
+    missed, more, lost, seen = set(), set(), 0, 0
+    rigid = urdd_rigid(urdd)
+    for q, expected in urdd.collisions(CONFIGURATIONS // 2):
+        pin.computeCollisions(model, data, geometry, of_data, place(urdd.values(q)), False)
+        found = {}
+        for at, pair in enumerate(geometry.collisionPairs):
+            result = of_data.collisionResults[at]
+            if result.isCollision():
+                key = tuple(sorted((links[pair.first], links[pair.second])))
+                depth = max(-contact.penetration_depth for contact in result.getContacts())
+                found[key] = max(found.get(key, 0.0), abs(depth))
+        links_expected = of_links(expected)
+        seen += len(links_expected)
+        lost += len({pair for pair in links_expected - found.keys() if pair in names})
+        fixed = lambda pair: rigid[pair[0]] == rigid[pair[1]]
+        absent, besides = judged(found.keys(), found.get, links_expected, names, fixed)
+        missed |= {pair for pair in absent if not grazes(urdd, q, pair)}
+        more |= besides
+    return {"contacts": seen, "lost": lost, "named": len(names), "missed": sorted(missed), "more": sorted(more)}
+
+
+def grazes(urdd, q, pair):
+    """Whether pairs of links that urdd finds in contact are so within the band: not in contact in MuJoCo's depth."""
+    return urdd.depth(q, pair) <= BAND
+
+
+def by_yourdfpy(urdd, folder):
+    import yourdfpy
+
+    if has_several(urdd):
+        raise ValueError("joints of several DOFs stay where they are")
+    robot = yourdfpy.URDF.load(str(folder / "robot.urdf"), load_meshes=False, build_collision_scene_graph=False)
+    root = robot.base_link
+    difference = 0.0
+    for sample in urdd.samples:
+        values = urdd.values(sample["configuration"])
+        robot.update_cfg({name: values[name][0] for name in robot.actuated_joint_names})
+        poses = [robot.get_transform(name, root) for name in urdd.names]
+        poses = [(pose[:3, 3], pose[:3, :3]) for pose in poses]
+        difference = max(difference, worst(poses, sample["link_poses"]))
+    return {"poses": difference, "failed": difference > POSE_TOLERANCE}
+
+
+def by_drake(urdd, folder):
+    from pydrake.all import AddMultibodyPlantSceneGraph, DiagramBuilder, Parser
+
+    file = folder / "drake.urdf"
+    text = urdd.export("drake", file)
+    names = named(text)
+    builder = DiagramBuilder()
+    plant, scene = AddMultibodyPlantSceneGraph(builder, 0.001)
+    model = Parser(plant).AddModels(str(file))[0]
+    plant.Finalize()
+    diagram = builder.Build()
+    root = diagram.CreateDefaultContext()
+    context = plant.GetMyMutableContextFromRoot(root)
+    at_root = scene.GetMyContextFromRoot(root)
+    inspector = scene.model_inspector()
+    base = next(name for name in urdd.names if all(joint["child"]["link"] != name for joint in urdd.joints))
+
+    def body(name):
+        return plant.world_body() if name == "world" else plant.GetBodyByName(name, model)
+
+    def place(values):
+        q = plant.GetPositions(context)
+
+        def put(name, of_joint):
+            joint = plant.GetJointByName(name, model)
+            start = joint.position_start()
+            q[start : start + joint.num_positions()] = of_joint[: joint.num_positions()]
+
+        for joint in urdd.joints:
+            kind, value, name = joint["joint_type"], values[joint["name"]], joint["name"]
+            if kind in ("Floating", "Spherical"):
+                for part, v in zip("xyz", value[:-3]):
+                    put(f"{name}/trans_{part}", [v])
+                put(name, rpy_of_matrix(matrix_of_vector(value[-3:])))
+            else:
+                put(name, value)
+        plant.SetPositions(context, q)
+
+    difference = 0.0
+    for sample in urdd.samples:
+        place(urdd.values(sample["configuration"]))
+        back = body(base).EvalPoseInWorld(context).inverse()
+        poses = [back @ body(name).EvalPoseInWorld(context) for name in urdd.names]
+        poses = [(pose.translation(), pose.rotation().matrix()) for pose in poses]
+        difference = max(difference, worst(poses, sample["link_poses"]))
+    total = plant.CalcTotalMass(context, [model])
+    kept = sum(
+        link["inertial"]["mass"]["value"]
+        for link in urdd.links
+        if link["name"] == "world" and link["inertial"] and link["inertial"]["mass"]
+    )
+    name_of = lambda geometry: plant.GetBodyFromFrameId(inspector.GetFrameId(geometry)).name()
+    candidates = {tuple(sorted((name_of(a), name_of(b)))) for a, b in inspector.GetCollisionCandidates()}
+    missed, more, lost, seen = set(), set(), 0, 0
+    for q, expected in urdd.collisions(CONFIGURATIONS // 2):
+        place(urdd.values(q))
+        query = scene.get_query_output_port().Eval(at_root)
+        found = {}
+        for pair in query.ComputePointPairPenetration():
+            key = tuple(sorted((name_of(pair.id_A), name_of(pair.id_B))))
+            found[key] = max(found.get(key, 0.0), pair.depth)
+        links_expected = of_links(expected)
+        seen += len(links_expected)
+        lost += len({pair for pair in links_expected - found.keys() if pair in names})
+        # Drake itself leaves out links that a joint connects, and links that never move against each other.
+        own = lambda pair: pair not in candidates and pair not in names and is_adjacent(urdd, pair)
+        absent, besides = judged(found.keys(), found.get, links_expected, names, own)
+        missed |= {pair for pair in absent if not grazes(urdd, q, pair)}
+        more |= besides
+    said = {
+        "poses": difference,
+        "mass": float(total),
+        "contacts": seen,
+        "lost": lost,
+        "named": len(names),
+        "missed": sorted(missed),
+        "more": sorted(more),
+    }
+    wrong_mass = abs(total - (urdd.mass - kept)) > 1e-9 * max(1.0, urdd.mass)
+    said["failed"] = bool(difference > POSE_TOLERANCE or missed or more or wrong_mass)
+    return said
+
+
+def is_adjacent(urdd, pair):
+    rigid = urdd_rigid(urdd)
+    ends = {rigid[pair[0]], rigid[pair[1]]}
+    joined = [{rigid[joint["parent"]["link"]], rigid[joint["child"]["link"]]} for joint in urdd.joints]
+    return len(ends) == 1 or ends in joined
+
+
+def depths(urdd, folder):
+    """A function of a configuration and two links: how deep MuJoCo finds their pieces in each other, m."""
+    model = mujoco.MjModel.from_xml_path(str(folder / "mujoco.xml"))
+    data = mujoco.MjData(model)
+    geoms = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, geom) for geom in range(model.ngeom)]
+    by_link = {}
+    for geom, name in enumerate(geoms):
+        if name and "/" in name:
+            by_link.setdefault(tuple_of(name)[0], []).append(geom)
+
+    def depth(q, pair):
+        values = urdd.values(q)
+        for joint in range(model.njnt):
+            name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, joint)
+            at, kind = model.jnt_qposadr[joint], model.jnt_type[joint]
+            if kind == mujoco.mjtJoint.mjJNT_BALL:
+                data.qpos[at : at + 4] = quaternion_of_vector(values[name][-3:])
+            elif name in values:
+                data.qpos[at] = values[name][0]
+            else:
+                owner, part = name.rsplit("/", 1)
+                data.qpos[at] = values[owner][{"trans_x": 0, "trans_y": 1, "trans_z": 2, "rot": 2}[part]]
+        mujoco.mj_kinematics(model, data)
+        a, b = (by_link[name] for name in pair)
+        return -min(mujoco.mj_geomDistance(model, data, i, j, 1.0, None) for i in a for j in b)
+
+    return depth
+
+
+def machine_name():
+    lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+    names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.machine()
+
+
+def machine():
+    commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, text=True).stdout.strip()
+    dirty = subprocess.run(["git", "status", "--porcelain", "src"], capture_output=True, text=True).stdout.strip()
+    from importlib.metadata import version
+
+    return {
+        "machine": machine_name(),
+        "cores": os.cpu_count(),
+        "load": os.getloadavg()[0],
+        "commit": commit + ("+" if dirty else ""),
+        "programs": {name: version(name) for name in ("mujoco", "pin", "drake", "yourdfpy")},
+        "configurations": CONFIGURATIONS,
+        "band_m": BAND,
+    }
 
 
 def main():
-    program, paths = sys.argv[1], sys.argv[2:]
+    program, *paths = sys.argv[1:]
+    out = None
+    if "--json" in paths:
+        at = paths.index("--json")
+        out = pathlib.Path(paths[at + 1])
+        del paths[at : at + 2]
+    results = {"run": machine(), "robots": {}}
     failed = False
-    print("| URDD | MuJoCo, poses | contacts (missed, more) | Pinocchio, poses | shapes (PyBullet) | Drake's pairs |")
-    print("|---|---|---|---|---|---|")
     for path in paths:
-        urdd = Urdd(path)
+        urdd = Urdd(program, path)
+        said = {}
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
-            poses, missed, extra, seen = by_mujoco(program, urdd, folder)
-            try:
-                pinocchio, shapes = by_pinocchio(program, urdd, folder)
-                bullet = by_pybullet(folder)
-            except (ValueError, RuntimeError) as error:
-                pinocchio, shapes, bullet = None, str(error).splitlines()[0], "-"
-            try:
-                drake = by_drake(program, urdd, folder)
-                ours, rigid = checked_pairs(program, urdd, folder)
-                drake = {pair for pair in drake if rigid[pair[0]] != rigid[pair[1]]}
-                pairs = f"{len(drake)}, {len(drake ^ ours)} differ"
-                failed |= drake != ours
-            except RuntimeError as error:
-                pairs = str(error).splitlines()[0][:60]
-        failed |= poses > POSE_TOLERANCE or bool(missed or extra)
-        failed |= pinocchio is not None and pinocchio > POSE_TOLERANCE
-        shown = "-" if pinocchio is None else f"{pinocchio:.0e}"
-        print(
-            f"| {urdd.root.name} | {poses:.0e} | {seen} ({len(missed)}, {len(extra)}) | {shown} | {shapes} ({bullet}) | {pairs} |",
-            flush=True,
-        )
-        for pair in sorted(missed | extra):
-            print("   ", "missed" if pair in missed else "more", *pair, file=sys.stderr)
+            for name, ask in (
+                ("mujoco", by_mujoco),
+                ("pinocchio", by_pinocchio),
+                ("yourdfpy", by_yourdfpy),
+                ("drake", by_drake),
+            ):
+                try:
+                    said[name] = ask(urdd, folder)
+                except (ValueError, RuntimeError, KeyError) as error:
+                    said[name] = {"refused": str(error).splitlines()[0].replace(f"{folder}/", "")}
+                if name == "mujoco" and "refused" not in said[name]:
+                    urdd.depth = depths(urdd, folder)
+                print(urdd.root.name, name, json.dumps(said[name]), flush=True)
+                failed |= said[name].get("failed", name in ("mujoco", "drake") or not has_several(urdd))
+        results["robots"][urdd.root.name] = said
+    if out:
+        out.write_text(json.dumps(results, indent=1) + "\n")
     sys.exit(failed)
 
 

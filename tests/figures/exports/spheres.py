@@ -4,7 +4,7 @@
     urdd generate .../ur5/robot.urdf -o ur5 --geometry collision
     python3 tests/figures/exports/spheres.py target/release/urdd ur5 [--spheres 20 ...] [FOLDER ...]
 
-Links are the plain meshes of the URDD. Each `--spheres N` is one export for Foam. Each FOLDER holds spheres by somebody
+Links are the plain meshes of the URDD. Each `--spheres N` is one export for Foam with `--cover`. Each FOLDER holds spheres by somebody
 else in the form that MorphIt saves: LINK_0.json with `centers` and `radii`, metres, in the frame of the link.
 
 Points are drawn evenly in the box about a link and its spheres; a point is in the link where the winding number of the
@@ -110,11 +110,11 @@ def main():
         count = wanted.pop(0)
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "spheres.json"
-            command = [program, "export", "foam", str(urdd), "-o", str(file), "--spheres", count]
+            command = [program, "export", "foam", str(urdd), "-o", str(file), "--cover", "--spheres", count]
             subprocess.run(command, check=True, capture_output=True)
             found = json.loads(file.read_text())["links"]
         as_pairs = lambda of: [(numpy.array(s["origin"]), s["radius"]) for s in of["spheres"]]
-        sets[f"urdd, --spheres {count}"] = {link: as_pairs(of) for link, of in found.items()}
+        sets[f"urdd, --cover --spheres {count}"] = {link: as_pairs(of) for link, of in found.items()}
     common = [link for link in meshes if all(link in lists for lists in sets.values())]
     print(f"{len(common)} links: {', '.join(common)}")
     print("| spheres | number | volume held | surface held | excess | stand-off |")

@@ -12,8 +12,8 @@ For every link with a plain mesh, in millimetres:
 Links count as solid where at least 0.6 of the pieces' volume is inside the link, else as hollow: fat means little on a shell that
 is open. A URDD's figures are the largest `outside` and the means of `fat` over its solid and over its hollow links.
 
-Inside a link: most of 7 rays leave through the back of a triangle (Embree by trimesh). Distances to surfaces are FCL's, of a
-triangle of 1e-9 m. --legacy reads published URDDs of versions 0.0.x, of which the paths are relative to the folder above.
+Inside a link: most of 7 rays leave through the back of a triangle (Embree by trimesh). Distances to surfaces are
+coal's, of a point. --legacy reads published URDDs of versions 0.0.x, of which the paths are relative to the folder above.
 """
 
 import argparse
@@ -21,7 +21,7 @@ import json
 import pathlib
 import sys
 
-import fcl
+import coal
 import numpy as np
 import trimesh
 
@@ -33,22 +33,24 @@ DIRECTIONS = np.array([[1, 0.013, 0.027], [-1, 0.021, 0.017], [0.011, 1, 0.023],
 
 
 class Surface:
+    """Triangles, for the distance of points to the nearest of them."""
+
+    POINT, HERE = coal.Sphere(0.0), coal.Transform3s.Identity()
+
     def __init__(self, triangles):
-        self.bvh = fcl.BVHModel()
         vertices, faces = indexed(triangles)
-        self.bvh.beginModel(len(vertices), len(faces))
-        self.bvh.addSubModel(vertices, faces)
+        self.bvh = coal.BVHModelOBBRSS()
+        self.bvh.beginModel(len(faces), len(vertices))
+        self.bvh.addVertices(vertices)
+        self.bvh.addTriangles(faces.astype(np.int64))
         self.bvh.endModel()
-        self.object = fcl.CollisionObject(self.bvh, fcl.Transform())
-        dot = fcl.BVHModel()
-        dot.beginModel(3, 1)
-        dot.addSubModel(np.eye(3) * 1e-9, np.array([[0, 1, 2]]))
-        dot.endModel()
-        self.dot = fcl.CollisionObject(dot, fcl.Transform())
+        self.request = coal.DistanceRequest()
+        self.request.gjk_tolerance = 1e-9  # of itself 1e-6
 
     def distance(self, point):
-        self.dot.setTranslation(point)
-        return max(fcl.distance(self.object, self.dot, fcl.DistanceRequest(), fcl.DistanceResult()), 0.0)
+        there = coal.Transform3s(np.eye(3), point)
+        found = coal.distance(self.bvh, self.HERE, self.POINT, there, self.request, coal.DistanceResult())
+        return max(found, 0.0)
 
 
 class Link:

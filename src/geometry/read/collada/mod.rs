@@ -20,8 +20,8 @@ pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure>
     let text = decode(bytes, assembly)?;
     let xml = xml::parse(&text, xml::Kind::Other).map_err(|error| {
         let line = error.pos().row as usize;
-        let words = error.words();
-        Fault::malformed(format!("the XML is broken ({words})")).at(|| Place::Line(line))
+        let words = error.words(&text);
+        Fault::malformed(format!("not well-formed XML: {words}")).at(|| Place::Line(line))
     })?;
     let root = xml.root_element();
     if root.tag_name().name() != "COLLADA" {

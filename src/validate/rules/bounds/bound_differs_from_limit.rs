@@ -1,4 +1,4 @@
-use super::LEGACY_WIDENING;
+use super::{LEGACY_WIDENING, columns_agree};
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
@@ -15,7 +15,7 @@ declare_rule! {
     /// others mimic keeps its own limits, and a joint with lower = upper has bounds that are equal. If the
     /// limits have changed in the URDF, write `bounds_module` again.
     BND003 "bound-differs-from-limit", Error, clause "6.5.2", since "0.1.0",
-    phase References, needs [Passed(DOF005), Passed(BND002)],
+    phase References, needs [Passed(DOF005), Passed(BND001)],
     check check,
 }
 
@@ -43,13 +43,13 @@ fn check(context: &Context, findings: &mut Findings) {
             let widened = bounds.v1.is_none() && end == 1 && lower == upper;
             let agree = numbers_agree(limit, bound)
                 || (widened && numbers_agree(limit + LEGACY_WIDENING, bound));
-            if !agree {
+            if !agree && columns_agree(bounds, dof, end) {
                 findings.report(
                     Finding::at(
                         module.file("module.json"),
                         format!("/bounds/{dof}/{end}"),
                         format!(
-                            "this is not the {key} limit of joint {:?}, which DOF {dof} moves",
+                            "DOF {dof}: this is not the {key} limit of joint {:?}",
                             joint.name
                         ),
                     )

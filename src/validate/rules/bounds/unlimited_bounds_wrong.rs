@@ -1,9 +1,6 @@
-use std::f64::consts::PI;
-
-use super::LEGACY_WIDENING;
-use crate::document::dof_layout::describe;
+use super::{LEGACY_WIDENING, columns_agree};
+use crate::document::dof_layout::bounds_without_limits;
 use crate::document::robot::Joint;
-use crate::format::dof::Quantity;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
@@ -21,7 +18,7 @@ declare_rule! {
     /// the joint should have limits, give it some in the URDF. (Legacy modules may repeat what limits the
     /// joint has; only frozen DOFs, and bounds of no known origin, are reported.)
     BND006 "unlimited-bounds-wrong", Error, clause "6.5.3", since "0.1.0",
-    phase References, needs [Passed(DOF005), Passed(BND002)],
+    phase References, needs [Passed(DOF005), Passed(BND001)],
     check check,
 }
 
@@ -41,24 +38,20 @@ fn check(context: &Context, findings: &mut Findings) {
         let Some(joint) = robot.joints.get(joint) else {
             continue;
         };
-        let Some((_, quantity)) = describe(joint.joint_type, place) else {
-            continue;
-        };
         if joint.position_limits().is_some() {
             continue;
         }
-        let right = match quantity {
-            Quantity::Angle => PI,
-            Quantity::Length => 1.0,
+        let Some(ends) = bounds_without_limits(joint.joint_type, place) else {
+            continue;
         };
-        let ends = [-right, right];
         if agree(*pair, ends) {
             continue;
         }
         let file = module.file("module.json");
         let kind = joint.joint_type;
         if bounds.v1.is_none() {
-            if !legacy_copy(*pair, joint) {
+            let is_one = columns_agree(bounds, dof, 0) && columns_agree(bounds, dof, 1);
+            if is_one && !legacy_copy(*pair, joint) {
                 let message = match is_frozen(*pair) {
                     true => format!(
                         "joint {:?} ({kind}, without limits) cannot move within these bounds: write {ends:?}, or give the joint limits in the URDF",
@@ -78,13 +71,13 @@ fn check(context: &Context, findings: &mut Findings) {
             continue;
         }
         for (end, (right, written)) in ends.into_iter().zip(*pair).enumerate() {
-            if !numbers_agree(right, written) {
+            if !numbers_agree(right, written) && columns_agree(bounds, dof, end) {
                 findings.report(
                     Finding::at(
                         &file,
                         format!("/bounds/{dof}/{end}"),
                         format!(
-                            "DOF {dof} moves joint {:?} ({kind}), which nothing limits",
+                            "DOF {dof} of joint {:?} ({kind}) has no limits, and this is not the bound of a DOF without limits",
                             joint.name
                         ),
                     )

@@ -54,7 +54,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 Finding::at(
                     &file,
                     format!("/links_in_chain/{index}/link_idx"),
-                    "`link_idx` is the place in the list",
+                    "`link_idx` is not the link's place in this list",
                 )
                 .expected(index)
                 .actual(link.link_idx),

@@ -62,7 +62,7 @@ fn check(context: &Context, findings: &mut Findings) {
                         module.file("module.json"),
                         pointer,
                         format!(
-                            "by the joints of urdf_module these are not the children of link {index} ({:?})",
+                            "these are not the children of link {index} ({:?}) by the joints of urdf_module",
                             link.name
                         ),
                     )

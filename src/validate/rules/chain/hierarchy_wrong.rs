@@ -53,7 +53,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 Finding::at(
                     &file,
                     format!("/kinematic_hierarchy/{depth}"),
-                    format!("these are not the links {depth} joints away from the root, ascending"),
+                    format!("these are not the links of level {depth} (so many joints from the root), ascending"),
                 )
                 .expected(list(right))
                 .actual(list(&written)),

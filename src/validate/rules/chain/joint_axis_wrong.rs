@@ -49,8 +49,8 @@ fn check(context: &Context, findings: &mut Findings) {
                 None => "null".to_owned(),
             };
             let message = match expected {
-                Some(_) => "has this axis by urdf_module, made a unit vector",
-                None => "has no axis, being of its type; write null",
+                Some(_) => "does not have this axis: write that of urdf_module, as a unit vector",
+                None => "has a type without an axis; write null",
             };
             let finding = Finding::at(
                 module.file("module.json"),

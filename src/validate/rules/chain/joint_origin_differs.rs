@@ -1,6 +1,7 @@
 use nalgebra::Vector3;
 
 use crate::document::pose::rotation_of_quaternion;
+use crate::format::readable::number;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
@@ -43,8 +44,9 @@ fn check(context: &Context, findings: &mut Findings) {
                     module.file("module.json"),
                     format!("/joints_in_chain/{index}/origin/position"),
                     format!(
-                        "joint {index} ({:?}) is {offset:.3e} m from its position in urdf_module",
-                        right.name
+                        "joint {index} ({:?}) is {} m from its position in urdf_module",
+                        right.name,
+                        number(offset, 4)
                     ),
                 )
                 .expected(format!("{:?}", right.origin.xyz))
@@ -70,9 +72,9 @@ fn check(context: &Context, findings: &mut Findings) {
                     right.name
                 ),
                 false => format!(
-                    "joint {index} ({:?}) is turned by {:.3e} rad from its rotation in urdf_module",
+                    "joint {index} ({:?}) is turned by {} rad from its rotation in urdf_module",
                     right.name,
-                    angle_of_distance(distance)
+                    number(angle_of_distance(distance), 4)
                 ),
             };
             findings.report(

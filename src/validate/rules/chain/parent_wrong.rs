@@ -45,7 +45,7 @@ fn check(context: &Context, findings: &mut Findings) {
                         module.file("module.json"),
                         format!("/links_in_chain/{index}/{key}"),
                         format!(
-                            "by the joints of urdf_module this is not the parent of link {index} ({:?})",
+                            "this is not the parent of link {index} ({:?}) by the joints of urdf_module",
                             link.name
                         ),
                     )

@@ -37,7 +37,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     Finding::at(
                         module.file("module.json"),
                         format!("/lowest_common_ancestors/{i}/{j}"),
-                        format!("the root paths of links {i} and {j} part at another link"),
+                        format!("this is not the lowest common ancestor of links {i} and {j}, the last link that their root paths share"),
                     )
                     .expected(right)
                     .actual(written)

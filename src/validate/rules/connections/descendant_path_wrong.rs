@@ -1,5 +1,5 @@
 use super::Tally;
-use super::walk::Ancestors;
+use super::walk::{Ancestors, show_path};
 use crate::document::tree::Tree;
 use crate::format::index::LinkIdx;
 use crate::format::registry::ModuleKind;
@@ -41,7 +41,7 @@ fn check(context: &Context, findings: &mut Findings) {
             tally.wrong(|| {
                 let message = match below {
                     true if i == j => "the path of a link to itself is that link alone".to_owned(),
-                    true => format!("link {j} is below link {i}, by another path"),
+                    true => format!("this is not the path from link {i} down to link {j}"),
                     false => format!("link {j} is not below link {i}; write null"),
                 };
                 let pointer = format!("/link_connection_paths/{i}/{j}{place}");
@@ -63,24 +63,37 @@ fn fault(
     below: bool,
     path: Option<&[LinkIdx]>,
 ) -> Option<(String, String, String)> {
-    let count = |links: usize| format!("{links} links");
-    let length = match i == j {
-        true => 1,
-        false => tree.depth[j].saturating_sub(tree.depth[i]),
-    };
-    let path = match (below, path) {
+    let show =
+        |path: &[LinkIdx]| show_path(&path.iter().map(|link| link.get()).collect::<Vec<_>>());
+    let right = match (below, path) {
         (false, None) => return None,
-        (true, Some(path)) if path.len() == length => path,
-        (true, Some(path)) => return Some((String::new(), count(length), count(path.len()))),
-        (true, None) => return Some((String::new(), count(length), "null".to_owned())),
-        (false, Some(path)) => return Some((String::new(), "null".to_owned(), count(path.len()))),
+        (false, Some(path)) => return Some((String::new(), "null".to_owned(), show(path))),
+        (true, _) => way_down(tree, i, j),
     };
+    let path = match path {
+        Some(path) if path.len() == right.len() => path,
+        Some(path) => return Some((String::new(), show_path(&right), show(path))),
+        None => return Some((String::new(), show_path(&right), "null".to_owned())),
+    };
+    let differ = right.iter().zip(path).enumerate().rev();
+    let mut differ = differ.filter(|(_, (right, written))| **right != written.get());
+    differ.next().map(|(place, (right, written))| {
+        (
+            format!("/{place}"),
+            right.to_string(),
+            written.get().to_string(),
+        )
+    })
+}
+
+/// The links from link `i` (not included, unless it is `j`) down to link `j`.
+fn way_down(tree: &Tree, i: usize, j: usize) -> Vec<usize> {
+    let mut links = vec![j];
     let mut link = j;
-    for (place, written) in path.iter().enumerate().rev() {
-        if written.get() != link {
-            return Some((format!("/{place}"), link.to_string(), written.to_string()));
-        }
-        link = tree.parent_link[link].unwrap_or(link);
+    while let Some(parent) = tree.parent_link[link].filter(|parent| *parent != i && link != i) {
+        links.push(parent);
+        link = parent;
     }
-    None
+    links.reverse();
+    links
 }

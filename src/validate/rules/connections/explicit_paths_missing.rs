@@ -58,7 +58,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     module.file("module.json"),
                     format!("/{name}"),
                     format!(
-                        "the robot has {links} links, and {in_paths} in the paths of all pairs: this table is needed up to {EXPLICIT_UP_TO} links and {LINKS_IN_PATHS_UP_TO} in the paths"
+                        "this table may be null only above {EXPLICIT_UP_TO} links, or where the paths of all pairs have more than {LINKS_IN_PATHS_UP_TO} links; this robot has {links}, and {in_paths} in the paths"
                     ),
                 )
                 .expected(format!("{links} x {links} paths"))

@@ -54,8 +54,7 @@ pub(super) fn path_fault(
         ("joints", length, path.joints.len()),
     ] {
         if right != written {
-            let number = |count: usize| format!("{count} {key}");
-            return Some((format!("/{key}"), number(right), number(written)));
+            return Some((format!("/{key}"), count(right, key), count(written, key)));
         }
     }
     let fault = |key: &str, place: usize, right: usize, written: usize| {
@@ -90,6 +89,25 @@ pub(super) fn path_fault(
     fault("links", up, top, path.links[up].get())
 }
 
+/// A number of `links` or `joints`, in words.
+fn count(number: usize, what: &str) -> String {
+    match number {
+        1 => format!("1 {}", what.trim_end_matches('s')),
+        _ => format!("{number} {what}"),
+    }
+}
+
+/// A path for people: its links where they are few, else the first and last, and how many.
+pub(super) fn show_path(links: &[usize]) -> String {
+    const SHOWN: usize = 8;
+    match links {
+        [first, second, .., last] if links.len() > SHOWN => {
+            format!("[{first}, {second}, ..., {last}] ({} links)", links.len())
+        }
+        _ => format!("{links:?}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,6 +131,17 @@ mod tests {
             links: links.iter().copied().map(LinkIdx).collect(),
             joints: joints.iter().copied().map(JointIdx).collect(),
         }
+    }
+
+    #[test]
+    fn paths_and_counts_in_words() {
+        assert_eq!(count(1, "links"), "1 link");
+        assert_eq!(count(0, "joints"), "0 joints");
+        assert_eq!(show_path(&[1]), "[1]");
+        assert_eq!(show_path(&[]), "[]");
+        assert_eq!(show_path(&[0, 1]), "[0, 1]");
+        let long: Vec<usize> = (3..20).collect();
+        assert_eq!(show_path(&long), "[3, 4, ..., 19] (17 links)");
     }
 
     #[test]

@@ -85,7 +85,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 ROOT_METADATA,
                 format!("{}/{key}", listed.pointer),
                 format!(
-                    "{} is not the file that is described here: bring it back; or, if it is the right one, write again what follows from it and run `urdd rehash`",
+                    "{} does not have the size and SHA-256 that are stated here: restore the file; if it is the right one, write again what follows from it and run `urdd rehash`",
                     listed.file.path
                 ),
             )

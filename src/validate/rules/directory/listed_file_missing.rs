@@ -37,7 +37,7 @@ fn check(context: &Context, findings: &mut Findings) {
             findings,
             "/source/Urdf/path".to_owned(),
             &file.path,
-            "the source URDF is not there: put it into the root folder",
+            "the source URDF is missing: put it into the root folder",
         );
     }
     for entry in entries::all(context) {
@@ -53,7 +53,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     findings,
                     entry.pointer(&format!("files/{place}/path")),
                     &file.path,
-                    "the file is not there: bring it back, or write urdd.json again from what is there",
+                    "the file is missing: restore it, or write urdd.json again from the files that exist",
                 );
             }
         }

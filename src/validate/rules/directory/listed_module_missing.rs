@@ -31,7 +31,7 @@ fn check(context: &Context, findings: &mut Findings) {
         let message = match there {
             Some(EntryKind::Folder | EntryKind::LinkOut) => continue,
             None => format!(
-                "there is no folder {folder}: bring it back, or take the module out of the list"
+                "the folder {folder} is missing: restore it, or remove the module from the list"
             ),
             Some(EntryKind::Link) => {
                 format!("{folder} is a symbolic link: put the folder itself there")

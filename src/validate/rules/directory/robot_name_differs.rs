@@ -35,7 +35,7 @@ fn check(context: &Context, findings: &mut Findings) {
         Finding::at(
             ROOT_METADATA,
             "/robot_name",
-            "urdf_module has another name: write that one here",
+            "this is not the name in urdf_module: write that one here",
         )
         .expected(format!("{:?}", robot.name))
         .actual(format!("{:?}", metadata.robot_name)),

@@ -30,7 +30,7 @@ fn check(context: &Context, findings: &mut Findings) {
         Finding::at(
             ROOT_METADATA,
             "/source/Urdf/path",
-            "the source does not lie in the root folder itself: move it there",
+            "the source URDF is not in the root folder: move it there",
         )
         .actual(&file.path),
     );

@@ -38,7 +38,7 @@ fn check(context: &Context, findings: &mut Findings) {
             ROOT_METADATA,
             "/source",
             format!(
-                "`{}` lies in the root folder, and no source is named: nothing was held to it; name it as the source",
+                "`{}` is in the root folder, but no source is named, so the modules were not compared with it: name it as the source",
                 urdf.path
             ),
         )

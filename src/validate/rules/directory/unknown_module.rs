@@ -39,7 +39,7 @@ fn check(context: &Context, findings: &mut Findings) {
 fn message(folder: &str) -> &'static str {
     let name = folder.rsplit('/').next().unwrap_or(folder);
     if is_extension(name) {
-        "this extension is not checked, because it does not lie in the root: move it there"
+        "this extension is not checked, because it is not in the root folder: move it there"
     } else if name.starts_with("x_") {
         "this module is not checked: the folder of an extension is named x_<vendor>_<name>_module, of lower-case letters, digits and `_`"
     } else {

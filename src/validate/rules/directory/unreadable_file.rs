@@ -65,7 +65,7 @@ fn check(context: &Context, findings: &mut Findings) {
     }
     if context.listing().cut {
         findings.report(Finding::in_directory(format!(
-            "there are more than {MAX_FILES} files, or folders more than {MAX_FOLDER_DEPTH} deep: what is beyond was not looked at"
+            "there are more than {MAX_FILES} files, or folders more than {MAX_FOLDER_DEPTH} deep: the rest was not checked"
         )));
     }
 }

@@ -73,7 +73,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 .get(right.driver)
                 .map(|joint| joint.name.as_str());
             let message = format!(
-                "joint {index} ({:?}) follows joint {} ({:?}) in the end, whose DOF is another",
+                "joint {index} ({:?}) follows joint {} ({:?}) through its mimics, and this is not that joint's DOF",
                 joint.name,
                 right.driver,
                 end.unwrap_or_default()
@@ -90,7 +90,7 @@ fn check(context: &Context, findings: &mut Findings) {
         ] {
             if !numbers_agree(right, written) {
                 let message = format!(
-                    "this is not the {key} with which joint {index} ({:?}) follows",
+                    "this is not the {key} with which joint {index} ({:?}) follows its driver",
                     joint.name
                 );
                 findings.report(

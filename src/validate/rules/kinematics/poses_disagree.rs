@@ -1,6 +1,7 @@
 use nalgebra::Isometry3;
 
 use crate::document::consumer;
+use crate::format::readable::number;
 use crate::format::registry::{ModuleKind, Profile};
 use crate::format::urdf::JointType;
 use crate::kinematics::rotation::canonical;
@@ -116,8 +117,11 @@ fn check(context: &Context, findings: &mut Findings) {
                 file.clone(),
                 format!("/joints_in_chain/{joint}"),
                 format!(
-                    "in configuration {name}, link {:?} (joint {:?}) is {shift:.3e} m and {turn:.3e} rad from where the URDF has it",
-                    robot.links[link].name, robot.joints[joint].name
+                    "in configuration {name}, link {:?} (joint {:?}) is {} m and {} rad from where the URDF has it",
+                    robot.links[link].name,
+                    robot.joints[joint].name,
+                    number(shift, 4),
+                    number(turn, 4)
                 ),
             )
             .expected(describe(expected))

@@ -1,5 +1,6 @@
 use nalgebra::{Isometry3, Quaternion, UnitQuaternion};
 
+use crate::format::readable::number;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::kinematics::ForwardKinematics;
 use crate::kinematics::pose::to_isometry;
@@ -112,9 +113,10 @@ fn check(context: &Context, findings: &mut Findings) {
                         sample.kind
                     ),
                     false => format!(
-                        "in {}, link {name:?} is {shift:.3e} m and {:.3e} rad from where forward kinematics puts it",
+                        "in {}, link {name:?} is {} m and {} rad from where forward kinematics puts it",
                         sample.kind,
-                        angle_of_distance(turn)
+                        number(shift, 4),
+                        number(angle_of_distance(turn), 4)
                     ),
                 };
                 findings.report(

@@ -27,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) {
     });
     if context.module(kind).is_none() && !listed {
         findings.report(Finding::in_directory(
-            "there is no kinematics_samples_module; with it, consumers can test their forward kinematics",
+            "kinematics_samples_module is missing; consumers test their forward kinematics with it",
         ));
     }
 }

@@ -1,17 +1,16 @@
 use super::subject;
-use crate::format::self_collision_model::SampleRange;
+use crate::format::self_collision_model::{EVALUATION_COUNT, EVALUATION_FIRST, SampleRange};
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
-use crate::validate::learned::counts::Found;
 use crate::validate::rule::declare_rule;
 
 declare_rule! {
-    /// The counts of the self-collision model cannot be: they are larger than what they count among, or of
-    /// configurations that it was trained on.
+    /// The counts of the self-collision model cannot be: they are larger than what they count among, or the model was
+    /// made on configurations that the specification keeps for counting.
     ///
     /// Rates on configurations that a model has seen say nothing about those that it has not.
     ///
-    /// Take `training`, `calibration` and `held_out` from different parts of the sequence of SPEC 9.3, and count
+    /// Take `training` and `calibration` from different parts of the sequence of SPEC 9.3, both below 2^31, and count
     /// again.
     LRN009 "model-counts-impossible", Error, clause "8.8.8", since "0.2.0",
     phase References, needs [Version1, Module(Kind::SelfCollisionModel)],
@@ -22,55 +21,72 @@ fn check(context: &Context, findings: &mut Findings) {
     let Some((module, model)) = subject(context) else {
         return;
     };
-    let mut report = |pointer: &str, message: &str, expected: u64, actual: u64| {
-        let finding = Finding::at(module.file("module.json"), pointer, message);
-        findings.report(
-            finding
-                .expected(format!("at most {expected}"))
-                .actual(actual),
-        );
-    };
-    let held_out = &model.held_out;
-    let stated = Found::from(held_out);
-    let (all, colliding) = (stated.configurations, stated.colliding);
-    let (missed, cleared) = (stated.missed, stated.cleared);
-    if colliding > all {
-        let message = "more configurations are in collision than there are";
-        return report("/held_out/num_colliding", message, all, colliding);
+    let stated = &model.evaluation;
+    let all = u64::from(stated.num_colliding.0) + u64::from(stated.num_free.0);
+    if all != u64::from(EVALUATION_COUNT) {
+        let message = "`num_colliding` and `num_free` together are not all configurations";
+        let finding = Finding::at(module.file("module.json"), "/evaluation", message);
+        findings.report(finding.expected(EVALUATION_COUNT).actual(all));
     }
-    if missed > colliding {
-        let message = "more collisions are missed than there are";
-        report("/held_out/num_missed", message, colliding, missed);
-    }
-    if cleared > all - colliding {
-        let message = "more configurations are cleared than are free of collisions";
-        report("/held_out/num_cleared", message, all - colliding, cleared);
-    }
-    let range = |first: u32, count: u32| u64::from(first)..u64::from(first) + u64::from(count);
-    let of = |of: &SampleRange| range(of.first_sample_idx.0, of.num_configurations.0);
-    let ranges = [
-        ("training", of(&model.training)),
-        ("calibration", of(&model.calibration)),
+    for (key, count, what, most) in [
         (
-            "held_out",
-            range(held_out.first_sample_idx.0, held_out.num_configurations.0),
+            "num_missed",
+            stated.num_missed,
+            "num_colliding",
+            stated.num_colliding,
         ),
-    ];
-    for (place, (name, range)) in ranges.iter().enumerate() {
-        let pointer = format!("/{name}");
-        let at = || module.file("module.json");
-        if range.is_empty() {
-            let message = "there is no configuration".to_owned();
-            findings.report(Finding::at(at(), pointer, message));
-        } else if range.end > 1 << 32 {
-            let message = "sampled configurations have numbers below 2^32".to_owned();
-            findings.report(Finding::at(at(), pointer, message));
-        } else if let Some((other, _)) = ranges[..place]
-            .iter()
-            .find(|(_, other)| other.start < range.end && range.start < other.end)
-        {
-            let message = format!("some of these configurations are of `{other}` too");
-            findings.report(Finding::at(at(), pointer, message));
+        (
+            "num_near_contact",
+            stated.num_near_contact,
+            "num_colliding",
+            stated.num_colliding,
+        ),
+        (
+            "num_near_contact_missed",
+            stated.num_near_contact_missed,
+            "num_near_contact",
+            stated.num_near_contact,
+        ),
+        (
+            "num_near_contact_missed",
+            stated.num_near_contact_missed,
+            "num_missed",
+            stated.num_missed,
+        ),
+        (
+            "num_cleared",
+            stated.num_cleared,
+            "num_free",
+            stated.num_free,
+        ),
+    ] {
+        if count.0 > most.0 {
+            let pointer = format!("/evaluation/{key}");
+            let message = format!("this is more than `{what}`");
+            let finding = Finding::at(module.file("module.json"), pointer, message);
+            findings.report(finding.expected(format!("at most {most}")).actual(count));
         }
+    }
+    let range = |of: &SampleRange| {
+        let first = u64::from(of.first_sample_idx.0);
+        first..first + u64::from(of.num_configurations.0)
+    };
+    let (training, calibration) = (range(&model.training), range(&model.calibration));
+    let mut report = |key: &str, message: &str| {
+        let pointer = format!("/{key}");
+        findings.report(Finding::at(module.file("module.json"), pointer, message));
+    };
+    for (key, range) in [("training", &training), ("calibration", &calibration)] {
+        if range.is_empty() {
+            report(key, "it has no configuration");
+        } else if range.end > u64::from(EVALUATION_FIRST) {
+            report(key, "configurations from 2^31 on are kept for counting");
+        }
+    }
+    if training.start < calibration.end && calibration.start < training.end {
+        report(
+            "calibration",
+            "some of these configurations are in `training` too",
+        );
     }
 }

@@ -1,6 +1,7 @@
 //! LRN: the learned self-collision model.
 
 pub mod counts_differ;
+pub mod counts_few;
 pub mod counts_impossible;
 pub mod index_out_of_range;
 pub mod input_wrong;
@@ -31,6 +32,7 @@ pub const RULES: &[&Rule] = &[
     &counts_impossible::RULE,
     &counts_differ::RULE,
     &rates_not_met::RULE,
+    &counts_few::RULE,
 ];
 
 /// What every rule of this family looks at: the module, and what it says.

@@ -16,6 +16,6 @@ declare_rule! {
 
 fn check(_: &Context, findings: &mut Findings) {
     findings.report(Finding::in_directory(
-        "this URDD is from before version 1: it has no urdd.json, and is held to the rules that make sense for it",
+        "this URDD is from before version 1: it has no urdd.json, and is checked by the rules for that format",
     ));
 }

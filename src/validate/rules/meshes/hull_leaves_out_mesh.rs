@@ -2,10 +2,11 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 
+use crate::format::readable::metres;
 use crate::format::registry::ModuleKind;
 use crate::geometry::hull::ConvexHull;
 use crate::validate::context::Context;
-use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::finding::{Finding, Findings, point};
 use crate::validate::part::Part;
 use crate::validate::rule::declare_rule;
 use crate::validate::solids::derived::Derived;

@@ -2,9 +2,10 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 
+use crate::format::readable::metres;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
-use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::finding::{Finding, Findings, point};
 use crate::validate::part::Part;
 use crate::validate::rule::declare_rule;
 use crate::validate::solids::derived::Derived;
@@ -61,7 +62,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 module.file("module.json"),
                 hull.pointer(),
                 format!(
-                    "the hull of {} has a vertex at {} that is no vertex of its mesh: the nearest is {} away",
+                    "the hull of {} has a vertex at {} that is not a vertex of its mesh: the nearest one is {} away",
                     context.link_label(hull.link),
                     point(place),
                     metres(distance)

@@ -51,12 +51,12 @@ fn check(context: &Context, findings: &mut Findings) {
             let mut kinds = shapes("visual", &named.visual);
             kinds.extend(shapes("collision", &named.collision));
             format!(
-                "{label} has geometry in urdf_module ({}) and no mesh here, so no program sees it: make one",
+                "{label} has geometry in urdf_module ({}) but no mesh here, so no program sees it: make one",
                 kinds.join(", ")
             )
         } else {
             format!(
-                "{label} has no geometry in urdf_module that a mesh could be made from, and a mesh here"
+                "{label} has no geometry in urdf_module that a mesh could be made from, but a mesh here"
             )
         };
         findings.report(

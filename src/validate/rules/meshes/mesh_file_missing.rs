@@ -63,9 +63,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     Finding::at(
                         &file,
                         pointer,
-                        format!(
-                            "`{path}` is not there: put the file back, or write the module again"
-                        ),
+                        format!("`{path}` is missing: restore the file, or write the module again"),
                     )
                     .expected("a file")
                     .actual("none"),

@@ -82,7 +82,7 @@ fn formats(context: &Context, meshes: &Meshes, file: &str, findings: &mut Findin
                     file,
                     format!("{entry}/{key}"),
                     format!(
-                        "{} has not the formats of the other meshes: give all meshes of the module as {key}, or none",
+                        "{} does not have the formats of the other meshes: write all meshes of the module as {key}, or none",
                         context.link_label(link)
                     ),
                 )
@@ -131,7 +131,7 @@ fn counts(
                 file,
                 format!("/{key}/{link}"),
                 format!(
-                    "{} has not the same {what} in every format: {}",
+                    "the formats of {} differ in {what}: {}",
                     context.link_label(link),
                     all.join(", ")
                 ),

@@ -38,7 +38,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 format!("; it is the mesh of {}", context.link_label(owner))
             });
         let message = format!(
-            "the mesh of {label} is not its geometry in its place: {}{hint}",
+            "the mesh of {label} is not its geometry in the URDF, at its place: {}{hint}",
             wrong.what
         );
         findings.report(

@@ -54,8 +54,8 @@ fn check(context: &Context, findings: &mut Findings) {
         let label = context.link_label(link);
         let others = others.join(" and ");
         let message = match odd_has {
-            true => format!("{label} has a mesh here, and none in {others}"),
-            false => format!("{label} has no mesh here, and one in {others}"),
+            true => format!("{label} has a mesh here, but none in {others}"),
+            false => format!("{label} has no mesh here, but one in {others}"),
         };
         findings.report(
             Finding::at(module.file("module.json"), meshes.pointer(link), message)

@@ -3,9 +3,10 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
+use crate::format::readable::metres;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
-use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::finding::{Finding, Findings, point};
 use crate::validate::part::Part;
 use crate::validate::solids::derived::Derived;
 use crate::validate::solids::polytope::{Polytope, distinct, step};

@@ -1,10 +1,11 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
+use crate::format::readable::metres;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::geometry::Mesh;
 use crate::validate::context::Context;
-use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::finding::{Finding, Findings, point};
 use crate::validate::part::Part;
 use crate::validate::rule::declare_rule;
 use crate::validate::solids::polytope::{Polytope, step};

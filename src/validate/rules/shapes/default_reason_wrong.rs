@@ -1,6 +1,7 @@
 use crate::document::shape_matrices::{Elements, at, reasons};
 use crate::document::shapes::KINDS;
 use crate::format::link_shapes_simple_skips::SkipReason;
+use crate::format::readable::metres;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::distances::tolerances::Tolerances;
@@ -100,9 +101,10 @@ fn check(context: &Context, findings: &mut Findings) {
                         module.file("module.json"),
                         format!("/reasons/{}/{i}/{j}", kind.name),
                         format!(
-                            "shapes {} and {} are {distance} m apart in the default configuration, and {CONTACT} m or less is contact",
+                            "shapes {} and {} are {} apart in the default configuration, and {CONTACT} m or less is contact",
                             shapes.describe(context, kind, i),
-                            shapes.describe(context, kind, j)
+                            shapes.describe(context, kind, j),
+                            metres(distance)
                         ),
                     )
                     .expected(match stated {

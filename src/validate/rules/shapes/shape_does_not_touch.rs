@@ -1,6 +1,7 @@
+use crate::format::readable::metres;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
-use crate::validate::finding::{Finding, Findings, metres};
+use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
 use crate::validate::views::enclosure::Side;
 use crate::validate::views::judged::enclosures;
@@ -36,9 +37,12 @@ fn check(context: &Context, findings: &mut Findings) {
         let (side, off) = enclosure.fit.off;
         let what = enclosure.of_what(context);
         let message = match side {
-            Side::Round => format!("the sphere is {} off {what} all round", metres(off)),
+            Side::Round => format!(
+                "the sphere is {} away from {what} on all sides",
+                metres(off)
+            ),
             Side::Of(axis, upper) => format!(
-                "the box's side at its own {}{} is {} off {what}",
+                "the box's side at its own {}{} is {} away from {what}",
                 if upper { '+' } else { '-' },
                 ['x', 'y', 'z'].get(axis).copied().unwrap_or_default(),
                 metres(off),
@@ -47,7 +51,7 @@ fn check(context: &Context, findings: &mut Findings) {
         findings.report(
             Finding::at(module.file("module.json"), &enclosure.pointer, message)
                 .expected("a vertex on every side")
-                .actual(format!("{off} m off"))
+                .actual(format!("{} away", metres(off)))
                 .tolerance(enclosure.tolerance)
                 .off_by(off, "m"),
         );

@@ -1,6 +1,7 @@
+use crate::format::readable::metres;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
-use crate::validate::finding::{Finding, Findings, metres, point};
+use crate::validate::finding::{Finding, Findings, point};
 use crate::validate::rule::declare_rule;
 use crate::validate::views::judged::enclosures;
 
@@ -44,7 +45,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 ),
             )
             .expected("every vertex inside")
-            .actual(format!("{away} m outside"))
+            .actual(format!("{} outside", metres(away)))
             .tolerance(enclosure.tolerance)
             .off_by(away, "m"),
         );

@@ -1,5 +1,6 @@
 use crate::document::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
 use crate::document::shapes::KINDS;
+use crate::format::readable::metres;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
@@ -68,7 +69,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 fold.add(|| {
                     let why = match (same_link, pair) {
                         (false, Some(pair)) => {
-                            format!("their largest sampled distance is {} m", pair.max)
+                            format!("their largest sampled distance is {}", metres(pair.max))
                         }
                         _ => "both are on one link".to_owned(),
                     };

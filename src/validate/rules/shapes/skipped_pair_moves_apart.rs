@@ -2,6 +2,7 @@ use std::collections::HashSet;
 
 use crate::document::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
 use crate::document::shapes::{KINDS, ShapeKind, Shapes};
+use crate::format::readable::metres;
 use crate::format::registry::{ModuleDocument, ModuleKind};
 use crate::validate::context::Context;
 use crate::validate::distances::other_reasons::OtherReasons;
@@ -136,10 +137,10 @@ fn check(context: &Context, findings: &mut Findings) {
                     module.file("module.json"),
                     format!("{}/{i}/{j}", skips_pointer(document, kind)),
                     format!(
-                        "shapes {} and {} are skipped, and are in contact in sampled configuration {met} and {most:.3} m \
-                         apart in {parted}",
+                        "shapes {} and {} are skipped, and are in contact in sampled configuration {met} and {} apart in {parted}",
                         shapes.describe(context, kind, i),
-                        shapes.describe(context, kind, j)
+                        shapes.describe(context, kind, j),
+                        metres(*most)
                     ),
                 )
                 .expected(false)

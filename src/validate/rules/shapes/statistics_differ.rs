@@ -1,5 +1,6 @@
 use crate::document::shape_matrices::statistics;
 use crate::document::shapes::KINDS;
+use crate::format::readable::number;
 use crate::format::registry::ModuleKind;
 use crate::validate::context::Context;
 use crate::validate::distances::tolerances::Tolerances;
@@ -102,8 +103,10 @@ fn check(context: &Context, findings: &mut Findings) {
                     let at = distances.find(found, (i, j), is_extreme);
                     let which = match at {
                         Some((sample, _)) => format!(
-                            "; they are {} in sampled configuration {sample}: {extreme} m, and {stated} m is stated",
-                            if nearest { "nearest" } else { "farthest" }
+                            "; they are {} in sampled configuration {sample}: {} m, and {} m is stated",
+                            if nearest { "nearest" } else { "farthest" },
+                            number(extreme, 9),
+                            number(stated, 9)
                         ),
                         None => String::new(),
                     };

@@ -1,5 +1,6 @@
 use super::inertia_not_positive_definite::positive;
 use super::moments;
+use crate::format::readable::number;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -37,12 +38,12 @@ fn check(context: &Context, findings: &mut Findings) {
                 &file,
                 format!("/links/{index}/inertial/inertia"),
                 format!(
-                    "no body has the inertia of link `{}`: its largest principal moment is larger than the sum of the others by {:.2}%",
+                    "link `{}`: no body has this inertia; its largest principal moment is larger than the sum of the others by {:.2} %",
                     link.name,
                     100.0 * excess(moments)
                 ),
             )
-            .expected(format!("at most {:.4e} kg m²", moments[0] + moments[1]))
+            .expected(format!("at most {} kg m²", number(moments[0] + moments[1], 5)))
             .actual(format!("link `{}`: {}", link.name, moments::show(moments)))
             .tolerance(INERTIA_TRIANGLE * moments[2]),
         );

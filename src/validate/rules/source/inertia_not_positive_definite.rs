@@ -51,10 +51,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 Finding::at(
                     &file,
                     format!("/links/{index}/inertial/inertia"),
-                    format!(
-                        "the inertia of link `{}` is not positive definite",
-                        link.name
-                    ),
+                    format!("link `{}`: the inertia is not positive definite", link.name),
                 )
                 .expected("three positive principal moments")
                 .actual(format!("link `{}`: {}", link.name, moments::show(moments)))
@@ -73,12 +70,15 @@ fn check(context: &Context, findings: &mut Findings) {
                     &file,
                     format!("/links/{index}/inertial/inertia"),
                     format!(
-                        "link `{}` is turned by joint `{}`, has mass, and no inertia",
-                        link.name, joint.name
+                        "joint `{}` turns link `{}`, which has mass, but no inertia",
+                        joint.name, link.name
                     ),
                 )
                 .expected("three positive principal moments")
-                .actual(format!("link `{}`: all zero", link.name)),
+                .actual(format!(
+                    "link `{}`: every moment is 0 or missing",
+                    link.name
+                )),
             );
         }
     }

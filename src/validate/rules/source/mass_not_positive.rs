@@ -1,4 +1,5 @@
 use crate::document::robot::Link;
+use crate::format::readable::number;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
 use crate::validate::rule::declare_rule;
@@ -46,18 +47,18 @@ fn check(context: &Context, findings: &mut Findings) {
             told = true;
             let (message, expected) = match fault {
                 Fault::Negative => (
-                    format!("the mass of link `{}` is negative", link.name),
+                    format!("link `{}`: mass is negative", link.name),
                     "a positive mass",
                 ),
                 Fault::InertiaAlone => (
-                    format!("link `{}` has inertia, but no mass", link.name),
-                    "a positive mass, or no inertial",
+                    format!("link `{}` has inertia, but {}", link.name, no_mass(link)),
+                    "a positive mass, or no `<inertial>`",
                 ),
             };
             findings.report(
                 Finding::at(&file, format!("/links/{index}/inertial/mass"), message)
                     .expected(expected)
-                    .actual(format!("link `{}`: {} kg", link.name, mass(link))),
+                    .actual(found(link)),
             );
         }
         let Some(joint) = body.moved_by.and_then(|joint| robot.joints.get(joint)) else {
@@ -66,22 +67,39 @@ fn check(context: &Context, findings: &mut Findings) {
         let stated = links().find(|(_, link)| link.inertial.is_some());
         let weightless = links().all(|(_, link)| mass(link) == 0.0);
         if let (Some((index, link)), true, false) = (stated, weightless, told) {
-            let message = match body.links.len() {
-                1 => format!(
-                    "link `{}` is moved by joint `{}`, and its mass is 0",
-                    link.name, joint.name
-                ),
-                count => format!(
-                    "link `{}` and what is fixed to it ({count} links) are moved by joint `{}`, and have no mass",
-                    link.name, joint.name
-                ),
+            let others = match body.links.len() {
+                1 => String::new(),
+                count => format!(" and what is fixed to it ({count} links)"),
             };
+            let message = format!(
+                "joint `{}` moves link `{}`{others}, but {}",
+                joint.name,
+                link.name,
+                match body.links.len() {
+                    1 => no_mass(link),
+                    _ => "none of them has mass",
+                }
+            );
             findings.report(
                 Finding::at(&file, format!("/links/{index}/inertial/mass"), message)
                     .expected("a positive mass")
-                    .actual(format!("link `{}`: 0 kg", link.name)),
+                    .actual(found(link)),
             );
         }
+    }
+}
+
+fn no_mass(link: &Link) -> &'static str {
+    match link.inertial.and_then(|inertial| inertial.mass) {
+        Some(_) => "its mass is 0",
+        None => "its mass is missing; an `<inertial>` without `<mass>` counts as 0 kg",
+    }
+}
+
+fn found(link: &Link) -> String {
+    match link.inertial.and_then(|inertial| inertial.mass) {
+        Some(mass) => format!("link `{}`: {} kg", link.name, number(mass, 6)),
+        None => format!("link `{}`: mass missing", link.name),
     }
 }
 

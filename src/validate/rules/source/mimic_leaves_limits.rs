@@ -1,3 +1,4 @@
+use crate::format::readable::number;
 use crate::format::urdf::JointType;
 use crate::validate::context::Context;
 use crate::validate::finding::{Finding, Findings};
@@ -57,20 +58,19 @@ fn check(context: &Context, findings: &mut Findings) {
                 &file,
                 format!("/joints/{index}/limit"),
                 format!(
-                    "joint `{}` follows joint `{}`, and leaves its own limits by up to {} where the driver is within its",
+                    "joint `{}` follows joint `{}`, and leaves its own limits by up to {} while the driver is within its limits",
                     joint.name,
                     driver.name,
-                    short(beyond)
+                    number(beyond, 6)
                 ),
             )
-            .expected(format!("joint `{}` within [{}, {}]", joint.name, own.0, own.1))
+            .expected(format!("joint `{}` within {}", joint.name, interval(own)))
             .actual(format!(
-                "[{}, {}] for `{}` from {} to {}",
-                short(range.0),
-                short(range.1),
+                "{} for `{}` from {} to {}",
+                interval(range),
                 driver.name,
-                limits.0,
-                limits.1
+                number(limits.0, 6),
+                number(limits.1, 6)
             ))
             .tolerance(tolerance),
         );
@@ -86,9 +86,8 @@ fn follow(driver: (f64, f64), multiplier: f64, offset: f64) -> (f64, f64) {
     (a.min(b), a.max(b))
 }
 
-/// A number to six digits, for people.
-fn short(number: f64) -> f64 {
-    format!("{number:.5e}").parse().unwrap_or(number)
+fn interval((lower, upper): (f64, f64)) -> String {
+    format!("[{}, {}]", number(lower, 6), number(upper, 6))
 }
 
 #[cfg(test)]
@@ -100,6 +99,5 @@ mod tests {
         assert_eq!(follow((-1.0, 2.0), -0.5, 0.25), (-0.75, 0.75));
         assert_eq!(follow((-1.0, 2.0), 2.0, 0.0), (-2.0, 4.0));
         assert_eq!(follow((-1.0, 2.0), 0.0, 0.5), (0.5, 0.5));
-        assert_eq!(short(0.1 + 0.2), 0.3);
     }
 }

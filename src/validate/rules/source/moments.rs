@@ -2,6 +2,8 @@
 
 use nalgebra::Matrix3;
 
+use crate::format::readable::number;
+
 /// The principal moments of a tensor (xx, xy, xz, yy, yz, zz), ascending.
 pub(super) fn principal([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> [f64; 3] {
     // Brought to the size of 1 first: numbers near the ends of binary64 would not survive squaring.
@@ -21,10 +23,10 @@ pub(super) fn principal([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> [f64; 3] {
 pub(super) fn show(moments: [f64; 3]) -> String {
     let largest = moments.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
     let shown = moments.map(|moment| match moment.abs() > 1e-14 * largest {
-        true => format!("{moment:.4e}"),
+        true => number(moment, 5),
         false => "0".to_owned(),
     });
-    format!("principal moments {}", shown.join(", "))
+    format!("principal moments {} kg m²", shown.join(", "))
 }
 
 #[cfg(test)]

@@ -28,7 +28,7 @@ fn check(context: &Context, findings: &mut Findings) {
             Finding::in_file(
                 &carried.path,
                 format!(
-                    "a second `<{}>` in a `<{}>`: the first counts",
+                    "a second `<{}>` in a `<{}>`: only the first counts; remove one of them",
                     again.element, again.parent
                 ),
             )

@@ -40,7 +40,7 @@ fn check(context: &Context, findings: &mut Findings) {
         0 if robot.links.is_empty() => "the robot has no link".to_owned(),
         // Without any root all links are in circles: URD006 reports these.
         0 | 1 => return,
-        _ => "the robot falls into parts: connect these links by joints".to_owned(),
+        _ => "the links are not one tree: connect these links by joints".to_owned(),
     };
     findings.report(
         Finding::at(file, "/links", message)

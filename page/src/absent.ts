@@ -1,0 +1,36 @@
+/** Meshes that the URDF names and the URDD does not have, and what is drawn of their links. */
+
+import type { Engine } from "./engine/client";
+import type { SourceShape } from "./engine/protocol";
+import type { RobotModel } from "./model";
+
+export interface AbsentMesh {
+  link: number;
+  geometry: "Visual" | "Collision";
+  /** As the URDF says it. */
+  filename: string;
+  /** How many visual elements of the link are there. */
+  others: number;
+}
+
+export async function absentMeshes(engine: Engine, robot: RobotModel): Promise<AbsentMesh[]> {
+  // A legacy URDD, or one whose URDF cannot be read: nobody knows what it names. Findings tell of that.
+  const sources = await engine.ask("sources", {}).catch(() => []);
+  const files = new Set(robot.files.map(({ path }) => path));
+  const isAbsent = ({ shape, path }: SourceShape): boolean =>
+    shape?.Mesh !== undefined && (path === null || !files.has(path));
+  const there = sources.filter((shape) => shape.geometry === "Visual" && shape.shape !== null && !isAbsent(shape));
+  return sources.filter(isAbsent).map(({ link, geometry, shape }) => ({
+    link,
+    geometry,
+    filename: shape?.Mesh?.filename ?? "",
+    others: there.filter((other) => other.link === link).length,
+  }));
+}
+
+/** What is drawn in the place of a mesh. */
+export function drawnInstead(robot: RobotModel, { link, geometry, others }: AbsentMesh): string {
+  if (geometry === "Collision") return "collision geometry";
+  if ((robot.about.meshes.plain?.[link]?.length ?? 0) === 0) return "nothing is drawn";
+  return others > 0 ? "the rest of the link is drawn" : "its collision geometry is drawn instead";
+}

@@ -1,0 +1,221 @@
+/** The address and the page follow each other: links open views, Back and Forward go between them. */
+
+import type { App } from "./app";
+import { message } from "./app";
+import type { RobotSource } from "./engine/protocol";
+import * as fragment from "./fragment";
+import { untilMade } from "./making";
+import { unknown } from "./model";
+import type { Entry } from "./model";
+import type { Stage } from "./stage";
+import { CHOOSES_PAIRS, initial, LAYERS, OVERLAYS } from "./state";
+import type { State } from "./state";
+import { keepToken } from "./token";
+
+/** Quiet time after a change before the address is written, ms. */
+const QUIET = 400;
+
+export class Address {
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  /** The fragment that the page shows. */
+  private shown = "";
+  /** Counts what was gone to, so that only the last arrives. */
+  private turn = 0;
+
+  constructor(
+    private readonly app: App,
+    private readonly stage: Stage | null,
+  ) {
+    const later = (): void => {
+      clearTimeout(this.timer);
+      this.timer = setTimeout(() => {
+        const { robot, loading } = app.store.now;
+        if (robot && !loading) this.put(this.current(), false);
+      }, QUIET);
+    };
+    app.store.on(
+      ["robot", "q", "tab", "selected", "layers", "overlays", "frameSize", "hidden", "pair", "shapes"],
+      later,
+    );
+    stage?.view.moved.push(later);
+    const follow = (): void => {
+      if (location.hash !== this.shown) void this.follow();
+    };
+    addEventListener("popstate", follow);
+    addEventListener("hashchange", follow);
+  }
+
+  /** Opens a robot of the list, as another step of the history. */
+  async open(entry: Entry): Promise<void> {
+    this.put(fragment.write({ ...fragment.read(""), robot: entry.id }), true);
+    await this.read(entry);
+  }
+
+  /** Leaves the robot: the address names none any more. */
+  leave(): void {
+    this.turn++;
+    this.put("", true);
+    this.app.close();
+  }
+
+  /** Opens files that were dropped or chosen: no address leads to them. */
+  async openFiles(files: () => Promise<RobotSource>): Promise<void> {
+    this.leave();
+    const { turn } = this;
+    const { store } = this.app;
+    store.set({ loading: { what: "files", done: 0, of: 0 } });
+    try {
+      const source = await files();
+      if (turn === this.turn) await this.app.open({ ...unknown(source.name), id: "" }, source);
+    } catch (error) {
+      if (turn === this.turn) store.set({ loading: null, failure: message(error) });
+    }
+  }
+
+  /** A link to the view, which opens in other tabs and browsers too. */
+  link(): string {
+    const { site } = this.app;
+    const words = [site.token === null ? "" : `token=${site.token}`, this.current()].filter(Boolean);
+    return `${location.href.split("#")[0] ?? ""}#${words.join("&")}`;
+  }
+
+  /** Shows what the address asks for. */
+  async follow(): Promise<void> {
+    clearTimeout(this.timer);
+    const turn = ++this.turn;
+    const { app } = this;
+    const shared = fragment.read(location.hash);
+    const { robot } = app.store.now;
+    if (shared.token === null && robot && robot.entry.id !== "" && robot.entry.id === shared.robot) {
+      // Another state of the open robot: nobody has to be asked.
+      this.put(fragment.write(shared), false);
+      this.apply(shared);
+      return;
+    }
+    try {
+      // The list is read with the link's token first: one that the server does not know replaces none that it does.
+      const entries = await app.site.known(shared.token);
+      if (turn !== this.turn) return;
+      keepToken(app.site.token);
+      app.store.set({ entries });
+      this.put(fragment.write(shared), false);
+      await this.show(shared, turn);
+    } catch (error) {
+      if (turn !== this.turn) return;
+      // The token stays out of sight in any case.
+      this.put(fragment.write(shared), false);
+      app.close();
+      app.store.set({ failure: message(error) });
+    }
+  }
+
+  private async show(shared: fragment.Shared, turn: number): Promise<void> {
+    const { app } = this;
+    const { entries, robot } = app.store.now;
+    const asked = entries.find((entry) => entry.id === shared.robot);
+    const one = asked ?? (entries.length === 1 ? entries[0] : undefined);
+    if (shared.robot !== null && !asked) app.note(`There is no robot ${shared.robot} here.`);
+    if (entries.some(({ making, failure }) => making !== null || failure !== null)) {
+      app.close();
+      const made = await untilMade(app, one?.id ?? null);
+      if (made && turn === this.turn) await this.read(made, shared);
+    } else if (!one) app.close();
+    else if (robot?.entry.id === one.id) this.apply(shared);
+    else await this.read(one, shared);
+  }
+
+  /** Reads a robot, and shows of it what a link asks for. */
+  private async read(entry: Entry, shared: fragment.Shared | null = null): Promise<void> {
+    const turn = ++this.turn;
+    const { app, stage } = this;
+    try {
+      app.store.set({ failure: null, loading: { what: "the list of files", done: 0, of: 0 } });
+      const source = await app.site.source(entry);
+      if (turn !== this.turn) return;
+      // Layers and the camera are there before the first picture.
+      if (shared) app.store.set(looks(shared));
+      if (stage) stage.from = shared?.camera?.length === 6 ? shared.camera : null;
+      if ((await app.open(entry, source)) && shared && turn === this.turn) this.apply(shared);
+    } catch (error) {
+      if (turn === this.turn) app.store.set({ loading: null, failure: message(error) });
+    }
+  }
+
+  /** Shows what a link says of the open robot; what it does not say is as at the beginning. */
+  private apply(shared: fragment.Shared): void {
+    const { app, stage } = this;
+    const { robot } = app.store.now;
+    if (!robot) return;
+    const known = (link: number): boolean => link < robot.links.length;
+    const link = shared.selected === null ? -1 : robot.link(shared.selected);
+    const joint = shared.joint === null ? -1 : robot.joints.findIndex(({ name }) => name === shared.joint);
+    const { tab } = looks(shared);
+    const shapes = shared.shapes ?? initial().shapes;
+    if (shapes !== app.store.now.shapes) app.useShapes(shapes);
+    app.store.set({
+      ...looks(shared),
+      failure: null,
+      selected: link >= 0 ? { kind: "link", index: link } : joint >= 0 ? { kind: "joint", index: joint } : null,
+      hidden: new Set((shared.hidden ?? []).filter(known)),
+      pair: CHOOSES_PAIRS.has(tab) && shared.pair?.every(([link]) => known(link)) ? shared.pair : null,
+    });
+    const q = shared.q?.length === robot.dofs.length ? shared.q : robot.about.zero;
+    if (shared.q && q !== shared.q) app.note("The link is of another version of this robot: it has other joints.");
+    if (q) app.move(q);
+    if (shared.camera?.length === 6) stage?.place(shared.camera);
+    if (app.store.now.tab === "Findings") void app.loadReport();
+  }
+
+  /** What is shown, as a fragment. */
+  private current(): string {
+    const { robot, q, tab, selected, layers, overlays, hidden, pair, shapes, frameSize } = this.app.store.now;
+    // Nobody can open files that were dropped by an address.
+    if (!robot || robot.entry.id === "") return "";
+    const link = selected?.kind === "link" ? robot.links[selected.index] : undefined;
+    const joint = selected?.kind === "joint" ? robot.joints[selected.index] : undefined;
+    const zero = robot.about.zero?.every((value, dof) => value === q[dof]) ?? true;
+    const onlyOriginal = LAYERS.every((layer) => layers[layer].on === (layer === "original"));
+    const begin = initial();
+    const over = OVERLAYS.filter((kind) => overlays[kind]);
+    const camera = this.stage?.view.camera.position.toArray();
+    return fragment.write({
+      robot: robot.entry.id,
+      q: zero ? null : q,
+      tab: tab === begin.tab ? null : tab,
+      selected: link?.name ?? null,
+      joint: joint?.name ?? null,
+      hidden: hidden.size > 0 ? [...hidden] : null,
+      pair,
+      shapes: shapes === begin.shapes ? null : shapes,
+      layers: onlyOriginal && layers.original.opacity === 1 ? null : layers,
+      overlays: OVERLAYS.every((kind) => overlays[kind] === begin.overlays[kind]) ? null : over,
+      frameSize,
+      camera: camera && this.stage ? [...camera, ...this.stage.view.controls.target.toArray()] : null,
+      token: null,
+    });
+  }
+
+  /** Writes the address: as another step of the history, or in the place of this one. */
+  private put(words: string, step: boolean): void {
+    clearTimeout(this.timer);
+    const url = words === "" ? location.pathname + location.search : `#${words}`;
+    try {
+      if (step && location.hash !== (words === "" ? "" : `#${words}`)) history.pushState(null, "", url);
+      else history.replaceState(null, "", url);
+    } catch {
+      // A frame without an address of its own, as in a notebook.
+    }
+    this.shown = location.hash;
+  }
+}
+
+/** What a link says of the panels and the picture. */
+function looks(shared: fragment.Shared): Pick<State, "tab" | "layers" | "overlays" | "frameSize"> {
+  const begin = initial();
+  const layers = { ...begin.layers };
+  if (shared.layers)
+    for (const layer of LAYERS) layers[layer] = shared.layers[layer] ?? { ...layers[layer], on: false };
+  const overlays = { ...begin.overlays };
+  if (shared.overlays) for (const kind of OVERLAYS) overlays[kind] = shared.overlays.includes(kind);
+  return { tab: shared.tab ?? begin.tab, layers, overlays, frameSize: shared.frameSize };
+}

@@ -1,0 +1,31 @@
+/** A few lines of a text about a place in it. */
+
+/** Lines before and after, and characters of a line that are shown. */
+const AROUND = 2;
+const WIDTH = 160;
+
+export interface Excerpt {
+  lines: { number: number; text: string; isPlace: boolean }[];
+}
+
+/** `line` and `column` are counted from 1, columns in characters. Null where the text has no such line. */
+export function excerpt(text: string, line: number, column: number | null): Excerpt | null {
+  const all = text.split(/\r\n|\n|\r/);
+  if (line < 1 || line > all.length) return null;
+  const first = Math.max(1, line - AROUND);
+  const lines = all.slice(first - 1, line + AROUND).map((text, k) => {
+    const isPlace = first + k === line;
+    return { number: first + k, text: cut(text, isPlace ? (column ?? 1) : 1), isPlace };
+  });
+  while (lines.at(-1)?.text === "" && lines.at(-1)?.isPlace === false) lines.pop();
+  return { lines };
+}
+
+/** What a long line holds about a column: documents may be one line. */
+function cut(text: string, column: number): string {
+  const chars = Array.from(text);
+  if (chars.length <= WIDTH) return text;
+  const start = Math.max(0, Math.min(column - 1 - WIDTH / 4, chars.length - WIDTH));
+  const end = start + WIDTH;
+  return (start > 0 ? "…" : "") + chars.slice(start, end).join("") + (end < chars.length ? "…" : "");
+}

@@ -1,0 +1,61 @@
+/** Beside the robot: which meshes were not found, and what is drawn in their place. */
+
+import { drawnInstead } from "../absent";
+import type { App } from "../app";
+import { fill, h } from "../ui/dom";
+import { count, name } from "../ui/format";
+
+/** Meshes that are named before the rest is counted. */
+const MOST = 40;
+
+export function absent(app: App): HTMLElement {
+  const title = h("summary", {});
+  const list = h("ul", {});
+  const more = h("p", { class: "hint" });
+  const away = h("button", { type: "button", class: "tiny", "aria-label": "Close the list of missing meshes" }, "✕");
+  const details = h("details", {}, title, list, more);
+  const element = h("div", { class: "absent", role: "status", hidden: true }, details, away);
+  away.addEventListener("click", () => {
+    element.hidden = true;
+  });
+  app.store.on(["robot", "absent"], ({ robot, absent }) => {
+    element.hidden = !robot || absent.length === 0;
+    if (!robot || absent.length === 0) return;
+    const links = new Set(absent.map(({ link }) => link));
+    fill(title, `${count(absent.length, "mesh was", "meshes were")} not found, of ${count(links.size, "link")}`);
+    fill(
+      list,
+      ...absent.slice(0, MOST).map((mesh) => {
+        const link = h("button", { type: "button", class: "place" }, name(robot.links[mesh.link]?.name ?? ""));
+        link.addEventListener("click", () => {
+          app.select({ kind: "link", index: mesh.link });
+        });
+        return h(
+          "li",
+          {},
+          link,
+          ": ",
+          h("code", {}, name(mesh.filename)),
+          h("span", {}, `; ${drawnInstead(robot, mesh)}`),
+        );
+      }),
+    );
+    more.textContent = absent.length > MOST ? `and ${absent.length - MOST} more` : "";
+  });
+  return element;
+}
+
+/** In the header: the same, in short. */
+export function absentChip(app: App, n: number): Node | null {
+  if (n === 0) return null;
+  const chip = h("button", { type: "button", class: "chip warning" }, `${count(n, "mesh", "meshes")} not found`);
+  chip.title = "Which meshes, and what is drawn instead";
+  chip.addEventListener("click", () => {
+    for (const box of document.querySelectorAll<HTMLElement>(".absent")) {
+      box.hidden = false;
+      for (const details of box.querySelectorAll("details")) details.open = true;
+    }
+    app.showOnly("original");
+  });
+  return chip;
+}

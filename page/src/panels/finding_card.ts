@@ -1,0 +1,144 @@
+/** A finding: what is wrong, its places with what was expected and found, the text there, and what the rule means. */
+
+import type { App } from "../app";
+import { message } from "../app";
+import type { Finding } from "../engine/protocol";
+import { excerpt } from "../excerpt";
+import { CONSEQUENCES, linkOf, places } from "../findings";
+import type { Place } from "../findings";
+import { fill, h, prose } from "../ui/dom";
+import { count, name } from "../ui/format";
+
+/** Places of a finding that are shown at first, and with each step. */
+const SHOWN = 5;
+const MORE = 50;
+
+export function card(app: App, finding: Finding): HTMLElement {
+  const explanation = h("div", { class: "explanation" });
+  const button = h("button", { type: "button", class: "tiny" }, "Explain");
+  button.addEventListener("click", () => {
+    void explain(app, finding.code, explanation);
+  });
+  const consequence = CONSEQUENCES.get(String(finding["consequence"]));
+  return h(
+    "article",
+    { class: `finding ${finding.severity}` },
+    h(
+      "div",
+      { class: "heading" },
+      h("span", { class: `dot ${finding.severity}` }),
+      h("strong", {}, finding.code),
+      h("span", { class: "name", title: finding.name }, finding.name),
+      h("span", { class: "spring" }),
+      button,
+    ),
+    h("p", {}, ...prose(name(finding.message))),
+    h("p", { class: "hint" }, [consequence, count(finding.count, "place")].filter(Boolean).join(" · ")),
+    placeList(app, finding),
+    explanation,
+  );
+}
+
+function placeList(app: App, finding: Finding): HTMLElement {
+  const all = places(finding);
+  const list = h("ul", { class: "places" });
+  const more = h("button", { type: "button", class: "tiny" });
+  const last = h("li", {}, more);
+  let shown = 0;
+  const show = (n: number): void => {
+    for (const place of all.slice(shown, n)) last.before(placeRow(app, place));
+    shown = Math.min(n, all.length);
+    const left = all.length - shown;
+    more.hidden = left === 0;
+    more.textContent = `Show ${Math.min(left, MORE)} more of ${count(finding.count, "place")}`;
+    const cut = finding.count - all.length;
+    last.hidden = left === 0 && cut <= 0;
+    if (left === 0 && cut > 0)
+      fill(
+        last,
+        h("span", { class: "hint" }, `${count(cut, "place")} more ${cut === 1 ? "is" : "are"} not in the report`),
+      );
+  };
+  more.addEventListener("click", () => {
+    show(shown + MORE);
+  });
+  list.append(last);
+  show(SHOWN);
+  return list;
+}
+
+function placeRow(app: App, place: Place): HTMLElement {
+  const { robot } = app.store.now;
+  const link = robot ? linkOf(robot, place) : null;
+  const where = place.file ? `${place.file}${place.line ? `:${place.line}` : ""}` : null;
+  const texts = [place.subject, where, place.pointer].filter((text): text is string => Boolean(text));
+  const go = h("button", { type: "button", class: "place", title: texts.map(name).join("\n") });
+  fill(go, ...prose(name(texts[0] ?? "the URDD as a whole")));
+  const text = h("div", { class: "excerpt", hidden: true });
+  go.addEventListener("click", () => {
+    if (link !== null) app.select({ kind: "link", index: link });
+    if (place.file !== null && place.line !== null) void showText(app, place.file, place.line, place.column, text);
+  });
+  if (place.line !== null) go.setAttribute("aria-expanded", "false");
+  if (link === null && place.line === null) go.disabled = true;
+  return h(
+    "li",
+    {},
+    go,
+    place.subject && where && h("span", { class: "kind" }, ` ${name(where)}`),
+    place.message && h("span", { class: "what" }, ...prose(name(place.message))),
+    (place.expected ?? place.actual) !== null &&
+      h(
+        "dl",
+        {},
+        place.expected !== null && h("dt", {}, "expected"),
+        place.expected !== null && h("dd", {}, name(place.expected)),
+        place.actual !== null && h("dt", {}, "found"),
+        place.actual !== null && h("dd", {}, name(place.actual)),
+      ),
+    text,
+  );
+}
+
+/** The lines about a place; a second click takes them away. */
+async function showText(app: App, path: string, line: number, column: number | null, into: HTMLElement): Promise<void> {
+  const button = into.parentElement?.querySelector(".place");
+  into.hidden = !into.hidden;
+  button?.setAttribute("aria-expanded", String(!into.hidden));
+  if (into.hidden || into.childElementCount > 0) return;
+  try {
+    const text = new TextDecoder().decode(await app.engine.ask("file", { path }));
+    const found = excerpt(text, line, column);
+    if (!found) throw new Error("the file has no such line any more");
+    fill(
+      into,
+      ...found.lines.map(({ number, text, isPlace }) =>
+        h(
+          "div",
+          { class: isPlace ? "line at" : "line" },
+          h("span", { class: "number" }, String(number)),
+          h("code", {}, name(text)),
+        ),
+      ),
+    );
+  } catch (error) {
+    fill(into, h("p", { class: "hint" }, `The text cannot be shown: ${message(error)}`));
+  }
+}
+
+async function explain(app: App, code: string, into: HTMLElement): Promise<void> {
+  if (into.childElementCount > 0) {
+    fill(into);
+    return;
+  }
+  try {
+    const rule = app.site.explanation(code) ?? (await app.engine.ask("explain", { code }));
+    fill(
+      into,
+      h("p", { class: "hint" }, `SPEC ${rule.clause}`),
+      ...rule.explanation.split("\n\n").map((text) => h("p", {}, ...prose(text))),
+    );
+  } catch (error) {
+    fill(into, h("p", { class: "hint" }, message(error)));
+  }
+}

@@ -1,0 +1,22 @@
+/** Light along the outline of what is drawn: a dark robot stands out from a dark ground. */
+
+import { Color } from "three";
+import type { MeshLambertMaterial } from "three";
+
+const rim = { value: new Color(0) };
+
+export function rimColor(color: string): void {
+  rim.value.set(color);
+}
+
+/** The same material with the light of the outline. */
+export function rimmed(material: MeshLambertMaterial): MeshLambertMaterial {
+  material.onBeforeCompile = (shader): void => {
+    shader.uniforms["rim"] = rim;
+    shader.fragmentShader = `uniform vec3 rim;\n${shader.fragmentShader.replace(
+      "#include <opaque_fragment>",
+      "outgoingLight += rim * (0.09 + pow(1.0 - abs(dot(normalize(normal), normalize(vViewPosition))), 2.0));\n#include <opaque_fragment>",
+    )}`;
+  };
+  return material;
+}

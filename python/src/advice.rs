@@ -1,0 +1,158 @@
+//! Messages whose advice is for the command line, with advice for Python in its place: by the error, never by its words.
+
+use urdd::combine::{CombineError, PartFault};
+use urdd::directory::staging::StagingError;
+use urdd::export::ExportError;
+use urdd::format::escape::line;
+use urdd::generate::fault::Fault;
+use urdd::generate::{EditsFault, GenerateError};
+use urdd::robot::RobotError;
+
+/// Where there is more to read.
+pub const SAYS_MORE: &str = "urdd.validate(path) says more";
+
+/// Lines that are shown of a list, at most; an error's `places` has all.
+const MAX_SHOWN: usize = 5;
+
+/// What is wrong with a robot that is asked something.
+pub fn of_robot(error: &RobotError) -> String {
+    match error {
+        RobotError::Missing(module) => {
+            let name = module.name();
+            let short = name.strip_suffix("_module").unwrap_or(name);
+            format!(
+                "{name} is missing: make it with urdd.generate(urdf, folder, modules=[\"{short}\"])"
+            )
+        }
+        RobotError::Unusable { module, reason } => {
+            format!("{}: {reason}: {SAYS_MORE}", module.name())
+        }
+        RobotError::MotionOpen => {
+            format!("the modules do not say how the joints move: {SAYS_MORE}")
+        }
+        error => error.to_string(),
+    }
+}
+
+/// Why a URDD cannot be made.
+pub fn of_generate(error: &GenerateError) -> String {
+    match error {
+        GenerateError::Refused { file, faults } => {
+            let file = line(file);
+            let each = faults.iter().map(|placed| {
+                let fault = of_fault(&placed.fault);
+                format!("{file}:{}:{}: {}", placed.line, placed.column, line(&fault))
+            });
+            shown(each)
+        }
+        GenerateError::Outside { file, meshes } => {
+            let file = line(file);
+            let each = meshes.iter().map(|mesh| {
+                let (name, path) = (line(&mesh.name), mesh.path.display().to_string());
+                let words = "lies outside of the folders of the robot and its packages, at";
+                let at = format!("{file}:{}:{}", mesh.line, mesh.column);
+                format!("{at}: mesh `{name}` {words} {}", line(&path))
+            });
+            let words = "a URDD carries its meshes, and a URDF must not make you publish other files; where these are \
+                meant, give their folder: allowed_folders=[folder], or packages={name: folder}";
+            format!("{}\n{file}: {words}", shown(each))
+        }
+        GenerateError::Strict { notes } => {
+            let words = "nothing was written: with strict=True, nothing that changes the robot may be assumed";
+            format!("{}\n{words}", shown(notes.iter().map(ToString::to_string)))
+        }
+        GenerateError::Edits { file, at, fault } => {
+            let at = at.map_or_else(String::new, |at| format!(":{at}"));
+            let words = "the edits of skips there are a person's, and a new run would lose them. Correct the file, or \
+                drop all its edits: drop_edits=True";
+            format!("{}{at}: {}; {words}", file.display(), of_edits(fault))
+        }
+        GenerateError::Geometry { file, reason } => format!(
+            "{file}: {reason}; fix the mesh, or leave out the distances: modules=[\"geometry\"]"
+        ),
+        GenerateError::Write(StagingError::Occupied { path }) => format!(
+            "{}: this folder is not empty, and no URDD that urdd.generate wrote; give another one, or force=True to \
+             write there (files of other names stay)",
+            path.display()
+        ),
+        error => error.to_string(),
+    }
+}
+
+/// Why robots cannot be put together.
+pub fn of_combine(error: &CombineError) -> String {
+    match error {
+        CombineError::Generate { id, error } => {
+            let part = id.as_ref().map(|id| format!("part `{}`: ", line(id)));
+            format!("{}{}", part.unwrap_or_default(), of_generate(error))
+        }
+        CombineError::Part {
+            id,
+            source_path,
+            fault: PartFault::Fails { codes },
+        } => {
+            let part = match id.is_empty() {
+                true => String::new(),
+                false => format!("part `{}`: ", line(id)),
+            };
+            format!(
+                "{part}{}: it does not pass urdd.validate: {}; correct it, or take it as it is: force=True",
+                line(source_path),
+                codes.join(", ")
+            )
+        }
+        error => error.to_string(),
+    }
+}
+
+/// Why a robot cannot be exported.
+pub fn of_export(error: &ExportError) -> String {
+    match error {
+        ExportError::NoTree => {
+            format!("the joints form no tree with one root: {SAYS_MORE}")
+        }
+        error => error.to_string(),
+    }
+}
+
+/// What is wrong with a source.
+pub fn of_fault(fault: &Fault) -> String {
+    let leave_out = "leave out what is made of meshes: modules=[\"core\"]";
+    match fault {
+        Fault::TooManyTriangles { link, found, limit } => format!(
+            "the shapes of link `{link}` have {found} triangles, and URDDs are made of up to {limit} a link; make its \
+             meshes coarser, or {leave_out}"
+        ),
+        Fault::TooManyTrianglesInAll { limit } => format!(
+            "the shapes of all links have more than {limit} triangles, which is the most that URDDs are made of; make \
+             the meshes coarser, or {leave_out}"
+        ),
+        Fault::Unresolved { link } => format!(
+            "link `{link}`: its shape is too thin, or too far from the link's frame, for the 32-bit numbers of mesh \
+             files; check its units and origin, or {leave_out}"
+        ),
+        fault => fault.to_string(),
+    }
+}
+
+/// Why edits would be lost.
+pub fn of_edits(fault: &EditsFault) -> String {
+    match fault {
+        EditsFault::NotAskedFor(count) => format!(
+            "it holds {count} edit{}, and the modules asked for leave out link_shapes_skips_module; add \
+             \"link_shapes_skips\" to modules",
+            if *count == 1 { "" } else { "s" }
+        ),
+        fault => fault.to_string(),
+    }
+}
+
+/// The first lines, and how many more there are.
+fn shown(lines: impl ExactSizeIterator<Item = String>) -> String {
+    let more = lines.len().saturating_sub(MAX_SHOWN);
+    let mut lines: Vec<String> = lines.take(MAX_SHOWN).collect();
+    if more > 0 {
+        lines.push(format!("and {more} more"));
+    }
+    lines.join("\n")
+}

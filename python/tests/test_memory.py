@@ -1,0 +1,109 @@
+"""More than there is memory for is a `MemoryError`, as numpy raises, and the robot answers after it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+import urdd
+
+#: Each asks for more than the 700 MB that are left, or than any memory: in one process, one after the other.
+TOO_MUCH = [
+    "robot.sample(10**13)",
+    "robot.sample(2**62)",
+    "robot.sample(2**70)",
+    "robot.clamp(many(12_000_000))",
+    "robot.fk(many(700_000))",
+    "robot.fk(many(6_000_000), 'torch')",
+    "robot.link_poses(many(700_000))",
+    "robot.jacobian(many(6_000_000), 'torch')",
+    "robot.jacobian(many(6_000_000), 'torch', [0, 0, 0.1])",
+    "robot.ik_batch('torch', np.zeros((6_000_000, 3)), restarts=0, iterations=0)",
+    "robot.ik_batch('torch', np.tile(np.eye(4), (3_000_000, 1, 1)), restarts=0, iterations=0)",
+    "robot.distances(many(1_000_000))",
+    "robot.distances(many(9_000_000), 'spheres')",
+    "robot.self_distance(many(12_000_000))",
+    "robot.in_collision(many(12_000_000))",
+    "around.distances(many(3_000_000))",
+    "around.distance(many(12_000_000))",
+    "around.in_collision(many(12_000_000))",
+    # One configuration among very many obstacles.
+    "crowded.distance(q[0])",
+    "crowded.nearest(q[0])",
+    "model.clearances(many(9_000_000))",
+    "model.least(many(12_000_000))",
+    "model.may_collide(many(12_000_000))",
+    "model.gradient(many(12_000_000))",
+    "world.add_hull('h', np.zeros((3_000_000, 3)))",
+    "world.add_mesh('m', np.zeros((3_000_000, 3)), np.zeros((3_000_000, 3), dtype=np.uint32))",
+    # A robot without DOFs: its configurations take no memory, whatever their number.
+    "still.fk(np.zeros((10**13, 0)))",
+    "still.fk(np.zeros((2**59, 0)))",
+    "still.in_collision(np.zeros((10**13, 0)))",
+    "still.self_distance(np.zeros((10**13, 0)))",
+    "still.among(world).distances(np.zeros((10**13, 0)))",
+]
+
+PROGRAM = """
+import resource, sys
+import numpy as np, urdd
+
+robot, still = urdd.load(sys.argv[1]), urdd.load(sys.argv[2])
+world = urdd.World()
+for k in range(20):
+    world.add_sphere(str(k), 0.1, [k, 0, 0])
+around, model, q = robot.among(world), robot.collision_model(), robot.sample(100)
+
+crowd = urdd.World()
+for k in range(100_000):
+    crowd.add_sphere(str(k), 0.001, [k, 0, 0])
+crowded = robot.among(crowd)
+
+def many(count):
+    return np.zeros((count, robot.num_dofs))
+
+def answers():
+    found = [robot.fk(q), robot.distances(q), robot.in_collision(q), around.distance(q), model.least(q)]
+    found += [robot.jacobian(q, 'torch'), robot.distances(q, 'spheres'), still.in_collision(np.zeros((3, 0)))]
+    return found + [robot.ik_batch('torch', robot.fk(q[:3], 'torch')).q]
+
+expected = answers()
+size = 4096 * int(open('/proc/self/statm').read().split()[0])
+resource.setrlimit(resource.RLIMIT_AS, (size + 700_000_000,) * 2)
+for words in sys.argv[3:]:
+    try:
+        print(f"{words}: gives {eval(words)!r:.60}")
+    except MemoryError as error:
+        print(f"{words}: MemoryError" if str(error) else f"{words}: says nothing")
+    for one, before in zip(answers(), expected, strict=True):
+        np.testing.assert_array_equal(one, before)
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the limit of memory is Linux's")
+def test_more_than_there_is_memory_for(learned: urdd.Robot, urdds: object) -> None:
+    words = [sys.executable, "-c", PROGRAM, str(learned.path), f"{urdds}/single_link", *TOO_MUCH]
+    found = subprocess.run(words, capture_output=True, text=True, check=False, timeout=600)
+    assert found.stdout.splitlines() == [f"{words}: MemoryError" for words in TOO_MUCH], found.stderr[-2000:]
+    assert found.returncode == 0
+
+
+def test_numbers_of_numbers(arm: urdd.Robot) -> None:
+    """Where a number is no size, the largest is as good as any."""
+    pairs = arm.proximity().num_pairs
+    assert len(arm.nearest(arm.zero, 2**70)) == pairs
+    world = urdd.World()
+    world.add_sphere("ball", 0.1)
+    assert len(arm.among(world).nearest(arm.zero, 2**70)) == arm.among(world).num_pairs
+    for wrong, words in (
+        (lambda: arm.sample(3, seed=-1), "a seed must be from 0"),
+        (lambda: arm.ik("torch", [0, 0, 0], seed=-1), "a seed must be from 0"),
+        (lambda: arm.ik("torch", [0, 0, 0], restarts=2**70), "restarts must be from 0"),
+        (lambda: urdd.export(arm, "curobo", spheres=10**13), "spheres must be from 1 to 10,000"),
+        (lambda: urdd.generate("a.urdf", "a", samples=10**13), "samples must be from 1 to 100,000"),
+        (lambda: urdd.set_num_threads(-1), "at least 1"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            wrong()

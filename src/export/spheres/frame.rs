@@ -1,0 +1,63 @@
+//! Points, and poses of links as matrices: each is used many times.
+
+use nalgebra::Isometry3;
+
+/// A point or a vector, metres.
+pub(super) type Point = [f64; 3];
+
+#[inline]
+pub(super) fn add(a: Point, b: Point) -> Point {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+#[inline]
+pub(super) fn sub(a: Point, b: Point) -> Point {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline]
+pub(super) fn scaled(a: Point, by: f64) -> Point {
+    [a[0] * by, a[1] * by, a[2] * by]
+}
+
+#[inline]
+pub(super) fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline]
+pub(super) fn length(a: Point) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// A pose: the columns of the rotation, and the shift.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pose {
+    columns: [Point; 3],
+    shift: Point,
+}
+
+impl From<&Isometry3<f64>> for Pose {
+    fn from(pose: &Isometry3<f64>) -> Self {
+        let rotation = pose.rotation.to_rotation_matrix();
+        Pose {
+            columns: [0, 1, 2].map(|k| rotation.matrix().column(k).into_owned().into()),
+            shift: pose.translation.vector.into(),
+        }
+    }
+}
+
+impl Pose {
+    /// A point of the link's frame in the root link's frame.
+    #[inline]
+    pub fn place(&self, p: Point) -> Point {
+        let [x, y, z] = self.columns;
+        [0, 1, 2].map(|k| x[k] * p[0] + y[k] * p[1] + z[k] * p[2] + self.shift[k])
+    }
+
+    /// A direction of the root link's frame in the link's frame.
+    #[inline]
+    pub fn turn_back(&self, v: Point) -> Point {
+        self.columns.map(|column| dot(column, v))
+    }
+}

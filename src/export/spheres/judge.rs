@@ -1,0 +1,225 @@
+//! How spheres answer beside the exact shapes: collisions that they miss, and contacts that are none.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::model::{Placeable, Placed, Spheres};
+use super::samples::Sample;
+
+/// Of collisions so many may be missed, and of free configurations so many may be in contact.
+pub const MAX_MISSED: f64 = 0.01;
+pub const MAX_FALSE: f64 = 0.05;
+
+/// Answers of spheres in sampled configurations, counted.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct SphereRates {
+    /// Configurations in which exact shapes collide.
+    pub colliding: usize,
+    /// Those of them in which no spheres touch.
+    pub missed: usize,
+    /// Configurations in which no exact shapes touch.
+    pub free: usize,
+    /// Those of them in which spheres touch.
+    pub false_contacts: usize,
+}
+
+impl SphereRates {
+    /// Whether at most 1 % of collisions are missed, and at most 5 % of free configurations are in contact.
+    pub fn are_within_goals(&self) -> bool {
+        self.missed as f64 <= MAX_MISSED * self.colliding as f64
+            && self.false_contacts as f64 <= MAX_FALSE * self.free as f64
+    }
+}
+
+/// The 95 % interval of a rate (E. B. Wilson, JASA 22, 1927): 0 to 1 of nothing.
+pub fn interval(hits: usize, of: usize) -> [f64; 2] {
+    const Z: f64 = 1.959_963_984_540_054;
+    if of == 0 {
+        return [0.0, 1.0];
+    }
+    let (n, p) = (of as f64, hits as f64 / of as f64);
+    let middle = p + Z * Z / (2.0 * n);
+    let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
+    let under = 1.0 + Z * Z / n;
+    let low = if hits == 0 {
+        0.0
+    } else {
+        (middle - half) / under
+    };
+    let high = if hits == of {
+        1.0
+    } else {
+        (middle + half) / under
+    };
+    [low.max(0.0), high.min(1.0)]
+}
+
+/// In how many samples the answer of a pair of links was behind a wrong one of the robot.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct PairFaults {
+    pub missed: usize,
+    pub false_contacts: usize,
+}
+
+/// The least distance of spheres in each sample, of the pairs that are not ignored: `limit` where it is more.
+pub(super) fn gaps(
+    spheres: &Spheres,
+    pairs: &[[usize; 2]],
+    ignored: &[bool],
+    samples: &[Sample],
+    limit: f64,
+) -> Vec<f64> {
+    let model = Placeable::new(spheres);
+    let checked = checked(pairs, ignored);
+    let gap = |placed: &mut Placed, sample: &Sample| {
+        model.place(sample, placed);
+        let mut least = limit;
+        for (_, pair) in &checked {
+            if model.may_be_near(placed, *pair, least) {
+                least = least.min(model.gap(sample, placed, *pair));
+            }
+        }
+        least
+    };
+    samples.par_iter().map_init(Placed::default, gap).collect()
+}
+
+fn checked(pairs: &[[usize; 2]], ignored: &[bool]) -> Vec<(usize, [usize; 2])> {
+    let each = pairs.iter().copied().enumerate();
+    each.filter(|(number, _)| !ignored[*number]).collect()
+}
+
+/// Counts the answers of spheres whose least distances are given.
+pub(super) fn rates(samples: &[Sample], gaps: &[f64]) -> SphereRates {
+    let mut rates = SphereRates::default();
+    for (sample, gap) in samples.iter().zip(gaps) {
+        let touches = *gap <= 0.0;
+        if sample.collides() {
+            rates.colliding += 1;
+            rates.missed += usize::from(!touches);
+        } else {
+            rates.free += 1;
+            rates.false_contacts += usize::from(touches);
+        }
+    }
+    rates
+}
+
+/// The pairs behind wrong answers. `samples` say which pairs are in contact.
+pub(super) fn faults(
+    spheres: &Spheres,
+    pairs: &[[usize; 2]],
+    ignored: &[bool],
+    samples: &[Sample],
+) -> BTreeMap<usize, PairFaults> {
+    let model = Placeable::new(spheres);
+    let mut placed = Placed::default();
+    let mut found: BTreeMap<usize, PairFaults> = BTreeMap::new();
+    for sample in samples {
+        model.place(sample, &mut placed);
+        let touching: Vec<usize> = checked(pairs, ignored)
+            .into_iter()
+            .filter(|(_, pair)| {
+                model.may_be_near(&placed, *pair, 0.0)
+                    && model.gap(sample, &mut placed, *pair) <= 0.0
+            })
+            .map(|(number, _)| number)
+            .collect();
+        match (sample.collides(), touching.is_empty()) {
+            (true, true) => {
+                for pair in &sample.touching {
+                    found.entry(*pair as usize).or_default().missed += 1;
+                }
+            }
+            (false, false) => {
+                for pair in touching {
+                    found.entry(pair).or_default().false_contacts += 1;
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// By how much all radii should grow, metres, so that the two rates are in balance: the greater of the upper ends of their
+/// intervals, each as a part of its goal, is least.
+pub(super) fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
+    let colliding = samples.iter().filter(|sample| sample.collides()).count();
+    let free = samples.len() - colliding;
+    if colliding == 0 || free == 0 {
+        return 0.0;
+    }
+    let mut order: Vec<usize> = (0..samples.len()).collect();
+    order.sort_by(|a, b| gaps[*a].total_cmp(&gaps[*b]));
+    let (mut missed, mut false_contacts) = (colliding, 0);
+    let mut best = (f64::INFINITY, 0.0);
+    for (place, sample) in order.iter().enumerate() {
+        match samples[*sample].collides() {
+            true => missed -= 1,
+            false => false_contacts += 1,
+        }
+        let gap = gaps[*sample];
+        let next = order.get(place + 1).map_or(limit, |next| gaps[*next]);
+        // Spheres with gaps up to here touch when all radii grow by half of it.
+        let threshold = 0.5 * (gap + next);
+        if threshold <= -limit || threshold >= limit || next <= gap {
+            continue;
+        }
+        let worse = (interval(missed, colliding)[1] / MAX_MISSED)
+            .max(interval(false_contacts, free)[1] / MAX_FALSE);
+        if worse < best.0 {
+            best = (worse, threshold);
+        }
+    }
+    0.5 * best.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn samples(collide: &[bool]) -> Vec<Sample> {
+        let one = |collides: &bool| Sample {
+            poses: Vec::new(),
+            touching: Vec::from_iter(collides.then_some(0)),
+        };
+        collide.iter().map(one).collect()
+    }
+
+    #[test]
+    fn intervals_are_those_of_the_closed_form() {
+        // By scipy.stats.binomtest(k, n).proportion_ci(method="wilson"), SciPy 1.17.
+        for (hits, of, low, high) in [
+            (9, 903, 0.005252, 0.018833),
+            (0, 10_000, 0.0, 0.000384),
+            (50, 50, 0.928652, 1.0),
+        ] {
+            let [a, b] = interval(hits, of);
+            assert!((a - low).abs() < 1e-6 && (b - high).abs() < 1e-6, "{a} {b}");
+        }
+        assert_eq!(interval(0, 0), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn radii_grow_until_the_rates_are_in_balance() {
+        // Free ones from 1 mm on, collisions up to 3 mm: in between each millimetre costs as much of its goal.
+        let mut collide = vec![false];
+        let mut gaps = vec![0.009];
+        for k in 0..100 {
+            collide.push(true);
+            gaps.push(-0.007 + 1e-4 * f64::from(k));
+            collide.push(false);
+            gaps.push(0.00105 + 1e-4 * f64::from(k));
+        }
+        let grown = growth(&samples(&collide), &gaps, 0.02);
+        let after: Vec<f64> = gaps.iter().map(|gap| gap - 2.0 * grown).collect();
+        let rates = rates(&samples(&collide), &after);
+        assert_eq!([rates.missed, rates.colliding, rates.free], [1, 100, 101]);
+        // By scipy's intervals, of all thresholds.
+        assert_eq!(rates.false_contacts, 18);
+        // Without collisions, or without free configurations, there is nothing to balance.
+        assert_eq!(growth(&samples(&[false, false]), &[-0.01, 0.01], 0.02), 0.0);
+    }
+}

@@ -1,0 +1,129 @@
+//! Spheres of links, and how they are in sampled configurations.
+
+use super::frame::{Point, Pose, add, dot, length, scaled, sub};
+use super::samples::Sample;
+
+/// A sphere in its link's frame, metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sphere {
+    pub centre: Point,
+    pub radius: f64,
+}
+
+impl Sphere {
+    /// How far a point is outside; negative inside.
+    pub fn to(&self, p: Point) -> f64 {
+        length(sub(p, self.centre)) - self.radius
+    }
+}
+
+/// The spheres of each link that has shapes.
+pub(super) type Spheres = Vec<Vec<Sphere>>;
+
+pub(super) fn count(spheres: &Spheres) -> usize {
+    spheres.iter().map(Vec::len).sum()
+}
+
+/// A sphere about all spheres of a link. A link without any has none.
+fn about(own: &[Sphere]) -> Option<Sphere> {
+    let mut low = own.first()?.centre;
+    let mut high = low;
+    for sphere in own {
+        for k in 0..3 {
+            low[k] = low[k].min(sphere.centre[k] - sphere.radius);
+            high[k] = high[k].max(sphere.centre[k] + sphere.radius);
+        }
+    }
+    let centre = scaled(add(low, high), 0.5);
+    let reach = |sphere: &Sphere| length(sub(sphere.centre, centre)) + sphere.radius;
+    Some(Sphere {
+        centre,
+        radius: own.iter().map(reach).fold(0.0, f64::max),
+    })
+}
+
+/// Spheres with what makes finding near pairs quick.
+pub(super) struct Placeable<'a> {
+    spheres: &'a Spheres,
+    about: Vec<Option<Sphere>>,
+}
+
+/// The spheres in one configuration. It is used again for the next one.
+#[derive(Default)]
+pub(super) struct Placed {
+    about: Vec<Option<Point>>,
+    centres: Vec<Vec<Point>>,
+}
+
+impl<'a> Placeable<'a> {
+    pub fn new(spheres: &'a Spheres) -> Self {
+        Placeable {
+            spheres,
+            about: spheres.iter().map(|own| about(own)).collect(),
+        }
+    }
+
+    /// Places the spheres about links; the spheres themselves are placed when they are needed.
+    pub fn place(&self, sample: &Sample, placed: &mut Placed) {
+        let centre = |(about, pose): (&Option<Sphere>, &Pose)| Some(pose.place((*about)?.centre));
+        placed.about.clear();
+        placed
+            .about
+            .extend(self.about.iter().zip(&sample.poses).map(centre));
+        placed.centres.resize(self.spheres.len(), Vec::new());
+        placed.centres.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Whether the spheres of two links may be no farther apart than `limit`.
+    pub fn may_be_near(&self, placed: &Placed, [a, b]: [usize; 2], limit: f64) -> bool {
+        let centres = placed.about[a].zip(placed.about[b]);
+        let spheres = self.about[a].zip(self.about[b]);
+        let Some(((p, q), (a, b))) = centres.zip(spheres) else {
+            return false;
+        };
+        let between = sub(p, q);
+        let reach = a.radius + b.radius + limit;
+        reach > 0.0 && dot(between, between) <= reach * reach
+    }
+
+    /// The least distance of two links' spheres; negative where they overlap.
+    pub fn gap(&self, sample: &Sample, placed: &mut Placed, [a, b]: [usize; 2]) -> f64 {
+        for link in [a, b] {
+            if placed.centres[link].is_empty() {
+                let own = self.spheres[link].iter();
+                placed.centres[link].extend(own.map(|s| sample.poses[link].place(s.centre)));
+            }
+        }
+        let mut least = f64::INFINITY;
+        for (p, of_a) in placed.centres[a].iter().zip(&self.spheres[a]) {
+            for (q, of_b) in placed.centres[b].iter().zip(&self.spheres[b]) {
+                let between = sub(*p, *q);
+                let squared = dot(between, between);
+                let near = least + of_a.radius + of_b.radius;
+                if near > 0.0 && squared < near * near {
+                    least = squared.sqrt() - of_a.radius - of_b.radius;
+                }
+            }
+        }
+        least
+    }
+}
+
+/// Shrinks the spheres of pairs of links that are nearer than `apart` in a sample, so that they are that far apart.
+pub(super) fn part(spheres: &mut Spheres, pairs: &[[usize; 2]], sample: &Sample, apart: f64) {
+    for [a, b] in pairs.iter().copied() {
+        for i in 0..spheres[a].len() {
+            for j in 0..spheres[b].len() {
+                let (of_a, of_b) = (spheres[a][i], spheres[b][j]);
+                let p = sample.poses[a].place(of_a.centre);
+                let q = sample.poses[b].place(of_b.centre);
+                let excess = of_a.radius + of_b.radius + apart - length(sub(p, q));
+                // Each gives half of it, and keeps half of its radius at least.
+                if excess > 0.0 {
+                    spheres[a][i].radius = (of_a.radius - 0.5 * excess).max(0.5 * of_a.radius);
+                    spheres[b][j].radius = (of_b.radius - 0.5 * excess).max(0.5 * of_b.radius);
+                }
+            }
+        }
+    }
+}

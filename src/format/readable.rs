@@ -1,0 +1,75 @@
+//! Numbers as people read them, the same in every message and report.
+
+/// A number to so many significant digits, without trailing zeros. With an exponent only below 1e-3 and from 1e6 on.
+pub fn number(value: f64, digits: usize) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        return "0".to_owned();
+    }
+    if !size.is_finite() {
+        return value.to_string();
+    }
+    let digits = digits.max(1);
+    if (1e-3..1e6).contains(&size) {
+        let before = size.log10().floor() as i32 + 1;
+        let places = (digits as i32 - before).max(0) as usize;
+        return trimmed(&format!("{value:.places$}")).to_owned();
+    }
+    let text = format!("{value:.*e}", digits - 1);
+    match text.split_once('e') {
+        Some((mantissa, exponent)) => format!("{}e{exponent}", trimmed(mantissa)),
+        None => text,
+    }
+}
+
+/// A length, m, to three digits.
+pub fn metres(length: f64) -> String {
+    format!("{} m", number(length, 3))
+}
+
+fn trimmed(text: &str) -> &str {
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_exponent_stands_only_where_a_number_is_small_or_large() {
+        for (value, digits, expected) in [
+            (12.68, 4, "12.68"),
+            (1.0, 5, "1"),
+            (-0.5, 4, "-0.5"),
+            (0.001_234_56, 3, "0.00123"),
+            (0.000_999_96, 4, "1e-3"),
+            (0.001, 2, "0.001"),
+            (0.000_123_4, 3, "1.23e-4"),
+            (4e-8, 2, "4e-8"),
+            (123_456.7, 3, "123457"),
+            (999_999.4, 3, "999999"),
+            (1e6, 3, "1e6"),
+            (-2.345e300, 3, "-2.35e300"),
+            (0.0, 3, "0"),
+            (-0.0, 3, "0"),
+            (f64::INFINITY, 3, "inf"),
+            (f64::NAN, 3, "NaN"),
+        ] {
+            assert_eq!(number(value, digits), expected, "{value}");
+        }
+        assert_eq!(metres(0.05), "0.05 m");
+    }
+
+    #[test]
+    fn any_number_reads_back_as_nearly_itself() {
+        let mut value = f64::MIN_POSITIVE;
+        while value.is_finite() {
+            let read: f64 = number(value, 6).parse().expect("a number");
+            assert!((read / value - 1.0).abs() < 1e-5, "{value} {read}");
+            value *= 3.7;
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Programs on other systems than Linux: process groups, or job objects.
+
+use std::io;
+use std::process::{ChildStderr, ChildStdout, Command, ExitStatus};
+
+use process_wrap::std::{ChildWrapper, CommandWrap};
+
+pub(super) struct Tree(Box<dyn ChildWrapper>);
+
+impl Tree {
+    pub fn start(command: Command) -> io::Result<Tree> {
+        let mut command = CommandWrap::from(command);
+        #[cfg(unix)]
+        command.wrap(process_wrap::std::ProcessGroup::leader());
+        #[cfg(windows)]
+        command.wrap(process_wrap::std::JobObject);
+        command.spawn().map(Tree)
+    }
+
+    pub fn streams(&mut self) -> (Option<ChildStdout>, Option<ChildStderr>) {
+        (self.0.stdout().take(), self.0.stderr().take())
+    }
+
+    pub fn try_wait(&mut self) -> io::Result<Option<ExitStatus>> {
+        self.0.try_wait()
+    }
+
+    pub fn end(&mut self) {
+        // There may be nothing left, which is not an error.
+        let _ = self.0.start_kill();
+        let _ = self.0.wait();
+    }
+}

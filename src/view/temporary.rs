@@ -1,0 +1,94 @@
+//! A folder that goes when the program ends. What a killed program left goes with the next one: whoever holds the lock of
+//! a folder knows that nobody is at work there.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::cancellation::Cancellation;
+use crate::directory::target_lock::{LockError, TargetLock};
+use crate::format::hexadecimal::hexadecimal;
+
+/// What the names of such folders begin with.
+const PREFIX: &str = "urdd-shown-";
+
+/// A folder that goes when this is dropped.
+#[derive(Debug)]
+pub struct Temporary {
+    path: PathBuf,
+    /// Let go after the folder is gone.
+    _lock: TargetLock,
+}
+
+impl Temporary {
+    /// Makes a folder for this user alone in `place`, and takes away those there whose program ended.
+    ///
+    /// # Errors
+    /// Where it cannot be made.
+    pub fn begin(place: &Path) -> io::Result<Self> {
+        take_away(place);
+        let mut random = [0; 8];
+        getrandom::fill(&mut random).map_err(io::Error::other)?;
+        let path = place.join(format!("{PREFIX}{}", hexadecimal(&random)));
+        // Before the folder is there: others take it away where it is not locked.
+        let lock = TargetLock::acquire(&path, &Cancellation::default());
+        let lock = lock.map_err(|error| match error {
+            LockError::Io(error) => error,
+            LockError::Cancelled => io::ErrorKind::Interrupted.into(),
+        })?;
+        let mut builder = fs::DirBuilder::new();
+        #[cfg(unix)]
+        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+        builder.create(&path)?;
+        Ok(Temporary { path, _lock: lock })
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.path);
+    }
+}
+
+/// Takes away the folders whose program ended. Those of other users stay: they cannot be locked or removed.
+fn take_away(place: &Path) {
+    for entry in fs::read_dir(place).into_iter().flatten().flatten() {
+        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+        if is_folder
+            && entry.file_name().to_string_lossy().starts_with(PREFIX)
+            && let Ok(Some(_lock)) = TargetLock::at_once(&entry.path())
+        {
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_goes_with_the_next_and_what_is_used_stays() {
+        let place = tempfile::tempdir().expect("a folder");
+        let living = Temporary::begin(place.path()).expect("a folder");
+        fs::write(living.path().join("x"), "1").expect("written");
+        // As of a program that was killed: the folder, and the lock's file, which nobody holds.
+        let left = place.path().join(format!("{PREFIX}0123456789abcdef"));
+        fs::create_dir(&left).expect("a folder");
+        fs::write(left.join("x"), "1").expect("written");
+        let mine = place.path().join("urdd-mine");
+        fs::create_dir(&mine).expect("a folder");
+        let second = Temporary::begin(place.path()).expect("a folder");
+        assert!(!left.exists());
+        drop(second);
+        assert!(living.path().join("x").exists() && mine.exists());
+        let path = living.path().to_owned();
+        drop(living);
+        assert!(!path.exists());
+    }
+}

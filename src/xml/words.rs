@@ -1,0 +1,144 @@
+//! What is wrong with a text that is not well-formed, in words that say what to do.
+
+use roxmltree::Error;
+
+use super::{MOST_NODES, XmlError};
+
+/// What a parser's error means for whoever wrote `text`, without the place.
+pub(super) fn of_parser(error: &Error, text: &str) -> String {
+    match error {
+        Error::InvalidXmlPrefixUri(_)
+        | Error::UnexpectedXmlUri(_)
+        | Error::UnexpectedXmlnsUri(_)
+        | Error::InvalidElementNamePrefix(_) => {
+            "the prefixes `xml` and `xmlns` are reserved; use another prefix".to_owned()
+        }
+        Error::DuplicatedNamespace(prefix, _) if prefix.is_empty() => {
+            "an element declares `xmlns` twice; remove one of them".to_owned()
+        }
+        Error::DuplicatedNamespace(prefix, _) => {
+            format!("an element declares the prefix `{prefix}` twice; remove one of the declarations")
+        }
+        Error::UnknownNamespace(prefix, _) if prefix == "xacro" => {
+            "the prefix `xacro` is not declared; expand the file with xacro first".to_owned()
+        }
+        Error::UnknownNamespace(prefix, _) => format!(
+            "the prefix `{prefix}` is not declared; declare it with `xmlns:{prefix}=\"...\"`, or remove it"
+        ),
+        Error::UnexpectedCloseTag(expected, found, _) => {
+            format!("`</{found}>` where `</{expected}>` is expected; close an element before its parent")
+        }
+        Error::UnknownEntityReference(name, _) => format!(
+            "the entity `&{name};` is not declared; XML itself has `&amp;`, `&lt;`, `&gt;`, `&quot;` and `&apos;` only"
+        ),
+        Error::MalformedEntityReference(_) => {
+            "`&` does not begin an entity here; write `&amp;` for the character".to_owned()
+        }
+        Error::UnexpectedEntityCloseTag(_)
+        | Error::EntityReferenceLoop(_)
+        | Error::EntityResolver(..) => {
+            "an entity of the document type cannot be expanded; write out what it stands for".to_owned()
+        }
+        Error::InvalidAttributeValue(_) | Error::InvalidChar(b'\'' | b'"', b'<', _) => {
+            "an attribute's value contains `<`; write `&lt;`, or close the value's quotes before it"
+                .to_owned()
+        }
+        Error::DuplicatedAttribute(name, _) => {
+            format!("an element has the attribute `{name}` twice; remove one of them")
+        }
+        Error::UnexpectedDeclaration(_) => {
+            "the XML declaration `<?xml ...?>` must be at the very start of the file, once".to_owned()
+        }
+        Error::DtdDetected => {
+            "a document type (`<!DOCTYPE`) is not read here; remove it".to_owned()
+        }
+        Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream => {
+            match text.trim().is_empty() {
+                true => "the file is empty".to_owned(),
+                false => "the file ends before its outermost element is closed; it may be cut off".to_owned(),
+            }
+        }
+        Error::NodesLimitReached => {
+            format!("the file has more than {MOST_NODES} elements, texts and comments")
+        }
+        Error::AttributesLimitReached | Error::NamespacesLimitReached => {
+            "the file has more attributes or namespaces than can be read".to_owned()
+        }
+        Error::InvalidName(_) => {
+            "a name begins with, or contains, a character that XML does not allow in names; names begin with a letter or `_`"
+                .to_owned()
+        }
+        Error::NonXmlChar(c, _) => format!(
+            "XML does not allow the character U+{:04X}; remove it",
+            u32::from(*c)
+        ),
+        Error::InvalidChar(expected, found, _) => {
+            expected_character(&format!("`{}`", char::from(*expected)), *found)
+        }
+        Error::InvalidChar2(expected, found, _) => expected_character(expected, *found),
+        Error::InvalidString(expected, _) => format!("`{expected}` is expected here"),
+        Error::InvalidExternalID(_) => {
+            "the document type (`<!DOCTYPE`) is not well-formed; remove it".to_owned()
+        }
+        Error::InvalidComment(_) => {
+            "a comment contains `--`, or ends with `--->`; write single hyphens".to_owned()
+        }
+        Error::InvalidCharacterData(_) => {
+            "text contains `]]>`; write `]]&gt;` for the characters".to_owned()
+        }
+        Error::UnknownToken(pos) => unknown_token(text, *pos).to_owned(),
+    }
+}
+
+fn expected_character(expected: &str, found: u8) -> String {
+    let found = match found {
+        b' '..=b'~' => format!("`{}`", char::from(found)),
+        b'\n' | b'\r' => "the end of the line".to_owned(),
+        other => format!("the byte 0x{other:02X}"),
+    };
+    format!("{expected} is expected, not {found}")
+}
+
+/// The parser says the same of three faults, which differ by where they are.
+fn unknown_token(text: &str, pos: roxmltree::TextPos) -> &'static str {
+    let (row, column) = (pos.row as usize, pos.col as usize);
+    let start: usize = text
+        .split_inclusive('\n')
+        .take(row.saturating_sub(1))
+        .map(str::len)
+        .sum();
+    let within: usize = text[start..]
+        .chars()
+        .take(column.saturating_sub(1))
+        .map(char::len_utf8)
+        .sum();
+    let before = &text[..start + within];
+    let in_document_type = before
+        .rfind("<!DOCTYPE")
+        .is_some_and(|begin| !before[begin..].contains("]>"));
+    if before.trim_start_matches('\u{feff}').trim().is_empty() {
+        "the file does not begin with `<`; remove what is before the first element"
+    } else if in_document_type {
+        "a declaration within `<!DOCTYPE ...>` cannot be read; remove the document type"
+    } else {
+        "there is more after the end of the outermost element; remove it"
+    }
+}
+
+/// What is wrong, without the place.
+pub(super) fn of(error: &XmlError, text: &str) -> String {
+    match error {
+        XmlError::Parser(error) => of_parser(error, text),
+        XmlError::Entities(_) => {
+            "it declares entities (`<!ENTITY`), which are not read; `xmllint --noent FILE` writes the file without them".to_owned()
+        }
+        XmlError::Version { found, .. } => {
+            format!("the XML declaration names version `{}`; write `1.0`", found.escape_debug())
+        }
+        XmlError::Encoding { found, .. } => format!(
+            "the XML declaration names the encoding `{}`; save the file as UTF-8 and declare that",
+            found.escape_debug()
+        ),
+        XmlError::TooMany { what, limit, .. } => format!("there are more than {limit} {what}"),
+    }
+}
