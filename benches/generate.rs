@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use urdd::generate::{Selection, Settings, generate};
+use urdd_generate::{Selection, Settings, generate};
 
 const RUNS: usize = 3;
 

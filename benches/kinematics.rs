@@ -12,7 +12,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use urdd::robot::{InverseSettings, Robot, Target};
+use urdd_robot::{InverseSettings, Robot, Target};
 
 const CONFIGURATIONS: u64 = 10_000;
 const TARGETS: u64 = 1000;

@@ -15,9 +15,9 @@ use parry3d_f64::query;
 use parry3d_f64::shape::ConvexPolyhedron;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use urdd::format::rate::Rate;
-use urdd::generate::{Selection, Settings, generate};
-use urdd::robot::{
+use urdd_format::rate::Rate;
+use urdd_generate::{Selection, Settings, generate};
+use urdd_robot::{
     CollisionModel, Configurations, Obstacle, Proximity, Robot, ShapeKind, Solid, World,
 };
 

@@ -12,8 +12,8 @@ use nalgebra::Isometry3;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query;
 use parry3d_f64::shape::ConvexPolyhedron;
-use urdd::generate::{Settings, generate};
-use urdd::robot::{Robot, ShapeKind, Solid};
+use urdd_generate::{Settings, generate};
+use urdd_robot::{Robot, ShapeKind, Solid};
 
 const CONFIGURATIONS: u64 = 200;
 const ROUNDS: usize = 5;

@@ -5,19 +5,16 @@
 //! on two threads, both as ratios to that, and MB/s. Times are the least of several runs; read the
 //! ratios, the machine's speed cancels in them.
 
-#[path = "../tests/support/mod.rs"]
-mod support;
-
 use std::fs;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use support::fixture::Fixture;
-use support::robot::{Robot, joint, limit, link, origin};
-use urdd::format::urdf::{Axis, JointType};
-use urdd::validate::settings::Settings;
-use urdd::validate::validate;
+use testkit::fixture::Fixture;
+use testkit::robot::{Robot, joint, limit, link, origin};
+use urdd_format::urdf::{Axis, JointType};
+use urdd_validate::settings::Settings;
+use urdd_validate::validate;
 
 const RUNS: usize = 3;
 
@@ -63,7 +60,7 @@ fn canonical_mirrors(fixture: &mut Fixture) {
         .map(|(folder, document)| {
             (
                 format!("{folder}/module.yaml"),
-                urdd::directory::canonical::yaml_string(document),
+                urdd_directory::canonical::yaml_string(document),
             )
         })
         .collect();

@@ -5,7 +5,7 @@
 
 use std::error::Error;
 
-use urdd::robot::Robot;
+use urdd_robot::Robot;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use urdd::validate::code::Code;
-use urdd::validate::rules;
+use urdd_validate::code::Code;
+use urdd_validate::rules;
 
 /// The rooms that each room may import, besides itself.
 const ROOMS: &[(&str, &[&str])] = &[

@@ -1,15 +1,13 @@
 //! Whatever lies in a folder, the program says what is wrong with it: a finding or one clear error,
 //! the right exit status, no panic, and soon.
 
-mod support;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
-use support::fixture::{Fixture, ROOT, URDF};
+use testkit::fixture::{Fixture, ROOT, URDF};
 
 const SOON: Duration = Duration::from_secs(10);
 

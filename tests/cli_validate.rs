@@ -1,14 +1,12 @@
 //! `urdd validate` as people and scripts meet it: exit status, reports, settings, and the same bytes
 //! for the same input.
 
-mod support;
-
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
 use serde_json::{Value, json};
-use support::fixture::{Fixture, ROOT};
+use testkit::fixture::{Fixture, ROOT};
 
 /// Runs `urdd validate` in a folder.
 fn validate(folder: &Path, arguments: &[&str]) -> Output {
@@ -141,8 +139,8 @@ fn crashes_are_told() {
 #[test]
 fn json_reports_fit_their_schema() {
     let folder = collection();
-    let schema =
-        serde_json::to_value(schemars::schema_for!(urdd::report::Report)).expect("a value");
+    let schema = serde_json::to_value(schemars::schema_for!(urdd_validate::report::Report))
+        .expect("a value");
     let schema = jsonschema::draft202012::new(&schema).expect("a schema");
     for arguments in [
         &["."] as &[&str],

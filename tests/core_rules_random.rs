@@ -2,23 +2,21 @@
 //!
 //! `URDD_MUTATIONS` sets how many changes are tried per robot.
 
-mod support;
-
 use std::collections::BTreeMap;
 
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use urdd::format::registry::{self, ModuleKind};
-use urdd::validate::code::Code;
-use urdd::validate::engine::Outcome;
-use urdd::validate::settings::Settings;
+use urdd_format::registry::{self, ModuleKind};
+use urdd_validate::code::Code;
+use urdd_validate::engine::Outcome;
+use urdd_validate::settings::Settings;
 
-use support::dice::Dice;
-use support::fixture::Fixture;
-use support::folder::Folder;
-use support::robot::{Robot, arbitrary_robot};
+use testkit::dice::Dice;
+use testkit::fixture::Fixture;
+use testkit::folder::Folder;
+use testkit::robot::{Robot, arbitrary_robot};
 
 const ROBOTS: usize = 200;
 const MODULES: [&str; 5] = [
@@ -31,7 +29,7 @@ const MODULES: [&str; 5] = [
 
 /// The codes of what is found in a URDD, each with its first message; but for oddities of the robot.
 fn found(urdd: &Fixture, folder: &mut Folder) -> BTreeMap<Code, String> {
-    let report = urdd::validate::validate(&[folder.put(urdd)], &Settings::default()).unwrap();
+    let report = urdd_validate::validate(&[folder.put(urdd)], &Settings::default()).unwrap();
     let examined = report.subjects[0].result.as_ref().unwrap();
     let mut found = BTreeMap::new();
     for check in &examined.checks {

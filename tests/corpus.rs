@@ -4,11 +4,11 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use urdd::report::Report;
-use urdd::report::model::Verdict;
-use urdd::validate::rule::Severity;
-use urdd::validate::settings::Settings;
-use urdd::validate::validate;
+use urdd_validate::report::Report;
+use urdd_validate::report::model::Verdict;
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
+use urdd_validate::validate;
 
 #[test]
 #[ignore = "needs ../shared/corpus, or what URDD_CORPUS names"]
@@ -16,7 +16,7 @@ fn published_urdds_have_the_findings_that_were_judged_true() {
     let corpus = std::env::var_os("URDD_CORPUS").map(PathBuf::from);
     let corpus = corpus.unwrap_or_else(|| PathBuf::from("../shared/corpus"));
     let run = validate(&[corpus], &Settings::default()).expect("the published URDDs");
-    let report = Report::new(&run, Severity::Error);
+    let report = run.report(Severity::Error);
     let mut lines = String::new();
     for urdd in &report.urdds {
         assert_eq!(urdd.verdict, Verdict::Fail, "{}", urdd.path);

@@ -9,12 +9,12 @@ use std::process::{Command, Output};
 use std::sync::Arc;
 
 use serde_json::Value;
-use urdd::directory::archive_fault::{ArchiveFault, EntryFault};
-use urdd::directory::digest;
-use urdd::directory::listing::EntryKind;
-use urdd::directory::read_error::ReadError;
-use urdd::directory::root::Root;
-use urdd::directory::source::{Archive, Disk, Memory};
+use urdd_directory::archive_fault::{ArchiveFault, EntryFault};
+use urdd_directory::digest;
+use urdd_directory::listing::EntryKind;
+use urdd_directory::read_error::ReadError;
+use urdd_directory::root::Root;
+use urdd_directory::source::{Archive, Disk, Memory};
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
@@ -77,10 +77,10 @@ fn findings(output: &Output) -> Value {
 /// The report on a URDD with faults, in a folder and packed in two ways.
 #[test]
 fn a_urdd_in_memory_has_the_report_of_its_folder() {
-    use urdd::format::report::Severity;
-    use urdd::report::{self, model::Report};
-    use urdd::validate::settings::Settings;
-    use urdd::validate::{validate, validate_source};
+    use urdd_format::report::Severity;
+    use urdd_validate::report::{self, model::Report};
+    use urdd_validate::settings::Settings;
+    use urdd_validate::{validate, validate_source};
     for (name, errors) in [("arm", 0), ("stale_gripper", 1)] {
         let folder = examples().join(name);
         let shared = files(&folder)
@@ -91,7 +91,9 @@ fn a_urdd_in_memory_has_the_report_of_its_folder() {
         let settings = Settings::default();
         let from_memory = validate_source(memory, name, &settings).expect("a run");
         let from_folder = validate(&[folder], &settings).expect("a run");
-        let text = |run| report::json(&Report::new(run, Severity::Error)).expect("a report");
+        let text = |run: &urdd_validate::Run| {
+            report::json(&run.report(Severity::Error)).expect("a report")
+        };
         assert_eq!(text(&from_memory), text(&from_folder));
         let value: Value = serde_json::from_str(&text(&from_memory)).expect("JSON");
         assert!(value["totals"]["error"].as_u64() >= Some(errors), "{name}");

@@ -1,25 +1,20 @@
 //! Kinematics held to figures that Pinocchio, MuJoCo and plain Python made: those of our robots are in
 //! `conformance/vectors`, those of others in `tests/figures`.
 
-#[path = "support/core_modules.rs"]
-mod core_modules;
-#[path = "support/urdf_to_core.rs"]
-mod urdf_to_core;
-
 use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use core_modules::{Joint, chain_of, core_modules, dof_count};
 use nalgebra::{Isometry3, UnitQuaternion};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
-use urdd::format::bounds::BoundsModule;
-use urdd::format::pose::Pose;
-use urdd::kinematics::pose::{position_distance, to_isometry};
-use urdd::kinematics::rotation::{rotation_distance, to_rotation_vector, uniform_rotation};
-use urdd::kinematics::{ConfigurationSpace, ForwardKinematics, unit};
-use urdd::validate::reference::{MimicDofs, Reference};
+use testkit::core_modules::{Joint, chain_of, core_modules, dof_count};
+use urdd_format::bounds::BoundsModule;
+use urdd_format::pose::Pose;
+use urdd_kinematics::pose::{position_distance, to_isometry};
+use urdd_kinematics::rotation::{rotation_distance, to_rotation_vector, uniform_rotation};
+use urdd_kinematics::{ConfigurationSpace, ForwardKinematics, unit};
+use urdd_validate::reference::{MimicDofs, Reference};
 
 const VECTORS: &str = "conformance/vectors";
 
@@ -88,7 +83,7 @@ fn compare(source: &str, folder: &Path) {
 }
 
 fn compare_robot(robot: &Robot, text: &str) {
-    let (links, joints) = urdf_to_core::read(text);
+    let (links, joints) = testkit::urdf_to_core::read(text);
     let (chain, dof) = core_modules(&links, &joints);
     let kinematics = ForwardKinematics::new(&chain, &dof).unwrap();
     assert_eq!(kinematics.num_links(), robot.links_in_robot);
@@ -102,7 +97,7 @@ fn compare_robot(robot: &Robot, text: &str) {
             assert_eq!(&q, in_dof_order, "{}", robot.path.display());
             // The validator's reference too, which shares no code with the consumer's kinematics.
             let reference = Reference::new(
-                &urdd::validate::urdf_text::read(text).robot.unwrap(),
+                &urdd_validate::urdf_text::read(text).robot.unwrap(),
                 MimicDofs::Follow,
             )
             .unwrap();

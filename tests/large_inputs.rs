@@ -5,10 +5,10 @@
 
 use std::time::{Duration, Instant};
 
-use urdd::generate::read_urdf;
-use urdd::geometry::read::{Fault, MeshError, Scene, read};
-use urdd::validate::settings::Settings;
-use urdd::validate::urdf_text;
+use urdd_generate::read_urdf;
+use urdd_geometry::read::{Fault, MeshError, Scene, read};
+use urdd_validate::settings::Settings;
+use urdd_validate::urdf_text;
 
 /// Long enough for a machine that does ten other things.
 const LIMIT: Duration = Duration::from_secs(60);

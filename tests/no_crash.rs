@@ -4,24 +4,23 @@
 #[path = "schema_acceptance/generate.rs"]
 #[allow(dead_code)] // A part is used here.
 mod generate;
-mod support;
 
 use std::collections::BTreeMap;
 
 use generate::{Choices, instance};
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use urdd::format::registry::{self, ModuleKind, ModuleSpec};
-use urdd::format::root_metadata::RootMetadata;
-use urdd::format::schema::{Subject, Variant};
-use urdd::report::Report;
-use urdd::validate::engine::Outcome;
-use urdd::validate::rule::Severity;
-use urdd::validate::settings::Settings;
+use urdd_format::registry::{self, ModuleKind, ModuleSpec};
+use urdd_format::root_metadata::RootMetadata;
+use urdd_format::schema::{Subject, Variant};
+use urdd_validate::engine::Outcome;
+use urdd_validate::report::Report;
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
 
-use support::dice::Dice;
-use support::fixture::{Fixture, ROOT};
-use support::folder::Folder;
+use testkit::dice::Dice;
+use testkit::fixture::{Fixture, ROOT};
+use testkit::folder::Folder;
 
 /// How many URDDs of each kind are tried. `URDD_TRIALS` sets another number.
 const TRIALS: u64 = 120;
@@ -43,7 +42,7 @@ fn absurd_values_crash_no_rule() {
 /// The same of a robot with a self-collision model, which the toy has not.
 #[test]
 fn absurd_values_in_a_model_crash_no_rule() {
-    let model = support::model::fixture();
+    let model = testkit::model::fixture();
     let broken = try_all(
         || model.clone(),
         |urdd, dice| {
@@ -106,7 +105,7 @@ fn try_all(
 
 /// Whether the URDD is found wrong.
 fn examine(urdd: &Fixture, folder: &mut Folder, trial: u64) -> bool {
-    let run = urdd::validate::validate(&[folder.put(urdd)], &Settings::default()).unwrap();
+    let run = urdd_validate::validate(&[folder.put(urdd)], &Settings::default()).unwrap();
     let examined = run.subjects[0].result.as_ref().unwrap();
     for check in &examined.checks {
         let changed = || {
@@ -125,7 +124,7 @@ fn examine(urdd: &Fixture, folder: &mut Folder, trial: u64) -> bool {
             changed()
         );
     }
-    let report = Report::new(&run, Severity::Error);
+    let report = run.report(Severity::Error);
     report.urdds.iter().any(|urdd| !urdd.findings.is_empty())
 }
 

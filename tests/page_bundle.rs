@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
-use urdd::format::hexadecimal::hexadecimal;
+use urdd_format::hexadecimal::hexadecimal;
 
 /// As in `page/build.mjs`: folders, single files, and what the module is not made of.
 const FOLDERS: &[&str] = &["page/src", "wasm/src", "src"];

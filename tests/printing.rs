@@ -2,15 +2,13 @@
 //! a file says or is named; and a report that cannot be written is an error.
 #![cfg(unix)]
 
-mod support;
-
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 use serde_json::{Value, json};
-use support::fixture::{Fixture, ROOT, URDF};
+use testkit::fixture::{Fixture, ROOT, URDF};
 
 /// What a hostile name holds: it clears the screen, paints, turns text around, hides, and adds a line.
 const HOSTILE: &str = "a\u{1b}[2J\u{1b}[32m\u{9b}2J\u{202e}\u{2066}\u{200b}\u{feff}\u{2028}\u{85}\u{7f}\u{8}\u{e0041}\r\nFORGED pass";

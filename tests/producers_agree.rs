@@ -1,8 +1,6 @@
 //! Two producers, written apart from SPEC.md alone, must say the same of a robot: the Python example
 //! and `tests/support`. Needs `python3`.
 
-mod support;
-
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -10,9 +8,9 @@ use std::process::Command;
 use proptest::test_runner::{Config, TestCaseError, TestRunner};
 use serde_json::{Value, json};
 
-use support::difference::difference;
-use support::fixture::{Fixture, ROOT, URDF, toy_robot};
-use support::robot::{Robot, arbitrary_robot};
+use testkit::difference::difference;
+use testkit::fixture::{Fixture, ROOT, URDF, toy_robot};
+use testkit::robot::{Robot, arbitrary_robot};
 
 #[test]
 #[ignore = "needs python3; .ci/run runs it"]
@@ -95,7 +93,7 @@ fn check_hashes(out: &Path, root: &Value) -> Result<(), String> {
     for entry in listed.chain([&root["source"]["Urdf"]]) {
         let path = entry["path"].as_str().expect("a path");
         let bytes = std::fs::read(out.join(path)).map_err(|e| format!("{path}: {e}"))?;
-        let (size, sha256) = support::fixture::size_and_hash(&bytes);
+        let (size, sha256) = testkit::fixture::size_and_hash(&bytes);
         if entry["size"] != json!(size) || entry["sha256"] != json!(sha256) {
             return Err(format!("{path}: size or hash"));
         }

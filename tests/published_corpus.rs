@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
-use urdd::format::registry::{self, ModuleKind, Profile};
+use urdd_format::registry::{self, ModuleKind, Profile};
 
 fn corpus() -> PathBuf {
     std::env::var_os("URDD_CORPUS").map_or_else(|| PathBuf::from("../shared/corpus"), PathBuf::from)
@@ -57,17 +57,17 @@ fn reads_every_published_module() {
 #[test]
 #[ignore = "needs the published URDDs"]
 fn legacy_robots_move_as_their_urdfs_do() {
-    use urdd::robot::{Robot, ShapeKind};
+    use urdd_robot::{Robot, ShapeKind};
     for name in ["ur5", "z1", "robotiq_140"] {
         let folder = corpus().join(name);
         let legacy = Robot::open(&folder).unwrap();
         let made = tempfile::tempdir().unwrap();
-        let settings = urdd::generate::Settings {
-            selection: urdd::generate::Selection::parse(["core"]).unwrap(),
-            ..urdd::generate::Settings::default()
+        let settings = urdd_generate::Settings {
+            selection: urdd_generate::Selection::parse(["core"]).unwrap(),
+            ..urdd_generate::Settings::default()
         };
         let (urdf, target) = (folder.join(format!("{name}.urdf")), made.path().join(name));
-        urdd::generate::generate(&urdf, &target, &settings, &()).unwrap();
+        urdd_generate::generate(&urdf, &target, &settings, &()).unwrap();
         let now = Robot::open(target).unwrap();
         let q = now.configurations().unwrap().random(2);
         assert_eq!(legacy.dofs().unwrap().len(), q.len(), "{name}");

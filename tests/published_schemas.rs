@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use serde_json::json;
-use urdd::directory::schema_files;
-use urdd::format::registry::Profile;
-use urdd::format::schema::{self, SchemaError, Subject, Variant, validating_hash, validating_part};
+use urdd_directory::schema_files;
+use urdd_format::registry::Profile;
+use urdd_format::schema::{self, SchemaError, Subject, Variant, validating_hash, validating_part};
 
 #[test]
 fn the_committed_schemas_are_what_the_types_write() {

@@ -1,15 +1,13 @@
 //! The reports for other programs, by what their readers count. (`.ci/run` holds SARIF to its schema and to its Rust types by
 //! others in `sarif_check/`, JUnit to the schema that Jenkins has.)
 
-mod support;
-
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
 use serde_json::{Value, json};
-use support::fixture::{Fixture, ROOT};
+use testkit::fixture::{Fixture, ROOT};
 
 fn validate(folder: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));

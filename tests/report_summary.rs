@@ -1,14 +1,12 @@
 //! What the reports say of many URDDs, and of geometry that could not be verified.
 
-mod support;
-
 use std::path::Path;
 use std::process::Command;
 
 use serde_json::{Value, json};
-use support::fixture::Fixture;
-use support::robot::*;
-use urdd::format::urdf::{Joint, JointType, Link};
+use testkit::fixture::Fixture;
+use testkit::robot::*;
+use urdd_format::urdf::{Joint, JointType, Link};
 
 const PLAIN: &str = "plain_meshes_module";
 const SKIPS: &str = "link_shapes_skips_module";
@@ -118,11 +116,11 @@ fn geometry_that_is_not_verified_is_named_in_every_format() {
 fn a_model_that_is_not_verified_is_named_in_every_format() {
     let folder = tempfile::tempdir().expect("a folder");
     let root = folder.path();
-    let mut stale = support::model::fixture();
-    stale.set(support::model::MODEL, "/trained_on", json!("0".repeat(64)));
+    let mut stale = testkit::model::fixture();
+    stale.set(testkit::model::MODEL, "/trained_on", json!("0".repeat(64)));
     stale.seal();
     stale.write_to(&root.join("stale"));
-    support::model::fixture().write_to(&root.join("true"));
+    testkit::model::fixture().write_to(&root.join("true"));
     let mut without = Fixture::full(&robot());
     without.seal();
     without.write_to(&root.join("without"));

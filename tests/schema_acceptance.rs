@@ -14,11 +14,11 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseError, TestRunner};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use urdd::format::conformance::{ProducerResult, ValidatorResult};
-use urdd::format::registry::ModuleDocument;
-use urdd::format::report::Report;
-use urdd::format::root_metadata::RootMetadata;
-use urdd::format::schema::{Subject, Variant};
+use urdd_format::conformance::{ProducerResult, ValidatorResult};
+use urdd_format::registry::ModuleDocument;
+use urdd_format::report::Report;
+use urdd_format::root_metadata::RootMetadata;
+use urdd_format::schema::{Subject, Variant};
 
 /// Generated documents for each schema; each is mutated [`MUTATIONS`] times.
 const CASES: u32 = 300;

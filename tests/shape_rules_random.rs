@@ -1,26 +1,24 @@
 //! The rules on meshes and link shapes, over arbitrary robots: silent on valid URDDs, and never out of
 //! step, whatever a document says.
 
-mod support;
-
 use std::path::Path;
 
 use proptest::prelude::*;
 use proptest::sample::Index;
 use serde_json::{Value, json};
-use urdd::format::report::Status;
-use urdd::report::Report;
-use urdd::validate::rule::Severity;
-use urdd::validate::settings::Settings;
-use urdd::validate::validate;
+use urdd_format::report::Status;
+use urdd_validate::report::Report;
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
+use urdd_validate::validate;
 
-use support::fixture::Fixture;
-use support::robot::arbitrary_box_robot;
+use testkit::fixture::Fixture;
+use testkit::robot::arbitrary_box_robot;
 
 fn report(fixture: &Fixture, root: &Path) -> Report {
     fixture.write_to(root);
     let run = validate(&[root], &Settings::default()).expect("something to examine");
-    Report::new(&run, Severity::Error)
+    run.report(Severity::Error)
 }
 
 /// Whether a rule is of the families at hand.

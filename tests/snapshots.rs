@@ -4,7 +4,7 @@
 use std::fs;
 use std::process::Command;
 
-use urdd::validate::rules;
+use urdd_validate::rules;
 
 fn urdd(arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_urdd"))

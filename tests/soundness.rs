@@ -1,23 +1,21 @@
 //! A fault in one mesh leaves the others judged: rules on geometry leave out the links and pieces in
 //! which another rule found a fault, say so, and look at all others.
 
-mod support;
-
 use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
-use support::fixture::Fixture;
-use support::folder::Folder;
-use support::meshes::{Point, glb, obj, stl};
-use support::robot::*;
-use urdd::format::urdf::{Joint, JointType, Link};
-use urdd::validate::code::Code;
-use urdd::validate::code::Code::*;
-use urdd::validate::engine::{Check, Outcome};
-use urdd::validate::part::{NotVerified, Part, Why};
-use urdd::validate::settings::Settings;
-use urdd::validate::skip::SkipReason;
-use urdd::validate::{Examined, validate};
+use testkit::fixture::Fixture;
+use testkit::folder::Folder;
+use testkit::meshes::{Point, glb, obj, stl};
+use testkit::robot::*;
+use urdd_format::urdf::{Joint, JointType, Link};
+use urdd_validate::code::Code;
+use urdd_validate::code::Code::*;
+use urdd_validate::engine::{Check, Outcome};
+use urdd_validate::part::{NotVerified, Part, Why};
+use urdd_validate::settings::Settings;
+use urdd_validate::skip::SkipReason;
+use urdd_validate::{Examined, validate};
 
 const PLAIN: &str = "plain_meshes_module";
 const HULLS: &str = "convex_hull_meshes_module";
@@ -55,7 +53,7 @@ fn robot(moved: Option<usize>) -> Robot {
     robot
 }
 
-/// The corners of a link's box, in the order of `support::meshes`; `scaled`, and with the last corner
+/// The corners of a link's box, in the order of `testkit::meshes`; `scaled`, and with the last corner
 /// pushed in where it is `dented`.
 fn corners(scaled: f64, dented: bool) -> [Point; 8] {
     std::array::from_fn(|corner| {

@@ -9,10 +9,10 @@ mod values;
 use std::collections::BTreeMap;
 use std::fs;
 
-use urdd::format::registry::{ModuleKind, SPEC_VERSION};
-use urdd::validate::code::Code;
-use urdd::validate::rule::Severity;
-use urdd::validate::rules;
+use urdd_format::registry::{ModuleKind, SPEC_VERSION};
+use urdd_validate::code::Code;
+use urdd_validate::rule::Severity;
+use urdd_validate::rules;
 
 fn spec() -> String {
     fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md")).expect("SPEC.md")
@@ -129,7 +129,7 @@ fn the_table_of_modules_is_the_registry() {
         .collect();
     let registry: Vec<(String, String)> = ModuleKind::ALL
         .iter()
-        .filter(|kind| urdd::format::registry::find(**kind, SPEC_VERSION).is_some())
+        .filter(|kind| urdd_format::registry::find(**kind, SPEC_VERSION).is_some())
         .map(|kind| (kind.name().to_owned(), kind.folder().to_owned()))
         .collect();
     assert_eq!(cells, registry);

@@ -1,20 +1,18 @@
 //! What every test relies on: `tests/support` makes documents that the format accepts, and text that
 //! reads back to them.
 
-mod support;
-
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
 use serde_json::{Value, json};
-use urdd::format::registry::{ModuleKind, SPEC_VERSION, find};
-use urdd::format::root_metadata::RootMetadata;
+use urdd_format::registry::{ModuleKind, SPEC_VERSION, find};
+use urdd_format::root_metadata::RootMetadata;
 
-use support::core::{apply, norm, rotation_of_rpy, transform};
-use support::fixture::{Fixture, ROOT, URDF};
-use support::meshes::{Point, dot, minus};
-use support::robot::{arbitrary_box_robot, arbitrary_robot};
-use support::shapes::box_distance;
+use testkit::core::{apply, norm, rotation_of_rpy, transform};
+use testkit::fixture::{Fixture, ROOT, URDF};
+use testkit::meshes::{Point, dot, minus};
+use testkit::robot::{arbitrary_box_robot, arbitrary_robot};
+use testkit::shapes::box_distance;
 
 #[test]
 fn toy_is_accepted() {
@@ -23,7 +21,7 @@ fn toy_is_accepted() {
 
 #[test]
 fn a_model_that_is_written_down_is_accepted() {
-    check(&support::model::fixture());
+    check(&testkit::model::fixture());
 }
 
 #[test]

@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 use serde_json::{Map, Value, json};
-use urdd::directory::text_fault::TextFaultKind as Kind;
-use urdd::directory::yaml::{check_mirror, is_canonical};
-use urdd::directory::{canonical, json, position};
+use urdd_directory::text_fault::TextFaultKind as Kind;
+use urdd_directory::yaml::{check_mirror, is_canonical};
+use urdd_directory::{canonical, json, position};
 
 fn text() -> impl Strategy<Value = String> {
     let tricky = prop::sample::select(vec![

@@ -1,8 +1,8 @@
 //! YAML files that no honest producer writes.
 
 use serde_json::{Value, json};
-use urdd::directory::text_fault::{TextFaultKind as Kind, TextFaults};
-use urdd::directory::yaml::check_mirror;
+use urdd_directory::text_fault::{TextFaultKind as Kind, TextFaults};
+use urdd_directory::yaml::check_mirror;
 
 fn faults_of(yaml: &str, json: Value) -> TextFaults {
     check_mirror(yaml.as_bytes(), &json)

@@ -1,10 +1,10 @@
 //! The YAML mirror against what other readers say, against one fault at a time, and on bad input.
 
 use serde_json::{Value, json};
-use urdd::directory::canonical;
-use urdd::directory::text_fault::{KEPT_PER_KIND, TextFault, TextFaultKind as Kind, TextFaults};
-use urdd::directory::yaml::check_mirror;
-use urdd::directory::yaml::scalar::{Reading, classify};
+use urdd_directory::canonical;
+use urdd_directory::text_fault::{KEPT_PER_KIND, TextFault, TextFaultKind as Kind, TextFaults};
+use urdd_directory::yaml::check_mirror;
+use urdd_directory::yaml::scalar::{Reading, classify};
 
 // What other readers say.
 

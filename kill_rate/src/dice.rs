@@ -2,7 +2,7 @@
 
 use sha2::{Digest, Sha256};
 
-use urdd::kinematics::unit;
+use urdd_kinematics::unit;
 
 /// Numbers that follow from a seed and the name of what they are drawn for, so that what is drawn for one field does not
 /// depend on other fields.

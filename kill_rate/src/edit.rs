@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::pointer;
-use urdd::directory::canonical;
+use urdd_directory::canonical;
 
 /// Stands for the second of two equal keys until the text is written. No key of the format is so.
 const DOUBLED: &str = "\u{e000}doubled";

@@ -14,7 +14,7 @@ use super::mutation::{
 use super::original::Original;
 use super::plan::Plan;
 use super::sample;
-use urdd::directory::discover::ROOT_METADATA;
+use urdd_directory::discover::ROOT_METADATA;
 
 /// Versions that a module does not have.
 const OTHER_VERSIONS: [&str; 5] = ["0.0.1", "2.0.0", "1.0", "v1.0.0", "1.0.0\n\n"];

@@ -7,9 +7,9 @@ use std::process::ExitCode;
 use clap::{Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use urdd::validate::rules;
-use urdd::validate::settings::Settings;
 use urdd_kill_rate::{Judge, MeasureError, Plan, measure, present};
+use urdd_validate::rules;
+use urdd_validate::settings::Settings;
 
 /// Exit status: a module is below the least rate, or a URDD has findings as it is.
 const BELOW: u8 = 1;
@@ -107,7 +107,7 @@ fn main() -> ExitCode {
     let progress = |name: &str, done: usize, of: usize| {
         if bar.length() != Some(of as u64) {
             bar.set_length(of as u64);
-            bar.set_message(urdd::format::escape::line(name).into_owned());
+            bar.set_message(urdd_format::escape::line(name).into_owned());
         }
         bar.set_position(done as u64);
     };
@@ -128,8 +128,8 @@ fn main() -> ExitCode {
         Format::Human => present::table(&measured),
         Format::Json => {
             let value = present::json(&measured, &plan, arguments.list_all);
-            let text = urdd::directory::canonical::json_string(&value);
-            urdd::format::escape::json(&text).into_owned()
+            let text = urdd_directory::canonical::json_string(&value);
+            urdd_format::escape::json(&text).into_owned()
         }
     };
     let mut out = std::io::stdout().lock();

@@ -4,8 +4,8 @@ use serde_json::Value;
 
 use super::original::Original;
 use super::pointer;
-use urdd::directory::json;
-use urdd::geometry::read::{self, GltfUp, Options, Part, Scene};
+use urdd_directory::json;
+use urdd_geometry::read::{self, GltfUp, Options, Part, Scene};
 
 /// Vertices that moved by less than this part of the largest coordinate stand where they stood: ten times the resolution
 /// of meshes (SPEC 7.6: 8 * 2^-23).

@@ -16,8 +16,8 @@ use super::result::Measured;
 use super::sample;
 use super::workbench::Workbench;
 use super::{documents, file_changes, mesh_changes, module_changes, source_changes};
-use urdd::directory::discover::{DiscoverError, Found, discover};
-use urdd::validate::code::Code;
+use urdd_directory::discover::{DiscoverError, Found, discover};
+use urdd_validate::code::Code;
 
 /// Why nothing can be measured.
 #[derive(Debug, Error)]

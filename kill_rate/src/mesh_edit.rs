@@ -2,9 +2,9 @@
 
 use super::dice::Dice;
 use super::glb_node::{self, NodeChange};
-use urdd::geometry::Mesh;
-use urdd::geometry::read::Part;
-use urdd::geometry::write;
+use urdd_geometry::Mesh;
+use urdd_geometry::read::Part;
+use urdd_geometry::write;
 
 /// An edit. Numbers are drawn, and become a triangle, a corner or an axis of the mesh at hand.
 #[derive(Debug, Clone, Copy)]

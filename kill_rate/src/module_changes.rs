@@ -3,7 +3,7 @@
 use super::edit::Edit;
 use super::mutation::{Change, Description, FileChange, Files, Mutation, Target};
 use super::original::Original;
-use urdd::format::registry::ModuleKind;
+use urdd_format::registry::ModuleKind;
 
 /// How many other robots' modules are put in place of a module.
 const OTHERS: usize = 2;

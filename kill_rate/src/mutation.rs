@@ -6,8 +6,8 @@ use serde_json::Value;
 
 use super::edit::{self, Edit};
 use super::original::{self, Original};
-use urdd::directory::canonical;
-use urdd::directory::discover::ROOT_METADATA;
+use urdd_directory::canonical;
+use urdd_directory::discover::ROOT_METADATA;
 
 /// What of a document is changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -7,13 +7,13 @@ use serde_json::Value;
 use thiserror::Error;
 
 use super::reach;
-use urdd::directory::discover::ROOT_METADATA;
-use urdd::directory::json;
-use urdd::directory::limits::MAX_DOCUMENT_BYTES;
-use urdd::directory::root::{EntryKind, ReadError, Root};
-use urdd::format::hexadecimal::hexadecimal;
-use urdd::format::registry::{self, ModuleKind, Profile};
-use urdd::format::root_metadata::RootMetadata;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::json;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::root::{EntryKind, ReadError, Root};
+use urdd_format::hexadecimal::hexadecimal;
+use urdd_format::registry::{self, ModuleKind, Profile};
+use urdd_format::root_metadata::RootMetadata;
 
 /// Why a URDD cannot be measured with.
 #[derive(Debug, Error)]

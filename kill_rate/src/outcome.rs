@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::mutation::Description;
-use urdd::validate::code::Code;
-use urdd::validate::engine::{Check, Outcome as RuleOutcome};
-use urdd::validate::rule::{Phase, Rule, Severity};
-use urdd::validate::settings::Settings;
-use urdd::validate::validate_with;
+use urdd_validate::code::Code;
+use urdd_validate::engine::{Check, Outcome as RuleOutcome};
+use urdd_validate::rule::{Phase, Rule, Severity};
+use urdd_validate::settings::Settings;
+use urdd_validate::validate_with;
 
 /// What became of a change.
 #[derive(Debug, Clone, PartialEq, Eq)]

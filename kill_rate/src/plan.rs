@@ -1,7 +1,7 @@
 //! What is measured, and how much of it.
 
-use urdd::validate::rule::Rule;
-use urdd::validate::settings::Settings;
+use urdd_validate::rule::Rule;
+use urdd_validate::settings::Settings;
 
 /// What to measure.
 #[derive(Debug, Clone)]

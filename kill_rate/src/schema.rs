@@ -121,7 +121,7 @@ pub(crate) fn example(schema: &Value, parts: &[&Value]) -> Option<Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use urdd::format::registry::{ModuleKind, find};
+    use urdd_format::registry::{ModuleKind, find};
 
     #[test]
     fn reads_the_schema_of_a_robot() {

@@ -1,25 +1,22 @@
 //! The measure of the rules measures: it finds a blind spot, says the same for any number of threads, and leaves what it
 //! measures with as it was.
 
-#[path = "../../tests/support/mod.rs"]
-mod support;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
 use serde_json::{Value, json};
-use support::fixture::{Fixture, toy_robot};
 use tempfile::TempDir;
-use urdd::validate::code::Code;
-use urdd::validate::rule::{Rule, Severity};
-use urdd::validate::rules;
-use urdd::validate::settings::Settings;
+use testkit::fixture::{Fixture, toy_robot};
 use urdd_kill_rate::{
     FIELD_TOLERANCES, FREE_FIELDS, Judge, MeasureError, Measured, Outcome, PERMITTED, Plan, Target,
     Tolerance, Trial, measure, present,
 };
+use urdd_validate::code::Code;
+use urdd_validate::rule::{Rule, Severity};
+use urdd_validate::rules;
+use urdd_validate::settings::Settings;
 
 fn core() -> TempDir {
     let folder = TempDir::new().expect("a folder");

@@ -1,12 +1,12 @@
 //! Messages whose advice is for the command line, with advice for Python in its place: by the error, never by its words.
 
-use urdd::combine::{CombineError, PartFault};
-use urdd::directory::staging::StagingError;
-use urdd::export::ExportError;
-use urdd::format::escape::line;
-use urdd::generate::fault::Fault;
-use urdd::generate::{EditsFault, GenerateError};
-use urdd::robot::RobotError;
+use urdd_directory::staging::StagingError;
+use urdd_export::ExportError;
+use urdd_format::escape::line;
+use urdd_generate::combine::{CombineError, PartFault};
+use urdd_generate::fault::Fault;
+use urdd_generate::{EditsFault, GenerateError};
+use urdd_robot::RobotError;
 
 /// Where there is more to read.
 pub const SAYS_MORE: &str = "urdd.validate(path) says more";

@@ -9,8 +9,8 @@ use numpy::{
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use urdd::cancellation::Cancellation;
-use urdd::robot::RobotError;
+use urdd_directory::cancellation::Cancellation;
+use urdd_robot::RobotError;
 
 use crate::errors::of_robot;
 use crate::work;

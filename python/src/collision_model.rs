@@ -4,10 +4,10 @@ use numpy::ndarray::IntoDimension;
 use numpy::{Element, PyArray, PyArray1, PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use urdd::cancellation::Cancellation;
-use urdd::format::index::LinkIdx;
-use urdd::kinematics::ConfigurationError;
-use urdd::robot::RobotError;
+use urdd_directory::cancellation::Cancellation;
+use urdd_format::index::LinkIdx;
+use urdd_kinematics::ConfigurationError;
+use urdd_robot::RobotError;
 
 use crate::arrays::{Batch, answers, shaped};
 use crate::errors::of_robot;
@@ -19,7 +19,7 @@ const BETWEEN_LOOKS: usize = 16_384;
 /// Values of a block, at most; 16 MB besides the answers.
 const VALUES_AT_ONCE: usize = 1 << 20;
 
-type Model = urdd::robot::CollisionModel;
+type Model = urdd_robot::CollisionModel;
 type Answer<T> = Result<Vec<T>, ConfigurationError>;
 
 /// A network that estimates how near links are.

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use urdd::combine::{Recipe, check_parts};
-use urdd::validate::find_errors;
+use urdd_generate::combine::{Recipe, check_parts};
+use urdd_validate::find_errors;
 
 use crate::errors::of_combine;
 use crate::generate::{Options, summary, with_progress};
@@ -34,7 +34,7 @@ pub fn combine<'py>(
         };
         let find_errors = |part: &Path| find_errors(part, &settings.cancellation);
         let distrusted = check_parts(&recipe, settings, find_errors)?;
-        urdd::combine::combine(&recipe, &target, settings, &distrusted, progress)
+        urdd_generate::combine::combine(&recipe, &target, settings, &distrusted, progress)
     })?;
     let made = made.map_err(|error| of_combine(py, &error))?;
     let notes = made.notes.iter();

@@ -2,10 +2,10 @@
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use urdd::combine::CombineError;
-use urdd::generate::GenerateError;
-use urdd::kinematics::ConfigurationError;
-use urdd::robot::RobotError;
+use urdd_generate::GenerateError;
+use urdd_generate::combine::CombineError;
+use urdd_kinematics::ConfigurationError;
+use urdd_robot::RobotError;
 
 use crate::advice;
 

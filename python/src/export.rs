@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use urdd::export::{Format, Options, SphereBudget};
+use urdd_export::{Format, Options, SphereBudget};
 
 use crate::advice;
 use crate::errors::{of_robot, raise};
@@ -66,9 +66,9 @@ pub fn export<'py>(
         mesh_folder,
     };
     let robot = Arc::clone(robot.read(py)?);
-    let made = work::run(py, move |_| urdd::export::export(&robot, format, &options))?;
+    let made = work::run(py, move |_| urdd_export::export(&robot, format, &options))?;
     let made = made.map_err(|error| match error {
-        urdd::export::ExportError::Robot(error) => of_robot(py, &error),
+        urdd_export::ExportError::Robot(error) => of_robot(py, &error),
         error => raise(py, "ExportError", advice::of_export(&error), &[]),
     })?;
     let files = made.files.iter();

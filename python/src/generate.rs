@@ -7,12 +7,12 @@ use std::time::Duration;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use urdd::cancellation::Cancellation;
-use urdd::format::link_shapes_skips::SkippedReason;
-use urdd::format::meshes::GeometryKind;
-use urdd::format::registry::ModuleKind;
-use urdd::generate::batch::caught;
-use urdd::generate::{
+use urdd_directory::cancellation::Cancellation;
+use urdd_format::link_shapes_skips::SkippedReason;
+use urdd_format::meshes::GeometryKind;
+use urdd_format::registry::ModuleKind;
+use urdd_generate::batch::caught;
+use urdd_generate::{
     Generated, MeshFormats, Packages, Pieces, Progress, Selection, Settings, XacroSettings,
 };
 
@@ -244,12 +244,12 @@ pub fn generate<'py>(
         progress,
         move |settings, progress| match text {
             None => caught(&source, || {
-                urdd::generate::generate(&source, &target, settings, progress)
+                urdd_generate::generate(&source, &target, settings, progress)
             }),
             Some(text) => {
                 let shown = "<text>";
                 caught(shown.as_ref(), || {
-                    urdd::generate::generate_text(text, shown, &source, &target, settings, progress)
+                    urdd_generate::generate_text(text, shown, &source, &target, settings, progress)
                 })
             }
         },

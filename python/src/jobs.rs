@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use urdd::generate::batch;
+use urdd_generate::batch;
 
 use crate::errors::raise;
 use crate::work;

@@ -6,8 +6,8 @@ use std::thread::JoinHandle;
 
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
-use urdd::cancellation::Cancellation;
 use urdd::view::{Collection, Server};
+use urdd_directory::cancellation::Cancellation;
 
 use crate::errors::raise;
 use crate::work;

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use urdd::directory::discover::ROOT_METADATA;
-use urdd::directory::limits::MAX_DOCUMENT_BYTES;
-use urdd::directory::root::ReadError;
-use urdd::document::load::Loaded;
-use urdd::document::urdd::Urdd;
-use urdd::format::registry::{ModuleKind, Profile};
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::root::ReadError;
+use urdd_document::load::Loaded;
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::{ModuleKind, Profile};
 
 use crate::advice;
 use crate::errors::{of_robot, raise};
@@ -81,7 +81,7 @@ impl Robot {
             } => Ok((version, is_legacy, text)),
             Read::NotListed(error) => Err(raise(py, "OpenError", error, &[])),
             Read::Missing => {
-                let error = urdd::robot::RobotError::Missing(kind);
+                let error = urdd_robot::RobotError::Missing(kind);
                 Err(of_robot(py, &error))
             }
             Read::Unusable(fault) => {

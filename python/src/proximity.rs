@@ -7,8 +7,8 @@ use numpy::{
     Element, PyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
-use urdd::cancellation::Cancellation;
-use urdd::robot::{PairDistance, RobotError, Until};
+use urdd_directory::cancellation::Cancellation;
+use urdd_robot::{PairDistance, RobotError, Until};
 
 use crate::arrays::{Batch, answers, shaped};
 use crate::errors::of_robot;
@@ -18,14 +18,14 @@ type Near = ([usize; 2], [usize; 2], f64, Option<f64>, [[f64; 3]; 2]);
 
 /// The shapes of one kind, prepared for distances.
 #[pyclass(frozen, module = "urdd._urdd")]
-pub struct Proximity(Arc<urdd::robot::Proximity>);
+pub struct Proximity(Arc<urdd_robot::Proximity>);
 
 impl Proximity {
-    pub fn of(proximity: urdd::robot::Proximity) -> Self {
+    pub fn of(proximity: urdd_robot::Proximity) -> Self {
         Proximity(Arc::new(proximity))
     }
 
-    pub fn shared(&self) -> Arc<urdd::robot::Proximity> {
+    pub fn shared(&self) -> Arc<urdd_robot::Proximity> {
         Arc::clone(&self.0)
     }
 
@@ -35,7 +35,7 @@ impl Proximity {
         py: Python<'py>,
         configurations: &PyReadonlyArray2<'py, f64>,
         shape: S,
-        one: impl Fn(&urdd::robot::Proximity, &[f64], &mut [T]) -> Result<(), RobotError> + Sync,
+        one: impl Fn(&urdd_robot::Proximity, &[f64], &mut [T]) -> Result<(), RobotError> + Sync,
         many: impl FnOnce(&Until<'_>, &[f64], &mut [T]) -> Result<(), RobotError> + Send,
     ) -> PyResult<Bound<'py, PyArray<T, S::Dim>>> {
         let batch = Batch::new(configurations)?;

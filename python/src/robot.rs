@@ -11,10 +11,10 @@ use numpy::{
     PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
-use urdd::cancellation::Cancellation;
-use urdd::directory::root::Root;
-use urdd::directory::source::is_urdd;
-use urdd::robot::{InverseSettings, RobotError, ShapeKind, Target, fill};
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::root::Root;
+use urdd_directory::source::is_urdd;
+use urdd_robot::{InverseSettings, RobotError, ShapeKind, Target, fill};
 
 use crate::arrays::{Batch, answers, copy, pose, shaped, write_matrix};
 use crate::collision_model::CollisionModel;
@@ -30,7 +30,7 @@ const BLOCK: usize = 64;
 /// A robot, as its URDD describes it.
 #[pyclass(frozen, module = "urdd._urdd")]
 pub struct Robot {
-    pub robot: Arc<urdd::robot::Robot>,
+    pub robot: Arc<urdd_robot::Robot>,
     pub root: Root,
     pub path: PathBuf,
     /// Held by whoever reads modules for the first time: two that wait for each other on the threads of one pool might
@@ -43,7 +43,7 @@ pub struct Robot {
 
 impl Robot {
     /// A robot whose kinematics and bounds were read, as far as they can be.
-    pub fn read(&self, py: Python<'_>) -> PyResult<&Arc<urdd::robot::Robot>> {
+    pub fn read(&self, py: Python<'_>) -> PyResult<&Arc<urdd_robot::Robot>> {
         if !self.is_read.load(Ordering::Acquire) {
             let _reading = work::lock(py, &self.reading)?;
             work::run(py, |_| {
@@ -59,7 +59,7 @@ impl Robot {
     pub fn ask<T: Send>(
         &self,
         py: Python<'_>,
-        question: impl FnOnce(&urdd::robot::Robot, &Cancellation) -> Result<T, RobotError> + Send,
+        question: impl FnOnce(&urdd_robot::Robot, &Cancellation) -> Result<T, RobotError> + Send,
     ) -> PyResult<T> {
         let robot = self.read(py)?;
         work::run(py, |cancellation| question(robot, cancellation))?
@@ -69,7 +69,7 @@ impl Robot {
     fn names<'a, T: ?Sized>(
         &'a self,
         py: Python<'_>,
-        names: impl FnOnce(&'a urdd::robot::Robot) -> Result<&'a T, RobotError>,
+        names: impl FnOnce(&'a urdd_robot::Robot) -> Result<&'a T, RobotError>,
     ) -> PyResult<&'a T> {
         self.read(py)?;
         names(&self.robot).map_err(|error| of_robot(py, &error))
@@ -81,7 +81,7 @@ impl Robot {
     /// Opens a folder or a zip archive.
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let robot = urdd::robot::Robot::open(&path).map_err(|error| of_robot(py, &error))?;
+        let robot = urdd_robot::Robot::open(&path).map_err(|error| of_robot(py, &error))?;
         if path.is_dir() && !is_urdd(&path) {
             let message = format!(
                 "{}: there is no URDD in this folder: neither urdd.json nor the folder of a module",

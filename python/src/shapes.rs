@@ -3,9 +3,9 @@
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use urdd::format::link_shapes_simple_skips::SkipReason;
-use urdd::geometry::Mesh;
-use urdd::robot::{ShapeKind, Solid};
+use urdd_format::link_shapes_simple_skips::SkipReason;
+use urdd_geometry::Mesh;
+use urdd_robot::{ShapeKind, Solid};
 
 use crate::arrays::{matrix, shaped};
 use crate::errors::of_robot;
@@ -18,7 +18,7 @@ impl Robot {
     fn shapes<'py>(&self, py: Python<'py>, kind: &str) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let kind: ShapeKind = kind.parse().map_err(|error| of_robot(py, &error))?;
         let shapes = self.ask(py, move |robot, _| robot.shapes(kind))?;
-        let one = |shape: urdd::robot::LinkShape| {
+        let one = |shape: urdd_robot::LinkShape| {
             let found = PyDict::new(py);
             found.set_item("link", shape.link)?;
             found.set_item("piece", shape.piece)?;
@@ -46,7 +46,7 @@ impl Robot {
         let parts = visuals
             .iter()
             .flat_map(|visual| visual.parts.iter().map(move |part| (visual.link, part)));
-        let one = |(link, part): (usize, &urdd::geometry::read::Part)| {
+        let one = |(link, part): (usize, &urdd_geometry::read::Part)| {
             let found = PyDict::new(py);
             found.set_item("link", link)?;
             found.set_item("color", part.color)?;

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde_json::{Value, from_value};
-use urdd::report::{self, Report};
-use urdd::validate::rule::Severity;
-use urdd::validate::selection::Codes;
-use urdd::validate::settings::{Exclude, Settings};
-use urdd::validate::{ValidateError, rules};
+use urdd_validate::report::{self, Report};
+use urdd_validate::rule::Severity;
+use urdd_validate::selection::Codes;
+use urdd_validate::settings::{Exclude, Settings};
+use urdd_validate::{ValidateError, rules};
 
 use crate::errors::raise;
 use crate::work;
@@ -72,9 +72,9 @@ pub fn validate(py: Python<'_>, paths: Vec<PathBuf>, options: Options) -> PyResu
     let mut settings = options.settings().map_err(PyValueError::new_err)?;
     let outcome = work::run(py, move |cancellation| {
         settings.cancellation = cancellation.clone();
-        let run = urdd::validate::validate(&paths, &settings)?;
+        let run = urdd_validate::validate(&paths, &settings)?;
         let fail_on = settings.fail_on.unwrap_or(Severity::Error);
-        Ok(report::json(&Report::new(&run, fail_on)))
+        Ok(report::json(&run.report(fail_on)))
     })?;
     match outcome {
         Ok(text) => text.map_err(|error| PyRuntimeError::new_err(error.to_string())),

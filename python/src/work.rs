@@ -9,7 +9,7 @@ use std::time::Duration;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::panic::PanicException;
 use pyo3::prelude::*;
-use urdd::cancellation::Cancellation;
+use urdd_directory::cancellation::Cancellation;
 
 use crate::threads::pool;
 

@@ -7,9 +7,9 @@ use numpy::{
     Element, PyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
-use urdd::cancellation::Cancellation;
-use urdd::geometry::Mesh;
-use urdd::robot::{ObstacleDistance, RobotError, World, fill};
+use urdd_directory::cancellation::Cancellation;
+use urdd_geometry::Mesh;
+use urdd_robot::{ObstacleDistance, RobotError, World, fill};
 
 use crate::arrays::{Batch, answers, check_memory, copy, pose, zeros};
 use crate::errors::of_robot;
@@ -29,13 +29,13 @@ type Near = ([usize; 2], usize, f64, [[f64; 3]; 2]);
 
 /// A body that a robot should keep away from.
 #[pyclass(frozen, module = "urdd._urdd")]
-pub struct Obstacle(urdd::robot::Obstacle);
+pub struct Obstacle(urdd_robot::Obstacle);
 
 /// An obstacle of a pose, which is a matrix (4, 4).
 fn obstacle(
     py: Python<'_>,
     at: &PyReadonlyArray2<'_, f64>,
-    make: impl FnOnce(nalgebra::Isometry3<f64>) -> Result<urdd::robot::Obstacle, RobotError>,
+    make: impl FnOnce(nalgebra::Isometry3<f64>) -> Result<urdd_robot::Obstacle, RobotError>,
 ) -> PyResult<Obstacle> {
     let made = make(pose(&copy(at)?));
     made.map(Obstacle).map_err(|error| of_robot(py, &error))
@@ -57,13 +57,13 @@ impl Obstacle {
         pose: PyReadonlyArray2<'_, f64>,
         half_extents: [f64; 3],
     ) -> PyResult<Self> {
-        let make = |pose| urdd::robot::Obstacle::cuboid(name, pose, half_extents);
+        let make = |pose| urdd_robot::Obstacle::cuboid(name, pose, half_extents);
         obstacle(py, &pose, make)
     }
 
     #[staticmethod]
     fn sphere(py: Python<'_>, name: &str, centre: [f64; 3], radius: f64) -> PyResult<Self> {
-        let made = urdd::robot::Obstacle::sphere(name, centre, radius);
+        let made = urdd_robot::Obstacle::sphere(name, centre, radius);
         made.map(Obstacle).map_err(|error| of_robot(py, &error))
     }
 
@@ -75,7 +75,7 @@ impl Obstacle {
         radius: f64,
         half_length: f64,
     ) -> PyResult<Self> {
-        let make = |pose| urdd::robot::Obstacle::capsule(name, pose, radius, half_length);
+        let make = |pose| urdd_robot::Obstacle::capsule(name, pose, radius, half_length);
         obstacle(py, &pose, make)
     }
 
@@ -87,7 +87,7 @@ impl Obstacle {
         radius: f64,
         half_length: f64,
     ) -> PyResult<Self> {
-        let make = |pose| urdd::robot::Obstacle::cylinder(name, pose, radius, half_length);
+        let make = |pose| urdd_robot::Obstacle::cylinder(name, pose, radius, half_length);
         obstacle(py, &pose, make)
     }
 
@@ -101,7 +101,7 @@ impl Obstacle {
     ) -> PyResult<Self> {
         let points = rows(&points)?;
         check_memory(points.len().saturating_mul(BYTES_A_VERTEX))?;
-        let make = |pose| urdd::robot::Obstacle::hull(name, pose, &points);
+        let make = |pose| urdd_robot::Obstacle::hull(name, pose, &points);
         obstacle(py, &pose, make)
     }
 
@@ -122,7 +122,7 @@ impl Obstacle {
             triangles: faces.as_chunks().0.to_vec(),
         };
         let pose = crate::arrays::pose(&copy(&pose)?);
-        let made = work::run(py, |_| urdd::robot::Obstacle::mesh(&name, pose, &mesh))?;
+        let made = work::run(py, |_| urdd_robot::Obstacle::mesh(&name, pose, &mesh))?;
         made.map(Obstacle).map_err(|error| of_robot(py, &error))
     }
 
@@ -136,12 +136,12 @@ impl Obstacle {
 /// The shapes of a robot among obstacles.
 #[pyclass(frozen, module = "urdd._urdd")]
 pub struct Among {
-    among: urdd::robot::Among<Arc<urdd::robot::Proximity>>,
+    among: urdd_robot::Among<Arc<urdd_robot::Proximity>>,
     /// Pairs of a shape and a part of an obstacle, at most: one configuration takes memory for all of them.
     num_tested: usize,
 }
 
-type Asked = urdd::robot::Among<Arc<urdd::robot::Proximity>>;
+type Asked = urdd_robot::Among<Arc<urdd_robot::Proximity>>;
 
 impl Among {
     /// The answers of many configurations, of this shape.

@@ -12,8 +12,8 @@ use serde_json::json;
 use super::configurations::{self, Listed};
 use super::output;
 use super::shapes::{self, Shapes};
-use crate::format::escape;
-use crate::robot::{Configurations, PairDistance, Proximity, RobotError};
+use urdd_format::escape;
+use urdd_robot::{Configurations, PairDistance, Proximity, RobotError};
 
 /// Arguments of `urdd check-collisions`.
 ///

@@ -10,10 +10,9 @@ use super::generate_output::Printer;
 use super::making::MakingArguments;
 use super::output;
 use super::signals::Signals;
-use crate::combine::{Recipe, check_parts, combine};
-use crate::generate::batch::Job;
-use crate::process;
-use crate::validate;
+use urdd_generate::batch::Job;
+use urdd_generate::combine::{Recipe, check_parts, combine};
+use urdd_generate::process;
 
 /// Exit status: the robots could not be put together.
 const FAILED: u8 = 1;
@@ -120,7 +119,8 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
         let progress = printer.begin_robot(&job);
         pool.install(|| {
             settings.cancellation = signals.cancellation();
-            let find_errors = |part: &Path| validate::find_errors(part, &settings.cancellation);
+            let find_errors =
+                |part: &Path| urdd_validate::find_errors(part, &settings.cancellation);
             let distrusted = check_parts(&recipe, &settings, find_errors)?;
             let mut made = combine(&recipe, &target, &settings, &distrusted, &*progress)?;
             made.notes.splice(..0, unsaid);

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::directory::regular;
-use crate::format::escape;
-use crate::robot::Robot;
+use urdd_directory::regular;
+use urdd_format::escape;
+use urdd_robot::Robot;
 
 /// More than this is not read, bytes.
 const MAX_BYTES: u64 = 1 << 30;

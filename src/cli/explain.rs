@@ -6,11 +6,11 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::{output, printed};
-use crate::format::escape;
-use crate::validate::code::RetiredCode;
-use crate::validate::rule::Rule;
-use crate::validate::rules;
-use crate::validate::selection::Codes;
+use urdd_format::escape;
+use urdd_validate::code::RetiredCode;
+use urdd_validate::rule::Rule;
+use urdd_validate::rules;
+use urdd_validate::selection::Codes;
 
 /// Arguments of `urdd explain`.
 #[derive(Args)]

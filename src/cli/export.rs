@@ -9,10 +9,10 @@ use clap::{Args, ValueEnum};
 use super::making::Skip;
 use super::output;
 use super::shapes::{self, Shapes};
-use crate::directory::regular;
-use crate::export::{Export, Format, Note, Options, SphereBudget, export, merge_srdf};
-use crate::format::escape;
-use crate::format::link_shapes_skips::SkippedReason;
+use urdd_directory::regular;
+use urdd_export::{Export, Format, Note, Options, SphereBudget, export, merge_srdf};
+use urdd_format::escape;
+use urdd_format::link_shapes_skips::SkippedReason;
 
 /// Largest SRDF that is brought up to date, bytes.
 const MAX_SRDF_BYTES: u64 = 16 << 20;

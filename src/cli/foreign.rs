@@ -3,9 +3,9 @@
 use std::io::Read;
 use std::path::Path;
 
-use crate::directory::discover::DiscoverError;
-use crate::directory::regular;
-use crate::format::escape;
+use urdd_directory::discover::DiscoverError;
+use urdd_directory::regular;
+use urdd_format::escape;
 
 /// How much of a file is looked at to tell what it is, bytes.
 const HEAD: u64 = 4096;

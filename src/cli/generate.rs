@@ -10,10 +10,10 @@ use super::generate_output::Printer;
 use super::making::MakingArguments;
 use super::output;
 use super::signals::Signals;
-use crate::format::escape;
-use crate::generate::batch::{self, Job, Shard};
-use crate::generate::{MAX_SOURCE_BYTES, Settings, generate_text};
-use crate::process;
+use urdd_format::escape;
+use urdd_generate::batch::{self, Job, Shard};
+use urdd_generate::process;
+use urdd_generate::{MAX_SOURCE_BYTES, Settings, generate_text};
 
 /// Exit status: a robot could not be made.
 const FAILED: u8 = 1;
@@ -162,7 +162,7 @@ fn one(
     pool: &rayon::ThreadPool,
     printer: &Printer,
 ) -> Result<usize, String> {
-    use crate::generate::batch::Observer;
+    use urdd_generate::batch::Observer;
     let piped = match source.as_os_str() == STANDARD_INPUT {
         true => Some(standard_input()?),
         false => None,
@@ -178,7 +178,7 @@ fn one(
                 let shown = "standard input";
                 generate_text(urdf, shown, Path::new("."), output, settings, &*progress)
             }
-            None => crate::generate::generate(&job.source, output, settings, &*progress),
+            None => urdd_generate::generate(&job.source, output, settings, &*progress),
         })
     });
     drop(progress);

@@ -8,12 +8,12 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
 use super::output;
-use crate::combine::{CombineError, Combined};
-use crate::format::escape;
-use crate::format::registry::ModuleKind;
-use crate::generate::batch::{Job, Observer};
-use crate::generate::note::{Note, NoteKind};
-use crate::generate::{GenerateError, Generated, Progress};
+use urdd_format::escape;
+use urdd_format::registry::ModuleKind;
+use urdd_generate::batch::{Job, Observer};
+use urdd_generate::combine::{CombineError, Combined};
+use urdd_generate::note::{Note, NoteKind};
+use urdd_generate::{GenerateError, Generated, Progress};
 
 /// Notes of a kind that are told one by one.
 const MOST_TOLD: usize = 3;

@@ -6,9 +6,9 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 
 use super::output;
-use crate::directory::discover::discover;
-use crate::format::escape;
-use crate::report::info::{self, Info};
+use urdd_directory::discover::discover;
+use urdd_format::escape;
+use urdd_validate::report::info::{self, Info};
 
 /// Arguments of `urdd info`.
 #[derive(Args)]

@@ -7,11 +7,11 @@ use clap::{Args, ValueEnum};
 
 use super::generate_output::Format;
 use super::signals::Signals;
-use crate::format::escape;
-use crate::format::link_shapes_skips::SkippedReason;
-use crate::format::meshes::GeometryKind;
-use crate::generate::{MeshFormats, Packages, Pieces, Selection, Settings, XacroSettings};
-use crate::learn::train::Effort;
+use urdd_format::escape;
+use urdd_format::link_shapes_skips::SkippedReason;
+use urdd_format::meshes::GeometryKind;
+use urdd_generate::train::Effort;
+use urdd_generate::{MeshFormats, Packages, Pieces, Selection, Settings, XacroSettings};
 
 /// How a URDD is made.
 #[derive(Args)]

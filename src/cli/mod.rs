@@ -29,7 +29,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
 use self::output::Color;
-use crate::format::escape;
+use urdd_format::escape;
 
 /// Specification, validator and reference generator of the Universal Robot Description Directory.
 #[derive(Parser)]

@@ -9,9 +9,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::ValueEnum;
 use tempfile::TempPath;
 
-use crate::directory::discover::ROOT_METADATA;
-use crate::format::escape;
-use crate::report::style::STYLES;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_format::escape;
+use urdd_validate::report::style::STYLES;
 
 /// Exit status: wrong usage, nothing could be examined, or what was found could not be written.
 pub const USAGE: u8 = 2;

@@ -6,12 +6,12 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::output;
-use crate::directory::discover::{Found, discover};
-use crate::directory::rehash::rehash;
-use crate::directory::root::Root;
-use crate::document::module::Module;
-use crate::document::urdd::Urdd;
-use crate::format::escape;
+use urdd_directory::discover::{Found, discover};
+use urdd_directory::rehash::rehash;
+use urdd_directory::root::Root;
+use urdd_document::module::Module;
+use urdd_document::urdd::Urdd;
+use urdd_format::escape;
 
 /// Exit status: the hashes are up to date, and a document is broken.
 const BROKEN: u8 = 1;

@@ -6,10 +6,10 @@ use std::process::ExitCode;
 use clap::{Args, Subcommand};
 
 use super::output;
-use crate::directory::schema_files::{self, SchemaFault};
-use crate::format::bundle;
-use crate::format::registry::Profile;
-use crate::format::schema::{self, Subject, Variant};
+use urdd_directory::schema_files::{self, SchemaFault};
+use urdd_format::bundle;
+use urdd_format::registry::Profile;
+use urdd_format::schema::{self, Subject, Variant};
 
 /// Arguments of `urdd schema`.
 #[derive(Args)]

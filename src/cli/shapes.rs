@@ -5,10 +5,10 @@ use std::path::Path;
 use clap::ValueEnum;
 
 use super::foreign;
-use crate::directory::discover::DiscoverError;
-use crate::directory::source::is_archive;
-use crate::format::escape;
-use crate::robot::{Robot, ShapeKind};
+use urdd_directory::discover::DiscoverError;
+use urdd_directory::source::is_archive;
+use urdd_format::escape;
+use urdd_robot::{Robot, ShapeKind};
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Shapes {

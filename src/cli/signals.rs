@@ -9,7 +9,7 @@ use signal_hook::consts::SIGHUP;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-use crate::cancellation::Cancellation;
+use urdd_directory::cancellation::Cancellation;
 
 /// What a shell adds to the number of a signal to make an exit status of it.
 const BY_SIGNAL: i32 = 128;

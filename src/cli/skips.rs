@@ -6,15 +6,15 @@ use std::process::ExitCode;
 use clap::{Args, Subcommand};
 
 use super::{output, shapes};
-use crate::directory::discover::ROOT_METADATA;
-use crate::directory::limits::MAX_DOCUMENT_BYTES;
-use crate::directory::read_error::ReadError;
-use crate::directory::regular;
-use crate::directory::replacement::Replacement;
-use crate::directory::root::Root;
-use crate::export::{ImportedSkips, import_srdf};
-use crate::format::escape;
-use crate::format::registry::ModuleKind;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::read_error::ReadError;
+use urdd_directory::regular;
+use urdd_directory::replacement::Replacement;
+use urdd_directory::root::Root;
+use urdd_export::{ImportedSkips, import_srdf};
+use urdd_format::escape;
+use urdd_format::registry::ModuleKind;
 
 /// How often edits are made again, since another program wrote into the URDD meanwhile.
 const MAX_TRIES: usize = 5;

@@ -9,17 +9,17 @@ use clap::{Args, ValueEnum};
 use super::foreign;
 use super::output::{self, Color};
 use super::words::{Class, Level};
-use crate::directory::regular;
-use crate::format::escape;
-use crate::report::human;
-use crate::report::model::Verdict;
-use crate::report::place::places;
-use crate::report::style::Style;
-use crate::report::{self, Report};
-use crate::validate::rule::Severity;
-use crate::validate::selection::Codes;
-use crate::validate::settings::{Exclude, Settings};
-use crate::validate::{self, ValidateError, rules};
+use urdd_directory::regular;
+use urdd_format::escape;
+use urdd_validate::report::human;
+use urdd_validate::report::model::Verdict;
+use urdd_validate::report::place::places;
+use urdd_validate::report::style::Style;
+use urdd_validate::report::{self, Report};
+use urdd_validate::rule::Severity;
+use urdd_validate::selection::Codes;
+use urdd_validate::settings::{Exclude, Settings};
+use urdd_validate::{ValidateError, rules};
 
 /// Longest settings file, bytes.
 const MAX_SETTINGS_BYTES: u64 = 1 << 20;
@@ -149,11 +149,12 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
     }
     // A crashed rule is caught and reported; the default hook would print besides.
     std::panic::set_hook(Box::new(|_| {}));
-    let run =
-        validate::validate_with(&arguments.paths, &settings, &rules).map_err(|error| match error {
+    let run = urdd_validate::validate_with(&arguments.paths, &settings, &rules).map_err(|error| {
+        match error {
             ValidateError::Discover(error) => foreign::advice(&error),
             error => error.to_string(),
-        });
+        }
+    });
     let _ = std::panic::take_hook();
     let run = run?;
     if run.subjects.is_empty() {
@@ -162,7 +163,7 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
             "nothing to examine: all URDDs that were found ({urdds}) are excluded"
         ));
     }
-    let report = Report::new(&run, fail_on);
+    let report = run.report(fail_on);
     let status = status(&report);
     let current = std::env::current_dir().unwrap_or_default();
     let places = places(&run, &current);

@@ -11,12 +11,12 @@ use clap::Args;
 use super::generate_output::{Format, Printer};
 use super::output;
 use super::signals::Signals;
-use crate::directory::discover::DiscoverError;
-use crate::format::escape;
-use crate::format::registry::ModuleKind;
-use crate::generate::batch::{Job, Observer, caught};
-use crate::generate::{self, Packages, Progress, Settings};
 use crate::view::{Collection, Making, Server, Shown, Temporary, export, may_hold_page, page_with};
+use urdd_directory::discover::DiscoverError;
+use urdd_format::escape;
+use urdd_format::registry::ModuleKind;
+use urdd_generate::batch::{Job, Observer, caught};
+use urdd_generate::{Packages, Progress, Settings};
 
 /// Arguments of `urdd view`.
 #[derive(Args)]
@@ -166,7 +166,7 @@ fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
     if !path.is_dir() {
         return Ok(None);
     }
-    match crate::directory::discover::discover(path) {
+    match urdd_directory::discover::discover(path) {
         Err(DiscoverError::NoUrdd { .. }) => {}
         _ => return Ok(None),
     }
@@ -269,7 +269,7 @@ fn make(wanted: &Wanted, settings: &Settings) -> bool {
     // A crash is caught and reported; the default hook would print besides.
     std::panic::set_hook(Box::new(|_| {}));
     let outcome = caught(&job.source, || {
-        generate::generate(&job.source, target, settings, &progress)
+        urdd_generate::generate(&job.source, target, settings, &progress)
     });
     let _ = std::panic::take_hook();
     drop(progress);

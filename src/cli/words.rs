@@ -2,8 +2,8 @@
 
 use clap::ValueEnum;
 
-use crate::format::report::Severity;
-use crate::format::root_metadata::ConformanceClass;
+use urdd_format::report::Severity;
+use urdd_format::root_metadata::ConformanceClass;
 
 /// A conformance class.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

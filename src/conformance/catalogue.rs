@@ -7,8 +7,8 @@ use super::case::{Expected, Kind, Verdict};
 use super::data::{INVALID, URDD};
 use super::suite::Suite;
 use super::valid;
-use crate::directory::discover::ROOT_METADATA;
-use crate::format::registry::{Profile, SPEC_VERSION};
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_format::registry::{Profile, SPEC_VERSION};
 
 /// The file of an exported suite that lists everything.
 pub const CATALOGUE: &str = "suite.json";

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::tree::{FilePath, Node, Tree};
-use crate::directory::canonical;
-use crate::directory::json;
+use urdd_directory::canonical;
+use urdd_directory::json;
 
 /// A change of one file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -11,9 +11,9 @@ use super::data::{self, INVALID, ROBOTS, URDD, VALID, VECTORS};
 use super::suite::{CaseError, Suite, SuiteError};
 use super::tree::{Tree, TreeError};
 use super::valid;
-use crate::cancellation::Cancellation;
-use crate::format::registry::SPEC_VERSION;
-use crate::generate::GenerateError;
+use urdd_directory::cancellation::Cancellation;
+use urdd_format::registry::SPEC_VERSION;
+use urdd_generate::GenerateError;
 
 /// Describes the suite.
 const README: &str = "README.md";

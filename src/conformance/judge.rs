@@ -1,8 +1,8 @@
 //! What a case expects, against what `urdd validate` found.
 
 use super::case::{Case, Expected, Verdict};
-use crate::report::model::{Finding, Severity};
-use crate::report::{self, Report};
+use urdd_validate::report::model::{Finding, Severity};
+use urdd_validate::report::{self, Report};
 
 /// What was found that a case of the rule `code` lists: everything but informations by other rules.
 pub fn found(code: &str, report: &Report) -> Vec<Expected> {

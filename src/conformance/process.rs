@@ -8,8 +8,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use crate::cancellation::{Cancellation, Cancelled};
-use crate::process::{Ended, PAUSE, Running};
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_generate::process::{Ended, PAUSE, Running};
 
 /// How much of what a program prints is kept, from its end, bytes.
 const TAIL: usize = 2000;

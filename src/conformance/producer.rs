@@ -12,17 +12,17 @@ use super::skips::{Skip, SkipError};
 use super::tree::TreeError;
 use super::valid;
 use super::workplace::{Workplace, WorkplaceError};
-use crate::cancellation::{Cancellation, Cancelled};
-use crate::format::conformance::{
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_format::conformance::{
     ClassScore, ModuleScore, ModuleStatus, ProducerResult, RobotModule, RobotScore, ScoreStatus,
 };
-use crate::format::index::Count;
-use crate::format::registry::{ModuleKind, SPEC_VERSION};
-use crate::format::report::{Finding, Severity, Tool, Urdd, Verdict};
-use crate::format::root_metadata::ConformanceClass;
-use crate::report::Report;
-use crate::validate::settings::Settings;
-use crate::validate::validate;
+use urdd_format::index::Count;
+use urdd_format::registry::{ModuleKind, SPEC_VERSION};
+use urdd_format::report::{Finding, Severity, Tool, Urdd, Verdict};
+use urdd_format::root_metadata::ConformanceClass;
+use urdd_validate::report::Report;
+use urdd_validate::settings::Settings;
+use urdd_validate::validate;
 
 /// How a producer is run.
 #[derive(Debug, Clone)]
@@ -212,7 +212,7 @@ fn examine(out: &PathBuf, plan: &Plan) -> Result<Urdd, Option<String>> {
         let text = error.to_string();
         Some(text.replace(&out.display().to_string(), "{out}"))
     })?;
-    let mut urdds = Report::new(&run, Severity::Error).urdds;
+    let mut urdds = run.report(Severity::Error).urdds;
     match (urdds.pop(), urdds.is_empty()) {
         (Some(urdd), true) if urdd.verdict == Verdict::Unreadable => Err(urdd.reason),
         (Some(urdd), true) if urdd.path == folder_name(out) => Ok(urdd),

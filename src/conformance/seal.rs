@@ -7,9 +7,9 @@ use sha2::{Digest, Sha256};
 
 use super::change::mirror_of;
 use super::tree::{FilePath, Tree};
-use crate::directory::discover::ROOT_METADATA;
-use crate::directory::{canonical, json};
-use crate::format::hexadecimal::hexadecimal;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::{canonical, json};
+use urdd_format::hexadecimal::hexadecimal;
 
 /// Gives every `module.json` that has no `module.yaml` beside it one, in the canonical emission.
 pub fn add_mirrors(tree: &mut Tree) {

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use super::data::{self, ROBOTS, VALID};
 use super::tree::{FilePath, Node, Tree, TreeError};
-use crate::cancellation::Cancellation;
-use crate::directory::discover::ROOT_METADATA;
-use crate::generate::{GenerateError, Settings, generate};
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_generate::{GenerateError, Settings, generate};
 
 /// Sampled configurations of the distance statistics: few, so that making them takes seconds.
 pub const NUM_SAMPLES: u32 = 20;

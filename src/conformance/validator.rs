@@ -22,11 +22,11 @@ use super::suite::{CaseError, Suite, SuiteError};
 use super::tree::TreeError;
 use super::valid;
 use super::workplace::{Workplace, WorkplaceError};
-use crate::cancellation::{Cancellation, Cancelled};
-use crate::format::conformance::{CaseFault, CaseScore, GroupScore, ValidatorResult, WrongCase};
-use crate::format::index::Count;
-use crate::format::registry::Profile;
-use crate::format::report::Tool;
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_format::conformance::{CaseFault, CaseScore, GroupScore, ValidatorResult, WrongCase};
+use urdd_format::index::Count;
+use urdd_format::registry::Profile;
+use urdd_format::report::Tool;
 
 /// How a validator is run.
 #[derive(Debug, Clone)]

@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::revision;
 use super::save::Files;
-use crate::directory::carried::carried;
-use crate::directory::discover::{DiscoverError, ROOT_METADATA, discover};
-use crate::directory::root::{ReadError, Root};
+use urdd_directory::carried::carried;
+use urdd_directory::discover::{DiscoverError, ROOT_METADATA, discover};
+use urdd_directory::root::{ReadError, Root};
 
 /// A robot that is shown.
 #[derive(Debug)]

@@ -15,11 +15,11 @@ use super::assets::{self, ASSETS};
 use super::collection::{Collection, Shown};
 use super::route;
 use super::site_list::{FOLDER, PAGE, SiteList};
-use crate::cancellation::Cancellation;
-use crate::directory::root::{EntryKind, ReadError, Root};
-use crate::directory::staging::{Staging, StagingError};
-use crate::directory::writer::Writer;
-use crate::format::hexadecimal::hexadecimal;
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::root::{EntryKind, ReadError, Root};
+use urdd_directory::staging::{Staging, StagingError};
+use urdd_directory::writer::Writer;
+use urdd_format::hexadecimal::hexadecimal;
 
 /// Most bytes of a file that is copied.
 const MAX_FILE_BYTES: u64 = 1 << 30;

@@ -9,10 +9,10 @@ use super::collection::Shown;
 use super::reply::Reply;
 use super::revision;
 use super::save::Failure;
-use crate::cancellation::Cancellation;
-use crate::directory::discover::ROOT_METADATA;
-use crate::directory::staging::Staging;
-use crate::directory::take::take_content;
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::staging::Staging;
+use urdd_directory::take::take_content;
 
 /// What the page sends.
 #[derive(Deserialize)]

@@ -18,10 +18,10 @@ use zip::write::{SimpleFileOptions, ZipWriter};
 use super::assets;
 use super::collection::Shown;
 use super::export::{ExportError, Published, published, unread};
-use crate::directory::limits::MAX_DOCUMENT_BYTES;
-use crate::directory::root::{EntryKind, ReadError, Root};
-use crate::format::registry::ModuleKind;
-use crate::validate::rules;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::root::{EntryKind, ReadError, Root};
+use urdd_format::registry::ModuleKind;
+use urdd_validate::rules;
 
 /// Most bytes of a robot that is put into a page.
 const MAX_ROBOT_BYTES: u64 = 100_000_000;

@@ -5,7 +5,7 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use crate::robot::{Robot, RobotError};
+use urdd_robot::{Robot, RobotError};
 
 /// Size, pixels.
 pub const WIDTH: usize = 320;

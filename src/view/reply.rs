@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::directory::source::OpenFile;
+use urdd_directory::source::OpenFile;
 
 /// What is sent.
 pub enum Body {

@@ -7,8 +7,8 @@ use std::time::UNIX_EPOCH;
 
 use sha2::{Digest, Sha256};
 
-use crate::directory::limits::MAX_FILES;
-use crate::format::hexadecimal::hexadecimal;
+use urdd_directory::limits::MAX_FILES;
+use urdd_format::hexadecimal::hexadecimal;
 
 /// The word for a robot whose files are gone.
 pub const GONE: &str = "gone";

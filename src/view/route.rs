@@ -8,12 +8,12 @@ use super::collection::{Collection, Making, Shown};
 use super::picture;
 use super::reply::{Body, Reply};
 use super::revision;
-use crate::directory::root::{EntryKind, ReadError, Root};
-use crate::format::report::Severity;
-use crate::report::{self, model::Report};
-use crate::robot::Robot;
-use crate::validate::settings::Settings;
-use crate::validate::{Run, validate, validate_source};
+use urdd_directory::root::{EntryKind, ReadError, Root};
+use urdd_format::report::Severity;
+use urdd_robot::Robot;
+use urdd_validate::report::{self, model::Report};
+use urdd_validate::settings::Settings;
+use urdd_validate::{Run, validate, validate_source};
 
 /// Most bytes of a file that is sent.
 const MAX_FILE_BYTES: u64 = 1 << 30;
@@ -295,7 +295,7 @@ pub fn report_on(root: &Root, name: &str) -> Result<String, String> {
 }
 
 fn as_json(run: &Run) -> Result<String, String> {
-    report::json(&Report::new(run, Severity::Error)).map_err(|error| error.to_string())
+    report::json(&run.report(Severity::Error)).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]

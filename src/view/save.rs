@@ -7,12 +7,12 @@ use serde_json::{Value, json};
 use super::collection::Shown;
 use super::reply::Reply;
 use super::revision;
-use crate::directory::limits::MAX_DOCUMENT_BYTES;
-pub(super) use crate::directory::replacement::Files;
-use crate::directory::replacement::Replacement;
-use crate::directory::root::Root;
-use crate::format::link_shapes_skips::{SkipEdit, SkippedReason};
-use crate::robot::Robot;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+pub(super) use urdd_directory::replacement::Files;
+use urdd_directory::replacement::Replacement;
+use urdd_directory::root::Root;
+use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
+use urdd_robot::Robot;
 
 /// Most edits, and most characters of a reason.
 const MAX_EDITS: usize = 1_000_000;

@@ -15,8 +15,8 @@ use super::keep;
 use super::reply::Reply;
 use super::route::{Route, answer};
 use super::save;
-use crate::cancellation::Cancellation;
-use crate::format::hexadecimal::hexadecimal;
+use urdd_directory::cancellation::Cancellation;
+use urdd_format::hexadecimal::hexadecimal;
 
 /// The port that is asked for first.
 const USUAL_PORT: u16 = 8642;

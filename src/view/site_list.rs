@@ -10,9 +10,9 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::export::ExportError;
-use crate::directory::regular;
-use crate::directory::staging::StagingError;
-use crate::format::hexadecimal::hexadecimal;
+use urdd_directory::regular;
+use urdd_directory::staging::StagingError;
+use urdd_format::hexadecimal::hexadecimal;
 
 /// The list itself. By it a folder is known as a site.
 pub const LIST: &str = "urdd-site.json";

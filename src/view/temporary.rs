@@ -5,9 +5,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::cancellation::Cancellation;
-use crate::directory::target_lock::{LockError, TargetLock};
-use crate::format::hexadecimal::hexadecimal;
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::target_lock::{LockError, TargetLock};
+use urdd_format::hexadecimal::hexadecimal;
 
 /// What the names of such folders begin with.
 const PREFIX: &str = "urdd-shown-";

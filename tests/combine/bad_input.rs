@@ -1,7 +1,7 @@
 //! Recipes that cannot be followed: one typed error each, with its place and what to do.
 
-use urdd::combine::{CombineError, Note, PartFault, RecipeFault};
-use urdd::generate::{Selection, Settings, generate};
+use urdd_generate::combine::{CombineError, Note, PartFault, RecipeFault};
+use urdd_generate::{Selection, Settings, generate};
 
 use crate::support::{core, findings, ours, put_together, with_ours};
 

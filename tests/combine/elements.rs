@@ -1,6 +1,6 @@
 //! Names in elements that URDF does not define.
 
-use urdd::combine::Note;
+use urdd_generate::combine::Note;
 
 use crate::support::{core, put_together};
 

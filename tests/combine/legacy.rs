@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde_json::{Value, json};
-use urdd::combine::{CombineError, PartFault, Recipe};
+use urdd_generate::combine::{CombineError, PartFault, Recipe};
 
 fn of(folder: &Path, module: &str, document: Value) -> Result<(String, Vec<String>), CombineError> {
     let robot = folder.join("robot");

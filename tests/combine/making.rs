@@ -5,10 +5,10 @@ use std::path::Path;
 
 use nalgebra::Isometry3;
 use serde_json::Value;
-use urdd::combine::Note;
-use urdd::format::link_shapes_skips::SkipEdit;
-use urdd::generate::{Settings, generate, generate_text};
-use urdd::robot::{Robot, ShapeKind};
+use urdd_format::link_shapes_skips::SkipEdit;
+use urdd_generate::combine::Note;
+use urdd_generate::{Settings, generate, generate_text};
+use urdd_robot::{Robot, ShapeKind};
 
 use crate::support::{core, findings, ours, put_together, with_ours};
 

@@ -5,13 +5,13 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use urdd::format::urdf::{JointType, UrdfModule};
-use urdd::generate::generate;
-use urdd::robot::Robot;
+use urdd_format::urdf::{JointType, UrdfModule};
+use urdd_generate::generate;
+use urdd_robot::Robot;
 
-use crate::dice::Dice;
-use crate::robots::our_robots;
 use crate::support::{core, findings, put_together};
+use testkit::dice::Dice;
+use testkit::robots::our_robots;
 
 const TYPES: [&str; 7] = [
     "fixed",

@@ -4,9 +4,9 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use urdd::combine::{CombineError, Note, PartFault, Recipe, combine};
-use urdd::generate::Settings;
-use urdd::robot::Robot;
+use urdd_generate::Settings;
+use urdd_generate::combine::{CombineError, Note, PartFault, Recipe, combine};
+use urdd_robot::Robot;
 
 use crate::support::findings;
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use serde_json::json;
-use urdd::combine::{CombineError, PartFault, Recipe, RecipeFault, check_parts};
+use urdd_generate::combine::{CombineError, PartFault, Recipe, RecipeFault, check_parts};
 
 use crate::program::urdd;
 use crate::support::{core, ours, put_together};

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use urdd::combine::{CombineError, Combined, Recipe, combine};
-use urdd::generate::{Selection, Settings};
-use urdd::validate::rule::Severity;
+use urdd_generate::combine::{CombineError, Combined, Recipe, combine};
+use urdd_generate::{Selection, Settings};
+use urdd_validate::rule::Severity;
 
 /// The path of one of our robots.
 pub fn ours(name: &str) -> PathBuf {
@@ -43,9 +43,9 @@ pub fn put_together(
 
 /// What the validator finds, as `CODE message`; warnings of the source are of the parts.
 pub fn findings(urdd: &Path) -> Vec<String> {
-    let settings = urdd::validate::settings::Settings::default();
-    let run = urdd::validate::validate(&[urdd], &settings).expect("a URDD");
-    let report = urdd::report::Report::new(&run, Severity::Error);
+    let settings = urdd_validate::settings::Settings::default();
+    let run = urdd_validate::validate(&[urdd], &settings).expect("a URDD");
+    let report = run.report(Severity::Error);
     let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
     let told = findings
         .filter(|finding| !finding.code.starts_with("SRC"))

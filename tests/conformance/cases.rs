@@ -8,10 +8,10 @@ use urdd::conformance::judge;
 use urdd::conformance::suite::Suite;
 use urdd::conformance::tree::TreeError;
 use urdd::conformance::valid;
-use urdd::report::Report;
-use urdd::validate::rule::Severity;
-use urdd::validate::settings::Settings;
-use urdd::validate::{rules, validate};
+use urdd_validate::report::Report;
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
+use urdd_validate::{rules, validate};
 
 use crate::in_repository;
 
@@ -30,7 +30,7 @@ fn report(case: &Case, suite: &Suite) -> Option<Report> {
         Err(error) => panic!("{}: {error}", case.id()),
     }
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
-    Some(Report::new(&run, Severity::Error))
+    Some(run.report(Severity::Error))
 }
 
 #[test]

@@ -6,10 +6,10 @@ use std::fs;
 use urdd::conformance::export::write_valid;
 use urdd::conformance::tree::{Node, Tree};
 use urdd::conformance::valid;
-use urdd::report::Report;
-use urdd::validate::rule::Severity;
-use urdd::validate::settings::Settings;
-use urdd::validate::validate;
+use urdd_validate::report::Report;
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
+use urdd_validate::validate;
 
 use crate::in_repository;
 
@@ -62,7 +62,7 @@ fn nothing_is_found_in_them() {
     let urdds = folder.path().join("valid");
     write_valid(&valid::robots(), &robots, &urdds, &Default::default()).expect("URDDs");
     let run = validate(&[&urdds], &Settings::default()).expect("URDDs");
-    let report = Report::new(&run, Severity::Info);
+    let report = run.report(Severity::Info);
     assert_eq!(report.urdds.len(), 9);
     for urdd in report.urdds {
         assert!(

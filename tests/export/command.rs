@@ -1,5 +1,5 @@
 use crate::program::urdd;
-use crate::robots::{made, our_robots};
+use testkit::robots::{made, our_robots};
 
 #[test]
 fn nothing_is_written_over_unless_asked() {

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use roxmltree::{Document, Node};
-use urdd::export::{ExportError, Format, Note, Options, export};
-use urdd::robot::Robot;
+use urdd_export::{ExportError, Format, Note, Options, export};
+use urdd_robot::Robot;
 
-use crate::robots::{made, made_of, our_robots};
+use testkit::robots::{made, made_of, our_robots};
 
 /// What Drake 1.51 stops at, tried in the program itself.
 fn refused(document: &Document) -> Vec<String> {

@@ -1,13 +1,13 @@
 //! Fitted spheres, read back from what is written and judged by distances of spheres that are written here. Poses are
-//! those of `urdd::robot`, exact contacts those of its pieces; each has its own tests against peers.
+//! those of `urdd_robot`, exact contacts those of its pieces; each has its own tests against peers.
 
 use std::collections::BTreeSet;
 
 use nalgebra::{Isometry3, Point3};
-use urdd::export::{Export, Format, Note, Options, SphereBudget, export, interval};
-use urdd::robot::{Robot, ShapeKind};
+use urdd_export::{Export, Format, Note, Options, SphereBudget, export, interval};
+use urdd_robot::{Robot, ShapeKind};
 
-use crate::robots::{made, made_of, our_robots};
+use testkit::robots::{made, made_of, our_robots};
 
 /// What a planner takes from the file.
 struct Model {

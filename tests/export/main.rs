@@ -1,10 +1,8 @@
-//! `urdd::export`: each format read again by a second reader written here, and held to the URDD. What the programs
+//! `urdd_export`: each format read again by a second reader written here, and held to the URDD. What the programs
 //! themselves make of the files is held by `tests/figures/exports`.
 
 #[path = "../support/program.rs"]
 mod program;
-#[path = "../support/robots.rs"]
-mod robots;
 
 mod command;
 mod drake;

@@ -2,11 +2,11 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use roxmltree::{Document, Node};
-use urdd::export::{Format, Note, Options, export};
-use urdd::kinematics::rotation::from_rotation_vector;
-use urdd::robot::{Robot, ShapeKind};
+use urdd_export::{Format, Note, Options, export};
+use urdd_kinematics::rotation::from_rotation_vector;
+use urdd_robot::{Robot, ShapeKind};
 
-use crate::robots::{made, made_of, our_robots};
+use testkit::robots::{made, made_of, our_robots};
 
 fn numbers(node: Node, key: &str) -> Option<Vec<f64>> {
     let text = node.attribute(key)?;
@@ -218,7 +218,7 @@ fn masses_stay_whatever_the_inertia() {
         let made = export(&robot, Format::Mjcf, &Options::default()).expect("an export");
         let links = robot.description().expect("a description").links;
         let mass =
-            |link: &urdd::format::urdf::Link| Some(link.inertial.as_ref()?.mass.as_ref()?.value);
+            |link: &urdd_format::urdf::Link| Some(link.inertial.as_ref()?.mass.as_ref()?.value);
         let expected: f64 = links
             .iter()
             .filter(|link| link.name != "world")

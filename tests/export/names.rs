@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use roxmltree::Document;
-use urdd::export::{Export, ExportError, Format, Note, Options, export, merge_srdf};
-use urdd::robot::Robot;
+use urdd_export::{Export, ExportError, Format, Note, Options, export, merge_srdf};
+use urdd_robot::Robot;
 
-use crate::robots::made_of;
+use testkit::robots::made_of;
 
 /// What the names of a test stand for until it has put its own there.
 const STANDINS: [&str; 5] = ["ROBOT_", "LINK_0", "LINK_1", "JOINT_0", "MATERIAL_"];

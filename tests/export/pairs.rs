@@ -1,12 +1,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::Document;
-use urdd::export::{Format, Note, Options, export};
-use urdd::format::link_shapes_simple_skips::SkipReason;
-use urdd::format::link_shapes_skips::SkippedReason;
-use urdd::robot::{Robot, ShapeKind};
+use urdd_export::{Format, Note, Options, export};
+use urdd_format::link_shapes_simple_skips::SkipReason;
+use urdd_format::link_shapes_skips::SkippedReason;
+use urdd_robot::{Robot, ShapeKind};
 
-use crate::robots::{made, our_robots};
+use testkit::robots::{made, our_robots};
 
 type Pair = (String, String);
 
@@ -146,7 +146,7 @@ fn checked(robot: &Robot, kind: ShapeKind) -> Shapes {
         .collect();
     for _ in &description.joints {
         for joint in &description.joints {
-            if joint.joint_type == urdd::format::urdf::JointType::Fixed {
+            if joint.joint_type == urdd_format::urdf::JointType::Fixed {
                 rigid.insert(&joint.child.link, rigid[joint.parent.link.as_str()]);
             }
         }
@@ -177,7 +177,7 @@ const TOWER: &str = r#"<robot name="tower">
 
 #[test]
 fn a_mixed_pair_is_named_with_what_is_lost_or_found_for_nothing() {
-    let (folder, path) = crate::robots::made_of(TOWER);
+    let (folder, path) = testkit::robots::made_of(TOWER);
     let robot = Robot::open(&path).expect("a robot");
     let skips = robot.skips(ShapeKind::Pieces).expect("skips");
     let (mut all, mut expected) = (0, 0);

@@ -1,10 +1,10 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use urdd::export::{Format, Options, SphereBudget, export};
-use urdd::robot::{Robot, ShapeKind, Solid};
+use urdd_export::{Format, Options, SphereBudget, export};
+use urdd_robot::{Robot, ShapeKind, Solid};
 
-use crate::robots::{made, our_robots};
+use testkit::robots::{made, our_robots};
 
 type Spheres = BTreeMap<String, Vec<(Vector3<f64>, f64)>>;
 

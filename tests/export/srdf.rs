@@ -1,7 +1,7 @@
-use urdd::export::{Format, Options, export, merge_srdf};
-use urdd::robot::Robot;
+use urdd_export::{Format, Options, export, merge_srdf};
+use urdd_robot::Robot;
 
-use crate::robots::{made_of, our_robots};
+use testkit::robots::{made_of, our_robots};
 
 #[test]
 fn a_name_cannot_leave_its_attribute() {
@@ -32,7 +32,7 @@ fn a_robot_without_pairs_is_an_empty_srdf() {
     let single = our_robots()
         .into_iter()
         .find(|(name, _)| name == "single_link");
-    let (_folder, path) = crate::robots::made(&single.expect("single_link").1);
+    let (_folder, path) = testkit::robots::made(&single.expect("single_link").1);
     let robot = Robot::open(path).expect("a robot");
     let made = export(&robot, Format::Srdf, &Options::default()).expect("an export");
     assert!(!made.text.contains("disable_collisions"));

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use urdd::export::{ImportError, SrdfError, import_srdf};
-use urdd::robot::{Robot, ShapeKind};
+use urdd_export::{ImportError, SrdfError, import_srdf};
+use urdd_robot::{Robot, ShapeKind};
 
-use crate::robots::made_of;
+use testkit::robots::made_of;
 
 /// Five boxes in a line, far from each other: adjacent ones are skipped, no other pair is.
 fn line() -> String {
@@ -75,8 +75,8 @@ fn pairs_become_edits_and_nothing_is_lost() {
         [(0, 1), (0, 3), (1, 2), (2, 3), (2, 4), (3, 4)]
     );
     // Whoever reads it finds hashes and matrices as they should be.
-    let run_of = urdd::validate::validate(&[&urdd], &Default::default()).expect("a URDD");
-    let report = urdd::report::Report::new(&run_of, urdd::validate::rule::Severity::Warning);
+    let run_of = urdd_validate::validate(&[&urdd], &Default::default()).expect("a URDD");
+    let report = run_of.report(urdd_validate::rule::Severity::Warning);
     let found: Vec<_> = report.urdds[0]
         .findings
         .iter()
@@ -156,12 +156,12 @@ fn very_many_pairs_on_one_line_take_a_moment() {
     let robot = Robot::open(&urdd).expect("a robot");
     let imported = import_srdf(&robot, &text, false).expect("edits");
     assert_eq!((imported.added, imported.already), (3, 1));
-    let made = urdd::export::export(
+    let made = urdd_export::export(
         &robot,
-        urdd::export::Format::Srdf,
-        &urdd::export::Options::default(),
+        urdd_export::Format::Srdf,
+        &urdd_export::Options::default(),
     );
-    let merged = urdd::export::merge_srdf(&text, &made.expect("an SRDF").text).expect("merged");
+    let merged = urdd_export::merge_srdf(&text, &made.expect("an SRDF").text).expect("merged");
     assert_eq!(merged.kept, 0);
     assert!(merged.text.len() < 2_000, "{}", merged.text.len());
     // Minutes once.
@@ -185,7 +185,7 @@ fn an_srdf_is_counted_before_it_is_parsed() {
             matches!(error, ImportError::Srdf(SrdfError::Xml { .. })),
             "{error}"
         );
-        let merged = urdd::export::merge_srdf(&text, &srdf(""));
+        let merged = urdd_export::merge_srdf(&text, &srdf(""));
         assert!(matches!(merged, Err(SrdfError::Xml { .. })));
     }
 }

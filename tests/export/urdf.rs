@@ -1,11 +1,11 @@
 use std::path::Path;
 
-use urdd::export::{Export, Format, Note, Options, export};
-use urdd::format::urdf::{Joint, JointType};
-use urdd::generate::{Selection, Settings, generate};
-use urdd::robot::{Robot, ShapeKind, Solid};
+use urdd_export::{Export, Format, Note, Options, export};
+use urdd_format::urdf::{Joint, JointType};
+use urdd_generate::{Selection, Settings, generate};
+use urdd_robot::{Robot, ShapeKind, Solid};
 
-use crate::robots::{made, made_of, our_robots};
+use testkit::robots::{made, made_of, our_robots};
 
 fn write(folder: &Path, made: &Export) -> std::path::PathBuf {
     let file = folder.join("exported.urdf");

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use serde_json::Value;
-use urdd::format::registry::ModuleKind;
-use urdd::generate::batch::{Job, Observer, Shard, jobs};
-use urdd::generate::{GenerateError, Generated, Progress, Settings};
+use urdd_format::registry::ModuleKind;
+use urdd_generate::batch::{Job, Observer, Shard, jobs};
+use urdd_generate::{GenerateError, Generated, Progress, Settings};
 
 use crate::{findings_of, urdd};
 
@@ -126,7 +126,7 @@ fn a_crash_stops_nothing() {
         .build()
         .unwrap();
     let settings = Settings::default();
-    let failed = pool.install(|| urdd::generate::batch::run(&jobs, &out, &settings, &watcher));
+    let failed = pool.install(|| urdd_generate::batch::run(&jobs, &out, &settings, &watcher));
     assert_eq!(failed, 2);
     let told = watcher.told.into_inner().unwrap();
     let names: Vec<&str> = told.iter().map(|(name, _)| name.as_str()).collect();

@@ -4,13 +4,13 @@ use std::fs;
 use std::path::Path;
 
 use proptest::test_runner::{Config, TestCaseError, TestRunner};
-use urdd::format::registry::ModuleKind;
-use urdd::generate::{Settings, generate};
+use urdd_format::registry::ModuleKind;
+use urdd_generate::{Settings, generate};
 
-use crate::support::difference::difference;
-use crate::support::fixture::Fixture;
-use crate::support::robot::{Robot, arbitrary_robot};
 use crate::{findings_of, our_robots, read_json};
+use testkit::difference::difference;
+use testkit::fixture::Fixture;
+use testkit::robot::{Robot, arbitrary_robot};
 
 #[test]
 fn our_robots_have_no_findings() {
@@ -74,7 +74,7 @@ fn compare(robot: &Robot) -> Result<(), String> {
 #[test]
 fn what_is_asked_for_is_made_and_the_core_class_with_it() {
     let folder = tempfile::tempdir().unwrap();
-    let selection = urdd::generate::Selection::parse(["dof"]).unwrap();
+    let selection = urdd_generate::Selection::parse(["dof"]).unwrap();
     let settings = Settings {
         selection,
         ..Settings::default()
@@ -90,7 +90,7 @@ fn what_is_asked_for_is_made_and_the_core_class_with_it() {
         .map(|(code, ..)| code)
         .collect();
     assert_eq!(codes, ["KIN005"], "the samples are recommended");
-    let error = urdd::generate::Selection::parse(["dof", "dofs"]).unwrap_err();
+    let error = urdd_generate::Selection::parse(["dof", "dofs"]).unwrap_err();
     assert_eq!(error.word, "dofs");
 }
 

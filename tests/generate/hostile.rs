@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::fs;
 
-use urdd::generate::{Settings, generate};
+use urdd_generate::{Settings, generate};
 
 use crate::{findings_of, read_json};
 

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use urdd::generate::{Settings, generate};
+use urdd_generate::{Settings, generate};
 
 use crate::{bytes_below, findings_of, urdd};
 
@@ -92,7 +92,7 @@ fn a_killed_run_leaves_the_old_and_the_next_one_tidies_up() {
             std::mem::swap(&mut now, &mut next);
         }
         // Nobody takes what is left for a URDD.
-        let found = urdd::directory::discover::discover(folder.path()).unwrap();
+        let found = urdd_directory::discover::discover(folder.path()).unwrap();
         let found: Vec<&str> = found.iter().map(|urdd| urdd.name.as_str()).collect();
         assert_eq!(found, ["out"]);
     }
@@ -223,7 +223,7 @@ fn files_of_a_person_in_the_folders_of_modules_stay() {
     assert!(target.join("dof_module/module.json").exists());
     assert!(target.join("mesh_modules/plain_meshes_module").exists());
     let core = Settings {
-        selection: urdd::generate::Selection::parse(["core"]).unwrap(),
+        selection: urdd_generate::Selection::parse(["core"]).unwrap(),
         ..Settings::default()
     };
     generate(&source, &target, &core, &()).unwrap();

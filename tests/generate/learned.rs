@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
-use urdd::generate::note::NoteKind;
-use urdd::generate::{Generated, Selection, Settings, generate};
-use urdd::learn::train::Effort;
-use urdd::robot::Robot;
+use urdd_generate::note::NoteKind;
+use urdd_generate::train::Effort;
+use urdd_generate::{Generated, Selection, Settings, generate};
+use urdd_robot::Robot;
 
 use super::{findings_of, read_json};
 

@@ -1,8 +1,5 @@
 //! The generator, held to the validator and to the other producers.
 
-#[path = "../support/mod.rs"]
-mod support;
-
 mod batch;
 mod core;
 mod edits;
@@ -25,10 +22,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
-use urdd::report::Report;
-use urdd::validate::rule::Severity;
-use urdd::validate::settings::Settings;
-use urdd::validate::{rules, validate_with};
+use urdd_validate::report::Report;
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
+use urdd_validate::{rules, validate_with};
 
 /// An STL file as text: one triangle, whose third corner says whether it has an area.
 pub fn ascii_stl(name: &str, third: &str) -> String {
@@ -46,7 +43,7 @@ pub fn read_json(path: &Path) -> Value {
 /// What the validator finds: code, severity, message.
 pub fn findings_of(urdd: &Path) -> Vec<(String, String, String)> {
     let run = validate_with(&[urdd.to_owned()], &Settings::default(), &rules::all()).unwrap();
-    let report = serde_json::to_value(Report::new(&run, Severity::Error)).unwrap();
+    let report = serde_json::to_value(run.report(Severity::Error)).unwrap();
     let findings = report["urdds"][0]["findings"].as_array().unwrap().iter();
     let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     findings

@@ -7,8 +7,8 @@ use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 
-use urdd::generate::note::NoteKind;
-use urdd::generate::{GenerateError, Generated, Selection, Settings, generate};
+use urdd_generate::note::NoteKind;
+use urdd_generate::{GenerateError, Generated, Selection, Settings, generate};
 
 use crate::{ascii_stl, bytes_below, findings_of, read_json, urdd};
 

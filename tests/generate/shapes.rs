@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use urdd::generate::{Settings, generate};
+use urdd_generate::{Settings, generate};
 
 use crate::{bytes_below, findings_of, our_robots, read_json};
 

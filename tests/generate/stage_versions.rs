@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-use urdd::generate::{Settings, generate};
+use urdd_generate::{Settings, generate};
 
 use crate::{our_robots, read_json};
 

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use urdd::format::registry::ModuleKind;
-use urdd::generate::{Generated, Settings, generate};
+use urdd_format::registry::ModuleKind;
+use urdd_generate::{Generated, Settings, generate};
 
 use crate::{ascii_stl, bytes_below, findings_of, our_robots, read_json, urdd};
 

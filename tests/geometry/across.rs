@@ -5,8 +5,8 @@ use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query;
 use parry3d_f64::shape::ConvexPolyhedron;
-use urdd::geometry::convex::across::{PlacedPair, any_touches, distances, witnesses};
-use urdd::geometry::convex::{ConvexShape, Level, TOLERANCE, distance};
+use urdd_geometry::convex::across::{PlacedPair, any_touches, distances, witnesses};
+use urdd_geometry::convex::{ConvexShape, Level, TOLERANCE, distance};
 
 use crate::dice::Dice;
 

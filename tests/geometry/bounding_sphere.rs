@@ -3,9 +3,9 @@
 use crate::solids::*;
 use nalgebra::Vector3;
 use proptest::prelude::*;
-use urdd::geometry::bounding_sphere::BoundingSphere;
-use urdd::geometry::mesh::Mesh;
-use urdd::geometry::{farthest, hull::ConvexHull};
+use urdd_geometry::bounding_sphere::BoundingSphere;
+use urdd_geometry::mesh::Mesh;
+use urdd_geometry::{farthest, hull::ConvexHull};
 
 /// How far a sphere about `centre` must reach.
 fn reach(points: &[Point], centre: Vector3<f64>) -> f64 {

@@ -1,9 +1,9 @@
 //! Convex decomposition held to closed forms and to its promises.
 
 use proptest::prelude::*;
-use urdd::geometry::Mesh;
-use urdd::geometry::decompose::{Settings, decompose};
-use urdd::geometry::hull::ConvexHull;
+use urdd_geometry::Mesh;
+use urdd_geometry::decompose::{Settings, decompose};
+use urdd_geometry::hull::ConvexHull;
 
 fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|i| a[i] - b[i])

@@ -1,7 +1,7 @@
 //! Shapes of which the best division is known: its volume, or how far it stands off, by closed forms.
 
-use urdd::geometry::Mesh;
-use urdd::geometry::decompose::{Settings, decompose};
+use urdd_geometry::Mesh;
+use urdd_geometry::decompose::{Settings, decompose};
 
 use crate::decompose::{check, exact, prism, push_box, ring, turned, volume};
 

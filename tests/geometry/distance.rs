@@ -2,8 +2,8 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
-use urdd::geometry::convex::{ConvexShape, OrientedBox, ShapeError, Sphere, TOLERANCE, distance};
-use urdd::geometry::mesh::Mesh;
+use urdd_geometry::convex::{ConvexShape, OrientedBox, ShapeError, Sphere, TOLERANCE, distance};
+use urdd_geometry::mesh::Mesh;
 
 use crate::brute_force;
 

@@ -2,7 +2,7 @@
 
 use crate::solids::*;
 use proptest::prelude::*;
-use urdd::geometry::hull::{ConvexHull, HullError};
+use urdd_geometry::hull::{ConvexHull, HullError};
 
 /// The hull, after checking all that every hull must hold.
 fn hull_of(points: &[Point]) -> ConvexHull {

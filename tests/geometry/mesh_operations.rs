@@ -1,9 +1,9 @@
 //! Operations on meshes, against closed forms.
 
 use nalgebra::{Matrix4, Rotation3, Vector3};
-use urdd::geometry::Mesh;
-use urdd::geometry::mesh::placement;
-use urdd::geometry::primitives;
+use urdd_geometry::Mesh;
+use urdd_geometry::mesh::placement;
+use urdd_geometry::primitives;
 
 const NO_TURN: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 

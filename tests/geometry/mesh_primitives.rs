@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-use urdd::geometry::Mesh;
-use urdd::geometry::primitives::{RINGS, SEGMENTS, capsule, cuboid, cylinder, sphere};
+use urdd_geometry::Mesh;
+use urdd_geometry::primitives::{RINGS, SEGMENTS, capsule, cuboid, cylinder, sphere};
 
 /// Every edge occurs once in each direction, and Euler's formula gives one body without holes.
 fn assert_closed(mesh: &Mesh) {

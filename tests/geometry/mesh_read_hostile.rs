@@ -1,9 +1,9 @@
 //! No input makes a reader panic, and what a reader gives is a mesh.
 
 use proptest::prelude::*;
-use urdd::geometry::primitives;
-use urdd::geometry::read::{Part, read};
-use urdd::geometry::write;
+use urdd_geometry::primitives;
+use urdd_geometry::read::{Part, read};
+use urdd_geometry::write;
 
 const COLLADA: &str = "<?xml version='1.0'?><COLLADA version='1.4.1'><asset><unit meter='0.01'/><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id='g'><mesh>
 <source id='s'><float_array id='sa' count='12'>0 0 0 1 0 0 0 2 0 0 0 3</float_array><technique_common><accessor source='#sa' count='4' stride='3'><param name='X'/><param name='Y'/><param name='Z'/></accessor></technique_common></source>

@@ -1,6 +1,6 @@
 //! OBJ and its material libraries. All files are written here.
 
-use urdd::geometry::read::{Format, NoteCode, Scene, read};
+use urdd_geometry::read::{Format, NoteCode, Scene, read};
 
 fn load_with(text: &str, files: &[(&str, &str)]) -> Scene {
     let mut fetch = |name: &str| {

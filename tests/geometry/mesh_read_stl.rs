@@ -1,6 +1,6 @@
 //! STL files that are right, odd and broken.
 
-use urdd::geometry::read::{Fault, Format, MeshError, NoteCode, Options, Scene, read, read_with};
+use urdd_geometry::read::{Fault, Format, MeshError, NoteCode, Options, Scene, read, read_with};
 
 const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
 

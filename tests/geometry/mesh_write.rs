@@ -1,10 +1,10 @@
 //! What is written: read back by our readers, and looked at byte by byte. Peers read it in `scripts/compare_meshes.py`.
 
 use serde_json::{Value, json};
-use urdd::geometry::Mesh;
-use urdd::geometry::primitives;
-use urdd::geometry::read::{Format, GltfUp, Options, Part, Scene, read_with};
-use urdd::geometry::write::{WriteError, glb, obj, stl};
+use urdd_geometry::Mesh;
+use urdd_geometry::primitives;
+use urdd_geometry::read::{Format, GltfUp, Options, Part, Scene, read_with};
+use urdd_geometry::write::{WriteError, glb, obj, stl};
 
 fn load(bytes: &[u8]) -> Scene {
     read_with(

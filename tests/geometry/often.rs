@@ -1,9 +1,9 @@
 //! Files that say the same thing very often, or name very many things: what they cost.
 
-use urdd::geometry::Mesh;
-use urdd::geometry::decompose::{Settings, decompose};
-use urdd::geometry::primitives::cuboid;
-use urdd::geometry::read::{NoteCode, Scene, read};
+use urdd_geometry::Mesh;
+use urdd_geometry::decompose::{Settings, decompose};
+use urdd_geometry::primitives::cuboid;
+use urdd_geometry::read::{NoteCode, Scene, read};
 
 fn read_obj(text: &str) -> Scene {
     read(text.as_bytes(), "a.obj", &mut |_| None).expect("an OBJ")

@@ -3,7 +3,7 @@
 use crate::solids::*;
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
-use urdd::geometry::{farthest, hull::ConvexHull, oriented_box::OrientedBox};
+use urdd_geometry::{farthest, hull::ConvexHull, oriented_box::OrientedBox};
 
 /// The box about points, after checking all that every box must hold.
 fn box_of(points: &[Point]) -> OrientedBox {

@@ -7,10 +7,10 @@ use nalgebra::Isometry3;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query;
 use parry3d_f64::shape::ConvexPolyhedron;
-use urdd::geometry::Mesh;
-use urdd::geometry::convex::across::{PlacedPair, any_touches, distances, witnesses};
-use urdd::geometry::convex::{ConvexShape, Level, distance};
-use urdd::geometry::hull::ConvexHull;
+use urdd_geometry::Mesh;
+use urdd_geometry::convex::across::{PlacedPair, any_touches, distances, witnesses};
+use urdd_geometry::convex::{ConvexShape, Level, distance};
+use urdd_geometry::hull::ConvexHull;
 
 use crate::dice::Dice;
 

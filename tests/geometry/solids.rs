@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{Rotation3, Vector3};
-use urdd::geometry::mesh::Mesh;
+use urdd_geometry::mesh::Mesh;
 
 pub type Point = [f64; 3];
 

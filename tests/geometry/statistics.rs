@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use urdd::geometry::convex::{
+use urdd_geometry::convex::{
     ConvexShape, Motion, MotionError, PairStatistics, PlacedShape, Sphere, distance,
     pair_distances, pair_statistics, statistics_of_kinds,
 };

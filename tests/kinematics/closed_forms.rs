@@ -3,11 +3,11 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
-use urdd::format::index::LinkIdx;
-use urdd::format::urdf::JointType::{self, *};
-use urdd::kinematics::{ConfigurationError, ForwardKinematics};
+use urdd_format::index::LinkIdx;
+use urdd_format::urdf::JointType::{self, *};
+use urdd_kinematics::{ConfigurationError, ForwardKinematics};
 
-use crate::core_modules::{Joint, chain_of, core_modules};
+use testkit::core_modules::{Joint, chain_of, core_modules};
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];

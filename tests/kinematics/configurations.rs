@@ -2,12 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use urdd::format::bounds::BoundsModule;
-use urdd::format::urdf::JointType::*;
-use urdd::kinematics::rotation::from_rotation_vector;
-use urdd::kinematics::{ConfigurationSpace, unit};
+use urdd_format::bounds::BoundsModule;
+use urdd_format::urdf::JointType::*;
+use urdd_kinematics::rotation::from_rotation_vector;
+use urdd_kinematics::{ConfigurationSpace, unit};
 
-use crate::core_modules::{Joint, chain_of};
+use testkit::core_modules::{Joint, chain_of};
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 

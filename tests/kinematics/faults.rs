@@ -1,13 +1,13 @@
 //! Modules that kinematics cannot be computed from: each fault is named at its place.
 
-use urdd::format::chain::ChainModule;
-use urdd::format::dof::{DofModule, ResolvedMimic};
-use urdd::format::index::{Count, DofIdx, LinkIdx};
-use urdd::format::urdf::JointType::*;
-use urdd::kinematics::{ConfigurationSpace, ForwardKinematics};
+use urdd_format::chain::ChainModule;
+use urdd_format::dof::{DofModule, ResolvedMimic};
+use urdd_format::index::{Count, DofIdx, LinkIdx};
+use urdd_format::urdf::JointType::*;
+use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
 
 use crate::configurations::bounds_module;
-use crate::core_modules::{Joint, chain_of};
+use testkit::core_modules::{Joint, chain_of};
 
 /// Four links in a row: revolute, planar, and a mimic joint.
 fn robot() -> (ChainModule, DofModule) {

@@ -7,6 +7,3 @@ mod faults;
 mod naive_kinematics;
 mod properties;
 mod rotations;
-
-#[path = "../support/core_modules.rs"]
-mod core_modules;

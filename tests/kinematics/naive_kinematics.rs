@@ -2,9 +2,9 @@
 //! Rodrigues' formula, no quaternion.
 
 use nalgebra::{Matrix3, Matrix4, Vector3};
-use urdd::format::urdf::JointType;
+use urdd_format::urdf::JointType;
 
-use crate::core_modules::{Joint, dof_count, first_dofs, unit};
+use testkit::core_modules::{Joint, dof_count, first_dofs, unit};
 
 /// Rotation by `angle` about the unit vector `axis`.
 fn rodrigues(axis: Vector3<f64>, angle: f64) -> Matrix3<f64> {

@@ -5,15 +5,15 @@ use std::f64::consts::TAU;
 use nalgebra::Matrix4;
 use proptest::prelude::*;
 use proptest::sample::Index;
-use urdd::format::dof::ResolvedMimic;
-use urdd::format::index::DofIdx;
-use urdd::format::urdf::JointType;
-use urdd::kinematics::ForwardKinematics;
-use urdd::kinematics::pose::position_distance;
-use urdd::kinematics::rotation::rotation_distance;
+use urdd_format::dof::ResolvedMimic;
+use urdd_format::index::DofIdx;
+use urdd_format::urdf::JointType;
+use urdd_kinematics::ForwardKinematics;
+use urdd_kinematics::pose::position_distance;
+use urdd_kinematics::rotation::rotation_distance;
 
-use crate::core_modules::{Joint, core_modules, dof_count, first_dofs};
 use crate::naive_kinematics::link_pose;
+use testkit::core_modules::{Joint, core_modules, dof_count, first_dofs};
 
 fn axis() -> impl Strategy<Value = [f64; 3]> {
     prop_oneof![

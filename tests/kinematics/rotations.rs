@@ -4,9 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
-use urdd::format::pose::Pose;
-use urdd::kinematics::pose::{PoseError, from_isometry, position_distance, to_isometry};
-use urdd::kinematics::rotation::*;
+use urdd_format::pose::Pose;
+use urdd_kinematics::pose::{PoseError, from_isometry, position_distance, to_isometry};
+use urdd_kinematics::rotation::*;
 
 use crate::naive_kinematics::rpy as naive_rpy;
 

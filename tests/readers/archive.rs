@@ -1,8 +1,8 @@
 //! A zip archive.
 
-use urdd::directory::listing::EntryKind;
-use urdd::directory::root::Root;
-use urdd::directory::source::Archive;
+use urdd_directory::listing::EntryKind;
+use urdd_directory::root::Root;
+use urdd_directory::source::Archive;
 
 /// What is accepted can be listed, every file in it is as long as it says, and all of them are
 /// within what an archive of this size may hold.
@@ -18,7 +18,7 @@ pub fn archive(bytes: &[u8]) {
         assert!(!entry.path.starts_with('/'), "{}", entry.path);
         assert!(parts.clone().all(|part| !matches!(part, "" | "." | "..")));
         // A path that no document may name is listed, and not opened.
-        let is_named = urdd::directory::path::check(&entry.path).is_ok();
+        let is_named = urdd_directory::path::check(&entry.path).is_ok();
         if entry.kind == EntryKind::File && is_named && entry.utf8 {
             let read = root.read(&entry.path, entry.size).expect("a file");
             assert_eq!(read.len() as u64, entry.size);

@@ -1,7 +1,7 @@
 //! The readers of meshes, against what is written from what they read.
 
-use urdd::geometry::read::{Format, GltfUp, Options, Part, Scene, read_with};
-use urdd::geometry::write;
+use urdd_geometry::read::{Format, GltfUp, Options, Part, Scene, read_with};
+use urdd_geometry::write;
 
 pub fn stl(bytes: &[u8]) {
     check(bytes, "mesh.stl");

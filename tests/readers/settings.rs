@@ -1,6 +1,6 @@
 //! The reader of `urdd.toml`.
 
-use urdd::validate::settings::Settings;
+use urdd_validate::settings::Settings;
 
 /// What is accepted can be applied; what is not is told in words.
 pub fn settings(bytes: &[u8]) {

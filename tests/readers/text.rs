@@ -1,7 +1,7 @@
 //! What holds of the faults of every text.
 
 use serde_json::Value;
-use urdd::directory::text_fault::TextFaults;
+use urdd_directory::text_fault::TextFaults;
 
 /// Every fault has words, and a place within the text.
 pub fn check_faults(faults: &TextFaults, bytes: &[u8]) {

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use tempfile::TempDir;
-use urdd::generate::{Settings as Generation, generate};
-use urdd::report::{self, Report};
-use urdd::validate::engine::Outcome;
-use urdd::validate::rule::Severity;
-use urdd::validate::settings::Settings;
-use urdd::validate::validate;
+use urdd_generate::{Settings as Generation, generate};
+use urdd_validate::engine::Outcome;
+use urdd_validate::report::{self, Report};
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
+use urdd_validate::validate;
 
 /// Two moving joints, one of them a mimic, and a shape for each link: every rule has something to
 /// look at, in little time.
@@ -127,7 +127,7 @@ pub fn urdd(bytes: &[u8]) {
             assert!(!crashed, "{}: {:?}", check.rule.code, check.outcome);
         }
     }
-    let report = Report::new(&run, Severity::Error);
+    let report = run.report(Severity::Error);
     report::json(&report).expect("a report");
 }
 

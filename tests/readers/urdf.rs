@@ -1,10 +1,10 @@
 //! The two readers of URDF, against each other.
 
 use serde_json::Value;
-use urdd::directory::position::LineIndex;
-use urdd::generate::fault::Fault;
-use urdd::generate::{GenerateError, read_urdf};
-use urdd::validate::urdf_text::{self, Reading, compare};
+use urdd_directory::position::LineIndex;
+use urdd_generate::fault::Fault;
+use urdd_generate::{GenerateError, read_urdf};
+use urdd_validate::urdf_text::{self, Reading, compare};
 
 /// What the generator accepts and carries, the validator reads without a problem, and as the same
 /// robot; what is carried needs no further repair. What the generator refuses, it refuses for the

@@ -1,9 +1,9 @@
 //! The YAML mirror, against `serde_yaml`.
 
 use serde_json::Value;
-use urdd::directory::text_fault::TextFaultKind as Kind;
-use urdd::directory::yaml::{check_mirror, is_canonical};
-use urdd::directory::{canonical, json};
+use urdd_directory::text_fault::TextFaultKind as Kind;
+use urdd_directory::yaml::{check_mirror, is_canonical};
+use urdd_directory::{canonical, json};
 
 use super::text::{check_faults, leaves, same};
 

@@ -3,14 +3,14 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use urdd::cancellation::Cancellation;
-use urdd::directory::read_error::ReadError;
-use urdd::directory::source::{Disk, OpenFile, Source};
-use urdd::format::registry::ModuleKind;
-use urdd::generate::{GenerateError, Progress, Settings, generate};
-use urdd::robot::{Robot, RobotError, ShapeKind};
-use urdd::validate::settings::Settings as ValidateSettings;
-use urdd::validate::{ValidateError, validate, validate_source};
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::read_error::ReadError;
+use urdd_directory::source::{Disk, OpenFile, Source};
+use urdd_format::registry::ModuleKind;
+use urdd_generate::{GenerateError, Progress, Settings, generate};
+use urdd_robot::{Robot, RobotError, ShapeKind};
+use urdd_validate::settings::Settings as ValidateSettings;
+use urdd_validate::{ValidateError, validate, validate_source};
 
 use crate::{made, our_robots};
 
@@ -89,7 +89,7 @@ impl Source for StopsWhenRead {
         self.disk.folder_name()
     }
 
-    fn list(&self) -> Result<urdd::directory::listing::Listing, ReadError> {
+    fn list(&self) -> Result<urdd_directory::listing::Listing, ReadError> {
         self.disk.list()
     }
 

@@ -162,12 +162,12 @@ fn a_robot_without_dofs_collides_in_each_configuration_or_in_none() {
     let folder = tempfile::tempdir().unwrap();
     let urdf = folder.path().join("still.urdf");
     std::fs::write(&urdf, boxes).unwrap();
-    let settings = urdd::generate::Settings {
+    let settings = urdd_generate::Settings {
         skipped_reasons: Some(Vec::new()),
         ..Default::default()
     };
     let path = folder.path().join("still");
-    urdd::generate::generate(&urdf, &path, &settings, &()).unwrap();
+    urdd_generate::generate(&urdf, &path, &settings, &()).unwrap();
     let (status, text, _) = check(&path, &["--random", "20"], "");
     assert_eq!(status, 1, "{text}");
     assert!(

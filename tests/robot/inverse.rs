@@ -1,7 +1,7 @@
 //! Inverse kinematics, against closed forms and against forward kinematics.
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use urdd::robot::{Inverse, InverseSettings, Robot, RobotError, Target};
+use urdd_robot::{Inverse, InverseSettings, Robot, RobotError, Target};
 
 use crate::{made, made_of, our_robots};
 

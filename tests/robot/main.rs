@@ -1,11 +1,4 @@
-//! `urdd::robot`: a robot asked about itself, against closed forms, differences and other ways to the same number.
-
-#[path = "../support/mod.rs"]
-#[allow(unused)]
-mod support;
-
-#[path = "../support/robots.rs"]
-mod robots;
+//! `urdd_robot`: a robot asked about itself, against closed forms, differences and other ways to the same number.
 
 mod cancelled;
 mod command;
@@ -15,4 +8,4 @@ mod nearness;
 mod opening;
 mod world;
 
-use robots::{made, made_of, our_robots};
+use testkit::robots::{made, made_of, our_robots};

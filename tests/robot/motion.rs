@@ -1,5 +1,5 @@
 use nalgebra::{Isometry3, Vector3};
-use urdd::robot::{Robot, RobotError};
+use urdd_robot::{Robot, RobotError};
 
 use crate::{made, made_of, our_robots};
 

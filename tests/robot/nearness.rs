@@ -1,4 +1,4 @@
-use urdd::robot::{PairDistance, Robot, ShapeKind};
+use urdd_robot::{PairDistance, Robot, ShapeKind};
 
 use crate::{made, made_of, our_robots};
 
@@ -131,8 +131,8 @@ fn edits_of_skips_decide() {
 
 /// The distances of all pairs that are not skipped, one by one, without anything that is passed over.
 fn one_by_one(robot: &Robot, kind: ShapeKind, q: &[f64]) -> Vec<f64> {
-    use urdd::geometry::convex::{ConvexShape, distance};
-    use urdd::robot::Solid;
+    use urdd_geometry::convex::{ConvexShape, distance};
+    use urdd_robot::Solid;
     let skips = robot.skips(kind).unwrap();
     let poses = robot.link_poses(q).unwrap();
     let shapes: Vec<_> = robot
@@ -211,13 +211,13 @@ fn every_question_agrees_with_each_pair_asked_alone() {
 
 #[test]
 fn points_of_the_least_distance_are_in_their_shapes() {
-    use urdd::robot::Solid;
+    use urdd_robot::Solid;
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(path).unwrap();
     let proximity = robot.proximity(ShapeKind::Pieces).unwrap();
     let shapes = robot.shapes(ShapeKind::Pieces).unwrap();
     let outside = |link: usize, piece: usize, point: nalgebra::Point3<f64>| {
-        let own = |shape: &&urdd::robot::LinkShape| (shape.link, shape.piece) == (link, piece);
+        let own = |shape: &&urdd_robot::LinkShape| (shape.link, shape.piece) == (link, piece);
         let Solid::Mesh(mesh) = &shapes.iter().find(own).unwrap().solid else {
             panic!("a mesh");
         };

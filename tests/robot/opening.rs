@@ -3,10 +3,10 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-use urdd::directory::listing::Listing;
-use urdd::directory::read_error::ReadError;
-use urdd::directory::source::{Disk, Memory, OpenFile, Source};
-use urdd::robot::{Robot, RobotError, ShapeKind};
+use urdd_directory::listing::Listing;
+use urdd_directory::read_error::ReadError;
+use urdd_directory::source::{Disk, Memory, OpenFile, Source};
+use urdd_robot::{Robot, RobotError, ShapeKind};
 
 use crate::{made, our_robots};
 

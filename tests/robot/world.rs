@@ -4,8 +4,8 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query;
 use parry3d_f64::shape::{Capsule, ConvexPolyhedron, Cuboid, Shape};
-use urdd::geometry::Mesh;
-use urdd::robot::{Obstacle, ObstacleDistance, Robot, RobotError, ShapeKind, World};
+use urdd_geometry::Mesh;
+use urdd_robot::{Obstacle, ObstacleDistance, Robot, RobotError, ShapeKind, World};
 
 use crate::{made, made_of, our_robots};
 
@@ -211,7 +211,7 @@ fn as_parry_has_it() {
                 .iter()
                 .find(|shape| shape.link == one.link_idx)
                 .unwrap();
-            let urdd::robot::Solid::Mesh(mesh) = &shape.solid else {
+            let urdd_robot::Solid::Mesh(mesh) = &shape.solid else {
                 panic!("a hull is a mesh");
             };
             let placed = mesh.vertices.iter().map(|v| {

@@ -2,13 +2,13 @@
 //! socket/ü, 15 spin (continuous), 16 left, 17 locked at 0.25.
 
 use serde_json::{Value, json};
-use urdd::format::urdf::{JointType, Limit};
-use urdd::validate::code::Code::*;
+use urdd_format::urdf::{JointType, Limit};
+use urdd_validate::code::Code::*;
 
 use super::dof::star;
-use crate::support::fixture::Fixture;
-use crate::support::robot::{Robot, limit};
 use crate::{Case, changed, invalid, near_miss};
+use testkit::fixture::Fixture;
+use testkit::robot::{Robot, limit};
 
 const BOUNDS: &str = "bounds_module";
 

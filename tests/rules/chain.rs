@@ -4,13 +4,13 @@
 use std::f64::consts::{PI, TAU};
 
 use serde_json::json;
-use urdd::format::urdf::{Axis, JointType, Origin};
-use urdd::validate::code::Code::*;
+use urdd_format::urdf::{Axis, JointType, Origin};
+use urdd_validate::code::Code::*;
 
 use super::dof::star;
-use crate::support::fixture::Fixture;
-use crate::support::robot::{Robot, limit};
 use crate::{Case, changed, invalid, near_miss};
+use testkit::fixture::Fixture;
+use testkit::robot::{Robot, limit};
 
 const CHAIN: &str = "chain_module";
 
@@ -79,7 +79,7 @@ pub fn cases() -> Vec<Case> {
 }
 
 fn tables(
-    valid: impl Fn(urdd::validate::code::Code, &'static str, fn() -> Robot) -> Case,
+    valid: impl Fn(urdd_validate::code::Code, &'static str, fn() -> Robot) -> Case,
 ) -> Vec<Case> {
     vec![
         invalid(CHN001, "link-left-out", |f| {
@@ -166,7 +166,7 @@ fn tables(
 }
 
 fn motions(
-    valid: impl Fn(urdd::validate::code::Code, &'static str, fn() -> Robot) -> Case,
+    valid: impl Fn(urdd_validate::code::Code, &'static str, fn() -> Robot) -> Case,
 ) -> Vec<Case> {
     const QUATERNION: &str = "/joints_in_chain/2/origin/quaternion_wxyz";
     vec![

@@ -1,14 +1,14 @@
 //! CMP.
 
 use serde_json::{Value, json};
-use urdd::format::registry::ModuleKind;
-use urdd::format::urdf::JointType;
-use urdd::validate::code::Code;
-use urdd::validate::code::Code::*;
+use urdd_format::registry::ModuleKind;
+use urdd_format::urdf::JointType;
+use urdd_validate::code::Code;
+use urdd_validate::code::Code::*;
 
-use crate::support::fixture::Fixture;
-use crate::support::robot::{Robot, joint, link, origin, solid_box};
 use crate::{Case, changed};
+use testkit::fixture::Fixture;
+use testkit::robot::{Robot, joint, link, origin, solid_box};
 
 const COMPOSITION: &str = "composition_module";
 

@@ -2,13 +2,13 @@
 //! link 5 sits on 1 by joint 11.
 
 use serde_json::{Value, json};
-use urdd::format::urdf::JointType;
-use urdd::validate::code::Code::*;
+use urdd_format::urdf::JointType;
+use urdd_validate::code::Code::*;
 
 use super::dof::star;
-use crate::support::fixture::Fixture;
-use crate::support::robot::{Robot, joint, link, solid_box};
 use crate::{Case, changed, invalid};
+use testkit::fixture::Fixture;
+use testkit::robot::{Robot, joint, link, solid_box};
 
 const CONNECTIONS: &str = "connections_module";
 

@@ -1,10 +1,10 @@
 use std::path::Path;
 
 use serde_json::json;
-use urdd::validate::code::Code::*;
+use urdd_validate::code::Code::*;
 
-use crate::support::fixture::{Fixture, ROOT, URDF};
 use crate::{Case, in_folder, invalid, legacy, near_miss, toy};
+use testkit::fixture::{Fixture, ROOT, URDF};
 
 const VERSION: &str = "dof_module/VERSION";
 const YAML: &str = "dof_module/module.yaml";
@@ -72,7 +72,7 @@ fn set_root(f: &mut Fixture, pointer: &str, value: serde_json::Value) {
 
 /// The toy, written, and then changed on disk.
 fn on_disk(
-    code: urdd::validate::code::Code,
+    code: urdd_validate::code::Code,
     name: &'static str,
     caught: bool,
     change: impl Fn(&Path) + 'static,

@@ -3,12 +3,12 @@
 //! 12 locked, 13 frozen (mimic of bolt).
 
 use serde_json::json;
-use urdd::format::urdf::{JointType, Mimic};
-use urdd::validate::code::Code::*;
+use urdd_format::urdf::{JointType, Mimic};
+use urdd_validate::code::Code::*;
 
-use crate::support::fixture::Fixture;
-use crate::support::robot::{Robot, joint, limit, link, solid_box};
 use crate::{Case, changed, invalid, near_miss};
+use testkit::fixture::Fixture;
+use testkit::robot::{Robot, joint, limit, link, solid_box};
 
 const DOF: &str = "dof_module";
 

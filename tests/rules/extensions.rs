@@ -1,8 +1,8 @@
 use serde_json::{Value, json};
-use urdd::validate::code::Code::*;
+use urdd_validate::code::Code::*;
 
-use crate::support::fixture::Fixture;
 use crate::{Case, invalid, near_miss};
+use testkit::fixture::Fixture;
 
 const FOLDER: &str = "x_acme_gripper_module";
 

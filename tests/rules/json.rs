@@ -1,7 +1,7 @@
-use urdd::validate::code::Code::{self, *};
+use urdd_validate::code::Code::{self, *};
 
-use crate::support::fixture::{Fixture, ROOT};
 use crate::{Case, invalid, near_miss};
+use testkit::fixture::{Fixture, ROOT};
 
 const FILE: &str = "kinematics_samples_module/module.json";
 

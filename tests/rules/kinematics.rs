@@ -1,12 +1,12 @@
 //! KIN.
 
 use serde_json::json;
-use urdd::format::urdf::{Axis, JointType};
-use urdd::validate::code::Code::*;
+use urdd_format::urdf::{Axis, JointType};
+use urdd_validate::code::Code::*;
 
-use crate::support::fixture::{Fixture, URDF};
-use crate::support::robot::{Robot, joint, link, origin, solid_box};
 use crate::{Case, changed, invalid, near_miss};
+use testkit::fixture::{Fixture, URDF};
+use testkit::robot::{Robot, joint, link, origin, solid_box};
 
 const SAMPLES: &str = "kinematics_samples_module";
 

@@ -1,21 +1,21 @@
 //! LRN.
 
 use serde_json::{Value, json};
-use urdd::document::urdd::Urdd;
-use urdd::format::self_collision_model::SelfCollisionModelModule;
-use urdd::report::Report;
-use urdd::validate::code::Code;
-use urdd::validate::code::Code::*;
-use urdd::validate::learned::counts::Judge;
-use urdd::validate::rule::Severity;
-use urdd::validate::settings::Settings;
-use urdd::validate::skip::SkipReason;
-use urdd::validate::solids::Solids;
-use urdd::validate::validate;
+use urdd_document::urdd::Urdd;
+use urdd_format::self_collision_model::SelfCollisionModelModule;
+use urdd_validate::code::Code;
+use urdd_validate::code::Code::*;
+use urdd_validate::learned::counts::Judge;
+use urdd_validate::report::Report;
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
+use urdd_validate::skip::SkipReason;
+use urdd_validate::solids::Solids;
+use urdd_validate::validate;
 
-use crate::support::fixture::Fixture;
-use crate::support::model::{MODEL, Said, fixture, fixture_with, trained_on};
 use crate::{Case, changed, findings};
+use testkit::fixture::Fixture;
+use testkit::model::{MODEL, Said, fixture, fixture_with, trained_on};
 
 /// A case with some values that are others.
 fn case(code: Code, name: &'static str, caught: bool, changes: &[(&'static str, Value)]) -> Case {
@@ -124,7 +124,7 @@ mod flattering {
         let folder = tempfile::tempdir().expect("a folder");
         large.write_to(folder.path());
         let run = validate(&[folder.path()], &Settings::default()).expect("a URDD");
-        let report = Report::new(&run, Severity::Error);
+        let report = run.report(Severity::Error);
         let open = report.urdds[0].model_not_verified.as_ref();
         let open = open.expect("not verified");
         assert_eq!(open.codes, ["LRN010", "LRN011"]);

@@ -1,8 +1,8 @@
 use std::path::Path;
 
 use serde_json::{Value, json};
-use urdd::directory::canonical;
-use urdd::validate::code::Code::{self, *};
+use urdd_directory::canonical;
+use urdd_validate::code::Code::{self, *};
 
 use crate::legacy_robot::LegacyRobot;
 use crate::{Case, in_folder};

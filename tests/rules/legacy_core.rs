@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use urdd::directory::canonical;
-use urdd::validate::code::Code;
-use urdd::validate::code::Code::*;
+use urdd_directory::canonical;
+use urdd_validate::code::Code;
+use urdd_validate::code::Code::*;
 
 use crate::{Case, in_folder};
 

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use serde_json::{Value, json};
-use urdd::directory::canonical;
+use urdd_directory::canonical;
 
-use crate::support::meshes::{Point, TRIANGLES, glb, obj, stl};
+use testkit::meshes::{Point, TRIANGLES, glb, obj, stl};
 
 /// The corners of the mesh that both links show: a box as far out as half a metre.
 pub fn corners() -> [Point; 8] {

@@ -3,9 +3,6 @@
 //! A case is a valid URDD with one change. The valid URDD comes from `tests/support`, a producer that
 //! shares nothing with the validator.
 
-#[path = "../support/mod.rs"]
-mod support;
-
 #[cfg(unix)]
 mod as_data;
 mod bounds;
@@ -35,13 +32,13 @@ mod yaml;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use support::fixture::Fixture;
-use urdd::format::report;
-use urdd::report::Report;
-use urdd::validate::code::Code;
-use urdd::validate::rule::Severity;
-use urdd::validate::settings::Settings;
-use urdd::validate::{rules, validate};
+use testkit::fixture::Fixture;
+use urdd_format::report;
+use urdd_validate::code::Code;
+use urdd_validate::report::Report;
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
+use urdd_validate::{rules, validate};
 
 /// How a URDD comes about.
 pub enum Make {
@@ -168,7 +165,7 @@ fn findings(write: &dyn Fn(&Path)) -> BTreeMap<String, String> {
     std::fs::create_dir(&root).expect("the URDD's folder");
     write(&root);
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
-    let report = Report::new(&run, Severity::Error);
+    let report = run.report(Severity::Error);
     let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
     findings
         .filter(|f| f.severity != report::Severity::Info)

@@ -1,17 +1,17 @@
 //! MSH013 to MSH023: what mesh files hold.
 
 use serde_json::{Value, json};
-use urdd::geometry::Mesh;
-use urdd::geometry::hull::ConvexHull;
-use urdd::geometry::read::Part;
-use urdd::geometry::write;
-use urdd::validate::code::Code::*;
+use urdd_geometry::Mesh;
+use urdd_geometry::hull::ConvexHull;
+use urdd_geometry::read::Part;
+use urdd_geometry::write;
+use urdd_validate::code::Code::*;
 
 use crate::legacy_robot::LegacyRobot;
 use crate::meshes::{HULLS, ORIGINAL, PIECES, PLAIN, boxy, legacy, robot_of, text};
-use crate::support::fixture::{Fixture, ROOT};
-use crate::support::robot::*;
 use crate::{Case, changed, in_folder, invalid, near_miss};
+use testkit::fixture::{Fixture, ROOT};
+use testkit::robot::*;
 
 /// The base: a box of 0.4 by 0.4 by 0.1 m about its link's origin, which is its own only piece.
 const BASE: usize = 1;

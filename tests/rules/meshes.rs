@@ -1,13 +1,13 @@
 //! MSH.
 
 use serde_json::{Value, json};
-use urdd::format::urdf::{Geometry, Joint, JointType, Link, Sphere};
-use urdd::validate::code::Code::*;
+use urdd_format::urdf::{Geometry, Joint, JointType, Link, Sphere};
+use urdd_validate::code::Code::*;
 
 use crate::legacy_robot::{GLB, LegacyRobot, STL};
-use crate::support::fixture::{Fixture, ROOT, URDF};
-use crate::support::robot::*;
 use crate::{Case, changed, in_folder, invalid, near_miss};
+use testkit::fixture::{Fixture, ROOT, URDF};
+use testkit::robot::*;
 
 pub const ORIGINAL: &str = "original_meshes_module";
 pub const PLAIN: &str = "plain_meshes_module";
@@ -84,7 +84,7 @@ fn with_chunk(glb: &[u8]) -> Vec<u8> {
 }
 
 pub fn legacy(
-    code: urdd::validate::code::Code,
+    code: urdd_validate::code::Code,
     name: &'static str,
     caught: bool,
     make: impl Fn() -> LegacyRobot + 'static,

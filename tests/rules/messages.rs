@@ -1,12 +1,12 @@
 //! What a finding says: where, what is wrong, what was expected and found, in words that a reader can act on.
 
 use serde_json::json;
-use urdd::report::Report;
-use urdd::validate::rule::Severity;
-use urdd::validate::settings::Settings;
-use urdd::validate::validate;
+use urdd_validate::report::Report;
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
+use urdd_validate::validate;
 
-use crate::support::fixture::Fixture;
+use testkit::fixture::Fixture;
 
 /// A code, a change, and what the finding has to say: its pointer or line, message, expected and found.
 type Case = (&'static str, fn(&mut Fixture), [&'static str; 4]);
@@ -105,7 +105,7 @@ fn findings_say_where_and_what_to_do() {
         let root = folder.path().join("robot");
         urdd.write_to(&root);
         let run = validate(&[&root], &Settings::default()).expect("something to examine");
-        let report = Report::new(&run, Severity::Error);
+        let report = run.report(Severity::Error);
         let findings: Vec<_> = report.urdds[0].findings.iter().collect();
         let finding = findings
             .iter()

@@ -7,13 +7,13 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use urdd::format::report::Severity as Shown;
-use urdd::report::Report;
-use urdd::validate::finding::Finding;
-use urdd::validate::rule::{Rule, Severity};
-use urdd::validate::rules;
-use urdd::validate::settings::Settings;
-use urdd::validate::validate_with;
+use urdd_format::report::Severity as Shown;
+use urdd_validate::finding::Finding;
+use urdd_validate::report::Report;
+use urdd_validate::rule::{Rule, Severity};
+use urdd_validate::rules;
+use urdd_validate::settings::Settings;
+use urdd_validate::validate_with;
 
 use crate::{Case, cases};
 
@@ -31,8 +31,8 @@ enum Stand {
 fn stands_in(rule: &'static Rule, stand: Stand) -> &'static Rule {
     let check = match stand {
         Stand::Itself => return rule,
-        Stand::Mute => |_: &_, _: &mut urdd::validate::finding::Findings| {},
-        Stand::Alarm => |_: &_, findings: &mut urdd::validate::finding::Findings| {
+        Stand::Mute => |_: &_, _: &mut urdd_validate::finding::Findings| {},
+        Stand::Alarm => |_: &_, findings: &mut urdd_validate::finding::Findings| {
             findings.report(Finding::in_directory(
                 "URDD_RULE=alarm: this rule always finds something",
             ));
@@ -61,7 +61,7 @@ fn fault(case: &Case, stand: Stand) -> Option<String> {
 fn judged(case: &Case, root: &Path, rules: &[&'static Rule]) -> Option<String> {
     let code = case.code.as_str();
     let run = validate_with(&[root], &Settings::default(), rules).expect("something to examine");
-    let report = Report::new(&run, Severity::Error);
+    let report = run.report(Severity::Error);
     let findings: Vec<_> = report
         .urdds
         .iter()

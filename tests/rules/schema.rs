@@ -1,8 +1,8 @@
 use serde_json::json;
-use urdd::validate::code::Code::*;
+use urdd_validate::code::Code::*;
 
-use crate::support::fixture::ROOT;
 use crate::{Case, in_folder, invalid, legacy, near_miss};
+use testkit::fixture::ROOT;
 
 pub fn cases() -> Vec<Case> {
     vec![

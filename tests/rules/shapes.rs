@@ -4,15 +4,15 @@ mod distances;
 mod fits;
 
 use serde_json::{Value, json};
-use urdd::format::link_shapes_skips::SkipEdit;
-use urdd::format::urdf::{Axis, Joint, JointType, Link};
-use urdd::validate::code::Code::*;
+use urdd_format::link_shapes_skips::SkipEdit;
+use urdd_format::urdf::{Axis, Joint, JointType, Link};
+use urdd_validate::code::Code::*;
 
 use crate::legacy_robot::LegacyRobot;
 use crate::meshes::{boxy, legacy, robot_of, without_shapes};
-use crate::support::fixture::{Fixture, toy_robot};
-use crate::support::robot::*;
 use crate::{Case, changed, invalid, near_miss};
+use testkit::fixture::{Fixture, toy_robot};
+use testkit::robot::*;
 
 const APPROXIMATIONS: &str = "link_shapes_approximations_module";
 const REACH: &str = "link_shapes_max_distance_from_origin_module";

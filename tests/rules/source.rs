@@ -1,9 +1,9 @@
-use urdd::format::urdf::{Axis, Inertia, Inertial, JointType, Limit, Mass, Mimic};
-use urdd::validate::code::Code::{self, *};
+use urdd_format::urdf::{Axis, Inertia, Inertial, JointType, Limit, Mass, Mimic};
+use urdd_validate::code::Code::{self, *};
 
-use crate::support::fixture::{Fixture, toy_robot};
-use crate::support::robot::{Robot, cuboid, joint, limit, link, mesh, visual};
 use crate::{Case, changed, invalid, near_miss};
+use testkit::fixture::{Fixture, toy_robot};
+use testkit::robot::{Robot, cuboid, joint, limit, link, mesh, visual};
 
 /// A faithful URDD, of class Core, of the toy with a change. All of its modules follow the change.
 fn robot(code: Code, name: &'static str, odd: bool, change: impl Fn(&mut Robot) + 'static) -> Case {

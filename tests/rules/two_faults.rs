@@ -8,7 +8,7 @@ use std::path::Path;
 use serde_json::json;
 
 use crate::findings;
-use crate::support::fixture::Fixture;
+use testkit::fixture::Fixture;
 
 /// A name, a change, and every code that should be found.
 type Case = (&'static str, fn(&mut Fixture), &'static [&'static str]);

@@ -1,12 +1,12 @@
 use std::path::Path;
 
 use serde_json::{Value, json};
-use urdd::format::urdf::{Axis, Mimic};
-use urdd::validate::code::Code::*;
+use urdd_format::urdf::{Axis, Mimic};
+use urdd_validate::code::Code::*;
 
-use crate::support::fixture::{Fixture, URDF, toy_robot, value};
-use crate::support::robot::{Robot, link};
 use crate::{Case, changed, in_folder, invalid, near_miss};
+use testkit::fixture::{Fixture, URDF, toy_robot, value};
+use testkit::robot::{Robot, link};
 
 pub fn cases() -> Vec<Case> {
     let mut cases = against_the_urdf();
@@ -19,7 +19,7 @@ pub fn cases() -> Vec<Case> {
 
 /// The toy, where both its URDF and its `urdf_module` have this fault: it is faithful, and wrong.
 fn faulty(
-    code: urdd::validate::code::Code,
+    code: urdd_validate::code::Code,
     name: &'static str,
     change: impl Fn(&mut Robot) + 'static,
 ) -> Case {
@@ -34,7 +34,7 @@ fn faulty(
 
 /// A URDD of another robot than the toy, in which nothing is wrong.
 fn sound(
-    code: urdd::validate::code::Code,
+    code: urdd_validate::code::Code,
     name: &'static str,
     change: impl Fn(&mut Robot) + 'static,
 ) -> Case {
@@ -469,7 +469,7 @@ fn legacy_urdd(root: &Path, inertial_of_a: &Value, axis: &Value) {
     std::fs::write(root.join("robot.urdf"), urdf).expect("the URDF");
     std::fs::write(folder.join("VERSION"), "0.0.3").expect("VERSION");
     std::fs::write(folder.join("module.json"), document.to_string()).expect("the document");
-    let yaml = urdd::directory::canonical::yaml_string(&document);
+    let yaml = urdd_directory::canonical::yaml_string(&document);
     std::fs::write(folder.join("module.yaml"), yaml).expect("its mirror");
 }
 

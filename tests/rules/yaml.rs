@@ -1,5 +1,5 @@
 use serde_json::json;
-use urdd::validate::code::Code::{self, *};
+use urdd_validate::code::Code::{self, *};
 
 use crate::json::{edit_text, replaced};
 use crate::{Case, in_folder, invalid, legacy, near_miss};
@@ -27,7 +27,7 @@ fn written(
     from: &'static str,
     to: &'static str,
 ) -> Case {
-    let change = move |f: &mut crate::support::fixture::Fixture| {
+    let change = move |f: &mut testkit::fixture::Fixture| {
         f.set("dof_module", "/x_a", value.clone());
         edit_text(f, FILE, |bytes| {
             replaced(bytes, &format!("x_a: {from}"), &format!("x_a: {to}"))

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use serde_json::Value;
-use urdd::format::registry::Profile;
-use urdd::format::schema::{Subject, Variant};
+use urdd_format::registry::Profile;
+use urdd_format::schema::{Subject, Variant};
 
 /// The tables of the root metadata and of every module of version 1.
 pub fn tables() -> String {

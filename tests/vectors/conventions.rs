@@ -2,12 +2,12 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 use serde::Deserialize;
-use urdd::document::pose::{rotation_of_quaternion, rotation_of_rpy};
-use urdd::kinematics::rotation::{
+use urdd_document::pose::{rotation_of_quaternion, rotation_of_rpy};
+use urdd_kinematics::rotation::{
     canonical, from_rotation_vector, from_rpy, planar_basis, rotation_distance, to_rotation_vector,
     unit_axis,
 };
-use urdd::validate::reference::{MimicDofs, Reference};
+use urdd_validate::reference::{MimicDofs, Reference};
 
 use super::{assert_near, vectors};
 
@@ -155,7 +155,7 @@ fn in_plane_bases() {
             r#"<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="planar"><parent link="a"/><child link="b"/><axis xyz="{i} {j} {k}"/></joint></robot>"#
         );
         let reference = Reference::new(
-            &urdd::validate::urdf_text::read(&urdf).robot.unwrap(),
+            &urdd_validate::urdf_text::read(&urdf).robot.unwrap(),
             MimicDofs::Follow,
         )
         .unwrap();

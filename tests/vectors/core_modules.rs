@@ -5,12 +5,12 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 use serde::Deserialize;
-use urdd::format::dof::{DofModule, ResolvedMimic};
-use urdd::generate::{Settings as HowToGenerate, generate};
-use urdd::kinematics::rotation::to_rotation_vector;
-use urdd::validate::reference::{MimicDofs, Reference};
-use urdd::validate::settings::Settings;
-use urdd::validate::validate;
+use urdd_format::dof::{DofModule, ResolvedMimic};
+use urdd_generate::{Settings as HowToGenerate, generate};
+use urdd_kinematics::rotation::to_rotation_vector;
+use urdd_validate::reference::{MimicDofs, Reference};
+use urdd_validate::settings::Settings;
+use urdd_validate::validate;
 
 use super::{assert_near, vectors};
 
@@ -113,7 +113,7 @@ fn mimics() {
             assert!(mimic.is_some() || found == *expected, "{}", robot.name);
         }
         let reference = Reference::new(
-            &urdd::validate::urdf_text::read(&urdf).robot.unwrap(),
+            &urdd_validate::urdf_text::read(&urdf).robot.unwrap(),
             MimicDofs::Follow,
         )
         .unwrap();

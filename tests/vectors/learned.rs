@@ -1,11 +1,11 @@
 //! SPEC 8.8: what a network gives, by numpy.
 
 use serde_json::json;
-use urdd::format::rate::Rate;
-use urdd::format::self_collision_model::{
+use urdd_format::rate::Rate;
+use urdd_format::self_collision_model::{
     ModelEvaluation, ModelInput, ModelLayer, ModelPair, SelfCollisionModelModule,
 };
-use urdd::learn::CollisionModel;
+use urdd_kinematics::learn::CollisionModel;
 
 use super::{assert_near, vectors};
 
@@ -71,7 +71,7 @@ fn intervals() {
 #[test]
 fn clearances() {
     let (model, module, vectors) = network();
-    let judge = urdd::validate::learned::network::Network::new(&module);
+    let judge = urdd_validate::learned::network::Network::new(&module);
     let mut all = Vec::new();
     for (k, vector) in vectors.iter().enumerate() {
         let found = model.clearances(&vector.configuration).unwrap();

@@ -2,11 +2,11 @@
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use serde::Deserialize;
-use urdd::format::pose::Pose;
-use urdd::geometry::bounding_sphere::BoundingSphere;
-use urdd::geometry::convex::{ConvexShape, OrientedBox, Shape, Sphere, TOLERANCE, distance};
-use urdd::geometry::hull::ConvexHull;
-use urdd::geometry::oriented_box;
+use urdd_format::pose::Pose;
+use urdd_geometry::bounding_sphere::BoundingSphere;
+use urdd_geometry::convex::{ConvexShape, OrientedBox, Shape, Sphere, TOLERANCE, distance};
+use urdd_geometry::hull::ConvexHull;
+use urdd_geometry::oriented_box;
 
 use super::{assert_near, vectors};
 

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
 
 use serde_json::Value;
-use urdd::cancellation::Cancellation;
 use urdd::view::{Collection, Server};
+use urdd_directory::cancellation::Cancellation;
 
 /// A URDD of one of our robots, in a folder of its own.
 pub fn made(robot: &str) -> (tempfile::TempDir, PathBuf) {
@@ -15,7 +15,7 @@ pub fn made(robot: &str) -> (tempfile::TempDir, PathBuf) {
     let target = folder.path().join(robot);
     let urdf =
         Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("conformance/robots/{robot}.urdf"));
-    urdd::generate::generate(&urdf, &target, &Default::default(), &()).expect("a URDD");
+    urdd_generate::generate(&urdf, &target, &Default::default(), &()).expect("a URDD");
     (folder, target)
 }
 

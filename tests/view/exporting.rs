@@ -5,11 +5,11 @@ use std::io::Read;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use urdd::directory::listing::EntryKind;
-use urdd::directory::root::Root;
-use urdd::directory::source::Archive;
-use urdd::robot::{Robot, ShapeKind};
 use urdd::view::{Collection, may_hold_page, page_with};
+use urdd_directory::listing::EntryKind;
+use urdd_directory::root::Root;
+use urdd_directory::source::Archive;
+use urdd_robot::{Robot, ShapeKind};
 
 use super::asking::made;
 

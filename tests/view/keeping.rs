@@ -5,10 +5,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde_json::{Value, json};
-use urdd::format::report::Severity;
-use urdd::report::model::Report;
-use urdd::validate::settings::Settings;
 use urdd::view::{Collection, Making, Shown};
+use urdd_format::report::Severity;
+use urdd_validate::report::model::Report;
+use urdd_validate::settings::Settings;
 
 use super::asking::{Running, made};
 
@@ -53,8 +53,8 @@ fn a_generated_urdd_is_saved_once_and_passes() {
     let wish = json!({ "folder": target.to_str() });
     let answer = server.post("/robots/gripper/keep", &wish);
     assert_eq!(answer.status, 200, "{}", answer.text());
-    let run = urdd::validate::validate(&[&target], &Settings::default()).expect("a run");
-    let report = Report::new(&run, Severity::Info);
+    let run = urdd_validate::validate(&[&target], &Settings::default()).expect("a run");
+    let report = run.report(Severity::Info);
     assert_eq!(report.urdds[0].findings.len(), 0);
     let revision = || server.json("/robots/gripper/files.json")["revision"].clone();
     let saved: Value = serde_json::from_slice(&answer.body).expect("JSON");

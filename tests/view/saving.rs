@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use urdd::format::report::Severity;
-use urdd::report::model::Report;
-use urdd::validate::settings::Settings;
+use urdd_format::report::Severity;
+use urdd_validate::report::model::Report;
+use urdd_validate::settings::Settings;
 
 use super::asking::{Running, made};
 
@@ -33,8 +33,8 @@ fn content(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 }
 
 fn findings(path: &Path) -> usize {
-    let run = urdd::validate::validate(&[path], &Settings::default()).expect("a run");
-    let report = Report::new(&run, Severity::Info);
+    let run = urdd_validate::validate(&[path], &Settings::default()).expect("a run");
+    let report = run.report(Severity::Info);
     report.urdds.iter().map(|urdd| urdd.findings.len()).sum()
 }
 

@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use urdd::format::report::Severity;
-use urdd::report::model::Report;
-use urdd::validate::settings::Settings;
+use urdd_format::report::Severity;
+use urdd_validate::report::model::Report;
+use urdd_validate::settings::Settings;
 
 use super::asking::{Running, made};
 
@@ -74,8 +74,8 @@ fn files_and_the_report_are_those_on_disk() {
             Some("application/octet-stream")
         );
     }
-    let run = urdd::validate::validate(&[&path], &Settings::default()).expect("a run");
-    let report = urdd::report::json(&Report::new(&run, Severity::Error)).expect("a report");
+    let run = urdd_validate::validate(&[&path], &Settings::default()).expect("a run");
+    let report = urdd_validate::report::json(&run.report(Severity::Error)).expect("a report");
     let served = server.get("/robots/welding_arm/report.json");
     assert_eq!(served.text(), report);
 }

@@ -2,17 +2,17 @@
 
 use nalgebra::{Rotation3, UnitQuaternion};
 use serde_json::{Value, json};
-use urdd::directory::root::Root;
-use urdd::directory::source::Source;
-use urdd::document::consumer::{self, ConsumerModules};
-use urdd::document::load::Loaded;
-use urdd::document::mesh_files::MeshFiles;
-use urdd::document::meshes::{Format, MeshPath};
-use urdd::document::robot::{Inertial, Limit, Origin};
-use urdd::document::urdd::Urdd;
-use urdd::format::dof::Quantity;
-use urdd::format::registry::{ModuleDocument, ModuleKind};
-use urdd::robot::Robot;
+use urdd_directory::root::Root;
+use urdd_directory::source::Source;
+use urdd_document::consumer::{self, ConsumerModules};
+use urdd_document::load::Loaded;
+use urdd_document::mesh_files::MeshFiles;
+use urdd_document::meshes::{Format, MeshPath};
+use urdd_document::robot::{Inertial, Limit, Origin};
+use urdd_document::urdd::Urdd;
+use urdd_format::dof::Quantity;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_robot::Robot;
 
 use crate::files::Files;
 
@@ -59,7 +59,7 @@ pub fn about(files: &Files, robot: &Robot) -> Result<Value, String> {
         faults.push(json!({ "module": Value::Null, "reason": error.to_string() }));
     }
     let configurations = configurations.ok();
-    let bounds = configurations.map(urdd::robot::Configurations::bounds);
+    let bounds = configurations.map(urdd_robot::Configurations::bounds);
     Ok(json!({
         "name": part.robot().map(|robot| &robot.name),
         "folder": files.folder_name(),
@@ -68,8 +68,8 @@ pub fn about(files: &Files, robot: &Robot) -> Result<Value, String> {
         "links": links(&part, modules.as_ref()),
         "joints": joints(&part, modules.as_ref()),
         "dofs": modules.as_ref().map(|modules| dofs(modules, bounds)),
-        "zero": configurations.map(urdd::robot::Configurations::zero),
-        "middle": configurations.map(urdd::robot::Configurations::middle),
+        "zero": configurations.map(urdd_robot::Configurations::zero),
+        "middle": configurations.map(urdd_robot::Configurations::middle),
         "meshes": {
             "original": original(&part),
             "plain": meshes(&part, ModuleKind::PlainMeshes),

@@ -1,7 +1,7 @@
 //! What rules mean.
 
 use serde_json::json;
-use urdd::validate::rules;
+use urdd_validate::rules;
 
 use crate::{answer, memory};
 

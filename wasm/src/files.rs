@@ -5,9 +5,9 @@ use std::io::{Cursor, Read};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use serde_json::{Value, json};
-use urdd::directory::listing::{Entry, EntryKind, Listing};
-use urdd::directory::root::ReadError;
-use urdd::directory::source::{Archive, OpenFile, Source};
+use urdd_directory::listing::{Entry, EntryKind, Listing};
+use urdd_directory::root::ReadError;
+use urdd_directory::source::{Archive, OpenFile, Source};
 
 use crate::{answer, memory};
 

@@ -1,6 +1,6 @@
 //! Triangles of a mesh file.
 
-use urdd::geometry::read::{GltfUp, Options, read_with};
+use urdd_geometry::read::{GltfUp, Options, read_with};
 
 use crate::files::Files;
 use crate::{answer, memory};

@@ -1,9 +1,9 @@
 //! The learned self-collision model, asked about in JSON.
 
 use serde_json::{Value, json};
-use urdd::format::registry::ModuleKind;
-use urdd::kinematics::ConfigurationError;
-use urdd::robot::{CollisionModel, Robot, RobotError};
+use urdd_format::registry::ModuleKind;
+use urdd_kinematics::ConfigurationError;
+use urdd_robot::{CollisionModel, Robot, RobotError};
 
 /// Reads the model; `None` where the robot has none.
 pub fn read(robot: &Robot) -> Result<Option<CollisionModel>, String> {

@@ -3,13 +3,13 @@
 use std::collections::HashMap;
 
 use serde_json::{Value, json};
-use urdd::directory::root::Root;
-use urdd::document::load::Loaded;
-use urdd::document::shape_matrices::{Statistics, at, shape_lists, statistics};
-use urdd::document::urdd::Urdd;
-use urdd::format::link_shapes_simple_skips::SkipReason;
-use urdd::format::registry::ModuleKind;
-use urdd::robot::{EditedSkips, ShapeKind, Skips};
+use urdd_directory::root::Root;
+use urdd_document::load::Loaded;
+use urdd_document::shape_matrices::{Statistics, at, shape_lists, statistics};
+use urdd_document::urdd::Urdd;
+use urdd_format::link_shapes_simple_skips::SkipReason;
+use urdd_format::registry::ModuleKind;
+use urdd_robot::{EditedSkips, ShapeKind, Skips};
 
 use crate::files::Files;
 
@@ -36,7 +36,7 @@ impl Pairs {
                     .enumerate()
                     .map(|(k, link)| ((link.get(), 0), k)),
             );
-            let place = |(k, shape): (usize, &urdd::format::shapes::PieceShape)| {
+            let place = |(k, shape): (usize, &urdd_format::shapes::PieceShape)| {
                 ((shape.link_idx.get(), shape.piece_idx.get()), k)
             };
             pieces.extend(shapes.iter().enumerate().map(place));

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use serde_json::{Value, json};
-use urdd::robot::{InverseSettings, Robot, Target};
+use urdd_robot::{InverseSettings, Robot, Target};
 
 /// Looks for a configuration in which a point of a link is at `position`, and the link turned by `quaternion_wxyz` where
 /// that is given, from `q` on. `dofs` are those that may change (all unless they are given), `restarts` how many times

@@ -1,7 +1,7 @@
 //! A robot to ask about itself.
 
 use serde_json::{Value, json};
-use urdd::robot::{CollisionModel, PairDistance, Proximity, Robot, RobotError, ShapeKind, Solid};
+use urdd_robot::{CollisionModel, PairDistance, Proximity, Robot, RobotError, ShapeKind, Solid};
 
 use crate::about::about;
 use crate::files::Files;
@@ -217,7 +217,7 @@ fn ask(handle: &mut Handle, question: &[u8]) -> Result<Value, String> {
         "samples" => {
             let bytes = handle.files.read(
                 "kinematics_samples_module/module.json",
-                urdd::directory::limits::MAX_DOCUMENT_BYTES,
+                urdd_directory::limits::MAX_DOCUMENT_BYTES,
             )?;
             serde_json::from_slice(&bytes).map_err(|error| error.to_string())
         }
@@ -233,7 +233,7 @@ fn kind(question: &Value) -> Result<ShapeKind, String> {
 /// The boxes or spheres of a kind.
 fn volumes(robot: &Robot, kind: ShapeKind) -> Result<Value, RobotError> {
     let shapes = robot.shapes(kind)?;
-    let volume = |shape: &urdd::robot::LinkShape| {
+    let volume = |shape: &urdd_robot::LinkShape| {
         let solid = match &shape.solid {
             Solid::Mesh(_) => Value::Null,
             Solid::Box { pose, half_extents } => {

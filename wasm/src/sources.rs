@@ -1,15 +1,15 @@
 //! The shapes as the URDF has them: its visual and collision elements, with their files.
 
 use serde_json::{Value, json};
-use urdd::directory::root::Root;
-use urdd::document::load::Loaded;
-use urdd::document::robot::Element;
-use urdd::document::urdd::Urdd;
-use urdd::format::meshes::GeometryKind;
-use urdd::format::original_meshes::{MeshReference, OriginalMeshesModule};
-use urdd::format::registry::{ModuleDocument, ModuleKind};
-use urdd::format::urdf::{Geometry, Material, UrdfModule};
-use urdd::robot::Robot;
+use urdd_directory::root::Root;
+use urdd_document::load::Loaded;
+use urdd_document::robot::Element;
+use urdd_document::urdd::Urdd;
+use urdd_format::meshes::GeometryKind;
+use urdd_format::original_meshes::{MeshReference, OriginalMeshesModule};
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::urdf::{Geometry, Material, UrdfModule};
+use urdd_robot::Robot;
 
 use crate::about::quaternion;
 use crate::files::Files;

@@ -1,9 +1,9 @@
 //! The report of a URDD.
 
-use urdd::format::report::Severity;
-use urdd::report::{self, model::Report};
-use urdd::validate::settings::Settings;
-use urdd::validate::validate_source;
+use urdd_format::report::Severity;
+use urdd_validate::report::{self, model::Report};
+use urdd_validate::settings::Settings;
+use urdd_validate::validate_source;
 
 use crate::files::Files;
 use crate::{answer, memory};
@@ -30,5 +30,5 @@ pub unsafe extern "C" fn urdd_validate(
 fn validate(files: Files, name: &str) -> Result<String, String> {
     let run =
         validate_source(files, name, &Settings::default()).map_err(|error| error.to_string())?;
-    report::json(&Report::new(&run, Severity::Error)).map_err(|error| error.to_string())
+    report::json(&run.report(Severity::Error)).map_err(|error| error.to_string())
 }

@@ -258,7 +258,7 @@ fn two_cases(code: &str, family: &str, cases: &str) -> String {
     };
     format!(
         r#"pub fn {cases}() -> Vec<crate::Case> {{
-    use urdd::validate::code::Code::{code};
+    use urdd_validate::code::Code::{code};
     let base = || {base};
     vec![
         crate::changed({code}, "todo-name-the-fault", true, base, |_urdd| {{

@@ -16,9 +16,9 @@ use serde_json::Value;
 use crate::cli::output;
 use crate::cli::signals::Signals;
 use crate::conformance::skips::{self, Skip};
-use crate::directory::regular;
-use crate::format::escape;
-use crate::process;
+use urdd_directory::regular;
+use urdd_format::escape;
+use urdd_generate::process;
 
 /// Longest skip list that is read, bytes.
 const MAX_SKIP_BYTES: u64 = 1 << 20;

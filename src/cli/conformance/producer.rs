@@ -10,7 +10,7 @@ use crate::cli::signals::Signals;
 use crate::cli::words::Class;
 use crate::conformance::process::Template;
 use crate::conformance::producer::{Event, Plan, SKIP_FORM, run as run_producer};
-use crate::format::conformance::{ModuleStatus, ProducerResult, RobotScore, ScoreStatus};
+use urdd_format::conformance::{ModuleStatus, ProducerResult, RobotScore, ScoreStatus};
 
 /// Arguments of `urdd conformance producer`.
 #[derive(Args)]

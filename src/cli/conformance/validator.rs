@@ -10,8 +10,8 @@ use super::common::{self, RunArguments};
 use crate::cli::signals::Signals;
 use crate::conformance::process::Template;
 use crate::conformance::validator::{Event, Judged, Plan, SKIP_FORM, run as run_validator};
-use crate::format::conformance::{CaseFault, CaseScore, ValidatorResult};
-use crate::format::registry::SPEC_VERSION;
+use urdd_format::conformance::{CaseFault, CaseScore, ValidatorResult};
+use urdd_format::registry::SPEC_VERSION;
 
 /// Arguments of `urdd conformance validator`.
 #[derive(Args)]

@@ -2,8 +2,8 @@
 
 mod odd;
 
-use urdd::geometry::mesh::Bounds;
-use urdd::geometry::read::{Format, MeshError, NoteCode, Scene, read};
+use urdd_geometry::mesh::Bounds;
+use urdd_geometry::read::{Format, MeshError, NoteCode, Scene, read};
 
 fn load(text: &str) -> Result<Scene, MeshError> {
     read(text.as_bytes(), "a.dae", &mut |_| None)

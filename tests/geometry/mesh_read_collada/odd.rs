@@ -1,6 +1,6 @@
 //! Files that are odd or broken.
 
-use urdd::geometry::read::{Fault, NoteCode, Place, read};
+use urdd_geometry::read::{Fault, NoteCode, Place, read};
 
 use super::{File, PLAIN, bounds, codes, load};
 

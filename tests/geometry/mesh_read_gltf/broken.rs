@@ -1,7 +1,7 @@
 //! Files that are odd or broken.
 
 use serde_json::{Value, json};
-use urdd::geometry::read::{Fault, GltfUp, NoteCode};
+use urdd_geometry::read::{Fault, GltfUp, NoteCode};
 
 use super::{codes, document, glb, load, load_bytes};
 

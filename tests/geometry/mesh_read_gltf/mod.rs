@@ -4,7 +4,7 @@ mod broken;
 
 use base64::Engine as _;
 use serde_json::{Value, json};
-use urdd::geometry::read::{Fault, Format, GltfUp, MeshError, NoteCode, Options, Scene, read_with};
+use urdd_geometry::read::{Fault, Format, GltfUp, MeshError, NoteCode, Options, Scene, read_with};
 
 /// The tetrahedron of legs 1, 2, 3 at the origin.
 const POSITIONS: [[f32; 3]; 4] = [

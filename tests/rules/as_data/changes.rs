@@ -8,10 +8,10 @@ use serde_json::{Value, json};
 use urdd::conformance::change::{Action, Change, Yes, mirror_of, text_of};
 use urdd::conformance::seal::{entries_mut, rehash, size_and_hash};
 use urdd::conformance::tree::{FilePath, Node, Tree};
-use urdd::directory::{canonical, json as json_text};
+use urdd_directory::{canonical, json as json_text};
 
 use super::patch::patch;
-use crate::support::fixture::ROOT;
+use testkit::fixture::ROOT;
 
 /// Changes, and the files whose entries in `urdd.json` do not follow them.
 pub type Difference = (Vec<Change>, BTreeSet<String>);

@@ -17,16 +17,16 @@ use urdd::conformance::data::{BASES, INVALID, URDD};
 use urdd::conformance::judge;
 use urdd::conformance::seal::add_mirrors;
 use urdd::conformance::tree::{Node, Tree};
-use urdd::directory::canonical;
-use urdd::report::Report;
-use urdd::validate::rule::Severity;
-use urdd::validate::rules;
-use urdd::validate::settings::Settings;
-use urdd::validate::validate;
+use urdd_directory::canonical;
+use urdd_validate::report::Report;
+use urdd_validate::rule::Severity;
+use urdd_validate::rules;
+use urdd_validate::settings::Settings;
+use urdd_validate::validate;
 
 use self::changes::{Difference, difference};
-use crate::support::fixture::{Fixture, toy_robot};
 use crate::{Case, Make, cases, legacy};
+use testkit::fixture::{Fixture, toy_robot};
 
 /// A case that takes more of a base's bytes than this part gets a base of its own.
 const TOO_DIFFERENT: f64 = 0.25;
@@ -167,7 +167,7 @@ fn found(case: &Case) -> Vec<Expected> {
     fs::create_dir(&root).expect("the URDD's folder");
     case.make.write(&root);
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
-    let report = Report::new(&run, Severity::Error);
+    let report = run.report(Severity::Error);
     let found = judge::found(case.code.as_str(), &report);
     let codes: BTreeSet<&str> = found.iter().map(|finding| finding.code.as_str()).collect();
     let right = case.caught.then_some(case.code.as_str());

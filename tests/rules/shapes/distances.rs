@@ -1,15 +1,15 @@
 //! SHP022 to SHP025: distances in the sampled configurations.
 
 use serde_json::json;
-use urdd::format::urdf::{Axis, JointType};
-use urdd::validate::code::Code::*;
+use urdd_format::urdf::{Axis, JointType};
+use urdd_validate::code::Code::*;
 
 use super::{STATISTICS, number, pair_that_is, set_pair, two_boxes};
 use crate::legacy_robot::LegacyRobot;
 use crate::meshes::{boxy, legacy, robot_of};
-use crate::support::fixture::Fixture;
-use crate::support::robot::*;
 use crate::{Case, changed, invalid, near_miss};
+use testkit::fixture::Fixture;
+use testkit::robot::*;
 
 /// Two boxes, 1 m apart, of which one turns about its own middle.
 fn turning_boxes() -> Fixture {

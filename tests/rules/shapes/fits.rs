@@ -1,14 +1,14 @@
 //! SHP017 to SHP021: boxes, spheres and largest distances, held to the hulls and pieces.
 
 use serde_json::json;
-use urdd::validate::code::Code::*;
+use urdd_validate::code::Code::*;
 
 use super::{APPROXIMATIONS, REACH, number, scale};
 use crate::legacy_robot::LegacyRobot;
 use crate::meshes::{boxy, legacy, robot_of};
-use crate::support::fixture::Fixture;
-use crate::support::robot::*;
 use crate::{Case, changed, invalid, near_miss};
+use testkit::fixture::Fixture;
+use testkit::robot::*;
 
 /// One box, of which the second link is a mere frame: nothing has a distance from it.
 fn lone_box() -> Fixture {

@@ -1,0 +1,188 @@
+//! Sizes and hashes of files, and whether a file is the one that was described. In bounded memory.
+
+use std::io::Read;
+
+use sha2::{Digest, Sha256};
+
+use super::root::{ReadError, Root};
+use urdd_format::hexadecimal::hexadecimal;
+
+/// How a file differs from what was said of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Change {
+    /// It is a Git LFS pointer.
+    LfsPointer,
+    /// It would be the same with the other line endings.
+    LineEndings,
+    /// It is of this size, bytes.
+    Size(u64),
+    /// It has this SHA-256.
+    Hash(String),
+}
+
+/// Size in bytes and SHA-256 (64 lower-case hexadecimal digits) of a file, read in pieces: meshes are
+/// large.
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn of(root: &Root, path: &str) -> Result<(u64, String), ReadError> {
+    let (mut file, _) = root.open_file(path)?;
+    let mut hasher = Sha256::new();
+    let mut piece = vec![0; 1 << 16];
+    let mut size = 0;
+    loop {
+        let read = file
+            .read(&mut piece)
+            .map_err(|error| ReadError::Io(error.to_string()))?;
+        if read == 0 {
+            break;
+        }
+        size += read as u64;
+        hasher.update(&piece[..read]);
+    }
+    Ok((size, hexadecimal(&hasher.finalize())))
+}
+
+/// Every Git LFS pointer begins so, and is shorter than this.
+const LFS_POINTER: &[u8] = b"version https://git-lfs";
+const LONGEST_LFS_POINTER: u64 = 1024;
+
+/// Files larger than this are hardly text whose line endings were converted; of these the size
+/// alone is compared where it differs.
+const LARGEST_TEXT: u64 = 1 << 30;
+
+/// How a file differs from the size and the hash that are stated; `None` where it does not, or
+/// cannot be read.
+pub fn compare(root: &Root, path: &str, size: u64, sha256: &str) -> Option<Change> {
+    let (mut file, actual) = root.open_file(path).ok()?;
+    if actual != size && actual < LONGEST_LFS_POINTER {
+        let start = root.read(path, LONGEST_LFS_POINTER).ok()?;
+        if start.starts_with(LFS_POINTER) {
+            return Some(Change::LfsPointer);
+        }
+    }
+    // A conversion changes each line end, of which there is at most one a byte, by one byte.
+    let could_be_converted =
+        actual <= LARGEST_TEXT && size <= actual.saturating_mul(2) && size >= actual / 2;
+    if actual != size && !could_be_converted {
+        return Some(Change::Size(actual));
+    }
+    let hashes = hashes(&mut file, actual != size)?;
+    if actual == size && hashes.plain == sha256 {
+        return None;
+    }
+    if hashes.lf.as_deref() == Some(sha256) || hashes.crlf.as_deref() == Some(sha256) {
+        return Some(Change::LineEndings);
+    }
+    Some(if actual == size {
+        Change::Hash(hashes.plain)
+    } else {
+        Change::Size(actual)
+    })
+}
+
+struct Hashes {
+    plain: String,
+    /// With every CR LF made LF.
+    lf: Option<String>,
+    /// With every LF (and CR LF) made CR LF.
+    crlf: Option<String>,
+}
+
+fn hashes(file: &mut impl Read, converted: bool) -> Option<Hashes> {
+    let mut plain = Sha256::new();
+    let mut lf = Sha256::new();
+    let mut crlf = Sha256::new();
+    let mut buffer = vec![0; 1 << 16];
+    let (mut as_lf, mut as_crlf) = (Vec::new(), Vec::new());
+    let mut carriage_return = false;
+    loop {
+        let read = match file.read(&mut buffer) {
+            Ok(0) => break,
+            Ok(read) => read,
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => continue,
+            Err(_) => return None,
+        };
+        let bytes = buffer.get(..read)?;
+        plain.update(bytes);
+        if !converted {
+            continue;
+        }
+        as_lf.clear();
+        as_crlf.clear();
+        for &byte in bytes {
+            // A CR is held back until it is known whether it is of a CR LF.
+            if carriage_return && byte != b'\n' {
+                as_lf.push(b'\r');
+                as_crlf.push(b'\r');
+            }
+            carriage_return = byte == b'\r';
+            match byte {
+                b'\r' => {}
+                b'\n' => {
+                    as_lf.push(b'\n');
+                    as_crlf.extend_from_slice(b"\r\n");
+                }
+                other => {
+                    as_lf.push(other);
+                    as_crlf.push(other);
+                }
+            }
+        }
+        lf.update(&as_lf);
+        crlf.update(&as_crlf);
+    }
+    if carriage_return {
+        lf.update(b"\r");
+        crlf.update(b"\r");
+    }
+    let digits = |hash: Sha256| hexadecimal(&hash.finalize());
+    Some(Hashes {
+        plain: digits(plain),
+        lf: converted.then(|| digits(lf)),
+        crlf: converted.then(|| digits(crlf)),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sha256(bytes: &[u8]) -> String {
+        hashes(&mut &bytes[..], false).unwrap().plain
+    }
+
+    #[test]
+    fn converted_line_endings_are_known_across_buffers() {
+        let mut text = Vec::new();
+        for i in 0..20_000 {
+            text.extend_from_slice(format!("line {i}\n").as_bytes());
+        }
+        text.extend_from_slice(b"a lone \r is no line end\r");
+        let dos = String::from_utf8(text.clone())
+            .unwrap()
+            .replace('\n', "\r\n");
+        let from_dos = hashes(&mut dos.as_bytes(), true).unwrap();
+        assert_eq!(from_dos.lf.unwrap(), sha256(&text));
+        let to_dos = hashes(&mut &text[..], true).unwrap();
+        assert_eq!(to_dos.crlf.unwrap(), sha256(dos.as_bytes()));
+    }
+
+    #[test]
+    fn tells_what_became_of_a_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = Root::open(folder.path()).unwrap();
+        let compare = |now: &[u8], then: &[u8]| {
+            std::fs::write(folder.path().join("f"), now).unwrap();
+            compare(&root, "f", then.len() as u64, &sha256(then))
+        };
+        assert_eq!(compare(b"a\nb\n", b"a\nb\n"), None);
+        assert_eq!(compare(b"a\nb\n", b"a\r\nb\r\n"), Some(Change::LineEndings));
+        assert_eq!(compare(b"a\r\nb\r\n", b"a\nb\n"), Some(Change::LineEndings));
+        assert_eq!(compare(b"abc\n", b"abc"), Some(Change::Size(4)));
+        assert_eq!(compare(b"a", &[0; 100]), Some(Change::Size(1)));
+        assert!(matches!(compare(b"a", b"b"), Some(Change::Hash(_))));
+        let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n";
+        assert_eq!(compare(pointer, b"solid"), Some(Change::LfsPointer));
+    }
+}

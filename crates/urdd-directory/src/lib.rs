@@ -1,0 +1,35 @@
+//! A URDD as files, on disk, in memory or in a zip archive: finding it, listing it, reading from it
+//! safely, writing it; JSON and YAML as text; and the folder of published schemas.
+
+pub mod archive_fault;
+pub mod cancellation;
+pub mod canonical;
+pub mod carried;
+pub mod digest;
+pub mod discover;
+pub mod document;
+pub mod file_entry;
+pub mod json;
+mod json_fault;
+mod json_places;
+pub mod json_scan;
+pub mod layout;
+pub mod limits;
+pub mod listing;
+pub mod number_text;
+pub mod path;
+pub mod position;
+pub mod read_error;
+pub mod regular;
+pub mod rehash;
+pub mod replacement;
+pub mod root;
+pub mod schema_files;
+pub mod source;
+pub mod staging;
+mod string_text;
+pub mod take;
+pub mod target_lock;
+pub mod text_fault;
+pub mod writer;
+pub mod yaml;

@@ -1,0 +1,196 @@
+//! The folder of published schemas on disk: written, and compared with what the types say.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use urdd_format::schema::{self, SchemaError, Subject, Variant};
+
+/// Why the folder of schemas could not be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum SchemaFilesError {
+    /// A file or folder could not be read or written.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The schemas themselves are broken.
+    #[error(transparent)]
+    Schema(#[from] SchemaError),
+}
+
+/// A difference between the folder of schemas and what the types say.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SchemaFault {
+    /// A schema is not there.
+    Missing {
+        /// Its path in the folder.
+        path: String,
+    },
+    /// A schema's text is not what the types write.
+    Outdated {
+        /// Its path in the folder.
+        path: String,
+    },
+    /// A file is no published schema.
+    Stray {
+        /// Its path in the folder.
+        path: String,
+    },
+    /// A released schema accepts other documents than it did.
+    Changed {
+        /// Which one.
+        id: String,
+        /// Hash in the list of released schemas.
+        released: String,
+        /// Hash of what the types write.
+        found: String,
+    },
+    /// The list of released schemas names a schema that does not exist.
+    Removed {
+        /// Which one.
+        id: String,
+    },
+}
+
+impl SchemaFault {
+    /// Whether `urdd schema export` mends it; where it does not, the message says what does.
+    pub fn is_mended_by_export(&self) -> bool {
+        matches!(
+            self,
+            SchemaFault::Missing { .. } | SchemaFault::Outdated { .. }
+        )
+    }
+}
+
+impl fmt::Display for SchemaFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SchemaFault::Missing { path } => write!(f, "{path}: missing"),
+            SchemaFault::Outdated { path } => write!(f, "{path}: not what the types write"),
+            SchemaFault::Stray { path } => write!(f, "{path}: no published schema; remove it"),
+            SchemaFault::Changed {
+                id,
+                released,
+                found,
+            } => write!(
+                f,
+                "{}: a released schema never changes; undo the change, or add a new version of {id} \
+                 (released as {released}, the types write {found})",
+                schema::RELEASED_PATH
+            ),
+            SchemaFault::Removed { id } => write!(
+                f,
+                "{}: {id} is released and does not exist; a released schema is never removed",
+                schema::RELEASED_PATH
+            ),
+        }
+    }
+}
+
+/// Writes every schema into `folder`, which is created; what is right already is left alone. Gives
+/// the number of files that were written.
+///
+/// # Errors
+/// Where a file or folder cannot be written.
+pub fn export(folder: &Path, variant: Variant) -> Result<usize, SchemaFilesError> {
+    let mut written = 0;
+    for file in schema::files(variant) {
+        let path = folder.join(&file.path);
+        if fs::read_to_string(&path).is_ok_and(|text| text == file.text) {
+            continue;
+        }
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(|source| io_error(parent, source))?;
+        }
+        fs::write(&path, &file.text).map_err(|source| io_error(&path, source))?;
+        written += 1;
+    }
+    Ok(written)
+}
+
+/// Compares `folder` with what the types write, and the types with what is released. Files whose
+/// names begin with a dot are nobody's business.
+///
+/// # Errors
+/// Where the folder cannot be read.
+pub fn check(folder: &Path) -> Result<Vec<SchemaFault>, SchemaFilesError> {
+    let mut found = BTreeMap::new();
+    read_folder(folder, "", &mut found)?;
+
+    let mut faults = Vec::new();
+    for file in schema::files(Variant::Strict) {
+        match found.remove(&file.path) {
+            None => faults.push(SchemaFault::Missing { path: file.path }),
+            Some(bytes) if !same_text(&bytes, &file.text) => {
+                faults.push(SchemaFault::Outdated { path: file.path });
+            }
+            Some(_) => {}
+        }
+    }
+    faults.extend(found.into_keys().map(|path| SchemaFault::Stray { path }));
+    faults.extend(frozen_faults()?);
+    Ok(faults)
+}
+
+fn frozen_faults() -> Result<Vec<SchemaFault>, SchemaFilesError> {
+    let mut faults = Vec::new();
+    for release in schema::released()? {
+        let Ok(subject) = Subject::find(&release.id) else {
+            faults.push(SchemaFault::Removed { id: release.id });
+            continue;
+        };
+        let found = schema::validating_hash(&subject.schema(Variant::Strict));
+        if found != release.sha256 {
+            faults.push(SchemaFault::Changed {
+                id: release.id,
+                released: release.sha256,
+                found,
+            });
+        }
+    }
+    Ok(faults)
+}
+
+/// A checkout may have turned the ends of lines.
+fn same_text(bytes: &[u8], text: &str) -> bool {
+    std::str::from_utf8(bytes).is_ok_and(|found| found.replace("\r\n", "\n") == text)
+}
+
+fn read_folder(
+    folder: &Path,
+    prefix: &str,
+    found: &mut BTreeMap<String, Vec<u8>>,
+) -> Result<(), SchemaFilesError> {
+    let entries = fs::read_dir(folder).map_err(|source| io_error(folder, source))?;
+    for entry in entries {
+        let entry = entry.map_err(|source| io_error(folder, source))?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if name.starts_with('.') {
+            continue;
+        }
+        let path = entry.path();
+        let kind = entry
+            .file_type()
+            .map_err(|source| io_error(&path, source))?;
+        if kind.is_dir() {
+            read_folder(&path, &format!("{prefix}{name}/"), found)?;
+        } else {
+            let bytes = fs::read(&path).map_err(|source| io_error(&path, source))?;
+            found.insert(format!("{prefix}{name}"), bytes);
+        }
+    }
+    Ok(())
+}
+
+fn io_error(path: &Path, source: io::Error) -> SchemaFilesError {
+    SchemaFilesError::Io {
+        path: path.to_owned(),
+        source,
+    }
+}

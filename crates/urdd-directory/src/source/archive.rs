@@ -1,0 +1,364 @@
+//! A URDD in a zip archive: at the archive's root, or in the folder at its top.
+//!
+//! An archive comes from anybody. Its bytes are in memory once, and shared; nothing is unpacked to disk. Sizes
+//! are bounded by what the archive states, and every file is inflated once, piece by piece, when the
+//! archive is opened, and found to be of that size and of the checksum that is stated. So whoever
+//! reads it later reads it to the end.
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::io::{self, Cursor, Read};
+use std::path::Path;
+use std::sync::Arc;
+
+use flate2::Crc;
+use flate2::bufread::DeflateDecoder;
+
+use super::tree::{Item, Node, Tree};
+use super::zip_list::{self, Listed, entry_fault};
+use super::{OpenFile, Source};
+use crate::archive_fault::{ArchiveFault, EntryFault};
+use crate::layout::ROOT_METADATA;
+use crate::limits::{
+    MAX_ARCHIVE_BYTES, MAX_DOCUMENT_BYTES, MAX_INFLATED_BYTES, MAX_INFLATION, MAX_NAME_BYTES,
+    MAX_PART_BYTES, SMALL_ARCHIVE_BYTES,
+};
+use crate::listing::Listing;
+use crate::read_error::ReadError;
+use crate::regular;
+use urdd_format::registry::ModuleKind;
+
+/// Longest target of a symbolic link, bytes.
+const MAX_LINK_BYTES: u64 = 4096;
+
+/// Methods of compression.
+const STORED: u16 = 0;
+const DEFLATED: u16 = 8;
+
+/// What macOS puts beside the files of an archive.
+const MACOS_FOLDER: &str = "__MACOSX";
+
+/// Whether a file is a zip archive, by its name or its first bytes.
+pub fn is_archive(path: &Path) -> bool {
+    let by_name = path
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("zip"));
+    let begins = || {
+        let mut start = [0; 4];
+        regular::open(path).ok()?.read_exact(&mut start).ok()?;
+        Some(matches!(&start, b"PK\x03\x04" | b"PK\x05\x06"))
+    };
+    path.is_file() && (by_name || begins().unwrap_or(false))
+}
+
+/// The bytes of an archive, whoever owns them.
+#[derive(Clone)]
+struct Bytes(Arc<dyn AsRef<[u8]> + Send + Sync>);
+
+impl Bytes {
+    fn all(&self) -> &[u8] {
+        (*self.0).as_ref()
+    }
+}
+
+impl fmt::Debug for Bytes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} bytes", self.all().len())
+    }
+}
+
+/// A URDD in a zip archive.
+#[derive(Debug)]
+pub struct Archive {
+    name: String,
+    bytes: Bytes,
+    tree: Tree<Packed>,
+}
+
+/// Where the bytes of an entry are in the archive, and what they are.
+#[derive(Debug, Clone, Copy)]
+struct Packed {
+    start: usize,
+    end: usize,
+    is_deflated: bool,
+    size: u64,
+    crc: u32,
+}
+
+type Member = Item<Packed>;
+
+impl Archive {
+    /// Reads an archive from disk.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or is not an archive of one URDD.
+    pub fn open(path: &Path) -> Result<Self, ReadError> {
+        let from_io = |error: io::Error| ReadError::from_io(&error);
+        let file = regular::open(path)?;
+        let limit = MAX_ARCHIVE_BYTES;
+        let stated = file.metadata().map_err(from_io)?.len();
+        if stated > limit {
+            return Err(ReadError::TooLarge {
+                size: stated,
+                limit,
+            });
+        }
+        // Room for all of it at once, and for the read that finds its end.
+        let mut bytes = Vec::with_capacity(usize::try_from(stated).unwrap_or_default() + 32);
+        file.take(limit + 1)
+            .read_to_end(&mut bytes)
+            .map_err(from_io)?;
+        let size = bytes.len() as u64;
+        if size > limit {
+            return Err(ReadError::TooLarge { size, limit });
+        }
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        Ok(Self::new(&name, bytes)?)
+    }
+
+    /// Of an archive's bytes. `name` is that of the root folder, where the URDD is at the
+    /// archive's root.
+    ///
+    /// # Errors
+    /// Where it is not an archive of one URDD.
+    pub fn new(
+        name: &str,
+        bytes: impl AsRef<[u8]> + Send + Sync + 'static,
+    ) -> Result<Self, ArchiveFault> {
+        let bytes = Bytes(Arc::new(bytes));
+        let mut members = members(&bytes)?;
+        let folder = urdd_folder(&members)?;
+        if !folder.is_empty() {
+            members.retain_mut(|member| match member.path.split_once('/') {
+                Some((top, rest)) if top == folder => {
+                    member.path = rest.to_owned();
+                    true
+                }
+                _ => false,
+            });
+        }
+        let tree = Tree::new(members)
+            .map_err(|path| entry_fault(path.as_bytes(), EntryFault::Duplicate))?;
+        let name = if folder.is_empty() { name } else { &folder };
+        Ok(Archive {
+            name: name.to_owned(),
+            bytes,
+            tree,
+        })
+    }
+}
+
+impl Source for Archive {
+    fn folder_name(&self) -> String {
+        self.name.clone()
+    }
+
+    fn list(&self) -> Result<Listing, ReadError> {
+        Ok(self.tree.listing())
+    }
+
+    fn open(&self, path: &str) -> Result<(OpenFile, u64), ReadError> {
+        let (packed, size) = self.tree.file(path)?;
+        Ok((Box::new(inflate(&self.bytes, packed)), size))
+    }
+}
+
+/// All entries, each of which can be read.
+fn members(bytes: &Bytes) -> Result<Vec<Member>, ArchiveFault> {
+    let all = bytes.all();
+    let listed = zip_list::read(all)?;
+    let limit = MAX_INFLATED_BYTES.min(SMALL_ARCHIVE_BYTES + MAX_INFLATION * all.len() as u64);
+    for entry in &listed {
+        check(entry).map_err(|fault| entry_fault(entry.name, fault))?;
+    }
+    // Nothing is inflated before it is known how much there is.
+    let size = listed.iter().map(|entry| entry.size).sum();
+    if size > limit {
+        return Err(ArchiveFault::Inflates { size, limit });
+    }
+    let read = |entry: &Listed<'_>| {
+        member(bytes, entry).map_err(|error| {
+            let reason = error.to_string();
+            entry_fault(entry.name, EntryFault::Damaged { reason })
+        })
+    };
+    listed.iter().map(read).collect()
+}
+
+const KIND_FOLDER: u32 = 0o040_000;
+const KIND_FILE: u32 = 0o100_000;
+const KIND_LINK: u32 = 0o120_000;
+
+/// Holds an entry to what can be known without inflating it.
+fn check(entry: &Listed<'_>) -> Result<(), EntryFault> {
+    let length = entry.name.len();
+    let part = entry
+        .name
+        .split(|byte| *byte == b'/')
+        .map(<[u8]>::len)
+        .max();
+    if length > MAX_NAME_BYTES || part > Some(MAX_PART_BYTES) {
+        return Err(EntryFault::LongName {
+            length,
+            limit: MAX_NAME_BYTES,
+            part: MAX_PART_BYTES,
+        });
+    }
+    let name = String::from_utf8_lossy(entry.name);
+    if !is_inside(name.strip_suffix('/').unwrap_or(&name)) {
+        return Err(EntryFault::Path);
+    }
+    if entry.is_encrypted {
+        return Err(EntryFault::Encrypted);
+    }
+    let limit = match entry.kind {
+        KIND_LINK => MAX_LINK_BYTES,
+        _ => MAX_DOCUMENT_BYTES,
+    };
+    let size = entry.size;
+    if size > limit {
+        return Err(EntryFault::TooLarge { size, limit });
+    }
+    match entry.method {
+        STORED | DEFLATED => Ok(()),
+        method => Err(EntryFault::Method { method }),
+    }
+}
+
+/// An entry, read to its end.
+fn member(bytes: &Bytes, entry: &Listed<'_>) -> io::Result<Member> {
+    let name = String::from_utf8_lossy(entry.name);
+    let path = name.strip_suffix('/').unwrap_or(&name).to_owned();
+    let data = Packed {
+        start: entry.start,
+        end: entry.end,
+        is_deflated: entry.method == DEFLATED,
+        size: entry.size,
+        crc: entry.crc,
+    };
+    let mut file = inflate(bytes, &data);
+    let node = match entry.kind {
+        KIND_LINK => {
+            let mut target = Vec::new();
+            file.read_to_end(&mut target)?;
+            Node::Link(String::from_utf8_lossy(&target).into_owned())
+        }
+        kind => {
+            io::copy(&mut file, &mut io::sink())?;
+            match kind {
+                _ if name.ends_with('/') => Node::Folder,
+                KIND_FOLDER => Node::Folder,
+                0 | KIND_FILE => Node::File {
+                    size: entry.size,
+                    data,
+                },
+                _ => Node::Other,
+            }
+        }
+    };
+    Ok(Item {
+        path,
+        utf8: std::str::from_utf8(entry.name).is_ok(),
+        node,
+    })
+}
+
+/// Whether a name is a path that stays in the archive, wherever it is unpacked. What else SPEC 2.8
+/// forbids is for rules to report, as of a folder.
+fn is_inside(path: &str) -> bool {
+    let mut parts = path.split('/');
+    let is_drive = matches!(path.as_bytes(), [drive, b':', ..] if drive.is_ascii_alphabetic());
+    !is_drive && !path.contains(['\\', '\0']) && parts.all(|part| !matches!(part, "" | "." | ".."))
+}
+
+/// The folder of the archive that is the URDD's root; "" for the archive itself.
+fn urdd_folder(members: &[Member]) -> Result<String, ArchiveFault> {
+    let is_of_root = |path: &str| {
+        let is_module = |kind: &ModuleKind| {
+            path.strip_prefix(kind.folder())
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
+        path == ROOT_METADATA || ModuleKind::ALL.iter().any(is_module)
+    };
+    if members.iter().any(|member| is_of_root(&member.path)) {
+        return Ok(String::new());
+    }
+    let below = members
+        .iter()
+        .filter_map(|member| member.path.split_once('/'));
+    let tops: BTreeSet<&str> = below
+        .filter(|(top, rest)| *top != MACOS_FOLDER && is_of_root(rest))
+        .map(|(top, _)| top)
+        .collect();
+    let mut found = tops.into_iter();
+    match (found.next(), found.next()) {
+        (None, _) => Err(ArchiveFault::NoUrdd),
+        (Some(only), None) => Ok(only.to_owned()),
+        (Some(first), Some(second)) => Err(ArchiveFault::ManyUrdds {
+            first: first.to_owned(),
+            second: second.to_owned(),
+        }),
+    }
+}
+
+/// The bytes of an entry as they are packed.
+struct Slice {
+    bytes: Bytes,
+    start: usize,
+    end: usize,
+}
+
+impl AsRef<[u8]> for Slice {
+    fn as_ref(&self) -> &[u8] {
+        self.bytes
+            .all()
+            .get(self.start..self.end)
+            .unwrap_or_default()
+    }
+}
+
+fn inflate(bytes: &Bytes, packed: &Packed) -> Checked {
+    let slice = Cursor::new(Slice {
+        bytes: bytes.clone(),
+        start: packed.start,
+        end: packed.end,
+    });
+    let inner: OpenFile = match packed.is_deflated {
+        true => Box::new(DeflateDecoder::new(slice)),
+        false => Box::new(slice),
+    };
+    Checked {
+        inner,
+        left: packed.size,
+        crc: Crc::new(),
+        stated: packed.crc,
+    }
+}
+
+/// Reads what the archive states, not a byte more or less.
+struct Checked {
+    inner: OpenFile,
+    left: u64,
+    crc: Crc,
+    stated: u32,
+}
+
+impl Read for Checked {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let wrong = |words: &str| Err(io::Error::new(io::ErrorKind::InvalidData, words));
+        let read = self.inner.read(buffer)?;
+        if read == 0 && !buffer.is_empty() {
+            return match (self.left, self.crc.sum() == self.stated) {
+                (0, true) => Ok(0),
+                (0, false) => wrong("its checksum is not the stated one"),
+                _ => wrong("it is shorter than stated"),
+            };
+        }
+        self.crc.update(&buffer[..read]);
+        match self.left.checked_sub(read as u64) {
+            Some(left) => self.left = left,
+            None => return wrong("it is longer than stated"),
+        }
+        Ok(read)
+    }
+}

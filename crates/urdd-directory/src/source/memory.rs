@@ -1,0 +1,60 @@
+//! A URDD in memory.
+
+use std::collections::BTreeMap;
+use std::io::Cursor;
+use std::sync::Arc;
+
+use super::tree::{Item, Node, Tree};
+use super::{OpenFile, Source};
+use crate::listing::Listing;
+use crate::path::{self, PathFault};
+use crate::read_error::ReadError;
+
+/// A URDD in memory: a name and the bytes of each file.
+#[derive(Debug)]
+pub struct Memory {
+    name: String,
+    tree: Tree<Arc<[u8]>>,
+}
+
+impl Memory {
+    /// Of files by path. `name` is that of the root folder.
+    ///
+    /// # Errors
+    /// The first path that SPEC 2.8 does not allow, or that is a file's and a folder's at once.
+    pub fn new(
+        name: &str,
+        files: BTreeMap<String, Arc<[u8]>>,
+    ) -> Result<Self, (String, PathFault)> {
+        let item = |(path, data): (String, Arc<[u8]>)| {
+            path::check(&path).map_err(|fault| (path.clone(), fault))?;
+            let size = data.len() as u64;
+            Ok(Item {
+                path,
+                utf8: true,
+                node: Node::File { size, data },
+            })
+        };
+        let items = files.into_iter().map(item).collect::<Result<_, _>>()?;
+        let tree = Tree::new(items).map_err(|path| (path, PathFault::Taken))?;
+        Ok(Memory {
+            name: name.to_owned(),
+            tree,
+        })
+    }
+}
+
+impl Source for Memory {
+    fn folder_name(&self) -> String {
+        self.name.clone()
+    }
+
+    fn list(&self) -> Result<Listing, ReadError> {
+        Ok(self.tree.listing())
+    }
+
+    fn open(&self, path: &str) -> Result<(OpenFile, u64), ReadError> {
+        let (data, size) = self.tree.file(path)?;
+        Ok((Box::new(Cursor::new(Arc::clone(data))), size))
+    }
+}

@@ -1,0 +1,206 @@
+//! Whether YAML is the mirror of a JSON text, without holding all that the text says: of a matrix one row at a time.
+
+use std::collections::HashSet;
+use std::fmt::{self, Write};
+
+use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use serde_json::{Map, Number, Value};
+
+use super::Expected;
+use crate::canonical;
+use crate::json::{Seed, State};
+
+/// Whether a JSON text is an object without any fault of the text, and `yaml`, byte for byte, its canonical YAML.
+///
+/// Where it is not so, [`crate::json::read`] and [`super::check_mirror`] say why.
+pub fn is_mirrored(json: &str, yaml: &[u8]) -> bool {
+    let state = State::default();
+    let mut expected = Expected { rest: yaml };
+    let mut deserializer = serde_json::Deserializer::from_str(json);
+    let document = Follow {
+        value: Seed::new(&state),
+        indent: None,
+        out: &mut expected,
+    };
+    document.deserialize(&mut deserializer).is_ok()
+        && deserializer.end().is_ok()
+        && !state.has_repeated_key()
+        && expected.rest.is_empty()
+}
+
+/// Writes a value as canonical YAML while it is read.
+struct Follow<'s, 'o, W> {
+    value: Seed<'s>,
+    /// As [`canonical::yaml_rest`] has it; `None` for the document itself.
+    indent: Option<usize>,
+    out: &'o mut W,
+}
+
+impl<W: Write> Follow<'_, '_, W> {
+    fn write<E: Error>(self, value: &Value) -> Result<(), E> {
+        let indent = self.indent.ok_or_else(no_object)?;
+        canonical::yaml_rest(value, indent, self.out).map_err(E::custom)
+    }
+}
+
+fn no_object<E: Error>() -> E {
+    E::custom("the document is no object")
+}
+
+impl<'de, W: Write> DeserializeSeed<'de> for Follow<'_, '_, W> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de, W: Write> Visitor<'de> for Follow<'_, '_, W> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a JSON value")
+    }
+
+    fn visit_unit<E: Error>(self) -> Result<(), E> {
+        self.write(&Value::Null)
+    }
+
+    fn visit_bool<E: Error>(self, value: bool) -> Result<(), E> {
+        self.write(&Value::Bool(value))
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<(), E> {
+        self.write(&Value::Number(value.into()))
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<(), E> {
+        self.write(&Value::Number(value.into()))
+    }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<(), E> {
+        let number = Number::from_f64(value).ok_or_else(|| E::custom("number out of range"))?;
+        self.write(&Value::Number(number))
+    }
+
+    fn visit_str<E: Error>(self, value: &str) -> Result<(), E> {
+        self.write(&Value::String(value.to_owned()))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<(), A::Error> {
+        let inner = self.value.inner()?;
+        let indent = self.indent.ok_or_else(no_object)?;
+        // A list stands on one line, unless a list or an object is in it: held until that is known.
+        let mut held = Some(Vec::new());
+        while let Some(element) = access.next_element_seed(inner)? {
+            let is_scalar = !element.is_array() && !element.is_object();
+            match &mut held {
+                Some(scalars) if is_scalar => scalars.push(element),
+                _ => {
+                    if let Some(scalars) = held.take() {
+                        self.out.write_char('\n').map_err(A::Error::custom)?;
+                        for scalar in &scalars {
+                            canonical::yaml_element(scalar, indent, self.out)
+                                .map_err(A::Error::custom)?;
+                        }
+                    }
+                    canonical::yaml_element(&element, indent, self.out)
+                        .map_err(A::Error::custom)?;
+                }
+            }
+        }
+        match held {
+            Some(scalars) => self.write(&Value::Array(scalars)),
+            None => Ok(()),
+        }
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<(), A::Error> {
+        let inner = self.value.inner()?;
+        let indent = self.indent.unwrap_or_default();
+        let mut keys = HashSet::new();
+        while let Some(key) = access.next_key::<String>()? {
+            if keys.is_empty() && self.indent.is_some() {
+                self.out.write_char('\n').map_err(A::Error::custom)?;
+            }
+            canonical::yaml_key(&key, indent, self.out).map_err(A::Error::custom)?;
+            access.next_value_seed(Follow {
+                value: inner,
+                indent: Some(indent + 2),
+                out: &mut *self.out,
+            })?;
+            if !keys.insert(key) {
+                return Err(A::Error::custom("a key stands twice"));
+            }
+        }
+        match keys.is_empty() {
+            true => self.write(&Value::Object(Map::new())),
+            false => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::json;
+    use crate::limits::DEPTH_LIMIT;
+
+    const TEXTS: [&str; 7] = [
+        r#"{"a": 1}"#,
+        r#"{"a": [], "b": {}, "c": [[]], "d": [{}], "no": null, "t": true}"#,
+        r#"{"m": [[0.5, 1e-9], [-2, 3.0]], "n": {"rows": [[1], [2]], "deep": {"x": [1, 2]}}}"#,
+        r#"{"mixed": [1, "two", [3], {"four": [5, [6]]}, 7], "x y": "a: b"}"#,
+        r#"{"words": ["a", "No", "é\n"], "last": [null, {"a": {"b": [[], 1]}}]}"#,
+        r#"{"big": [18446744073709551615, -9223372036854775808, 1e300]}"#,
+        r#"{ "spaced" : [ [ 1 , 2 ] ,
+            [ 3 ] ] }"#,
+    ];
+
+    #[test]
+    fn what_is_mirrored_is_the_canonical_yaml() {
+        for text in TEXTS {
+            let value = json::read(text.as_bytes()).unwrap().value;
+            let yaml = canonical::yaml_string(&value);
+            assert!(is_mirrored(text, yaml.as_bytes()), "{text}\n{yaml}");
+            // A byte more, a byte less, and each byte another.
+            assert!(!is_mirrored(text, format!("{yaml}\n").as_bytes()));
+            assert!(!is_mirrored(text, &yaml.as_bytes()[..yaml.len() - 1]));
+            for at in 0..yaml.len() {
+                let mut changed = yaml.clone().into_bytes();
+                changed[at] ^= 1;
+                assert!(!is_mirrored(text, &changed), "{text}, byte {at}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_text_with_faults_is_not_mirrored() {
+        let long = "k".repeat(1001);
+        let deep = "[".repeat(DEPTH_LIMIT) + &"]".repeat(DEPTH_LIMIT);
+        for text in [
+            r#"{"a": 1, "a": 1}"#.to_owned(),
+            r#"{"a": [{"b": 1, "b": 1}]}"#.to_owned(),
+            r#"{"a": {"b": 1, "b": 1}}"#.to_owned(),
+            "[1]".to_owned(),
+            "{}".to_owned(),
+            "1".to_owned(),
+            r#"{"a": 1} 2"#.to_owned(),
+            r#"{"a": 1,}"#.to_owned(),
+            format!(r#"{{"a": {deep}}}"#),
+            "\u{feff}{\"a\": 1}".to_owned(),
+        ] {
+            let yaml = json::read(text.as_bytes()).map_or_else(
+                |_| String::new(),
+                |read| canonical::yaml_string(&read.value),
+            );
+            assert!(!is_mirrored(&text, yaml.as_bytes()), "{text}");
+        }
+        let text = format!(r#"{{"a": {{"{long}": [1, [2]]}}}}"#);
+        let value = json::read(text.as_bytes()).unwrap().value;
+        assert!(is_mirrored(
+            &text,
+            canonical::yaml_string(&value).as_bytes()
+        ));
+    }
+}

@@ -1,0 +1,112 @@
+//! Finding and reading the source URDF that a URDD carries.
+
+use thiserror::Error;
+
+use super::module::{JsonFile, MetadataFile};
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::root::{EntryKind, Listing, ReadError, Root};
+use urdd_format::root_metadata::Source;
+
+/// Longest source URDF that is read, bytes.
+const MAX_URDF_BYTES: u64 = 64 << 20;
+
+/// The source URDF that a URDD carries.
+pub struct CarriedUrdf {
+    /// Path relative to the root.
+    pub path: String,
+    /// Its text; what is not UTF-8 is replaced.
+    pub text: String,
+    /// The first byte that is not UTF-8, where there is one.
+    pub not_utf8_at: Option<usize>,
+}
+
+/// Why there is no source URDF to look at.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum NoUrdf {
+    /// The root metadata cannot be used, so the source is not known.
+    #[error("{ROOT_METADATA} does not fit its schema, so the source is not known")]
+    MetadataUnusable,
+    /// Only some modules were read.
+    #[error("the URDF was not read")]
+    NotRead,
+    /// The root metadata names no source.
+    #[error("the root metadata names no source")]
+    NoSource,
+    /// Without root metadata: there is no `.urdf` in the root.
+    #[error("no URDF file is carried")]
+    NoneCarried,
+    /// Without root metadata: there are several, and none has the folder's name.
+    #[error("several URDF files are carried, and none is named as the folder is")]
+    Several,
+    /// The file cannot be read.
+    #[error("{path}: {error}")]
+    Unreadable {
+        /// Its path, relative to the root.
+        path: String,
+        /// Why.
+        error: ReadError,
+    },
+}
+
+/// Reads the source URDF.
+///
+/// # Errors
+/// Where none is carried, or it cannot be read: why.
+pub(super) fn read(
+    root: &Root,
+    listing: &Listing,
+    metadata: &MetadataFile,
+) -> Result<CarriedUrdf, NoUrdf> {
+    let path = match (&metadata.json, &metadata.metadata) {
+        (JsonFile::Missing, _) => lone_urdf(root, listing)?,
+        (_, None) => {
+            return Err(NoUrdf::MetadataUnusable);
+        }
+        (_, Some(metadata)) => match &metadata.source {
+            Some(Source::Urdf(file)) => file.path.clone(),
+            None => return Err(NoUrdf::NoSource),
+        },
+    };
+    read_file(root, &path).map_err(|error| NoUrdf::Unreadable { path, error })
+}
+
+/// Reads a URDF in a folder.
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn read_file(root: &Root, path: &str) -> Result<CarriedUrdf, ReadError> {
+    let bytes = root.read(path, MAX_URDF_BYTES)?;
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    let not_utf8_at = std::str::from_utf8(bytes)
+        .err()
+        .map(|error| error.valid_up_to());
+    Ok(CarriedUrdf {
+        path: path.to_owned(),
+        text: String::from_utf8_lossy(bytes).into_owned(),
+        not_utf8_at,
+    })
+}
+
+/// Without root metadata: the one `.urdf` in the root, or the one that is named as the folder is.
+fn lone_urdf(root: &Root, listing: &Listing) -> Result<String, NoUrdf> {
+    let mut urdfs = listing
+        .entries
+        .iter()
+        .filter(|entry| {
+            entry.kind == EntryKind::File
+                && !entry.path.contains('/')
+                && entry.path.ends_with(".urdf")
+        })
+        .map(|entry| entry.path.clone());
+    match (urdfs.next(), urdfs.next()) {
+        (None, _) => Err(NoUrdf::NoneCarried),
+        (Some(only), None) => Ok(only),
+        (Some(_), Some(_)) => {
+            let named = format!("{}.urdf", root.folder_name());
+            match listing.has_file(&named) {
+                true => Ok(named),
+                false => Err(NoUrdf::Several),
+            }
+        }
+    }
+}

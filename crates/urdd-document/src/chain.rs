@@ -1,0 +1,97 @@
+//! `chain_module`, whatever its version.
+
+use urdd_format::chain::ChainModule;
+use urdd_format::index::{JointIdx, LinkIdx};
+use urdd_format::registry::ModuleDocument;
+
+/// The kinematic tree as the module has it.
+#[derive(Debug, Clone)]
+pub struct Chain<'a> {
+    /// Its links.
+    pub links: Vec<ChainLink<'a>>,
+    /// Its joints.
+    pub joints: Vec<ChainJoint<'a>>,
+    /// Links by depth.
+    pub hierarchy: &'a [Vec<LinkIdx>],
+    /// The root.
+    pub root: LinkIdx,
+    /// The module of version 1, which says more.
+    pub v1: Option<&'a ChainModule>,
+}
+
+/// An element of `links_in_chain`.
+#[derive(Debug, Clone, Copy)]
+pub struct ChainLink<'a> {
+    /// `name`
+    pub name: &'a str,
+    /// `link_idx`
+    pub link_idx: LinkIdx,
+    /// `parent_joint_idx`
+    pub parent_joint_idx: Option<JointIdx>,
+    /// `parent_link_idx`
+    pub parent_link_idx: Option<LinkIdx>,
+    /// `children_joint_idxs`
+    pub children_joint_idxs: &'a [JointIdx],
+    /// `children_link_idxs`
+    pub children_link_idxs: &'a [LinkIdx],
+}
+
+/// An element of `joints_in_chain`.
+#[derive(Debug, Clone, Copy)]
+pub struct ChainJoint<'a> {
+    /// `joint_name`
+    pub joint_name: &'a str,
+    /// `joint_idx`
+    pub joint_idx: JointIdx,
+    /// `parent_link_name`
+    pub parent_link_name: &'a str,
+    /// `parent_link_idx`
+    pub parent_link_idx: LinkIdx,
+    /// `child_link_name`
+    pub child_link_name: &'a str,
+    /// `child_link_idx`
+    pub child_link_idx: LinkIdx,
+}
+
+macro_rules! view_of {
+    ($module:expr, $v1:expr) => {
+        Chain {
+            links: $module
+                .links_in_chain
+                .iter()
+                .map(|link| ChainLink {
+                    name: &link.name,
+                    link_idx: link.link_idx,
+                    parent_joint_idx: link.parent_joint_idx,
+                    parent_link_idx: link.parent_link_idx,
+                    children_joint_idxs: &link.children_joint_idxs,
+                    children_link_idxs: &link.children_link_idxs,
+                })
+                .collect(),
+            joints: $module
+                .joints_in_chain
+                .iter()
+                .map(|joint| ChainJoint {
+                    joint_name: &joint.joint_name,
+                    joint_idx: joint.joint_idx,
+                    parent_link_name: &joint.parent_link_name,
+                    parent_link_idx: joint.parent_link_idx,
+                    child_link_name: &joint.child_link_name,
+                    child_link_idx: joint.child_link_idx,
+                })
+                .collect(),
+            hierarchy: &$module.kinematic_hierarchy,
+            root: $module.root_idx,
+            v1: $v1,
+        }
+    };
+}
+
+/// The view of a `chain_module`.
+pub fn view(document: &ModuleDocument) -> Option<Chain<'_>> {
+    match document {
+        ModuleDocument::Chain(module) => Some(view_of!(module, Some(module))),
+        ModuleDocument::LegacyChain(module) => Some(view_of!(module, None)),
+        _ => None,
+    }
+}

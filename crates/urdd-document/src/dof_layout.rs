@@ -1,0 +1,108 @@
+//! The degrees of freedom that a robot has (SPEC 5.8).
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use super::robot::{Joint, Robot};
+use urdd_format::dof::Quantity;
+use urdd_format::urdf::JointType;
+
+/// The degrees of freedom of a robot, in joint order.
+#[derive(Debug, Clone)]
+pub struct DofLayout {
+    /// For each joint, its DOFs.
+    pub dofs_of_joint: Vec<Range<usize>>,
+    /// For each DOF, its joint.
+    pub joint_of_dof: Vec<usize>,
+}
+
+impl DofLayout {
+    /// The degrees of freedom of a robot; `mimics_too` where mimic joints have their own.
+    pub fn new(robot: &Robot, mimics_too: bool) -> DofLayout {
+        let mut layout = DofLayout {
+            dofs_of_joint: Vec::with_capacity(robot.joints.len()),
+            joint_of_dof: Vec::new(),
+        };
+        for (index, joint) in robot.joints.iter().enumerate() {
+            let start = layout.joint_of_dof.len();
+            let dofs = match mimics_too {
+                true => joint.num_dofs(),
+                false => own_dofs(joint),
+            };
+            layout.joint_of_dof.extend((0..dofs).map(|_| index));
+            layout.dofs_of_joint.push(start..start + dofs);
+        }
+        layout
+    }
+
+    /// The joint of a DOF, and which of that joint's DOFs it is.
+    pub fn place(&self, dof: usize) -> Option<(usize, usize)> {
+        let joint = *self.joint_of_dof.get(dof)?;
+        let first = self.dofs_of_joint.get(joint)?.start;
+        Some((joint, dof.checked_sub(first)?))
+    }
+}
+
+/// Number of DOFs that a joint has of its own: a mimic joint that would have one has none.
+pub fn own_dofs(joint: &Joint) -> usize {
+    match (joint.num_dofs(), &joint.mimic) {
+        (1, Some(_)) => 0,
+        (dofs, _) => dofs,
+    }
+}
+
+/// What follows the joint's name in the name of its DOF (nothing for a joint of one DOF), and what
+/// the DOF measures. `place` is the place among the joint's DOFs.
+pub fn describe(joint_type: JointType, place: usize) -> Option<(&'static str, Quantity)> {
+    use Quantity::{Angle, Length};
+    let dofs: &[(&str, Quantity)] = match joint_type {
+        JointType::Fixed => &[],
+        JointType::Revolute | JointType::Continuous => &[("", Angle)],
+        JointType::Prismatic => &[("", Length)],
+        JointType::Planar => &[("/trans_x", Length), ("/trans_y", Length), ("/rot", Angle)],
+        JointType::Floating => &[
+            ("/trans_x", Length),
+            ("/trans_y", Length),
+            ("/trans_z", Length),
+            ("/rot_x", Angle),
+            ("/rot_y", Angle),
+            ("/rot_z", Angle),
+        ],
+        JointType::Spherical => &[("/rot_x", Angle), ("/rot_y", Angle), ("/rot_z", Angle)],
+    };
+    dofs.get(place).copied()
+}
+
+/// The bounds of a DOF that nothing limits (SPEC 6.5.3). `place` is the place among the joint's DOFs.
+pub fn bounds_without_limits(joint_type: JointType, place: usize) -> Option<[f64; 2]> {
+    let (_, quantity) = describe(joint_type, place)?;
+    let end = match quantity {
+        Quantity::Angle => PI,
+        Quantity::Length => 1.0,
+    };
+    Some([-end, end])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::Origin;
+
+    #[test]
+    fn every_dof_of_every_joint_type_is_described() {
+        for joint_type in JointType::ALL.iter().copied() {
+            let joint = Joint {
+                name: String::new(),
+                joint_type,
+                origin: Origin::default(),
+                axis: [0.0; 3],
+                parent: String::new(),
+                child: String::new(),
+                limit: None,
+                mimic: None,
+            };
+            let described = (0..).take_while(|place| describe(joint_type, *place).is_some());
+            assert_eq!(described.count(), joint.num_dofs(), "{joint_type}");
+        }
+    }
+}

@@ -1,0 +1,342 @@
+//! Reading a URDD into memory, once, for all rules.
+
+use std::collections::{HashMap, HashSet};
+
+use rayon::prelude::*;
+use serde::Deserialize;
+
+use super::carried_urdf::{self, CarriedUrdf, NoUrdf};
+use super::draft;
+use super::module::{JsonFile, MetadataFile, Mirror, Module, VersionFile, is_extension};
+use super::schema_check;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::root::{EntryKind, Listing, ReadError, Root};
+use urdd_directory::text_fault::TextFaults;
+use urdd_directory::yaml;
+use urdd_format::registry::{self, ModuleDocument, ModuleKind, ModuleSpec, Profile};
+use urdd_format::root_metadata::{RootMetadata, Version};
+
+/// Longest `VERSION` file that is read, bytes.
+const MAX_VERSION_BYTES: u64 = 1024;
+
+/// A URDD, read.
+pub struct Loaded {
+    /// Its root folder.
+    pub root: Root,
+    /// What lies in it.
+    pub listing: Listing,
+    /// `urdd.json`.
+    pub metadata: MetadataFile,
+    /// Its modules, in the order of the specification, others after them by folder.
+    pub modules: Vec<Module>,
+    /// The source URDF, or why there is none to look at.
+    pub urdf: Result<CarriedUrdf, NoUrdf>,
+    /// The family of formats that it follows.
+    pub profile: Profile,
+}
+
+impl Loaded {
+    /// Reads a URDD, wherever its files lie.
+    ///
+    /// # Errors
+    /// Where the root itself cannot be listed.
+    pub fn read(root: Root) -> Result<Self, ReadError> {
+        let listing = root.list()?;
+        let metadata = read_metadata(&root);
+        let folders = module_folders(&listing);
+        let mut listed: HashMap<&str, &Version> = HashMap::new();
+        for entry in metadata.metadata.iter().flat_map(|m| &m.modules) {
+            listed.entry(&entry.path).or_insert(&entry.version);
+        }
+        let modules: Vec<Module> = folders
+            .into_par_iter()
+            .map(|(folder, kind)| {
+                let listed = listed.get(folder.as_str()).copied();
+                read_module(&root, folder, kind, listed, Want::Mirror(&listing))
+            })
+            .collect();
+        let profile = profile(&metadata, &modules);
+        let urdf = carried_urdf::read(&root, &listing, &metadata);
+        Ok(Loaded {
+            root,
+            listing,
+            metadata,
+            modules,
+            urdf,
+            profile,
+        })
+    }
+
+    /// Reads some modules alone: no mirror, no URDF.
+    ///
+    /// # Errors
+    /// Where the root itself cannot be listed.
+    pub fn read_only(root: Root, kinds: &[ModuleKind]) -> Result<Self, ReadError> {
+        let listing = root.list()?;
+        let metadata = read_metadata(&root);
+        let listed = |kind: ModuleKind| {
+            let entries = metadata.metadata.iter().flat_map(|m| &m.modules);
+            let mut entries = entries.filter(|entry| entry.path == kind.folder());
+            entries.next().map(|entry| &entry.version)
+        };
+        let modules: Vec<Module> = kinds
+            .par_iter()
+            .filter(|kind| listing.has_folder(kind.folder()))
+            .map(|kind| {
+                let folder = kind.folder().to_owned();
+                read_module(&root, folder, Some(*kind), listed(*kind), Want::Document)
+            })
+            .collect();
+        let profile = profile(&metadata, &modules);
+        Ok(Loaded {
+            root,
+            listing,
+            metadata,
+            modules,
+            urdf: Err(NoUrdf::NotRead),
+            profile,
+        })
+    }
+}
+
+/// The family of formats that a URDD follows.
+fn profile(metadata: &MetadataFile, modules: &[Module]) -> Profile {
+    let any = |profile: Profile| {
+        let mut specs = modules.iter().filter_map(|module| module.spec);
+        specs.any(|spec| spec.profile == profile)
+    };
+    let has_metadata = !matches!(metadata.json, JsonFile::Missing);
+    if has_metadata || any(Profile::V1) || !any(Profile::Legacy) {
+        Profile::V1
+    } else {
+        Profile::Legacy
+    }
+}
+
+fn read_metadata(root: &Root) -> MetadataFile {
+    let json = JsonFile::read(root, ROOT_METADATA);
+    let mut file = MetadataFile {
+        json,
+        violations: Vec::new(),
+        metadata: None,
+    };
+    if let JsonFile::Read(document) = &file.json {
+        match RootMetadata::deserialize(&document.value) {
+            Ok(metadata) => file.metadata = Some(metadata),
+            Err(error) => {
+                let schema = schemars::schema_for!(RootMetadata);
+                let newer = newer_minor(&document.value);
+                (file.metadata, file.violations) =
+                    schema_check::read_newer(&schema, &document.value, newer, &error, |value| {
+                        RootMetadata::deserialize(value).ok()
+                    });
+            }
+        }
+    }
+    file
+}
+
+/// Whether root metadata says that it follows a later minor version of the specification than this.
+fn newer_minor(metadata: &serde_json::Value) -> bool {
+    let version = metadata["urdd_version"]
+        .as_str()
+        .map(semver::Version::parse);
+    match (version, semver::Version::parse(registry::SPEC_VERSION)) {
+        (Some(Ok(version)), Ok(known)) => version.major == known.major && version > known,
+        _ => false,
+    }
+}
+
+/// Every module folder: those of the registry first, then whatever else looks like a module.
+fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
+    let mut folders: Vec<(String, Option<ModuleKind>)> = ModuleKind::ALL
+        .iter()
+        .filter(|kind| listing.has_folder(kind.folder()))
+        .map(|kind| (kind.folder().to_owned(), Some(*kind)))
+        .collect();
+    let known = folders.len();
+    let mut inside: HashSet<String> = folders.iter().map(|(folder, _)| folder.clone()).collect();
+    // Sorted by path, so that a folder comes before what is in it.
+    for entry in listing
+        .entries
+        .iter()
+        .filter(|entry| entry.kind == EntryKind::Folder)
+    {
+        let path = &entry.path;
+        let in_a_module = path
+            .rsplit_once('/')
+            .is_some_and(|(parent, _)| inside.contains(parent));
+        if in_a_module || inside.contains(path) {
+            inside.insert(path.clone());
+            continue;
+        }
+        let like_a_module = path.ends_with("_module")
+            && (listing.has_file(&format!("{path}/VERSION"))
+                || listing.has_file(&format!("{path}/module.json")));
+        if like_a_module || is_extension(path) {
+            inside.insert(path.clone());
+            folders.push((path.clone(), None));
+        }
+    }
+    folders[known..].sort();
+    folders
+}
+
+/// What is wanted of a module.
+#[derive(Clone, Copy)]
+enum Want<'a> {
+    /// What its document says.
+    Document,
+    /// Its text and its mirror, too.
+    Mirror(&'a Listing),
+}
+
+/// Reads a module.
+fn read_module(
+    root: &Root,
+    folder: String,
+    kind: Option<ModuleKind>,
+    listed: Option<&Version>,
+    want: Want,
+) -> Module {
+    let file = |name: &str| format!("{folder}/{name}");
+    let version_file = match root.read(&file("VERSION"), MAX_VERSION_BYTES) {
+        Err(ReadError::Missing) => VersionFile::Missing,
+        Err(error) => VersionFile::Unreadable(error),
+        Ok(bytes) => {
+            let text = String::from_utf8_lossy(&bytes);
+            VersionFile::Text(text.strip_suffix('\n').unwrap_or(&text).to_owned())
+        }
+    };
+    let stated = match &version_file {
+        VersionFile::Text(text) => Version::new(text.as_str()),
+        _ => None,
+    };
+    let version = choose_version(kind, [stated.as_ref(), listed]);
+    let (spec, newer) = match kind {
+        Some(kind) => find_spec(kind, version.as_deref()),
+        None => (None, false),
+    };
+    let yaml = match want {
+        Want::Document => None,
+        Want::Mirror(listing) => Some(read_yaml(root, listing, &file("module.yaml"))),
+    };
+    let mut bytes = root.read(&file("module.json"), MAX_DOCUMENT_BYTES);
+    let taken = match (spec, &mut bytes) {
+        (Some(spec), Ok(bytes)) => take(spec, bytes, yaml.as_ref()),
+        _ => None,
+    };
+    let (document, json) = match taken {
+        Some((document, text)) => (Some(document), JsonFile::Taken(text)),
+        None => (None, JsonFile::of(bytes)),
+    };
+    let mut module = Module {
+        folder,
+        kind,
+        version_file,
+        version,
+        spec,
+        newer,
+        json,
+        mirror: Mirror::NotCompared,
+        violations: Vec::new(),
+        document,
+        is_draft: false,
+    };
+    if module.document.is_some() {
+        module.mirror = match yaml {
+            Some(_) => Mirror::Compared(TextFaults::default()),
+            None => Mirror::NotCompared,
+        };
+        return module;
+    }
+    if let (Some(spec), Some(document)) = (module.spec, module.json.document()) {
+        let (read, violations) = schema_check::read(spec, &document.value, newer);
+        module.document = read;
+        module.is_draft = module.document.is_none() && draft::is_draft(spec, &document.value);
+        if !module.is_draft {
+            module.violations = violations;
+        }
+    }
+    if let Some(yaml) = yaml {
+        module.mirror = mirror(yaml, &module);
+    }
+    module
+}
+
+/// Takes the text of a large document, and what it says, without ever holding it as a value: where it has no fault, and
+/// the mirror, where that is wanted, is the canonical one.
+fn take(
+    spec: &ModuleSpec,
+    json: &mut Vec<u8>,
+    yaml: Option<&Result<Vec<u8>, ReadError>>,
+) -> Option<(ModuleDocument, String)> {
+    let text = std::str::from_utf8(json).ok()?;
+    let document = spec.read_text(text)?;
+    match yaml {
+        None => Some((document, String::new())),
+        Some(Ok(yaml)) if yaml::is_mirrored(text, yaml) => {
+            let text = String::from_utf8(std::mem::take(json)).ok()?;
+            Some((document, text))
+        }
+        Some(_) => None,
+    }
+}
+
+fn read_yaml(root: &Root, listing: &Listing, file: &str) -> Result<Vec<u8>, ReadError> {
+    if !listing.has_file(file) && listing.get(file).is_none() {
+        return Err(ReadError::Missing);
+    }
+    root.read(file, MAX_DOCUMENT_BYTES)
+}
+
+/// The mirror of a module's document.
+fn mirror(yaml: Result<Vec<u8>, ReadError>, module: &Module) -> Mirror {
+    match (yaml, module.json.document()) {
+        (Err(ReadError::Missing), _) => Mirror::Missing,
+        (Err(error), _) => Mirror::Unreadable(error),
+        (Ok(_), None) => Mirror::NotCompared,
+        (Ok(bytes), Some(document)) => {
+            Mirror::Compared(yaml::check_mirror(&bytes, &document.value))
+        }
+    }
+}
+
+/// The version by which a module is read: that of its `VERSION` file, unless only the one in the root
+/// metadata is of the specification. Where the two differ, DIR007 tells.
+fn choose_version(kind: Option<ModuleKind>, versions: [Option<&Version>; 2]) -> Option<String> {
+    let of_version_1 = |version: &&Version| {
+        let spec = kind.and_then(|kind| find_spec(kind, Some(version.as_str())).0);
+        spec.is_some_and(|spec| spec.profile == Profile::V1)
+    };
+    let versions = || versions.into_iter().flatten();
+    versions()
+        .find(of_version_1)
+        .or_else(|| versions().next())
+        .map(|version| version.as_str().to_owned())
+}
+
+/// The registry's entry for a version; for a newer minor or patch number than any that is known,
+/// the newest of that major number.
+fn find_spec(kind: ModuleKind, version: Option<&str>) -> (Option<&'static ModuleSpec>, bool) {
+    let Some(text) = version else {
+        return (registry::find(kind, ""), false);
+    };
+    if let Some(spec) = registry::find(kind, text) {
+        return (Some(spec), false);
+    }
+    let Ok(version) = semver::Version::parse(text) else {
+        return (None, false);
+    };
+    let newest = registry::MODULES
+        .iter()
+        .filter(|spec| spec.kind == kind && version.major >= 1)
+        .filter_map(|spec| semver::Version::parse(spec.version).ok().map(|v| (v, spec)))
+        .filter(|(known, _)| known.major == version.major && *known < version)
+        .max_by(|a, b| a.0.cmp(&b.0));
+    match newest {
+        Some((_, spec)) => (Some(spec), true),
+        None => (None, false),
+    }
+}

@@ -1,0 +1,245 @@
+//! A module of a URDD, and `urdd.json`, as far as they could be read.
+
+use std::fmt;
+
+use super::schema_check::SchemaViolation;
+use urdd_directory::json::{self, JsonDocument};
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::position;
+use urdd_directory::root::{ReadError, Root};
+use urdd_directory::text_fault::TextFaults;
+use urdd_format::registry::{ModuleDocument, ModuleKind, ModuleSpec};
+use urdd_format::root_metadata::RootMetadata;
+
+/// A JSON file, as far as it could be read.
+pub enum JsonFile {
+    /// There is none.
+    Missing,
+    /// It is there and cannot be read.
+    Unreadable(ReadError),
+    /// It is not JSON.
+    Broken(TextFaults),
+    /// It is JSON.
+    Read(Box<JsonDocument>),
+    /// It is JSON without faults, read into the module's own types, and its value was not kept. The text is empty where
+    /// nobody asks for places in it.
+    Taken(String),
+}
+
+impl JsonFile {
+    pub(super) fn read(root: &Root, path: &str) -> Self {
+        Self::of(root.read(path, MAX_DOCUMENT_BYTES))
+    }
+
+    pub(super) fn of(bytes: Result<Vec<u8>, ReadError>) -> Self {
+        match bytes {
+            Err(ReadError::Missing) => JsonFile::Missing,
+            Err(error) => JsonFile::Unreadable(error),
+            Ok(bytes) => match json::read(&bytes) {
+                Ok(document) => JsonFile::Read(Box::new(document)),
+                Err(unreadable) => JsonFile::Broken(unreadable.faults),
+            },
+        }
+    }
+
+    /// The document as JSON, where it could be read and was kept.
+    pub fn document(&self) -> Option<&JsonDocument> {
+        match self {
+            JsonFile::Read(document) => Some(document),
+            _ => None,
+        }
+    }
+
+    /// Its text, where it is JSON.
+    pub fn text(&self) -> Option<&str> {
+        match self {
+            JsonFile::Read(document) => Some(&document.text),
+            JsonFile::Taken(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// What is wrong with its text.
+    pub fn faults(&self) -> Option<&TextFaults> {
+        match self {
+            JsonFile::Broken(faults) => Some(faults),
+            JsonFile::Read(document) => Some(&document.faults),
+            _ => None,
+        }
+    }
+}
+
+/// The YAML mirror of a document.
+pub enum Mirror {
+    /// There is none.
+    Missing,
+    /// It is there and cannot be read.
+    Unreadable(ReadError),
+    /// It was not compared, because there is no JSON to compare it with.
+    NotCompared,
+    /// It was compared.
+    Compared(TextFaults),
+}
+
+/// A module's `VERSION` file.
+pub enum VersionFile {
+    /// There is none.
+    Missing,
+    /// It is there and cannot be read.
+    Unreadable(ReadError),
+    /// Its text, without the newline that may end it.
+    Text(String),
+}
+
+/// The root metadata file.
+pub struct MetadataFile {
+    /// The file.
+    pub json: JsonFile,
+    /// How it breaks its schema.
+    pub violations: Vec<SchemaViolation>,
+    /// What it says, where it fits its schema.
+    pub metadata: Option<RootMetadata>,
+}
+
+/// A module's folder.
+pub struct Module {
+    /// Folder relative to the root.
+    pub folder: String,
+    /// Which module it is; `None` for extensions and unknown ones.
+    pub kind: Option<ModuleKind>,
+    /// Its `VERSION` file.
+    pub version_file: VersionFile,
+    /// The version that it has by its `VERSION` file or else by the root metadata.
+    pub version: Option<String>,
+    /// The registry's entry by which it is checked.
+    pub spec: Option<&'static ModuleSpec>,
+    /// Whether its version is newer than any that is known, and it is checked as the newest.
+    pub newer: bool,
+    /// Its `module.json`.
+    pub json: JsonFile,
+    /// Its `module.yaml`.
+    pub mirror: Mirror,
+    /// How the document breaks its schema.
+    pub violations: Vec<SchemaViolation>,
+    /// The document, where it fits its schema.
+    pub document: Option<ModuleDocument>,
+    /// Whether the document breaks its schema only as those of a draft do: see [`super::draft`].
+    pub is_draft: bool,
+}
+
+impl Module {
+    /// Path of a file of the module, relative to the root.
+    pub fn file(&self, name: &str) -> String {
+        format!("{}/{name}", self.folder)
+    }
+
+    /// The last part of its folder.
+    pub fn name(&self) -> &str {
+        self.folder.rsplit('/').next().unwrap_or(&self.folder)
+    }
+
+    /// Why its document is of no use, where it is not.
+    pub fn unusable(&self) -> Option<Unusable> {
+        let why = match (&self.json, &self.document) {
+            (_, Some(_)) => return None,
+            (JsonFile::Missing, _) => DocumentFault::Missing,
+            (JsonFile::Unreadable(_), _) => DocumentFault::Unreadable,
+            (JsonFile::Broken(_), _) => DocumentFault::NotJson,
+            (JsonFile::Read(_) | JsonFile::Taken(_), None) => match self.spec {
+                None => DocumentFault::UnknownVersion(self.version.clone()),
+                Some(_) if self.is_draft => DocumentFault::IsDraft,
+                Some(_) => DocumentFault::BreaksSchema,
+            },
+        };
+        Some(Unusable {
+            folder: self.folder.clone(),
+            why,
+        })
+    }
+}
+
+impl Module {
+    /// The first fault of its document, with its place: `file:line:column: what is wrong`.
+    pub fn first_fault(&self) -> Option<String> {
+        let file = self.file("module.json");
+        let (position, message) = match &self.json {
+            JsonFile::Broken(faults) => {
+                let fault = faults.iter().next()?;
+                (fault.position, fault.message.clone())
+            }
+            JsonFile::Read(document) => {
+                let violation = self.violations.first()?;
+                let position = position::locate(&document.text, &violation.pointer);
+                let message = format!("{}: {}", violation.pointer, violation.message);
+                (position, message)
+            }
+            JsonFile::Unreadable(error) => (None, error.to_string()),
+            JsonFile::Missing | JsonFile::Taken(_) => return None,
+        };
+        Some(match position {
+            Some(position) => format!("{file}:{position}: {message}"),
+            None => format!("{file}: {message}"),
+        })
+    }
+}
+
+/// A module of which the document is of no use.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unusable {
+    /// The module's folder, relative to the root.
+    pub folder: String,
+    /// Why.
+    pub why: DocumentFault,
+}
+
+/// Why a document is of no use.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum DocumentFault {
+    /// There is no `module.json`.
+    Missing,
+    /// It cannot be read.
+    Unreadable,
+    /// It is not JSON.
+    NotJson,
+    /// The module's version is not known, or it has none.
+    UnknownVersion(Option<String>),
+    /// It follows the draft of urdd 0.1.0 or 0.2.0.
+    IsDraft,
+    /// It breaks its schema.
+    BreaksSchema,
+}
+
+impl fmt::Display for Unusable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let folder = &self.folder;
+        let name = folder.rsplit('/').next().unwrap_or(folder);
+        match &self.why {
+            DocumentFault::Missing => write!(f, "{folder}/module.json is missing"),
+            DocumentFault::Unreadable => write!(f, "{folder}/module.json cannot be read"),
+            DocumentFault::NotJson => write!(f, "{folder}/module.json is not well-formed JSON"),
+            DocumentFault::UnknownVersion(Some(version)) => {
+                write!(f, "version {version} of {name} is not known")
+            }
+            DocumentFault::UnknownVersion(None) => write!(f, "the version of {name} is not known"),
+            DocumentFault::IsDraft => {
+                write!(f, "{folder}/module.json follows a draft of the format")
+            }
+            DocumentFault::BreaksSchema => write!(f, "{folder}/module.json breaks its schema"),
+        }
+    }
+}
+
+/// Whether a folder is named as an extension module is (SPEC 11.1).
+pub fn is_extension(folder: &str) -> bool {
+    let Some(middle) = folder
+        .strip_prefix("x_")
+        .and_then(|rest| rest.strip_suffix("_module"))
+    else {
+        return false;
+    };
+    let allowed = middle
+        .bytes()
+        .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_');
+    let parts: Vec<&str> = middle.splitn(2, '_').collect();
+    allowed && parts.len() == 2 && parts.iter().all(|part| !part.is_empty())
+}

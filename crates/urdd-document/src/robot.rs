@@ -1,0 +1,283 @@
+//! The robot that `urdf_module` or the carried URDF describes, with URDF's defaults filled in.
+
+use std::collections::HashMap;
+
+use nalgebra::Matrix3;
+
+use crate::legacy_urdf::of_legacy;
+use crate::pose::{has_quaternions, rotation_of_quaternion, rotation_of_rpy, unit_quaternion};
+use urdd_format::registry::ModuleDocument;
+use urdd_format::urdf::{self as v1, JointType};
+
+/// A robot.
+#[derive(Debug, Clone, Default)]
+pub struct Robot {
+    /// Its name.
+    pub name: String,
+    /// Its links, in link order.
+    pub links: Vec<Link>,
+    /// Its joints, in joint order.
+    pub joints: Vec<Joint>,
+    link_by_name: HashMap<String, usize>,
+    joint_by_name: HashMap<String, usize>,
+}
+
+/// A link.
+#[derive(Debug, Clone)]
+pub struct Link {
+    /// Its name.
+    pub name: String,
+    /// Its mass properties, where it has any.
+    pub inertial: Option<Inertial>,
+    /// Its visual elements.
+    pub visual: Vec<Element>,
+    /// Its collision elements.
+    pub collision: Vec<Element>,
+}
+
+/// A visual or collision element.
+#[derive(Debug, Clone)]
+pub struct Element {
+    /// Its shape, where it has one.
+    pub geometry: Option<v1::Geometry>,
+    /// Where the shape is in the link's frame.
+    pub origin: Origin,
+}
+
+/// A pose as a URDF writes it, with its defaults.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Origin {
+    /// Position, m.
+    pub xyz: [f64; 3],
+    /// Rotation: fixed-axis roll, pitch, yaw, rad.
+    pub rpy: [f64; 3],
+    /// The quaternion x, y, z, w that counts instead of `rpy`, where there is one (SPEC 6.1.9).
+    pub quat_xyzw: Option<[f64; 4]>,
+}
+
+impl Origin {
+    fn of_v1(origin: Option<&v1::Origin>, quaternions: bool) -> Self {
+        Origin {
+            xyz: origin.and_then(|origin| origin.xyz).unwrap_or_default(),
+            rpy: origin.and_then(|origin| origin.rpy).unwrap_or_default(),
+            quat_xyzw: origin
+                .and_then(|origin| origin.quat_xyzw)
+                .filter(|_| quaternions),
+        }
+    }
+
+    /// Its rotation.
+    pub fn rotation(&self) -> Matrix3<f64> {
+        let unit = self
+            .quat_xyzw
+            .and_then(|[x, y, z, w]| unit_quaternion([w, x, y, z]));
+        match unit {
+            Some(unit) => rotation_of_quaternion(unit),
+            None => rotation_of_rpy(self.rpy),
+        }
+    }
+}
+
+/// Mass properties.
+#[derive(Debug, Clone, Copy)]
+pub struct Inertial {
+    /// Centre of mass, and the axes of `inertia`, in the link's frame.
+    pub origin: Origin,
+    /// Mass, kg.
+    pub mass: Option<f64>,
+    /// xx, xy, xz, yy, yz, zz, kg m²; what is absent is 0.
+    pub inertia: Option<[f64; 6]>,
+}
+
+/// A joint.
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// How it moves.
+    pub joint_type: JointType,
+    /// Its frame in the parent link's.
+    pub origin: Origin,
+    /// Its axis as written, or (1, 0, 0).
+    pub axis: [f64; 3],
+    /// Name of the link that carries it.
+    pub parent: String,
+    /// Name of the link that it moves.
+    pub child: String,
+    /// Its limits. Legacy modules write absent limits as zeros, which are taken for absent.
+    pub limit: Option<Limit>,
+    /// The joint that it follows.
+    pub mimic: Option<Mimic>,
+}
+
+/// Limits.
+#[derive(Debug, Clone, Copy)]
+pub struct Limit {
+    /// Smallest position.
+    pub lower: Option<f64>,
+    /// Largest position.
+    pub upper: Option<f64>,
+    /// Largest effort.
+    pub effort: Option<f64>,
+    /// Largest speed.
+    pub velocity: Option<f64>,
+}
+
+/// A mimic: `multiplier * position of joint + offset`.
+#[derive(Debug, Clone)]
+pub struct Mimic {
+    /// Name of the joint that is followed.
+    pub joint: String,
+    /// Factor.
+    pub multiplier: f64,
+    /// Offset.
+    pub offset: f64,
+}
+
+impl Robot {
+    fn new(name: String, links: Vec<Link>, joints: Vec<Joint>) -> Self {
+        let mut robot = Robot {
+            name,
+            links,
+            joints,
+            ..Robot::default()
+        };
+        // Of a name that is there twice, the first counts; URD002 and URD003 tell of it.
+        for (index, link) in robot.links.iter().enumerate() {
+            robot.link_by_name.entry(link.name.clone()).or_insert(index);
+        }
+        for (index, joint) in robot.joints.iter().enumerate() {
+            robot
+                .joint_by_name
+                .entry(joint.name.clone())
+                .or_insert(index);
+        }
+        robot
+    }
+
+    /// Index of a link.
+    pub fn link(&self, name: &str) -> Option<usize> {
+        self.link_by_name.get(name).copied()
+    }
+
+    /// Index of a joint.
+    pub fn joint(&self, name: &str) -> Option<usize> {
+        self.joint_by_name.get(name).copied()
+    }
+}
+
+impl Joint {
+    /// Number of DOFs that a joint of this type has, mimic or not (SPEC 5.8).
+    pub fn num_dofs(&self) -> usize {
+        match self.joint_type {
+            JointType::Fixed => 0,
+            JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
+            JointType::Planar | JointType::Spherical => 3,
+            JointType::Floating => 6,
+        }
+    }
+
+    /// The mimic of a joint that can follow: a fixed joint cannot.
+    pub fn active_mimic(&self) -> Option<&Mimic> {
+        match self.joint_type {
+            JointType::Fixed => None,
+            _ => self.mimic.as_ref(),
+        }
+    }
+
+    /// Whether the joint has an axis (SPEC 6.3.4).
+    pub fn has_axis(&self) -> bool {
+        matches!(
+            self.joint_type,
+            JointType::Revolute | JointType::Continuous | JointType::Prismatic | JointType::Planar
+        )
+    }
+
+    /// Position limits, where the joint is limited (SPEC 6.5.2).
+    pub fn position_limits(&self) -> Option<(f64, f64)> {
+        let limit = self.limit?;
+        match (self.joint_type, limit.lower, limit.upper) {
+            (JointType::Revolute | JointType::Prismatic, lower, upper)
+                if lower.is_some() || upper.is_some() =>
+            {
+                Some((lower.unwrap_or(0.0), upper.unwrap_or(0.0)))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The robot of a `urdf_module`.
+pub fn view(document: &ModuleDocument) -> Option<Robot> {
+    match document {
+        ModuleDocument::Urdf(module) => Some(of_urdf(module)),
+        ModuleDocument::LegacyUrdf(module) => Some(of_urdf(&of_legacy(module))),
+        _ => None,
+    }
+}
+
+/// The robot of a URDF, or of the `urdf_module` of version 1, which keeps all of one.
+pub fn of_urdf(urdf: &v1::UrdfModule) -> Robot {
+    let quaternions = has_quaternions(urdf.version.as_deref());
+    let link = |link| from_v1_link(link, quaternions);
+    let joint = |joint| from_v1_joint(joint, quaternions);
+    Robot::new(
+        urdf.name.clone(),
+        urdf.links.iter().map(link).collect(),
+        urdf.joints.iter().map(joint).collect(),
+    )
+}
+
+fn from_v1_link(link: &v1::Link, quaternions: bool) -> Link {
+    let element = |geometry: &Option<v1::Geometry>, origin| Element {
+        geometry: geometry.clone(),
+        origin: Origin::of_v1(origin, quaternions),
+    };
+    let inertial = link.inertial.as_ref().map(|inertial| Inertial {
+        origin: Origin::of_v1(inertial.origin.as_ref(), quaternions),
+        mass: inertial.mass.as_ref().map(|mass| mass.value),
+        inertia: inertial.inertia.as_ref().map(|i| {
+            [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz].map(|element| element.unwrap_or(0.0))
+        }),
+    });
+    Link {
+        name: link.name.clone(),
+        inertial,
+        visual: link
+            .visual
+            .iter()
+            .map(|visual| element(&visual.geometry, visual.origin.as_ref()))
+            .collect(),
+        collision: link
+            .collision
+            .iter()
+            .map(|collision| element(&collision.geometry, collision.origin.as_ref()))
+            .collect(),
+    }
+}
+
+fn from_v1_joint(joint: &v1::Joint, quaternions: bool) -> Joint {
+    Joint {
+        name: joint.name.clone(),
+        joint_type: joint.joint_type,
+        origin: Origin::of_v1(joint.origin.as_ref(), quaternions),
+        axis: joint
+            .axis
+            .as_ref()
+            .and_then(|axis| axis.xyz)
+            .unwrap_or([1.0, 0.0, 0.0]),
+        parent: joint.parent.link.clone(),
+        child: joint.child.link.clone(),
+        limit: joint.limit.as_ref().map(|limit| Limit {
+            lower: limit.lower,
+            upper: limit.upper,
+            effort: limit.effort,
+            velocity: limit.velocity,
+        }),
+        mimic: joint.mimic.as_ref().map(|mimic| Mimic {
+            joint: mimic.joint.clone(),
+            multiplier: mimic.multiplier.unwrap_or(1.0),
+            offset: mimic.offset.unwrap_or(0.0),
+        }),
+    }
+}

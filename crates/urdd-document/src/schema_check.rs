@@ -1,0 +1,251 @@
+//! A document against its schema.
+//!
+//! serde accepts exactly what the schema accepts (a property test holds the two together), so a
+//! right document is read once, quickly, by serde. Only a wrong one is given to the schema
+//! validator, which knows every place.
+
+use std::error::Error;
+
+use jsonschema::error::{TypeKind, ValidationErrorKind};
+use jsonschema::paths::Location;
+use jsonschema::{JsonType, ValidationError};
+use schemars::Schema;
+use serde_json::Value;
+
+use urdd_directory::json_scan;
+use urdd_format::registry::{ModuleDocument, ModuleSpec};
+
+/// A place where a document breaks its schema.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SchemaViolation {
+    /// JSON Pointer of the value.
+    pub pointer: String,
+    /// What is wrong.
+    pub message: String,
+    /// What should be there.
+    pub expected: Option<String>,
+    /// What is there.
+    pub actual: Option<String>,
+    /// The keys that are unknown, where that is the fault.
+    unknown_keys: Vec<String>,
+}
+
+impl SchemaViolation {
+    /// JSON Pointer to where the reader has to look: to the unknown key, not to the object that has it.
+    pub fn place(&self) -> String {
+        let mut pointer = self.pointer.clone();
+        if let Some(key) = self.unknown_keys.first() {
+            json_scan::push_segment(&mut pointer, key);
+        }
+        pointer
+    }
+}
+
+/// Reads a document of a module; where it breaks the schema, says how. With `newer`, keys that the
+/// schema does not know are passed over: the document is of a later minor version.
+pub fn read(
+    spec: &ModuleSpec,
+    document: &Value,
+    newer: bool,
+) -> (Option<ModuleDocument>, Vec<SchemaViolation>) {
+    let error = match spec.read(document) {
+        Ok(document) => return (Some(document), Vec::new()),
+        Err(error) => error,
+    };
+    read_newer(&spec.schema(), document, newer, &error, |known| {
+        spec.read(known).ok()
+    })
+}
+
+/// What a document that was refused (`refusal`) says all the same: where it is of a later minor
+/// version (`newer`) and breaks the schema only by keys that are unknown, it is read without these;
+/// else the violations.
+pub fn read_newer<T>(
+    schema: &Schema,
+    document: &Value,
+    newer: bool,
+    refusal: &dyn Error,
+    read: impl FnOnce(&Value) -> Option<T>,
+) -> (Option<T>, Vec<SchemaViolation>) {
+    let found = violations(schema, document, refusal);
+    if !newer {
+        return (None, found);
+    }
+    let (unknown, others): (Vec<_>, Vec<_>) =
+        found.into_iter().partition(|v| !v.unknown_keys.is_empty());
+    if !others.is_empty() {
+        return (None, others);
+    }
+    let mut known = document.clone();
+    for violation in &unknown {
+        let object = known
+            .pointer_mut(&violation.pointer)
+            .and_then(Value::as_object_mut);
+        if let Some(object) = object {
+            object.retain(|key, _| !violation.unknown_keys.contains(key));
+        }
+    }
+    (read(&known), Vec::new())
+}
+
+/// Every place where a document breaks a schema. `refusal` is what serde said of it, which is
+/// reported where the schema has nothing to say: a document that cannot be read is never passed.
+pub fn violations(schema: &Schema, document: &Value, refusal: &dyn Error) -> Vec<SchemaViolation> {
+    let whole = |message: String| SchemaViolation {
+        pointer: String::new(),
+        message,
+        expected: None,
+        actual: None,
+        unknown_keys: Vec::new(),
+    };
+    let mut found = Vec::new();
+    match jsonschema::draft202012::new(schema.as_value()) {
+        Ok(validator) => {
+            for error in validator.iter_errors(document) {
+                describe(&error, &mut found);
+            }
+        }
+        Err(error) => found.push(whole(format!("the schema cannot be used: {error}"))),
+    }
+    if found.is_empty() {
+        found.push(whole(format!("the document cannot be read: {refusal}")));
+    }
+    found
+}
+
+fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
+    use ValidationErrorKind as Kind;
+    let instance = error.instance().as_ref();
+    // A choice reports only that nothing fits. What the reader wants to know is what keeps the
+    // nearest alternative from fitting.
+    if let Kind::AnyOf { context } | Kind::OneOfNotValid { context } = error.kind()
+        && let Some(nearest) = nearest_alternative(error.instance_path(), context)
+    {
+        for inner in nearest {
+            describe(inner, found);
+        }
+        return;
+    }
+    let mut violation = SchemaViolation {
+        pointer: error.instance_path().to_string(),
+        message: String::new(),
+        expected: None,
+        actual: None,
+        unknown_keys: Vec::new(),
+    };
+    match error.kind() {
+        Kind::Required { property } => {
+            let key = property.as_str().unwrap_or_default();
+            violation.message = format!(
+                "the key `{key}` is missing; every key is required, write null for what is absent"
+            );
+            violation.expected = Some(format!("key {key}"));
+        }
+        Kind::AdditionalProperties { unexpected } => {
+            violation.message = format!(
+                "unknown {}: {}; keys of your own begin with `x_`",
+                if unexpected.len() == 1 { "key" } else { "keys" },
+                unexpected
+                    .iter()
+                    .map(|key| format!("`{key}`"))
+                    .collect::<Vec<_>>()
+                    .join(", "),
+            );
+            violation.unknown_keys.clone_from(unexpected);
+        }
+        Kind::Type { kind } => {
+            let expected = match kind {
+                TypeKind::Single(kind) => kind.to_string(),
+                TypeKind::Multiple(kinds) => kinds
+                    .iter()
+                    .map(|k| k.to_string())
+                    .collect::<Vec<_>>()
+                    .join(" or "),
+            };
+            violation.message = format!("the value is of the wrong type: {expected} is needed");
+            violation.expected = Some(expected);
+            violation.actual = Some(excerpt(instance));
+        }
+        Kind::Enum { options } => {
+            violation.message = "the word is not one of those that are defined".to_owned();
+            violation.expected = Some(format!("one of {}", excerpt(options)));
+            violation.actual = Some(excerpt(instance));
+        }
+        Kind::MinItems { limit } => items(&mut violation, "at least", *limit, instance),
+        Kind::MaxItems { limit } => items(&mut violation, "at most", *limit, instance),
+        Kind::Minimum { limit } => {
+            violation.message = "the number is too small".to_owned();
+            violation.expected = Some(format!("at least {limit}"));
+            violation.actual = Some(excerpt(instance));
+        }
+        Kind::Maximum { limit } => {
+            violation.message = "the number is too large".to_owned();
+            violation.expected = Some(format!("at most {limit}"));
+            violation.actual = Some(excerpt(instance));
+        }
+        Kind::Pattern { pattern } => {
+            violation.message = "the text is not of the form that is needed".to_owned();
+            violation.expected = Some(format!("text matching {pattern}"));
+            violation.actual = Some(excerpt(instance));
+        }
+        _ => {
+            violation.message = format!(
+                "the value does not fit: {}",
+                shorten(&error.masked().to_string())
+            );
+            violation.actual = Some(excerpt(instance));
+        }
+    }
+    found.push(violation);
+}
+
+fn items(violation: &mut SchemaViolation, bound: &str, limit: u64, instance: &Value) {
+    violation.message = "the list is of the wrong length".to_owned();
+    violation.expected = Some(format!("{bound} {limit} elements"));
+    violation.actual = instance
+        .as_array()
+        .map(|list| format!("{} elements", list.len()));
+}
+
+/// Of the alternatives of a choice at `path`, the one that the instance means: of something and
+/// null, the something; of objects of one key, the one whose key the instance has.
+fn nearest_alternative<'a>(
+    path: &Location,
+    context: &'a [Vec<ValidationError<'static>>],
+) -> Option<&'a Vec<ValidationError<'static>>> {
+    let is_null = |errors: &&Vec<ValidationError<'static>>| {
+        errors.iter().any(|error| {
+            matches!(
+                error.kind(),
+                ValidationErrorKind::Type {
+                    kind: TypeKind::Single(JsonType::Null)
+                }
+            )
+        })
+    };
+    let other_key = |errors: &&Vec<ValidationError<'static>>| {
+        errors.iter().any(|error| {
+            error.instance_path() == path
+                && matches!(error.kind(), ValidationErrorKind::Required { .. })
+        })
+    };
+    if context.len() == 2 && context.iter().any(|errors| is_null(&errors)) {
+        return context.iter().find(|errors| !is_null(errors));
+    }
+    context
+        .iter()
+        .find(|errors| !errors.is_empty() && !other_key(errors))
+}
+
+/// A value as text, cut to a length that fits a line.
+pub fn excerpt(value: &Value) -> String {
+    shorten(&value.to_string())
+}
+
+fn shorten(text: &str) -> String {
+    const LONGEST: usize = 80;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}

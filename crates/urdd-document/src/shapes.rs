@@ -1,0 +1,320 @@
+//! Link shapes, whatever the version: what shape indices stand for, and the modules that hold
+//! lists by link.
+
+use nalgebra::{Rotation3, Vector3};
+
+use crate::urdd::Urdd;
+use urdd_format::legacy::link_shapes_approximations as legacy;
+use urdd_format::link_shapes_approximations as v1;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+
+/// The modules that hold lists by link.
+pub const LIST_MODULES: &[ModuleKind] = &[
+    ModuleKind::LinkShapesApproximations,
+    ModuleKind::LinkShapesMaxDistanceFromOrigin,
+];
+
+/// One of the six kinds of shapes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct ShapeKind {
+    /// Its name, with which keys begin.
+    pub name: &'static str,
+    /// Whether the shapes are links; else they are pieces.
+    pub full: bool,
+    /// Whether they are the hulls or pieces themselves; else boxes or spheres about these.
+    pub hulls: bool,
+}
+
+/// The six kinds, in the order of the documents.
+pub const KINDS: [ShapeKind; 6] = [
+    kind("full_convex_hulls", true, true),
+    kind("full_obbs", true, false),
+    kind("full_bounding_spheres", true, false),
+    kind("decomposition_convex_hulls", false, true),
+    kind("decomposition_obbs", false, false),
+    kind("decomposition_bounding_spheres", false, false),
+];
+
+const fn kind(name: &'static str, full: bool, hulls: bool) -> ShapeKind {
+    ShapeKind { name, full, hulls }
+}
+
+/// What shape indices stand for (SPEC 8.1).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Shapes {
+    /// The link of each full shape.
+    pub full: Vec<usize>,
+    /// The link and the piece index of each decomposition shape.
+    pub pieces: Vec<(usize, usize)>,
+}
+
+impl Shapes {
+    /// The shapes that follow from the hulls and the pieces.
+    pub fn new(urdd: &Urdd) -> Option<Shapes> {
+        let hulls = urdd.meshes(ModuleKind::ConvexHullMeshes)?;
+        let pieces = urdd.meshes(ModuleKind::ConvexDecompositionMeshes)?;
+        Some(Shapes {
+            full: (0..hulls.num_links())
+                .filter(|link| hulls.count(*link) > 0)
+                .collect(),
+            pieces: (0..pieces.num_links())
+                .flat_map(|link| (0..pieces.count(link)).map(move |piece| (link, piece)))
+                .collect(),
+        })
+    }
+
+    /// Number of shapes of a kind.
+    pub fn count(&self, kind: ShapeKind) -> usize {
+        match kind.full {
+            true => self.full.len(),
+            false => self.pieces.len(),
+        }
+    }
+
+    /// The link of a shape.
+    pub fn link(&self, kind: ShapeKind, shape: usize) -> Option<usize> {
+        match kind.full {
+            true => self.full.get(shape).copied(),
+            false => self.pieces.get(shape).map(|(link, _)| *link),
+        }
+    }
+
+    /// The link and the piece of a shape; the piece of a full shape is 0.
+    pub fn place(&self, kind: ShapeKind, shape: usize) -> Option<(usize, usize)> {
+        match kind.full {
+            true => self.full.get(shape).map(|link| (*link, 0)),
+            false => self.pieces.get(shape).copied(),
+        }
+    }
+
+    /// A shape for people: its index and what it stands for.
+    pub fn describe(&self, urdd: &Urdd, kind: ShapeKind, shape: usize) -> String {
+        let link = self.link(kind, shape);
+        let name = link.and_then(|link| Some(urdd.robot()?.links.get(link)?.name.as_str()));
+        match (name, self.pieces.get(shape)) {
+            (Some(name), _) if kind.full => format!("{shape} (link `{name}`)"),
+            (Some(name), Some((_, piece))) => format!("{shape} (piece {piece} of `{name}`)"),
+            _ => shape.to_string(),
+        }
+    }
+}
+
+/// A box or a sphere about a shape, in the link's frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Volume {
+    /// A box.
+    Box {
+        /// Half of each side.
+        half_extents: [f64; 3],
+        /// Centre.
+        offset: [f64; 3],
+        /// Fixed-axis roll, pitch, yaw.
+        rpy: [f64; 3],
+    },
+    /// A sphere.
+    Sphere {
+        /// Radius.
+        radius: f64,
+        /// Centre.
+        offset: [f64; 3],
+    },
+}
+
+impl Volume {
+    /// How far its farthest point is from the link's origin: for a box that is a corner.
+    pub fn reach(&self) -> f64 {
+        match *self {
+            Volume::Sphere { radius, offset } => Vector3::from(offset).norm() + radius,
+            Volume::Box {
+                half_extents,
+                offset,
+                rpy,
+            } => {
+                let turn = Rotation3::from_euler_angles(rpy[0], rpy[1], rpy[2]);
+                // Seen from the box's own axes, the farthest corner is the one on the centre's
+                // side of each axis.
+                let centre = turn.inverse() * Vector3::from(offset);
+                let corner = centre.abs() + Vector3::from(half_extents).abs();
+                corner.norm()
+            }
+        }
+    }
+}
+
+/// A list with an entry per link: none or one for the full shapes, or one for each piece.
+#[derive(Debug, Clone)]
+pub struct ShapeList<T> {
+    /// Its key in the document.
+    pub key: &'static str,
+    /// Which shapes.
+    pub kind: ShapeKind,
+    /// For each link, its entries.
+    pub links: Vec<Vec<T>>,
+}
+
+impl<T> ShapeList<T> {
+    /// Where an entry stands in the document.
+    pub fn pointer(&self, link: usize, piece: usize) -> String {
+        match self.kind.full {
+            true => format!("/{}/{link}", self.key),
+            false => format!("/{}/{link}/{piece}", self.key),
+        }
+    }
+
+    fn full<S>(
+        kind: ShapeKind,
+        key: &'static str,
+        list: &[Option<S>],
+        read: impl Fn(&S) -> T,
+    ) -> Self {
+        let links = list.iter().map(|entry| entry.iter().map(&read).collect());
+        ShapeList {
+            key,
+            kind,
+            links: links.collect(),
+        }
+    }
+
+    fn pieces<S>(
+        kind: ShapeKind,
+        key: &'static str,
+        list: &[Vec<S>],
+        read: impl Fn(&S) -> T,
+    ) -> Self {
+        let links = list.iter().map(|entry| entry.iter().map(&read).collect());
+        ShapeList {
+            key,
+            kind,
+            links: links.collect(),
+        }
+    }
+}
+
+/// The lists of `link_shapes_approximations_module`: boxes and spheres.
+pub fn approximations(document: &ModuleDocument) -> Option<Vec<ShapeList<Volume>>> {
+    let [_, boxes, spheres, _, piece_boxes, piece_spheres] = KINDS;
+    macro_rules! lists {
+        ($module:expr, $types:ident) => {{
+            let read_box = |b: &$types::Obb| Volume::Box {
+                half_extents: b.half_extents,
+                offset: b.offset_xyz,
+                rpy: b.offset_rpy,
+            };
+            let read_sphere = |s: &$types::BoundingSphere| Volume::Sphere {
+                radius: s.radius,
+                offset: s.offset_xyz,
+            };
+            vec![
+                ShapeList::full(boxes, "full_obbs", &$module.full_obbs, read_box),
+                ShapeList::full(
+                    spheres,
+                    "full_bounding_spheres",
+                    &$module.full_bounding_spheres,
+                    read_sphere,
+                ),
+                ShapeList::pieces(
+                    piece_boxes,
+                    "decomposition_obbs",
+                    &$module.decomposition_obbs,
+                    read_box,
+                ),
+                ShapeList::pieces(
+                    piece_spheres,
+                    "decomposition_bounding_spheres",
+                    &$module.decomposition_bounding_spheres,
+                    read_sphere,
+                ),
+            ]
+        }};
+    }
+    match document {
+        ModuleDocument::LinkShapesApproximations(module) => Some(lists!(module, v1)),
+        ModuleDocument::LegacyLinkShapesApproximations(module) => Some(lists!(module, legacy)),
+        _ => None,
+    }
+}
+
+/// The lists of `link_shapes_max_distance_from_origin_module`, in the order of [`KINDS`].
+pub fn max_distances(document: &ModuleDocument) -> Option<[ShapeList<f64>; 6]> {
+    macro_rules! lists {
+        ($module:expr; $($field:ident $how:ident $at:literal),*) => {
+            Some([$(ShapeList::$how(KINDS[$at], stringify!($field), &$module.$field, |d: &f64| *d)),*])
+        };
+    }
+    macro_rules! six {
+        ($module:expr) => {
+            lists!($module;
+                full_convex_hulls_maximum_distances full 0,
+                full_obbs_maximum_distances full 1,
+                full_bounding_spheres_maximum_distances full 2,
+                decomposition_convex_hulls_maximum_distances pieces 3,
+                decomposition_obbs_maximum_distances pieces 4,
+                decomposition_bounding_spheres_maximum_distances pieces 5)
+        };
+    }
+    match document {
+        ModuleDocument::LinkShapesMaxDistanceFromOrigin(module) => six!(module),
+        ModuleDocument::LegacyLinkShapesMaxDistanceFromOrigin(module) => six!(module),
+        _ => None,
+    }
+}
+
+/// The number of entries per link of every list of a module that holds lists.
+pub fn entry_counts(document: &ModuleDocument) -> Vec<ShapeList<()>> {
+    fn counts<T>(lists: &[ShapeList<T>]) -> Vec<ShapeList<()>> {
+        let count = |list: &ShapeList<T>| ShapeList {
+            key: list.key,
+            kind: list.kind,
+            links: list
+                .links
+                .iter()
+                .map(|entry| vec![(); entry.len()])
+                .collect(),
+        };
+        lists.iter().map(count).collect()
+    }
+    match (approximations(document), max_distances(document)) {
+        (Some(lists), _) => counts(&lists),
+        (_, Some(lists)) => counts(&lists),
+        _ => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_farthest_corner_of_a_box() {
+        let turned = Volume::Box {
+            half_extents: [1.0, 2.0, 3.0],
+            offset: [0.5, -4.0, 0.25],
+            rpy: [0.3, -1.1, 2.4],
+        };
+        let Volume::Box {
+            half_extents: h,
+            offset,
+            rpy,
+        } = turned
+        else {
+            panic!("a box");
+        };
+        let turn = Rotation3::from_euler_angles(rpy[0], rpy[1], rpy[2]);
+        let mut farthest = 0.0_f64;
+        for corner in 0..8 {
+            let sign = |bit: usize| if corner >> bit & 1 == 0 { 1.0 } else { -1.0 };
+            let local = Vector3::new(h[0] * sign(0), h[1] * sign(1), h[2] * sign(2));
+            farthest = farthest.max((Vector3::from(offset) + turn * local).norm());
+        }
+        assert!((turned.reach() - farthest).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_farthest_point_of_a_sphere() {
+        let sphere = Volume::Sphere {
+            radius: 2.0,
+            offset: [0.0, 3.0, -4.0],
+        };
+        assert_eq!(sphere.reach(), 7.0);
+    }
+}

@@ -1,0 +1,171 @@
+//! Joints as Drake's URDF parser takes them.
+//!
+//! Drake has no spherical joint but `ball`, and its floating joints hang on the world alone: any other is three prismatic
+//! joints and a ball joint, with links without mass between them. Drake ends the process at limits that are crossed, and
+//! takes the limits of a continuous joint for limits.
+
+use super::super::element::Element;
+use super::super::error::{ExportError, Note};
+use super::super::joints::joints as resolved;
+use super::super::names::check_unique;
+use super::super::subject::Subject;
+use super::super::urdf_elements::{element_of_joint, type_name};
+use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
+use urdd_format::urdf::{Axis, Joint, JointType, LinkName};
+
+const CROSSED: &str =
+    "its lower limit is above its upper one, at which Drake stops; it has no range";
+const NEGATIVE: &str =
+    "a negative velocity, acceleration, effort or damping, which Drake refuses, is left out";
+const DAMPING: &str = "Drake wants three dampings of a planar joint; it has none";
+const FLOATING: &str = "Drake's floating joints hang on the world only; it is three prismatic joints and a ball joint, with links without mass between them";
+
+/// What stands in the file for the joints.
+pub(super) struct DrakeJoints<'a> {
+    /// The names of links that the robot does not have.
+    pub links: Vec<String>,
+    /// The elements, each with the joint that it is of.
+    pub elements: Vec<(Element, &'a Joint)>,
+    /// The names of the joints that an actuator can drive, and those of all others.
+    pub driven: Driven,
+}
+
+/// The joints by what an actuator can do.
+#[derive(Default)]
+pub(super) struct Driven {
+    /// Joints of one DOF.
+    pub of_one: Vec<String>,
+    /// Fixed joints.
+    pub fixed: Vec<String>,
+}
+
+pub(super) fn joints<'a>(
+    subject: &'a Subject,
+    notes: &mut Vec<Note>,
+) -> Result<DrakeJoints<'a>, ExportError> {
+    let mut made = DrakeJoints {
+        links: Vec::new(),
+        elements: Vec::new(),
+        driven: Driven::default(),
+    };
+    let mut names = Vec::new();
+    let sources = subject.urdf.joints.iter().zip(&subject.view.joints);
+    for (mut joint, (source, view)) in resolved(subject, notes).into_iter().zip(sources) {
+        clean(&mut joint, view, notes);
+        let parts = match joint.joint_type {
+            JointType::Floating if !is_free(subject, view) => {
+                notes.push(Note::Joint {
+                    joint: joint.name.clone(),
+                    what: FLOATING,
+                });
+                let parts = parts(&joint);
+                let between = parts.iter().take(parts.len() - 1);
+                made.links
+                    .extend(between.map(|part| part.child.link.clone()));
+                parts
+            }
+            _ => vec![joint.clone()],
+        };
+        for part in parts {
+            let (tag, kind) = match part.joint_type {
+                JointType::Planar => ("drake:joint", "planar"),
+                JointType::Spherical => ("drake:joint", "ball"),
+                standard => ("joint", type_name(standard)),
+            };
+            made.elements
+                .push((element_of_joint(&part, tag, kind), source));
+            names.push(part.name);
+        }
+        match joint.joint_type {
+            JointType::Fixed => made.driven.fixed.push(joint.name),
+            JointType::Revolute | JointType::Continuous | JointType::Prismatic => {
+                made.driven.of_one.push(joint.name);
+            }
+            JointType::Planar | JointType::Spherical | JointType::Floating => {}
+        }
+    }
+    check_unique(subject.format, "joint", names.iter().map(String::as_str))?;
+    // Each link is a frame, and each joint has one of its own.
+    let frames: Vec<String> = names.iter().map(|name| format!("{name}_parent")).collect();
+    let links = subject.links.iter().chain(&made.links).chain(&frames);
+    check_unique(subject.format, "link", links.map(String::as_str))?;
+    Ok(made)
+}
+
+/// Whether a floating joint is what Drake makes of one: a body that moves freely in the world.
+fn is_free(subject: &Subject, view: &View) -> bool {
+    let root = &subject.links[subject.tree.root];
+    root == "world" && view.parent == *root && view.origin == ViewOrigin::default()
+}
+
+/// Without what Drake refuses.
+fn clean(joint: &mut Joint, view: &View, notes: &mut Vec<Note>) {
+    let mut note = |what| {
+        notes.push(Note::Joint {
+            joint: view.name.clone(),
+            what,
+        });
+    };
+    let mut is_negative = false;
+    let mut positive = |value: &mut Option<f64>| {
+        if value.is_some_and(|value| value < 0.0) {
+            is_negative = true;
+            *value = None;
+        }
+    };
+    if let Some(dynamics) = &mut joint.dynamics {
+        positive(&mut dynamics.damping);
+    }
+    if let Some(limit) = &mut joint.limit {
+        positive(&mut limit.velocity);
+        positive(&mut limit.acceleration);
+        positive(&mut limit.effort);
+        let range = match view.position_limits() {
+            Some((lower, upper)) if lower > upper => {
+                note(CROSSED);
+                None
+            }
+            range => range,
+        };
+        (limit.lower, limit.upper) = range.unzip();
+    }
+    if is_negative {
+        note(NEGATIVE);
+    }
+    if joint.joint_type == JointType::Planar && joint.dynamics.take().is_some() {
+        note(DAMPING);
+    }
+}
+
+/// A floating joint in parts, from its parent to its child.
+fn parts(joint: &Joint) -> Vec<Joint> {
+    let between = ["trans_x", "trans_y", "trans_z"].map(|part| format!("{}/{part}", joint.name));
+    let mut parent = joint.parent.clone();
+    let mut origin = joint.origin.clone();
+    let mut parts = Vec::new();
+    for (k, name) in between.into_iter().enumerate() {
+        let child = LinkName { link: name.clone() };
+        let mut axis = [0.0; 3];
+        axis[k] = 1.0;
+        parts.push(Joint {
+            name,
+            joint_type: JointType::Prismatic,
+            origin: origin.take(),
+            parent: std::mem::replace(&mut parent, child.clone()),
+            child,
+            axis: Some(Axis { xyz: Some(axis) }),
+            limit: None,
+            dynamics: None,
+            safety_controller: None,
+            calibration: None,
+            ..joint.clone()
+        });
+    }
+    parts.push(Joint {
+        joint_type: JointType::Spherical,
+        origin: None,
+        parent,
+        ..joint.clone()
+    });
+    parts
+}

@@ -1,0 +1,173 @@
+//! XML as a tree, and its text.
+
+use quick_xml::escape::escape;
+
+/// An element.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Element {
+    name: &'static str,
+    attributes: Vec<(&'static str, String)>,
+    children: Vec<Child>,
+}
+
+#[derive(Debug, Clone)]
+enum Child {
+    Element(Element),
+    /// Text of XML as it is.
+    Raw(String),
+}
+
+impl Element {
+    pub fn new(name: &'static str) -> Self {
+        Element {
+            name,
+            ..Element::default()
+        }
+    }
+
+    /// With an attribute.
+    pub fn with(mut self, key: &'static str, value: impl Into<String>) -> Self {
+        self.attributes.push((key, value.into()));
+        self
+    }
+
+    /// With an attribute, where there is a value.
+    pub fn with_some(self, key: &'static str, value: Option<impl Into<String>>) -> Self {
+        match value {
+            Some(value) => self.with(key, value),
+            None => self,
+        }
+    }
+
+    /// With an element in it.
+    pub fn holding(mut self, child: Element) -> Self {
+        self.push(child);
+        self
+    }
+
+    pub fn push(&mut self, child: Element) {
+        self.children.push(Child::Element(child));
+    }
+
+    /// Text of XML, which must be an element by itself.
+    pub fn push_raw(&mut self, text: impl Into<String>) {
+        self.children.push(Child::Raw(text.into()));
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.children.is_empty()
+    }
+
+    /// The text of a document with this element, and comments before it.
+    pub fn document(&self, comments: &[String]) -> String {
+        let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");
+        for comment in comments {
+            text += &self::comment(comment);
+        }
+        self.write(&mut text, 0);
+        text
+    }
+
+    fn write(&self, text: &mut String, depth: usize) {
+        let margin = "  ".repeat(depth);
+        *text += &format!("{margin}<{}", self.name);
+        for (key, value) in &self.attributes {
+            *text += &format!(" {key}=\"{}\"", attribute(value));
+        }
+        if self.children.is_empty() {
+            *text += "/>\n";
+            return;
+        }
+        *text += ">\n";
+        for child in &self.children {
+            match child {
+                Child::Element(element) => element.write(text, depth + 1),
+                Child::Raw(raw) => *text += &format!("{margin}  {}\n", raw.trim()),
+            }
+        }
+        *text += &format!("{margin}</{}>\n", self.name);
+    }
+}
+
+/// A comment on a line of its own, whatever the text: one without `--` (XML 1.0, production 15), without a `-` before its
+/// end, and without characters that XML cannot hold. What is not written as it is, is its escape, `\u{2d}`.
+pub(super) fn comment(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in urdd_format::escape::line(text).chars() {
+        match (c, safe.ends_with('-')) {
+            ('-', true) => safe += "\\u{2d}",
+            (c, _) => safe.push(c),
+        }
+    }
+    // The space keeps a `-` from the end.
+    format!("<!-- {safe} -->\n")
+}
+
+/// The value of an attribute, so that every reader of XML has the same text back: a reader turns white space other than
+/// a space into spaces, unless it is a reference.
+fn attribute(value: &str) -> String {
+    let text = escape(value).replace('\t', "&#9;");
+    text.replace('\n', "&#10;").replace('\r', "&#13;")
+}
+
+/// Whether XML 1.0 has the character (production 2).
+pub(super) fn is_character(c: char) -> bool {
+    matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_from_anybody_stays_inside_its_place() {
+        let hostile = [
+            "a\"<b>&'",
+            "--",
+            "---",
+            "----",
+            "-",
+            "x--",
+            "--->",
+            "-->",
+            "--!>",
+            "<!-- x -->",
+            "--><!DOCTYPE robot [<!ENTITY x 'y'>]><robot name='other'/><!--",
+            "]]>",
+            "a\nb\tc\rd",
+            "\u{202e}\u{85}\u{2028}\u{feff}",
+            "-\n-",
+            "-\u{ad}-",
+            " - - ",
+        ];
+        for text in hostile {
+            let written = Element::new("robot")
+                .with("name", text)
+                .document(&[text.to_owned(), format!("of `{text}`")]);
+            let parsed = roxmltree::Document::parse(&written).expect(&written);
+            assert_eq!(parsed.root_element().attribute("name"), Some(text));
+            let comments = parsed.root().children().filter(|node| node.is_comment());
+            for comment in comments {
+                let comment = comment.text().expect("text");
+                assert!(
+                    !comment.contains("--") && !comment.ends_with('-'),
+                    "{comment}"
+                );
+                assert!(comment.chars().all(is_character));
+            }
+            assert_eq!(parsed.root().children().count(), 3, "{written}");
+        }
+        let noncharacters = comment("\u{0}\u{fffe}\u{ffff}");
+        assert_eq!(noncharacters, "<!-- \\u{0}\\u{fffe}\\u{ffff} -->\n");
+    }
+
+    #[test]
+    fn raw_text_is_a_child() {
+        let mut root = Element::new("robot");
+        root.push_raw("<gazebo><a/></gazebo>");
+        let text = root.document(&[]);
+        let parsed = roxmltree::Document::parse(&text).expect("well-formed");
+        let names = parsed.root_element().children().filter(|n| n.is_element());
+        assert_eq!(names.count(), 1);
+    }
+}

@@ -1,0 +1,158 @@
+//! Why a robot cannot be exported, and what was said in another way.
+
+use thiserror::Error;
+
+use super::Format;
+use super::pairs::{Contacts, LinkPair};
+use urdd_geometry::write::WriteError;
+use urdd_robot::{RobotError, ShapeKind};
+
+/// Why a robot cannot be exported.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// The URDD does not say what the format needs.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    /// The joints of the robot form no tree.
+    #[error("the joints form no tree with one root: `urdd validate` says more")]
+    NoTree,
+    /// A name that the format cannot hold.
+    #[error("{} cannot hold the name `{}` of a {what}: {reason}; give it another name in the URDF, and generate the URDD again", .format.name(), .name.escape_debug())]
+    Name {
+        /// The format.
+        format: Format,
+        /// What has the name: `link`, `joint`, `robot`.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// Why it cannot be held.
+        reason: &'static str,
+    },
+    /// The mimics cannot be followed.
+    #[error(
+        "a mimic names a joint that is not there, or they go in a circle: `urdd validate` says more"
+    )]
+    Mimics,
+    /// The URDD has no shapes of the kind asked for, and the format holds nothing else.
+    #[error("no link has {0}: ask for other shapes, or for another format")]
+    NoShapes(ShapeKind),
+    /// Spheres cannot be fitted to shapes of this kind.
+    #[error("spheres are fitted to pieces or hulls, not to {0}: leave --shapes out")]
+    SpheresOf(ShapeKind),
+    /// A mesh that cannot be written.
+    #[error("the mesh of link `{}` cannot be written: {error}", .link.escape_debug())]
+    Mesh {
+        /// Its link.
+        link: String,
+        /// Why.
+        error: WriteError,
+    },
+}
+
+/// What a format could not say, or says in another way.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Error)]
+#[non_exhaustive]
+pub enum Note {
+    /// The format knows links only, and the URDD skips some pairs of shapes of two links and checks others.
+    #[error("{}", mixed(.links, *.disabled, [*.checked, *.skipped], .contacts.as_ref()))]
+    Mixed {
+        /// The names of the two links.
+        links: [String; 2],
+        /// Whether the pair is disabled; otherwise it is checked.
+        disabled: bool,
+        /// How many pairs of shapes the URDD checks.
+        checked: usize,
+        /// How many it skips.
+        skipped: usize,
+        /// In how many sampled configurations they touch, where that is known.
+        contacts: Option<Contacts>,
+    },
+    /// A link's mass or inertia is said in another way.
+    #[error("link `{}`: {what}", .link.escape_debug())]
+    Inertia {
+        /// The link.
+        link: String,
+        /// What is said instead, and why.
+        what: &'static str,
+    },
+    /// A joint that cannot be said as it is.
+    #[error("joint `{}`: {what}", .joint.escape_debug())]
+    Joint {
+        /// The joint.
+        joint: String,
+        /// What is said instead.
+        what: &'static str,
+    },
+    /// Elements that URDF does not define and that cannot stand in the file.
+    #[error(
+        "{0} elements that URDF does not define are left out: they use prefixes that only the source file declares, or are not well-formed by themselves"
+    )]
+    Elements(usize),
+    /// A transmission or a loop that the format refuses.
+    #[error("a `<{element}>` is left out: {reason}")]
+    Element {
+        /// The element's name.
+        element: &'static str,
+        /// Why.
+        reason: &'static str,
+    },
+    /// Spheres that answer wrongly more often than they should.
+    #[error("the spheres are not good enough to plan with: {0}")]
+    Spheres(String),
+    /// A flat shape where the format wants thickness.
+    #[error("link `{}`: a flat piece is a box of {thickness} m", .link.escape_debug())]
+    Flat {
+        /// The link.
+        link: String,
+        /// How thick it became.
+        thickness: &'static str,
+    },
+    /// No link has shapes of the kind asked for.
+    #[error("no link has {0}: the file has no collision geometry")]
+    NoShapes(ShapeKind),
+}
+
+impl Note {
+    /// What a format that knows links only has to say of a pair of links: nothing where all their shapes are alike, or
+    /// where the pair is checked and the shapes that the URDD skips never touched.
+    pub fn of_pair(pair: &LinkPair) -> Option<Note> {
+        let mixed = pair.mixed.as_ref()?;
+        let is_wrong = |contacts: Contacts| pair.disabled || contacts.skipped > 0;
+        (mixed.contacts.map_or(pair.disabled, is_wrong)).then(|| Note::Mixed {
+            links: pair.names.clone(),
+            disabled: pair.disabled,
+            checked: mixed.checked.len(),
+            skipped: mixed.skipped.len(),
+            contacts: mixed.contacts,
+        })
+    }
+}
+
+fn mixed(
+    links: &[String; 2],
+    disabled: bool,
+    [checked, skipped]: [usize; 2],
+    contacts: Option<&Contacts>,
+) -> String {
+    let [a, b] = links.each_ref().map(|name| name.escape_debug());
+    let all = checked + skipped;
+    let (done, count) = match disabled {
+        true => ("disabled", format!("checks {checked}")),
+        false => ("checked", format!("skips {skipped}")),
+    };
+    let text = format!(
+        "links `{a}` and `{b}` are {done} as a whole, though the URDD {count} of the {all} pairs of their pieces"
+    );
+    match (contacts, disabled) {
+        (None, _) => text,
+        (Some(contacts), true) => format!(
+            "{text}: collisions are lost in {} of {} sampled configurations",
+            contacts.checked, contacts.samples
+        ),
+        (Some(contacts), false) => format!(
+            "{text}: these touch in {} of {} sampled configurations",
+            contacts.skipped, contacts.samples
+        ),
+    }
+}

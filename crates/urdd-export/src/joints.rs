@@ -1,0 +1,105 @@
+//! Joints as every reader of URDF takes them: chains of mimics resolved, rotations as roll, pitch, yaw.
+
+use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
+
+use super::error::Note;
+use super::numbers::rpy;
+use super::subject::Subject;
+use urdd_document::mimics::Resolved;
+use urdd_document::pose::has_quaternions;
+use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
+use urdd_format::urdf::{Joint, JointType, Mimic, Origin};
+use urdd_kinematics::rotation::unit_axis;
+
+const STANDS: &str = "it follows a fixed joint and never moves; it is a fixed joint at its offset";
+const SEVERAL: &str = "it follows a joint of several DOFs, which no program reads; it moves freely";
+
+/// The joints of the robot, in its order.
+pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Vec<Joint> {
+    let quaternions = has_quaternions(subject.urdf.version.as_deref());
+    let each = subject.urdf.joints.iter().zip(&subject.view.joints);
+    let each = each.zip(&subject.mimics.by_joint);
+    let joint = |((source, view), resolved): ((&Joint, &View), &Option<Resolved>)| {
+        let mut joint = source.clone();
+        joint.origin = (joint.origin.as_ref())
+            .map(|origin| without_quaternion(origin, &view.origin, quaternions));
+        let mut note = |what| {
+            notes.push(Note::Joint {
+                joint: view.name.clone(),
+                what,
+            });
+        };
+        // The mimic of a fixed joint has no meaning (SPEC 6.1.5).
+        joint.mimic = None;
+        if let Some(resolved) = resolved {
+            let driver = &subject.view.joints[resolved.driver];
+            match driver.num_dofs() {
+                0 => {
+                    note(STANDS);
+                    return standing(joint, view, resolved.offset);
+                }
+                1 => joint.mimic = Some(mimic(source.mimic.as_ref(), driver, resolved)),
+                _ => note(SEVERAL),
+            }
+        }
+        joint
+    };
+    each.map(joint).collect()
+}
+
+/// A mimic as it was written where it names the driver itself.
+fn mimic(source: Option<&Mimic>, driver: &View, resolved: &Resolved) -> Mimic {
+    match source {
+        Some(source) if source.joint == driver.name => source.clone(),
+        _ => Mimic {
+            joint: driver.name.clone(),
+            multiplier: Some(resolved.multiplier),
+            offset: Some(resolved.offset),
+        },
+    }
+}
+
+/// A joint of one DOF that stays where it is.
+fn standing(joint: Joint, view: &View, position: f64) -> Joint {
+    let axis = unit_axis(view.axis);
+    let motion = match (axis, view.joint_type) {
+        (Some(axis), JointType::Prismatic) => {
+            Isometry3::from(Translation3::from(axis.into_inner() * position))
+        }
+        (Some(axis), _) => Isometry3::from_parts(
+            Translation3::identity(),
+            UnitQuaternion::from_axis_angle(&axis, position),
+        ),
+        (None, _) => Isometry3::identity(),
+    };
+    let rotation = Rotation3::from_matrix_unchecked(view.origin.rotation());
+    let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
+    let pose = Isometry3::from_parts(view.origin.xyz.into(), rotation) * motion;
+    Joint {
+        joint_type: JointType::Fixed,
+        origin: Some(Origin {
+            xyz: Some(pose.translation.vector.into()),
+            rpy: Some(rpy(pose.rotation.to_rotation_matrix().matrix())),
+            quat_xyzw: None,
+        }),
+        axis: None,
+        limit: None,
+        dynamics: None,
+        mimic: None,
+        safety_controller: None,
+        calibration: None,
+        ..joint
+    }
+}
+
+/// An origin without `quat_xyzw`, which most programs take no notice of. Before version 1.1 of URDF it has no meaning.
+pub(super) fn without_quaternion(origin: &Origin, view: &ViewOrigin, counts: bool) -> Origin {
+    let mut plain = Origin {
+        quat_xyzw: None,
+        ..origin.clone()
+    };
+    if counts && origin.quat_xyzw.is_some() {
+        plain.rpy = Some(rpy(&view.rotation()));
+    }
+    plain
+}

@@ -1,0 +1,246 @@
+//! Bodies: one for each link, inside that of its parent.
+
+use std::collections::HashSet;
+
+use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
+
+use super::super::element::Element;
+use super::super::error::{ExportError, Note};
+use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
+use super::super::numbers::{number, numbers};
+use super::super::subject::Subject;
+use super::{inertia, joint};
+use urdd_geometry::Mesh;
+use urdd_geometry::hull::ConvexHull;
+use urdd_robot::{LinkShape, ShapeKind, Solid};
+
+/// Volumes below this are flat to MuJoCo (its mjMINVAL is 1e-15 m³).
+const SMALLEST_VOLUME: f64 = 1e-13;
+/// Half the thickness of a flat box, m.
+const HALF_THICKNESS: f64 = 1e-6;
+
+/// What was made while bodies were.
+pub(super) struct Made {
+    pub assets: Element,
+    pub files: Vec<(String, Vec<u8>)>,
+    /// Whether moments break the triangle inequality.
+    pub balanced: bool,
+    pub notes: Vec<Note>,
+}
+
+pub(super) struct Bodies<'a> {
+    subject: &'a Subject<'a>,
+    shapes: Vec<Vec<LinkShape>>,
+    looks: Vec<Vec<Look>>,
+    /// Boxes of the shapes, for flat ones, by link and piece.
+    boxes: Vec<LinkShape>,
+    files: MeshFiles<'a>,
+    assets: Element,
+    /// Paths that are assets already.
+    named: HashSet<String>,
+    inertials: Vec<Option<Element>>,
+    balanced: bool,
+    notes: Vec<Note>,
+}
+
+impl<'a> Bodies<'a> {
+    pub fn new(subject: &'a Subject<'a>) -> Result<Self, ExportError> {
+        let kind = subject.options.shapes;
+        let shapes = subject.shapes_by_link(kind)?;
+        let boxes = match kind {
+            ShapeKind::Pieces => subject.robot.shapes(ShapeKind::PieceBoxes)?,
+            ShapeKind::Hulls => subject.robot.shapes(ShapeKind::Boxes)?,
+            _ => Vec::new(),
+        };
+        let mut notes = Vec::new();
+        if shapes.iter().all(Vec::is_empty) {
+            notes.push(Note::NoShapes(kind));
+        }
+        let (inertials, balanced) = inertia::inertials(subject, &mut notes);
+        Ok(Bodies {
+            subject,
+            shapes,
+            looks: looks(subject)?,
+            boxes,
+            files: MeshFiles::new(subject),
+            assets: Element::new("asset"),
+            named: HashSet::new(),
+            inertials,
+            balanced,
+            notes,
+        })
+    }
+
+    pub fn finish(self) -> Made {
+        Made {
+            assets: self.assets,
+            files: self.files.into_files(),
+            balanced: self.balanced,
+            notes: self.notes,
+        }
+    }
+
+    /// The world with all bodies in it.
+    pub fn world(&mut self) -> Result<Element, ExportError> {
+        let world = Element::new("worldbody");
+        let root = self.subject.tree.root;
+        let mut elements: Vec<Option<Element>> = self.subject.links.iter().map(|_| None).collect();
+        // From the leaves up, so that a long chain takes no deep stack here.
+        for &link in self.subject.tree.order.iter().rev() {
+            let mut element = match self.is_world(link) {
+                true => world.clone(),
+                false => self.frame(link),
+            };
+            self.fill(link, &mut element)?;
+            for joint in &self.subject.tree.child_joints[link] {
+                let child = self.subject.tree.joint_links[*joint].1;
+                if let Some(child) = elements[child].take() {
+                    element.push(child);
+                }
+            }
+            elements[link] = Some(element);
+        }
+        Ok(match elements[root].take() {
+            Some(element) if self.is_world(root) => element,
+            Some(element) => world.holding(element),
+            None => world,
+        })
+    }
+
+    /// Whether a link is MuJoCo's own body `world`.
+    fn is_world(&self, link: usize) -> bool {
+        link == self.subject.tree.root && self.subject.links[link] == "world"
+    }
+
+    /// A body where its joint has it.
+    fn frame(&self, link: usize) -> Element {
+        let body = Element::new("body").with("name", self.subject.links[link].as_str());
+        let Some(joint) = self.subject.tree.parent_joint[link] else {
+            return body;
+        };
+        let origin = &self.subject.view.joints[joint].origin;
+        let rotation = Rotation3::from_matrix_unchecked(origin.rotation());
+        let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
+        let pose = Isometry3::from_parts(origin.xyz.into(), rotation);
+        placed(body, &pose)
+    }
+
+    /// Mass, joints, and geoms.
+    fn fill(&mut self, link: usize, element: &mut Element) -> Result<(), ExportError> {
+        let subject = self.subject;
+        let joint = subject.tree.parent_joint[link];
+        let joint = joint.map(|joint| (&subject.view.joints[joint], &subject.urdf.joints[joint]));
+        let mut joints = Vec::new();
+        if let Some((view, source)) = joint {
+            joints = joint::joints(view, source, &mut self.notes);
+        }
+        if let Some(inertial) = self.inertials[link].take()
+            && !self.is_world(link)
+        {
+            element.push(inertial);
+        }
+        for joint in joints {
+            element.push(joint);
+        }
+        for (look, place) in std::mem::take(&mut self.looks[link]).into_iter().zip(0..) {
+            let what = format!("visual_{place}");
+            let asset = self.asset(link, &what, look.mesh, MeshFormat::Obj)?;
+            let geom = Element::new("geom")
+                .with("class", "visual")
+                .with("type", "mesh")
+                .with("mesh", asset)
+                .with_some("rgba", look.rgba.map(|rgba| numbers(&rgba)));
+            element.push(geom);
+        }
+        for shape in std::mem::take(&mut self.shapes[link]) {
+            let geom = self.geom(link, shape)?;
+            element.push(geom);
+        }
+        Ok(())
+    }
+
+    fn geom(&mut self, link: usize, shape: LinkShape) -> Result<Element, ExportError> {
+        let name = geom_name(&self.subject.links[link], shape.piece);
+        let geom = Element::new("geom")
+            .with("name", name)
+            .with("class", "collision");
+        Ok(match shape.solid {
+            Solid::Mesh(mesh) if is_flat(&mesh) => {
+                let found = self
+                    .boxes
+                    .iter()
+                    .find(|other| other.link == link && other.piece == shape.piece);
+                self.notes.push(Note::Flat {
+                    link: self.subject.links[link].clone(),
+                    thickness: "0.000002",
+                });
+                match found.map(|found| &found.solid) {
+                    Some(Solid::Box { pose, half_extents }) => cuboid(geom, pose, *half_extents),
+                    _ => return Err(ExportError::NoShapes(ShapeKind::PieceBoxes)),
+                }
+            }
+            Solid::Mesh(mesh) => {
+                let what = format!("piece_{}", shape.piece);
+                let asset = self.asset(link, &what, mesh, MeshFormat::Stl)?;
+                geom.with("type", "mesh").with("mesh", asset)
+            }
+            Solid::Box { pose, half_extents } => cuboid(geom, &pose, half_extents),
+            Solid::Sphere { centre, radius } => geom
+                .with("type", "sphere")
+                .with("pos", numbers(&centre))
+                .with("size", number(radius.max(HALF_THICKNESS))),
+        })
+    }
+
+    /// The name of the asset of a mesh.
+    fn asset(
+        &mut self,
+        link: usize,
+        what: &str,
+        mesh: Mesh,
+        format: MeshFormat,
+    ) -> Result<String, ExportError> {
+        let path = self.files.add(link, what, mesh, format)?;
+        let file = path.rsplit('/').next().unwrap_or(&path);
+        let name = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        if self.named.contains(&path) {
+            return Ok(name.to_owned());
+        }
+        let mut asset = Element::new("mesh")
+            .with("name", name)
+            .with("file", path.as_str());
+        if format == MeshFormat::Obj {
+            // What is looked at need not enclose a volume.
+            asset = asset.with("inertia", "shell");
+        }
+        self.assets.push(asset);
+        let name = name.to_owned();
+        self.named.insert(path);
+        Ok(name)
+    }
+}
+
+/// The name of the geom of a shape: no two are alike, whatever the links are called.
+pub(super) fn geom_name(link: &str, piece: usize) -> String {
+    format!("{link}/{piece}")
+}
+
+fn cuboid(geom: Element, pose: &Isometry3<f64>, half_extents: [f64; 3]) -> Element {
+    let half = half_extents.map(|half| half.max(HALF_THICKNESS));
+    placed(geom.with("type", "box"), pose).with("size", numbers(&half))
+}
+
+fn placed(element: Element, pose: &Isometry3<f64>) -> Element {
+    let position = pose.translation.vector;
+    let q = pose.rotation.quaternion();
+    element
+        .with("pos", numbers(position.as_slice()))
+        .with("quat", numbers(&[q.w, q.i, q.j, q.k]))
+}
+
+fn is_flat(mesh: &Mesh) -> bool {
+    let hull = ConvexHull::new(&mesh.vertices);
+    hull.map_or(true, |hull| {
+        hull.is_flat() || hull.mesh().signed_volume() < SMALLEST_VOLUME
+    })
+}

@@ -1,0 +1,220 @@
+//! The masses of bodies, in the axes of their links.
+//!
+//! MuJoCo asks of each group of bodies that moves as one that some body in it has a mass and three moments of inertia
+//! above its mjMINVAL; of a body that does not move it takes moments of 0. So masses are kept as they are, and where a
+//! group has too little of something, the least that is stable is assumed, with a note.
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+use super::super::element::Element;
+use super::super::error::Note;
+use super::super::numbers::{number, numbers};
+use super::super::subject::Subject;
+use urdd_document::rigid_groups::RigidGroups;
+use urdd_document::robot::Inertial;
+
+/// MuJoCo takes less for none: its mjMINVAL, kg and kg m².
+const MIN_VALUE: f64 = 1e-15;
+/// What is assumed where a moving body needs a mass, kg.
+const ASSUMED_MASS: f64 = 1e-9;
+/// What is assumed where a moving body needs a moment of inertia, kg m².
+const ASSUMED_INERTIA: f64 = 1e-9;
+/// Rounding of moments, as a part of the largest.
+const ROUNDING: f64 = 1e-9;
+
+const NEGATIVE: &str = "its mass is negative, which MuJoCo takes for 0; so it is here";
+const INDEFINITE: &str = "its inertia has a negative principal moment, which MuJoCo refuses; the mass stays, and the inertia is 0";
+const TRIANGLE: &str = "a principal moment of inertia is more than the other two together, which MuJoCo refuses; MuJoCo takes their mean about each axis (balanceinertia)";
+const NO_INERTIA: &str = "it moves, and MuJoCo refuses a moment of inertia of 0; the mass stays, and 1e-9 kg m² are assumed where it is less";
+const NO_MASS: &str =
+    "it moves without mass, which MuJoCo refuses; 1e-9 kg and 1e-9 kg m² are assumed";
+
+/// The mass of a body.
+#[derive(Debug, Clone, PartialEq)]
+struct Mass {
+    mass: f64,
+    centre: [f64; 3],
+    /// Principal moments of inertia, kg m².
+    moments: Vector3<f64>,
+    /// Their axes, in those of the link.
+    axes: Rotation3<f64>,
+    /// xx, yy, zz, xy, xz, yz in the axes of the link, where these say the same and MuJoCo takes them.
+    full: Option<[f64; 6]>,
+}
+
+/// Of each link its `inertial` element, and whether MuJoCo has to mend moments.
+pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option<Element>>, bool) {
+    let mut balanced = false;
+    let links = &subject.view.links;
+    let mut note = |link: usize, what: &'static str| {
+        notes.push(Note::Inertia {
+            link: links[link].name.clone(),
+            what,
+        });
+    };
+    let mut masses: Vec<Option<Mass>> = Vec::new();
+    for (link, view) in links.iter().enumerate() {
+        let mut said = None;
+        masses.push(
+            view.inertial
+                .as_ref()
+                .and_then(|view| mass(view, &mut said)),
+        );
+        balanced |= said == Some(TRIANGLE);
+        if let Some(said) = said {
+            note(link, said);
+        }
+    }
+    for group in RigidGroups::new(&subject.view, &subject.tree).groups {
+        if group.moved_by.is_none() {
+            continue;
+        }
+        let of_link = |link: &usize| masses[*link].as_ref();
+        if group.links.iter().filter_map(of_link).any(Mass::is_enough) {
+            continue;
+        }
+        let weight = |link: &usize| of_link(link).map_or(0.0, |mass| mass.mass);
+        // The first of the heaviest.
+        let heavier = |a: &usize, b: &usize| weight(a).total_cmp(&weight(b)).then(b.cmp(a));
+        let Some(&link) = group.links.iter().max_by(|a, b| heavier(a, b)) else {
+            continue;
+        };
+        note(
+            link,
+            if weight(&link) > MIN_VALUE {
+                NO_INERTIA
+            } else {
+                NO_MASS
+            },
+        );
+        masses[link].get_or_insert(Mass::NONE).raise();
+    }
+    let elements = masses.into_iter().map(|mass| mass.map(Mass::element));
+    (elements.collect(), balanced)
+}
+
+/// The mass that MuJoCo takes for that of a link, and what there is to say.
+fn mass(inertial: &Inertial, said: &mut Option<&'static str>) -> Option<Mass> {
+    let given = inertial.mass.unwrap_or(0.0);
+    if given < 0.0 {
+        *said = Some(NEGATIVE);
+    }
+    let [xx, xy, xz, yy, yz, zz] = inertial.inertia.unwrap_or_default();
+    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let rotation = inertial.origin.rotation();
+    let turned = rotation * tensor * rotation.transpose();
+    let mut eigen = ((turned + turned.transpose()) / 2.0).symmetric_eigen();
+    if eigen.eigenvectors.determinant() < 0.0 {
+        eigen.eigenvectors.neg_mut();
+    }
+    let (mut moments, most) = (eigen.eigenvalues, eigen.eigenvalues.amax());
+    if moments.min() < -ROUNDING * most {
+        *said = Some(INDEFINITE);
+        moments.fill(0.0);
+    }
+    let mut is_full = moments.min() > MIN_VALUE;
+    moments.apply(|moment| *moment = moment.max(0.0));
+    let others = moments.sum() - moments.max();
+    let largest = moments.imax();
+    if moments.max() > others {
+        // Of a thin plate the two are the same, but for rounding.
+        match moments.max() <= others * (1.0 + ROUNDING) {
+            true => moments[largest] = others,
+            false => *said = Some(TRIANGLE),
+        }
+        is_full = false;
+    }
+    let mass = given.max(0.0);
+    (mass > 0.0 || moments.max() > 0.0).then(|| Mass {
+        mass,
+        centre: inertial.origin.xyz,
+        moments,
+        axes: Rotation3::from_matrix_unchecked(eigen.eigenvectors),
+        full: is_full
+            .then(|| [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|at| turned[at])),
+    })
+}
+
+impl Mass {
+    const NONE: Mass = Mass {
+        mass: 0.0,
+        centre: [0.0; 3],
+        moments: Vector3::new(0.0, 0.0, 0.0),
+        axes: Rotation3::from_matrix_unchecked(Matrix3::new(
+            1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0,
+        )),
+        full: None,
+    };
+
+    /// Whether MuJoCo lets it move.
+    fn is_enough(&self) -> bool {
+        self.mass > MIN_VALUE && self.moments.min() > MIN_VALUE
+    }
+
+    /// Adds what a moving body needs.
+    fn raise(&mut self) {
+        if self.mass <= MIN_VALUE {
+            self.mass = ASSUMED_MASS;
+        }
+        (self.moments).apply(|moment| *moment = moment.max(ASSUMED_INERTIA));
+        self.full = None;
+    }
+
+    fn element(self) -> Element {
+        let element = Element::new("inertial")
+            .with("pos", numbers(&self.centre))
+            .with("mass", number(self.mass));
+        if let Some(full) = self.full {
+            return element.with("fullinertia", numbers(&full));
+        }
+        let q = UnitQuaternion::from_rotation_matrix(&self.axes);
+        element
+            .with("quat", numbers(&[q.w, q.i, q.j, q.k]))
+            .with("diaginertia", numbers(self.moments.as_slice()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use urdd_document::robot::Origin;
+
+    fn of(mass: f64, [xx, yy, zz]: [f64; 3]) -> (Option<Mass>, Option<&'static str>) {
+        let mut said = None;
+        let inertial = Inertial {
+            origin: Origin {
+                rpy: [0.3, -0.2, 0.9],
+                ..Origin::default()
+            },
+            mass: Some(mass),
+            inertia: Some([xx, 0.0, 0.0, yy, 0.0, zz]),
+        };
+        (super::mass(&inertial, &mut said), said)
+    }
+
+    #[test]
+    fn the_mass_stays_whatever_the_inertia() {
+        for (moments, enough, note) in [
+            ([1.0, 1.0, 2.0], true, None),
+            ([1.0, 1.0, 1.5], true, None),
+            ([0.0, 0.0, 0.0], false, None),
+            ([0.0, 2.0, 2.0], false, None),
+            ([1.0, 1.0, 2.1], true, Some(TRIANGLE)),
+            ([1.0, 1.0, -1.0], false, Some(INDEFINITE)),
+        ] {
+            let (mass, said) = of(0.2, moments);
+            let mut mass = mass.expect("a mass");
+            assert_eq!((mass.mass, said), (0.2, note), "{moments:?}");
+            assert_eq!(mass.is_enough(), enough, "{moments:?}");
+            assert!((mass.axes.matrix().determinant() - 1.0).abs() < 1e-12);
+            mass.raise();
+            assert!(mass.is_enough() && mass.mass == 0.2, "{moments:?}");
+        }
+        assert_eq!(of(0.0, [0.0; 3]), (None, None));
+        assert_eq!(of(-1.0, [0.0; 3]), (None, Some(NEGATIVE)));
+        // A disc: rounding of the moments is not more than the other two together.
+        let (disc, _) = of(1.0, [0.1, 0.2, 0.1 + 0.2]);
+        let moments = disc.expect("a mass").moments;
+        assert!(2.0 * moments.max() <= moments.sum());
+    }
+}

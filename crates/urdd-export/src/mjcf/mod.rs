@@ -1,0 +1,146 @@
+//! MJCF: bodies, joints, our shapes as geoms, and pairs that need no check, piece by piece.
+//!
+//! A floating joint is three slides and a ball, whatever it sits on, so that its position is that of the child in the
+//! joint's frame, as here; a free joint's would be in the world. The root link is fixed to the world. Mimics are
+//! equality constraints, chains resolved, which MuJoCo holds in simulation: whoever sets positions sets those of mimic
+//! joints too.
+//! MuJoCo's own filter of parents and children is switched off, so that the pairs are those of the URDD; it never
+//! checks two bodies without a joint between them.
+
+mod body;
+mod inertia;
+mod joint;
+
+use super::Export;
+use super::element::Element;
+use super::error::{ExportError, Note};
+use super::names::check_unique;
+use super::numbers::numbers;
+use super::subject::Subject;
+use body::{Bodies, Made, geom_name};
+use urdd_document::rigid_groups::RigidGroups;
+
+pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    let mut bodies = Bodies::new(subject)?;
+    let world = bodies.world()?;
+    let Made {
+        assets,
+        files,
+        balanced,
+        mut notes,
+    } = bodies.finish();
+    let mut compiler = Element::new("compiler")
+        .with("angle", "radian")
+        .with("autolimits", "true");
+    if balanced {
+        compiler = compiler.with("balanceinertia", "true");
+    }
+    let mut root = Element::new("mujoco").with("model", subject.urdf.name.as_str());
+    root.push(compiler);
+    let flag = Element::new("flag").with("filterparent", "disable");
+    root.push(Element::new("option").holding(flag));
+    root.push(classes());
+    if !assets.is_empty() {
+        root.push(assets);
+    }
+    root.push(world);
+    let equality = equality(subject, &mut notes);
+    if !equality.is_empty() {
+        root.push(equality);
+    }
+    let contact = contact(subject);
+    if !contact.is_empty() {
+        root.push(contact);
+    }
+    check_joints(subject)?;
+    let what = format!("Geoms for collision: {}.", subject.options.shapes);
+    Ok(Export {
+        text: root.document(&subject.comments(what, &notes)?),
+        files,
+        notes,
+    })
+}
+
+/// Links have the mass of the URDF, so geoms have none.
+fn classes() -> Element {
+    let geom = |class: &'static str, geom: Element| {
+        let geom = geom.with("density", "0");
+        Element::new("default").with("class", class).holding(geom)
+    };
+    let collision = Element::new("geom").with("group", "3");
+    let visual = Element::new("geom")
+        .with("group", "2")
+        .with("contype", "0")
+        .with("conaffinity", "0");
+    Element::new("default")
+        .holding(geom("collision", collision))
+        .holding(geom("visual", visual))
+}
+
+/// What MuJoCo does not check, and, where the shapes of two links differ, what it does: an `<exclude>` is of two bodies,
+/// and a `<pair>` of two geoms is checked in spite of it. Bits (`contype`, `conaffinity`) would not do: there are 32, and
+/// a robot has hundreds of shapes that differ.
+fn contact(subject: &Subject) -> Element {
+    let mut contact = Element::new("contact");
+    let groups = RigidGroups::new(&subject.view, &subject.tree);
+    let mut pairs = Vec::new();
+    for pair in &subject.pairs {
+        if !pair.disabled && pair.mixed.is_none() {
+            continue;
+        }
+        let [a, b] = pair.names.each_ref().map(String::as_str);
+        contact.push(Element::new("exclude").with("body1", a).with("body2", b));
+        let [one, other] = pair.links.map(|link| groups.of_link[link]);
+        // Links that never move against each other touch always or never: MuJoCo does not look at them.
+        if let Some(mixed) = &pair.mixed
+            && one != other
+        {
+            let geoms = |pieces: &[usize; 2]| {
+                let pair = Element::new("pair").with("geom1", geom_name(a, pieces[0]));
+                pair.with("geom2", geom_name(b, pieces[1]))
+            };
+            pairs.extend(mixed.checked.iter().map(geoms));
+        }
+    }
+    for pair in pairs {
+        contact.push(pair);
+    }
+    contact
+}
+
+/// Joints of several DOFs are several joints here, whose names may be those of others.
+fn check_joints(subject: &Subject) -> Result<(), ExportError> {
+    let names = subject.view.joints.iter().flat_map(joint::names);
+    let names: Vec<String> = names.collect();
+    check_unique(subject.format, "joint", names.iter().map(String::as_str))
+}
+
+/// The mimics: `position = offset + multiplier * position of the driver`.
+fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
+    let mut equality = Element::new("equality");
+    for (joint, mimic) in subject.view.joints.iter().zip(&subject.mimics.by_joint) {
+        let Some(mimic) = mimic else {
+            continue;
+        };
+        let driver = &subject.view.joints[mimic.driver];
+        let mut element = Element::new("joint").with("joint1", joint.name.as_str());
+        let factor = match driver.num_dofs() {
+            1 => {
+                element = element.with("joint2", driver.name.as_str());
+                mimic.multiplier
+            }
+            // A fixed joint stands at 0.
+            0 => 0.0,
+            _ => {
+                notes.push(Note::Joint {
+                    joint: joint.name.clone(),
+                    what: "it follows a joint of several DOFs, which MuJoCo cannot say; it moves freely",
+                });
+                continue;
+            }
+        };
+        let coefficients = numbers(&[mimic.offset, factor, 0.0, 0.0, 0.0]);
+        equality.push(element.with("polycoef", coefficients));
+    }
+    equality
+}

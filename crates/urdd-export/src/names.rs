@@ -1,0 +1,156 @@
+//! Names that formats can hold, and names of files.
+
+use std::collections::HashSet;
+
+use super::Format;
+use super::element::is_character;
+use super::error::ExportError;
+use urdd_document::robot::Robot;
+use urdd_document::tree::Tree;
+use urdd_format::escape;
+
+/// Longest part of a file's name that is taken from a link.
+const LONGEST: usize = 80;
+
+/// Most characters of a key of YAML on one line.
+const MAX_KEY: usize = 1024;
+
+/// An error where a format cannot hold a name of the robot, a link or a joint.
+pub(super) fn check(format: Format, robot: &Robot, tree: &Tree) -> Result<(), ExportError> {
+    one(format, "robot", &robot.name)?;
+    let mut links = HashSet::new();
+    for (index, link) in robot.links.iter().enumerate() {
+        one(format, "link", &link.name)?;
+        let is_inner_world = link.name == "world" && index != tree.root;
+        let reason = match format {
+            _ if !links.insert(link.name.as_str()) => "two links have it",
+            Format::Mjcf if is_inner_world => {
+                "MuJoCo has a body of that name, and only the root can be it"
+            }
+            Format::Drake if is_inner_world => {
+                "Drake has a body of that name, and only the root can be it"
+            }
+            _ => continue,
+        };
+        return Err(error(format, "link", &link.name, reason));
+    }
+    let mut joints = HashSet::new();
+    for joint in &robot.joints {
+        one(format, "joint", &joint.name)?;
+        if !joints.insert(joint.name.as_str()) {
+            return Err(error(format, "joint", &joint.name, "two joints have it"));
+        }
+    }
+    Ok(())
+}
+
+/// An error where names that a format needs besides those of the robot, or out of them, are there twice.
+pub(super) fn check_unique<'n>(
+    format: Format,
+    what: &'static str,
+    names: impl IntoIterator<Item = &'n str>,
+) -> Result<(), ExportError> {
+    let mut seen = HashSet::new();
+    match names.into_iter().find(|name| !seen.insert(*name)) {
+        Some(name) => Err(error(format, what, name, TWICE)),
+        None => Ok(()),
+    }
+}
+
+const TWICE: &str = "the format needs it for a part of a joint of several DOFs too, or for a frame";
+
+fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError> {
+    let is_xml = !matches!(format, Format::Curobo | Format::Foam);
+    let reason = match format {
+        _ if name.is_empty() && what != "robot" => "it is empty",
+        Format::Drake if name.is_empty() => "Drake stops at a robot without a name",
+        Format::Drake if what == "link" && name.contains("::") => {
+            "Drake reads what is before `::` as the name of a model"
+        }
+        Format::Curobo if is_long_key(name) => "a key of YAML has at most 1,024 characters",
+        _ if is_xml && !name.chars().all(is_character) => "it has characters that XML cannot hold",
+        _ => return Ok(()),
+    };
+    Err(error(format, what, name, reason))
+}
+
+/// Whether a name is too long for a key of YAML (1.2.2, 7.4.2), with its quotes and escapes.
+fn is_long_key(name: &str) -> bool {
+    let quoted = serde_json::Value::from(name).to_string();
+    escape::json(&quoted).chars().count() > MAX_KEY
+}
+
+fn error(format: Format, what: &'static str, name: &str, reason: &'static str) -> ExportError {
+    ExportError::Name {
+        format,
+        what,
+        name: name.to_owned(),
+        reason,
+    }
+}
+
+/// Makes names of files out of names of links: letters, digits, `.`, `-` and `_`, and no name twice, whatever the case.
+#[derive(Debug, Default)]
+pub(super) struct FileNames {
+    taken: HashSet<String>,
+}
+
+impl FileNames {
+    /// A name that was not given before.
+    pub fn of(&mut self, wanted: &str) -> String {
+        let kept = |c: char| match c {
+            'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' => c,
+            _ => '_',
+        };
+        let mut base: String = wanted.chars().map(kept).take(LONGEST).collect();
+        if base.is_empty() || base.starts_with('.') {
+            base.insert(0, '_');
+        }
+        let mut name = base.clone();
+        let mut number = 2;
+        while !self.taken.insert(name.to_ascii_lowercase()) {
+            name = format!("{base}-{number}");
+            number += 1;
+        }
+        name
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_files_are_safe_and_differ() {
+        let mut names = FileNames::default();
+        assert_eq!(names.of("../a b"), "_.._a_b");
+        assert_eq!(names.of("Arm"), "Arm");
+        assert_eq!(names.of("arm"), "arm-2");
+        assert_eq!(names.of("arm"), "arm-3");
+        assert_eq!(names.of(""), "_");
+        assert!(names.of(&"x".repeat(500)).len() <= LONGEST);
+    }
+
+    #[test]
+    fn a_name_that_a_format_cannot_hold_is_an_error() {
+        let of = |format, what, name: &str| one(format, what, name).is_ok();
+        assert!(of(
+            Format::Srdf,
+            "link",
+            "a<b>\"&'\n\t\r\u{7f}\u{85}\u{202e}"
+        ));
+        for name in ["\0", "a\u{1b}", "\u{fffe}", "\u{ffff}"] {
+            assert!(!of(Format::Srdf, "link", name));
+            assert!(of(Format::Curobo, "link", name));
+        }
+        assert!(of(Format::Curobo, "link", &"x".repeat(1022)));
+        assert!(!of(Format::Curobo, "link", &"x".repeat(1023)));
+        assert!(of(Format::Foam, "link", &"x".repeat(100_000)));
+        assert!(!of(Format::Urdf, "joint", ""));
+        assert!(of(Format::Urdf, "robot", ""));
+        assert!(!of(Format::Drake, "robot", ""));
+        assert!(!of(Format::Drake, "link", "a::b"));
+        assert!(check_unique(Format::Mjcf, "joint", ["a", "b"]).is_ok());
+        assert!(check_unique(Format::Mjcf, "joint", ["a", "b", "a"]).is_err());
+    }
+}

@@ -1,0 +1,177 @@
+//! Pairs of links that need no check.
+//!
+//! A URDD decides for pairs of shapes; most formats know links. Two links are in contact where a shape of the one is in
+//! contact with a shape of the other: so a pair of links is `Always` in contact where one of their pairs of shapes is,
+//! `Default` where one is in contact in the default configuration, and `Never` only where none ever was.
+//!
+//! Where the URDD skips some pairs of the links' shapes and checks others, the pair is *mixed*. A format that knows links
+//! only disables it, or keeps it on demand ([`Options::keep_pairs`]). Either is wrong for some of the shapes.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::Options;
+use urdd_format::link_shapes_simple_skips::SkipReason;
+use urdd_format::link_shapes_skips::SkipEdit;
+use urdd_robot::{Robot, RobotError};
+
+/// Two links that both have shapes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinkPair {
+    /// Their indices, ascending.
+    pub links: [usize; 2],
+    /// Their names, in the order of the indices.
+    pub names: [String; 2],
+    /// Why; `None` where the URDD does not say.
+    pub reason: Option<SkipReason>,
+    /// What a person decided last.
+    pub edit: Option<SkipEdit>,
+    /// Whether a format that knows links only leaves the pair unchecked.
+    pub disabled: bool,
+    /// Where the shapes of the pair differ.
+    pub mixed: Option<MixedPair>,
+}
+
+/// A pair of links of whose pairs of shapes some are skipped and some are checked. A pair of shapes is a piece of the
+/// first link and one of the second.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MixedPair {
+    /// The pairs of shapes that the URDD skips, sorted.
+    pub skipped: Vec<[usize; 2]>,
+    /// Those that it checks, sorted.
+    pub checked: Vec<[usize; 2]>,
+    /// In how many of the sampled configurations they touch. `None` where this was not counted: for pairs that differ by
+    /// the reason `Never` alone, and where the URDD has no bounds.
+    pub contacts: Option<Contacts>,
+}
+
+/// In how many sampled configurations (SPEC 9.3, from the first one on) shapes of two links touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Contacts {
+    /// Configurations in which shapes touch that the URDD checks.
+    pub checked: usize,
+    /// Configurations in which shapes touch that the URDD skips.
+    pub skipped: usize,
+    /// Configurations that were looked at.
+    pub samples: u32,
+}
+
+/// Every pair of links with shapes, by index. No contacts are counted yet.
+pub(super) fn pairs(robot: &Robot, options: &Options) -> Result<Vec<LinkPair>, RobotError> {
+    let skips = robot.skips(options.shapes)?;
+    let reasons = options.reasons.as_deref();
+    let chosen = reasons.or(skips.skipped_reasons());
+    let names = robot.description()?.links;
+    let index: HashMap<&str, usize> = names
+        .iter()
+        .enumerate()
+        .map(|(link, described)| (described.name.as_str(), link))
+        .collect();
+    let mut last: HashMap<[usize; 2], &SkipEdit> = HashMap::new();
+    for edit in skips.edits() {
+        let ends = [&edit.link_a, &edit.link_b].map(|name| index.get(name.as_str()).copied());
+        if let [Some(a), Some(b)] = ends {
+            last.insert([a.min(b), a.max(b)], edit);
+        }
+    }
+    let is_chosen = |reason: SkipReason| {
+        chosen.is_some_and(|all| all.iter().any(|one| one.of_pair() == reason))
+    };
+    let mut found: BTreeMap<[usize; 2], Vec<Seen>> = BTreeMap::new();
+    let places = skips.places();
+    for i in 0..places.len() {
+        for j in i + 1..places.len() {
+            let (first, second) = match places[i].0 < places[j].0 {
+                true => (i, j),
+                false => (j, i),
+            };
+            let links = [places[first].0, places[second].0];
+            if links[0] == links[1] {
+                continue;
+            }
+            let reason = skips.reason(i, j);
+            let skipped = match (last.get(&links), reasons, reason) {
+                (Some(edit), _, _) => edit.skip,
+                (None, Some(_), Some(reason)) => is_chosen(reason),
+                _ => skips.is_skipped(i, j),
+            };
+            found.entry(links).or_default().push(Seen {
+                pieces: [places[first].1, places[second].1],
+                reason,
+                skipped,
+            });
+        }
+    }
+    let pair = |(links, seen): ([usize; 2], Vec<Seen>)| {
+        let reason = together(seen.iter().map(|seen| seen.reason));
+        let mixed = mixed(&seen);
+        let disabled = match mixed {
+            None => seen.iter().all(|seen| seen.skipped),
+            Some(_) => !options.keep_pairs && reason.is_some_and(is_chosen),
+        };
+        Some(LinkPair {
+            links,
+            names: [names.get(links[0])?, names.get(links[1])?].map(|link| link.name.clone()),
+            reason,
+            edit: last.get(&links).map(|edit| (*edit).clone()),
+            disabled,
+            mixed,
+        })
+    };
+    Ok(found.into_iter().filter_map(pair).collect())
+}
+
+/// A pair of shapes.
+struct Seen {
+    pieces: [usize; 2],
+    reason: Option<SkipReason>,
+    skipped: bool,
+}
+
+fn mixed(seen: &[Seen]) -> Option<MixedPair> {
+    let of = |skipped: bool| {
+        let some = seen.iter().filter(|seen| seen.skipped == skipped);
+        let mut pieces: Vec<[usize; 2]> = some.map(|seen| seen.pieces).collect();
+        pieces.sort_unstable();
+        pieces
+    };
+    let (skipped, checked) = (of(true), of(false));
+    (!skipped.is_empty() && !checked.is_empty()).then_some(MixedPair {
+        skipped,
+        checked,
+        contacts: None,
+    })
+}
+
+/// The reason of two links, out of those of their shapes.
+fn together(reasons: impl Iterator<Item = Option<SkipReason>>) -> Option<SkipReason> {
+    let reasons: Vec<SkipReason> = reasons.collect::<Option<_>>()?;
+    let first = [
+        SkipReason::Always,
+        SkipReason::Adjacent,
+        SkipReason::Default,
+    ];
+    let first = first.into_iter().find(|reason| reasons.contains(reason));
+    let never = || reasons.iter().all(|reason| *reason == SkipReason::Never);
+    Some(match first {
+        Some(reason) => reason,
+        None if never() => SkipReason::Never,
+        None => SkipReason::None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use SkipReason::{Adjacent, Always, Default as Resting, Never, None as Sometimes};
+
+    #[test]
+    fn a_pair_of_links_is_what_its_shapes_make_it() {
+        let of = |reasons: &[SkipReason]| together(reasons.iter().copied().map(Some));
+        assert_eq!(of(&[Never, Never]), Some(Never));
+        assert_eq!(of(&[Never, Sometimes]), Some(Sometimes));
+        assert_eq!(of(&[Never, Resting, Sometimes]), Some(Resting));
+        assert_eq!(of(&[Adjacent, Always]), Some(Always));
+        assert_eq!(of(&[Adjacent, Adjacent]), Some(Adjacent));
+        assert_eq!(together([Some(Never), None].into_iter()), None);
+    }
+}

@@ -1,0 +1,253 @@
+//! A part of a link: convex parts, and the smallest sphere about them.
+
+use nalgebra::{Matrix3, Vector3};
+
+use urdd_geometry::bounding_sphere::BoundingSphere;
+use urdd_geometry::hull::ConvexHull;
+
+/// A convex part.
+#[derive(Debug, Clone)]
+struct Chunk {
+    points: Vec<Vector3<f64>>,
+    /// Pairs of `points`; none where the points are on one line, so that nothing can be cut.
+    edges: Vec<[usize; 2]>,
+    volume: f64,
+}
+
+/// A part of a link.
+#[derive(Debug, Clone)]
+pub(super) struct Cell {
+    chunks: Vec<Chunk>,
+    sphere: BoundingSphere,
+    volume: f64,
+}
+
+/// Where cuts are tried along a direction, as parts of the extent.
+const PLACES: [f64; 5] = [0.3, 0.4, 0.5, 0.6, 0.7];
+
+impl Chunk {
+    fn new(points: Vec<Vector3<f64>>) -> Self {
+        let list: Vec<[f64; 3]> = points.iter().map(|p| [p.x, p.y, p.z]).collect();
+        let Ok(hull) = ConvexHull::new(&list) else {
+            return Chunk {
+                points,
+                edges: Vec::new(),
+                volume: 0.0,
+            };
+        };
+        let mesh = hull.into_mesh();
+        let mut edges: Vec<[usize; 2]> = Vec::new();
+        for [a, b, c] in &mesh.triangles {
+            for (a, b) in [(a, b), (b, c), (c, a)] {
+                edges.push([*a.min(b) as usize, *a.max(b) as usize]);
+            }
+        }
+        edges.sort_unstable();
+        edges.dedup();
+        let volume = mesh.signed_volume().max(0.0);
+        let points = mesh.vertices.into_iter().map(Vector3::from).collect();
+        Chunk {
+            points,
+            edges,
+            volume,
+        }
+    }
+
+    /// The parts below and above a plane; each holds the points on it.
+    fn cut(&self, normal: &Vector3<f64>, offset: f64) -> [Option<Chunk>; 2] {
+        let heights: Vec<f64> = self.points.iter().map(|p| normal.dot(p) - offset).collect();
+        let below = heights.iter().any(|height| *height < 0.0);
+        let above = heights.iter().any(|height| *height > 0.0);
+        if !above {
+            return [Some(self.clone()), None];
+        }
+        if !below {
+            return [None, Some(self.clone())];
+        }
+        if self.edges.is_empty() {
+            // On one line, and no edge to cut: whole on both sides, so that no point is lost.
+            return [Some(self.clone()), Some(self.clone())];
+        }
+        let mut sides = [Vec::new(), Vec::new()];
+        self.sides(normal, offset, &mut sides);
+        sides.map(|points| (!points.is_empty()).then(|| Chunk::new(points)))
+    }
+
+    /// Adds the points below and above a plane, and those where edges cross it to both.
+    fn sides(&self, normal: &Vector3<f64>, offset: f64, sides: &mut [Vec<Vector3<f64>>; 2]) {
+        let heights: Vec<f64> = self.points.iter().map(|p| normal.dot(p) - offset).collect();
+        if self.edges.is_empty()
+            && heights.iter().any(|h| *h < 0.0)
+            && heights.iter().any(|h| *h > 0.0)
+        {
+            sides.iter_mut().for_each(|side| side.extend(&self.points));
+            return;
+        }
+        let below = heights.iter().any(|height| *height < 0.0);
+        let above = heights.iter().any(|height| *height > 0.0);
+        for (point, height) in self.points.iter().zip(&heights) {
+            if *height <= 0.0 && (below || !above) {
+                sides[0].push(*point);
+            }
+            if *height >= 0.0 && above {
+                sides[1].push(*point);
+            }
+        }
+        for &[a, b] in &self.edges {
+            if heights[a] * heights[b] < 0.0 {
+                let part = heights[a] / (heights[a] - heights[b]);
+                let crossing = self.points[a] + (self.points[b] - self.points[a]) * part;
+                sides[0].push(crossing);
+                sides[1].push(crossing);
+            }
+        }
+    }
+}
+
+impl Cell {
+    /// All pieces of a link, each by its vertices.
+    pub fn new(pieces: &[Vec<[f64; 3]>]) -> Self {
+        let chunk = |piece: &Vec<[f64; 3]>| Chunk::new(piece.iter().map(|p| (*p).into()).collect());
+        Cell::of(pieces.iter().map(chunk).collect())
+    }
+
+    fn of(chunks: Vec<Chunk>) -> Self {
+        let points: Vec<[f64; 3]> = chunks
+            .iter()
+            .flat_map(|chunk| chunk.points.iter().map(|p| [p.x, p.y, p.z]))
+            .collect();
+        Cell {
+            sphere: BoundingSphere::of_points(&points),
+            volume: chunks.iter().map(|chunk| chunk.volume).sum(),
+            chunks,
+        }
+    }
+
+    /// The smallest sphere about it.
+    pub fn sphere(&self) -> BoundingSphere {
+        self.sphere
+    }
+
+    /// The volume of the sphere beyond the cell's own, m³. Where pieces overlap, that counts twice.
+    pub fn waste(&self) -> f64 {
+        (volume(&self.sphere) - self.volume).max(0.0)
+    }
+
+    /// The cell in two: of all cuts the one with the least volume of spheres. (That may be more than before: a cube is
+    /// not held better by two spheres, but by eight; a disc needs four.)
+    pub fn cut(&self) -> Option<[Cell; 2]> {
+        let directions = self.directions();
+        let mut best: Option<(f64, Vector3<f64>, f64)> = None;
+        for direction in directions {
+            let heights = self.chunks.iter().flat_map(|chunk| &chunk.points);
+            let heights = heights.map(|point| direction.dot(point));
+            let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), height| {
+                (low.min(height), high.max(height))
+            });
+            for place in PLACES {
+                let offset = low + place * (high - low);
+                let mut sides = [Vec::new(), Vec::new()];
+                for chunk in &self.chunks {
+                    chunk.sides(&direction, offset, &mut sides);
+                }
+                if sides.iter().any(Vec::is_empty) {
+                    continue;
+                }
+                // Hulls are made of the best cut alone.
+                let about = sides.map(|points| {
+                    let points: Vec<[f64; 3]> = points.into_iter().map(Into::into).collect();
+                    volume(&BoundingSphere::of_points(&points))
+                });
+                let total: f64 = about.iter().sum();
+                if best.as_ref().is_none_or(|(least, ..)| total < *least) {
+                    best = Some((total, direction, offset));
+                }
+            }
+        }
+        let (_, direction, offset) = best?;
+        self.cut_at(&direction, offset)
+    }
+
+    fn cut_at(&self, normal: &Vector3<f64>, offset: f64) -> Option<[Cell; 2]> {
+        let (mut below, mut above) = (Vec::new(), Vec::new());
+        for chunk in &self.chunks {
+            let [one, other] = chunk.cut(normal, offset);
+            below.extend(one);
+            above.extend(other);
+        }
+        let is_cut = !below.is_empty() && !above.is_empty();
+        is_cut.then(|| [Cell::of(below), Cell::of(above)])
+    }
+
+    /// The principal axes of the points, and the axes of the link.
+    fn directions(&self) -> Vec<Vector3<f64>> {
+        let points: Vec<&Vector3<f64>> =
+            self.chunks.iter().flat_map(|chunk| &chunk.points).collect();
+        let mean = points.iter().copied().sum::<Vector3<f64>>() / points.len().max(1) as f64;
+        let spread = points.iter().fold(Matrix3::zeros(), |sum, point| {
+            let from = **point - mean;
+            sum + from * from.transpose()
+        });
+        let own = spread.symmetric_eigen().eigenvectors;
+        let mut directions: Vec<Vector3<f64>> = own
+            .column_iter()
+            .map(|column| column.into_owned())
+            .collect();
+        directions.extend([Vector3::x(), Vector3::y(), Vector3::z()]);
+        directions.retain(|direction| direction.iter().all(|x| x.is_finite()));
+        directions
+    }
+}
+
+/// The volume of a sphere, m³.
+pub(super) fn volume(sphere: &BoundingSphere) -> f64 {
+    4.0 / 3.0 * std::f64::consts::PI * sphere.radius.powi(3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn box_of(size: [f64; 3]) -> Vec<[f64; 3]> {
+        let corner = |k: usize| std::array::from_fn(|axis| size[axis] * ((k >> axis & 1) as f64));
+        (0..8).map(corner).collect()
+    }
+
+    #[test]
+    fn the_spheres_of_a_bar_hold_it_and_shrink() {
+        let mut cells = vec![Cell::new(&[box_of([1.0, 0.1, 0.1])])];
+        for _ in 0..7 {
+            assert!(super::super::cut(&mut cells));
+        }
+        let last: f64 = cells.iter().map(|cell| volume(&cell.sphere)).sum();
+        // Eight cubes of 0.125 x 0.1 x 0.1 would be best.
+        let best = 8.0 * 4.0 / 3.0
+            * std::f64::consts::PI
+            * (0.125f64.hypot(0.1f64.hypot(0.1)) / 2.0).powi(3);
+        assert!(last < 1.6 * best, "{last}, and {best} is best");
+        for k in 0..=1000 {
+            for corner in box_of([0.0, 0.1, 0.1]) {
+                let point = Vector3::new(f64::from(k) / 1000.0, corner[1], corner[2]);
+                let held = cells.iter().any(|cell| {
+                    (point - Vector3::from(cell.sphere.centre)).norm() <= cell.sphere.radius + 1e-12
+                });
+                assert!(held, "{point}");
+            }
+        }
+    }
+
+    #[test]
+    fn points_on_a_line_stay_inside() {
+        let line = vec![[0.0; 3], [1.0, 0.0, 0.0]];
+        let cell = Cell::new(&[line, box_of([0.2, 0.2, 0.2])]);
+        if let Some(halves) = cell.cut() {
+            for point in [[0.0; 3], [1.0, 0.0, 0.0]] {
+                let held = halves.iter().any(|half| {
+                    (Vector3::from(point) - Vector3::from(half.sphere.centre)).norm()
+                        <= half.sphere.radius + 1e-12
+                });
+                assert!(held);
+            }
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! How much spheres fill together.
+
+use std::sync::OnceLock;
+
+use super::cell::volume;
+use urdd_geometry::bounding_sphere::BoundingSphere;
+
+/// Points in each sphere. Of a link's spheres together, the estimate is some percent off at most.
+const POINTS: usize = 1000;
+
+/// Points evenly in the unit ball: the same on every machine.
+fn ball() -> &'static [[f64; 3]] {
+    static BALL: OnceLock<Vec<[f64; 3]>> = OnceLock::new();
+    BALL.get_or_init(|| {
+        // The additive sequence whose step is made of the root of x^4 = x + 1 fills a cube evenly.
+        let root = 1.220_744_084_605_759_5_f64;
+        let steps = [1.0 / root, 1.0 / (root * root), 1.0 / (root * root * root)];
+        let point = |n: u32| steps.map(|step| (2.0 * (0.5 + step * f64::from(n))) % 2.0 - 1.0);
+        let inside = |p: &[f64; 3]| p.iter().map(|x| x * x).sum::<f64>() <= 1.0;
+        (0..).map(point).filter(inside).take(POINTS).collect()
+    })
+}
+
+/// The volume of the union of spheres, m³, about: of each sphere the points that none before it holds.
+pub(super) fn filled(spheres: &[BoundingSphere]) -> f64 {
+    let own = spheres.iter().enumerate().map(|(idx, sphere)| {
+        let near: Vec<&BoundingSphere> = (spheres[..idx].iter())
+            .filter(|other| {
+                let reach = other.radius + sphere.radius;
+                apart(&other.centre, &sphere.centre) < reach * reach
+            })
+            .collect();
+        let is_new = |point: &&[f64; 3]| {
+            let at = [0, 1, 2].map(|k| sphere.centre[k] + sphere.radius * point[k]);
+            near.iter()
+                .all(|other| apart(&other.centre, &at) > other.radius * other.radius)
+        };
+        let new = ball().iter().filter(is_new).count();
+        volume(sphere) * new as f64 / POINTS as f64
+    });
+    own.sum()
+}
+
+/// The square of a distance, m².
+fn apart(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_union_of_two_spheres_by_its_closed_form() {
+        let sphere = |x: f64, radius: f64| BoundingSphere {
+            centre: [x, 0.2, -0.1],
+            radius,
+        };
+        let whole = volume(&sphere(0.0, 0.3));
+        for d in [0.0, 0.1, 0.3, 0.5, 0.6, 1.0] {
+            // What both hold is two caps.
+            let height = (0.6_f64 - d).max(0.0);
+            let lens = std::f64::consts::PI * (4.0 * 0.3 + d) * height * height / 12.0;
+            let expected = 2.0 * whole - lens;
+            let found = filled(&[sphere(0.0, 0.3), sphere(d, 0.3)]);
+            assert!((found / expected - 1.0).abs() < 0.02, "{d}: {found}");
+        }
+        let inner = filled(&[sphere(0.0, 0.3), sphere(0.05, 0.1)]);
+        assert!((inner / whole - 1.0).abs() < 1e-12);
+    }
+}

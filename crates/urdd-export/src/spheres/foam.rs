@@ -1,0 +1,48 @@
+//! Spheres as Foam writes them (`mean`, `best`, `worst`, `spheres`), by link, with what is known of them beside.
+
+use serde_json::{Map, Value, json};
+
+use super::super::error::ExportError;
+use super::super::subject::Subject;
+use super::super::{Export, Note};
+use super::said::{self, Stand};
+use super::{Model, Sphere};
+use urdd_format::escape;
+
+pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    let model = Model::new(subject)?;
+    let name = |link: usize| subject.links.get(link).cloned().unwrap_or_default();
+    let sphere = |sphere: &Sphere| json!({ "origin": sphere.centre, "radius": sphere.radius });
+    let links = model
+        .links
+        .iter()
+        .zip(&model.surface)
+        .map(|((link, spheres), surface)| {
+            let stand = Stand::new(spheres, surface);
+            let spheres: Vec<Value> = spheres.iter().map(sphere).collect();
+            let value = json!({
+                "mean": stand.mean,
+                "best": stand.best,
+                "worst": stand.worst,
+                "spheres": spheres,
+            });
+            (name(*link), value)
+        });
+    let links: Map<String, Value> = links.collect();
+    let document = json!({
+        "made_from": subject.origin()?,
+        "about": model.said(&subject.links, subject.options.cover),
+        "measured": model.measured.json(),
+        "ignored_pairs": model.ignored.iter().map(|pair| pair.map(name)).collect::<Vec<_>>(),
+        "links": links,
+    });
+    let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
+    Ok(Export {
+        text: escape::json(&text).into_owned(),
+        files: Vec::new(),
+        notes: said::note(&model, &subject.links)
+            .map(Note::Spheres)
+            .into_iter()
+            .collect(),
+    })
+}

@@ -1,0 +1,218 @@
+//! Spheres that stand for links, and the pairs of links that a planner ignores with them.
+//!
+//! [`fit`](mod@fit) makes spheres that answer as the exact shapes do, [`cover`] such that hold all of each link.
+//! Either way [`judge`] counts how the spheres and the pairs that are written answer in configurations that had no part
+//! in the fit, and the counts are written with them.
+
+mod cover;
+pub(super) mod curobo;
+mod fit;
+pub(super) mod foam;
+mod frame;
+mod judge;
+mod loss;
+mod measure;
+mod model;
+mod pairs;
+mod said;
+mod samples;
+mod surface;
+
+use rayon::prelude::*;
+
+use super::error::ExportError;
+use super::subject::Subject;
+use fit::Limits;
+use frame::Point;
+pub use judge::{SphereRates, interval};
+use measure::{Measured, Numbers, measure};
+use model::{Sphere, Spheres};
+use pairs::Pairs;
+use samples::{Ask, Region, Sample, sample, samples};
+use urdd_robot::{RobotError, ShapeKind};
+
+/// How many spheres stand for links.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SphereBudget {
+    /// Twelve for each link that has shapes, on average, and at most 150 for all. Of spheres that cover: at most eight
+    /// for each link.
+    #[default]
+    Auto,
+    /// At most so many for each link.
+    PerLink(usize),
+    /// At most so many for all links together, but at least one for each.
+    Total(usize),
+}
+
+const AUTO_PER_LINK: usize = 12;
+const AUTO_TOTAL: usize = 150;
+
+/// Decimal places of what is written, in metres.
+const DIGITS: f64 = 1e6;
+
+/// Fewer free configurations than this part of all are too few to fit to: then some are taken near the default
+/// configuration.
+const FEW_FREE: f64 = 0.02;
+
+/// Points on the surface of a link: at least, for each sphere, and at most.
+const POINTS: [usize; 3] = [600, 40, 4000];
+
+/// All radii grow or shrink by no more than this part of their mean after the fit.
+const GROWTH: f64 = 0.25;
+
+/// So far apart spheres are in the default configuration where it is free: as a part of the same.
+const APART: f64 = 0.02;
+
+/// What is written.
+struct Model {
+    /// The links that have shapes, ascending, with their spheres.
+    links: Vec<(usize, Vec<Sphere>)>,
+    /// Points on the surface of each.
+    surface: Vec<Vec<Point>>,
+    /// Pairs of links that are ignored, ascending: the URDD skips all their pieces, or they never came into contact.
+    ignored: Vec<[usize; 2]>,
+    /// How many of them never came into contact, though the URDD does not skip them.
+    ignored_as_never: usize,
+    measured: Measured,
+}
+
+impl Model {
+    fn new(subject: &Subject) -> Result<Self, ExportError> {
+        let kind = subject.options.shapes;
+        if !matches!(kind, ShapeKind::Pieces | ShapeKind::Hulls) {
+            return Err(ExportError::SpheresOf(kind));
+        }
+        let pairs = Pairs::new(subject, subject.robot.shapes(kind)?)?;
+        let limits = limits(subject.options.spheres, pairs.links.len());
+        let per_link = limits.total / pairs.links.len().max(1);
+        let count = (POINTS[1] * per_link).clamp(POINTS[0], POINTS[2]);
+        let surface: Vec<Vec<Point>> = (pairs.pieces.par_iter())
+            .map(|pieces| surface::points(pieces, count))
+            .collect();
+        let numbers = Numbers::new(subject.options.samples, &pairs, per_link);
+        let mut ignored = vec![false; pairs.checked.len()];
+        let (spheres, near) = match subject.options.cover {
+            true => (covering(subject, &pairs), false),
+            false => fitted(subject, &pairs, &surface, &numbers, &mut ignored, limits)?,
+        };
+        let measured = measure(subject.robot, &pairs, &spheres, &ignored, &numbers, near)?;
+        let mut written = Vec::new();
+        for a in 0..pairs.links.len() {
+            for b in a + 1..pairs.links.len() {
+                let number = pairs.checked.binary_search(&[a, b]);
+                if !number.is_ok_and(|number| !ignored[number]) {
+                    written.push([pairs.links[a], pairs.links[b]]);
+                }
+            }
+        }
+        Ok(Model {
+            links: pairs.links.iter().copied().zip(spheres).collect(),
+            surface,
+            ignored: written,
+            ignored_as_never: ignored.iter().filter(|ignored| **ignored).count(),
+            measured,
+        })
+    }
+}
+
+fn limits(budget: SphereBudget, links: usize) -> Limits {
+    match budget {
+        SphereBudget::Auto => Limits {
+            total: (AUTO_PER_LINK * links).min(AUTO_TOTAL),
+            per_link: usize::MAX,
+        },
+        SphereBudget::PerLink(count) => Limits {
+            total: count.saturating_mul(links),
+            per_link: count,
+        },
+        SphereBudget::Total(count) => Limits {
+            total: count,
+            per_link: usize::MAX,
+        },
+    }
+}
+
+fn covering(subject: &Subject, pairs: &Pairs) -> Spheres {
+    let vertices = |pieces: &Vec<urdd_geometry::Mesh>| {
+        let each = pieces.iter();
+        each.map(|mesh| mesh.vertices.clone()).collect()
+    };
+    let links: Vec<Vec<Vec<Point>>> = pairs.pieces.iter().map(vertices).collect();
+    let covers = cover::cover(&links, subject.options.spheres).into_iter();
+    let sphere = |sphere: urdd_geometry::bounding_sphere::BoundingSphere| Sphere {
+        centre: sphere.centre,
+        radius: sphere.radius,
+    };
+    covers
+        .map(|own| own.into_iter().map(sphere).collect())
+        .collect()
+}
+
+/// Spheres that answer as the exact shapes do, and whether configurations near the default one had a part in that.
+fn fitted(
+    subject: &Subject,
+    pairs: &Pairs,
+    surface: &[Vec<Point>],
+    numbers: &Numbers,
+    ignored: &mut [bool],
+    limits: Limits,
+) -> Result<(Spheres, bool), RobotError> {
+    let robot = subject.robot;
+    let mut near = false;
+    let mut known: Vec<Sample> = Vec::new();
+    if !pairs.checked.is_empty() {
+        let zero = robot.configurations()?.zero();
+        known.push(sample(robot, pairs, &zero, Ask::Pairs)?);
+        let third = numbers.fit / 3;
+        let take = |region, first, count| samples(robot, pairs, region, first, count, Ask::Pairs);
+        let first = Numbers::FIT;
+        known.extend(take(Region::Bounds, first, third)?);
+        let free = known.iter().filter(|sample| !sample.collides()).count();
+        near = (free as f64) < FEW_FREE * known.len() as f64;
+        known.extend(match near {
+            true => take(Region::NearDefault, first, numbers.fit - third)?,
+            false => take(Region::Bounds, first + third as u64, numbers.fit - third)?,
+        });
+    }
+    let mut spheres = fit::fit(surface, &known, &pairs.checked, ignored, limits);
+    if !known.is_empty() {
+        let region = if near {
+            Region::NearDefault
+        } else {
+            Region::Bounds
+        };
+        known.truncate(1);
+        known.extend(samples(
+            robot,
+            pairs,
+            region,
+            Numbers::GROW,
+            numbers.grow,
+            Ask::Any,
+        )?);
+        let radii = spheres.iter().flatten().map(|sphere| sphere.radius);
+        let limit = GROWTH * radii.sum::<f64>() / model::count(&spheres).max(1) as f64;
+        let gaps = judge::gaps(&spheres, &pairs.checked, ignored, &known, limit);
+        let by = judge::growth(&known, &gaps, limit);
+        for sphere in spheres.iter_mut().flatten() {
+            sphere.radius = (sphere.radius + by).max(0.5 * sphere.radius);
+        }
+        if !known[0].collides() {
+            let checked = pairs.checked.iter().zip(&*ignored);
+            let checked = checked
+                .filter(|(_, ignored)| !**ignored)
+                .map(|(pair, _)| *pair);
+            let checked: Vec<[usize; 2]> = checked.collect();
+            model::part(&mut spheres, &checked, &known[0], APART * limit);
+        }
+    }
+    let rounded = |x: f64| (x * DIGITS).round() / DIGITS + 0.0;
+    for sphere in spheres.iter_mut().flatten() {
+        // What is written is what is judged. A robot of micrometres keeps all digits.
+        if sphere.radius * DIGITS > 1e2 {
+            sphere.centre = sphere.centre.map(rounded);
+            sphere.radius = rounded(sphere.radius);
+        }
+    }
+    Ok((spheres, near))
+}

@@ -1,0 +1,122 @@
+//! Pairs of links whose shapes are checked, with their exact shapes.
+
+use std::collections::HashMap;
+
+use nalgebra::Isometry3;
+
+use super::super::error::ExportError;
+use super::super::subject::Subject;
+use urdd_format::link_shapes_skips::SkippedReason;
+use urdd_format::registry::ModuleKind;
+use urdd_geometry::Mesh;
+use urdd_geometry::convex::BodyPairs;
+use urdd_robot::{LinkShape, RobotError, Skips, Solid};
+
+/// Pairs of links that have shapes, and of which the URDD checks some pair of pieces.
+#[derive(Debug)]
+pub(super) struct Pairs {
+    /// The links that have shapes, ascending: all other numbers of links here are places in this list.
+    pub links: Vec<usize>,
+    /// The pieces of each.
+    pub pieces: Vec<Vec<Mesh>>,
+    /// The pairs of links that are checked, each ascending.
+    pub checked: Vec<[usize; 2]>,
+    exact: BodyPairs,
+}
+
+impl Pairs {
+    pub fn new(subject: &Subject, shapes: Vec<LinkShape>) -> Result<Self, ExportError> {
+        let count = subject.links.len();
+        if let Some(index) = shapes
+            .iter()
+            .map(|shape| shape.link)
+            .find(|link| *link >= count)
+        {
+            let what = "link";
+            return Err(RobotError::OutOfRange { what, index, count }.into());
+        }
+        let skips = subject.robot.skips(subject.options.shapes)?;
+        let reasons = subject.options.reasons.as_deref();
+        let rows: HashMap<(usize, usize), usize> = skips
+            .places()
+            .iter()
+            .enumerate()
+            .map(|(row, place)| (*place, row))
+            .collect();
+        let row = |shape: &LinkShape| rows.get(&(shape.link, shape.piece)).copied();
+        let rows: Vec<Option<usize>> = shapes.iter().map(row).collect();
+        let is_checked = |a: usize, b: usize| match rows[a].zip(rows[b]) {
+            Some((a, b)) => !is_skipped(&skips, &subject.links, reasons, [a, b]),
+            None => true,
+        };
+        let meshes: Vec<(usize, Mesh)> = shapes
+            .into_iter()
+            .filter_map(|shape| match shape.solid {
+                Solid::Mesh(mesh) => Some((shape.link, mesh)),
+                Solid::Box { .. } | Solid::Sphere { .. } => None,
+            })
+            .collect();
+        let each = meshes
+            .iter()
+            .map(|(link, mesh)| (*link, mesh.vertices.as_slice()));
+        let mut exact = BodyPairs::new(each).map_err(|(shape, error)| RobotError::Unusable {
+            module: ModuleKind::ConvexDecompositionMeshes,
+            reason: format!("a piece of link {}: {error}", meshes[shape].0),
+        })?;
+        let mut links: Vec<usize> = meshes.iter().map(|(link, _)| *link).collect();
+        links.sort_unstable();
+        links.dedup();
+        let mut checked = Vec::new();
+        for a in 0..links.len() {
+            for b in a + 1..links.len() {
+                if exact.add([links[a], links[b]], is_checked) {
+                    checked.push([a, b]);
+                }
+            }
+        }
+        let pieces = |link: &usize| {
+            let own = meshes.iter().filter(|(of, _)| of == link);
+            own.map(|(_, mesh)| mesh.clone()).collect()
+        };
+        Ok(Pairs {
+            pieces: links.iter().map(pieces).collect(),
+            links,
+            checked,
+            exact,
+        })
+    }
+
+    /// The pairs in contact, by number, ascending. `poses` are those of all links of the robot.
+    pub fn touching(&self, poses: &[Isometry3<f64>]) -> Vec<u32> {
+        let found = self.exact.touching(poses);
+        found
+            .into_iter()
+            .filter_map(|pair| u32::try_from(pair).ok())
+            .collect()
+    }
+
+    /// Whether any pair is in contact.
+    pub fn any_touches(&self, poses: &[Isometry3<f64>]) -> bool {
+        self.exact.any_touches(poses)
+    }
+}
+
+/// Whether a pair of shapes is skipped: as a person edited it, else for the reasons asked for, else as the URDD has it.
+fn is_skipped(
+    skips: &Skips,
+    links: &[String],
+    reasons: Option<&[SkippedReason]>,
+    [a, b]: [usize; 2],
+) -> bool {
+    let (Some(reasons), Some(reason)) = (reasons, skips.reason(a, b)) else {
+        return skips.is_skipped(a, b);
+    };
+    let ends = [a, b].map(|shape| links.get(skips.places()[shape].0));
+    let is_of_both =
+        |x: &String, y: &String| ends == [Some(x), Some(y)] || ends == [Some(y), Some(x)];
+    let mut edits = skips.edits().iter().rev();
+    match edits.find(|edit| is_of_both(&edit.link_a, &edit.link_b)) {
+        Some(edit) => edit.skip,
+        None => reasons.iter().any(|skipped| skipped.of_pair() == reason),
+    }
+}

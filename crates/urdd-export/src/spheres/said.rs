@@ -1,0 +1,195 @@
+//! What is said of spheres, in files and in notes: sentences, and the same as JSON.
+
+use serde_json::{Value, json};
+
+use super::judge::{MAX_FALSE, MAX_MISSED, SphereRates, interval};
+use super::measure::{Measured, Numbers};
+use super::model::Sphere;
+use super::{Model, Point};
+use urdd_format::escape;
+
+/// Pairs of links that are named, at most.
+const NAMED: usize = 10;
+
+/// How far the surface of a link is from that of its spheres, metres.
+pub(super) struct Stand {
+    /// Mean distance, whether outside or inside.
+    pub mean: f64,
+    /// Least distance.
+    pub best: f64,
+    /// Greatest distance.
+    pub worst: f64,
+    /// The greatest distance outside of all spheres; 0 where there is none.
+    pub outside: f64,
+    /// Points that are in a sphere, and points.
+    pub held: [usize; 2],
+}
+
+impl Stand {
+    pub fn new(spheres: &[Sphere], surface: &[Point]) -> Self {
+        let off = |p: &Point| {
+            spheres
+                .iter()
+                .map(|s| s.to(*p))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let offs: Vec<f64> = surface
+            .iter()
+            .map(off)
+            .filter(|off| off.is_finite())
+            .collect();
+        let far = || offs.iter().map(|off| off.abs());
+        Stand {
+            mean: far().sum::<f64>() / offs.len().max(1) as f64,
+            best: far().reduce(f64::min).unwrap_or(0.0),
+            worst: far().fold(0.0, f64::max),
+            outside: offs.iter().copied().fold(0.0, f64::max),
+            held: [offs.iter().filter(|off| **off <= 0.0).count(), offs.len()],
+        }
+    }
+}
+
+impl Model {
+    /// What is said of the spheres, a sentence an element.
+    pub fn said(&self, names: &[String], covers: bool) -> Vec<String> {
+        let mut lines = vec!["Lengths in metres, in the frame of the link.".to_owned()];
+        if self.links.is_empty() {
+            lines.push("No link has shapes, so there are no spheres.".to_owned());
+            return lines;
+        }
+        let stands = self.links.iter().zip(&self.surface);
+        let stands: Vec<Stand> = stands.map(|((_, own), at)| Stand::new(own, at)).collect();
+        let outside = stands.iter().map(|stand| stand.outside).fold(0.0, f64::max);
+        let held: usize = stands.iter().map(|stand| stand.held[0]).sum();
+        let points: usize = stands.iter().map(|stand| stand.held[1]).sum();
+        lines.push(match covers {
+            true => "The spheres of a link hold all of its convex pieces.".to_owned(),
+            false => format!(
+                "The spheres are fitted and do not cover the links: {:.1} % of the surface is inside a sphere, and a point of it is at most {:.1} mm outside.",
+                100.0 * held as f64 / points.max(1) as f64,
+                1000.0 * outside
+            ),
+        });
+        lines.extend(self.measured.said());
+        if self.ignored_as_never > 0 {
+            let (count, plural) = match self.ignored_as_never {
+                1 => ("1 pair".to_owned(), ["is", "it was"]),
+                count => (format!("{count} pairs"), ["are", "they were"]),
+            };
+            lines.push(format!(
+                "{count} of links that the URDD checks {} ignored: {} in no sampled collision, and the spheres touch.",
+                plural[0], plural[1]
+            ));
+        }
+        if !self.measured.is_good() {
+            lines.push(self.measured.named(names));
+        }
+        lines
+    }
+}
+
+impl Measured {
+    fn said(&self) -> Vec<String> {
+        let Some(rates) = &self.rates else {
+            return vec!["No pair of links is checked.".to_owned()];
+        };
+        let mut lines = vec![format!(
+            "Measured with these spheres and these ignored pairs, without buffers, against contacts of the exact shapes, in {} sampled configurations that were not used for the fit (from sample {} on, SPEC 9.3). No band around contact is left out.",
+            rates.colliding + rates.free,
+            Numbers::MEASURE
+        )];
+        lines.extend(rates.said());
+        if let Some(rates) = &self.near_default {
+            lines.push(format!(
+                "So few configurations are free that the spheres are fitted near the default configuration, and measured there too: in {} samples, each moved toward it by an even part of the way.",
+                rates.colliding + rates.free
+            ));
+            lines.extend(rates.said());
+        }
+        let default = match self.default {
+            [true, true] => "in contact, as the exact shapes are",
+            [true, false] => "free, though the exact shapes are in contact",
+            [false, true] => "in contact, though the exact shapes are free",
+            [false, false] => "free",
+        };
+        lines.push(format!("Default configuration: {default}."));
+        lines
+    }
+
+    /// The pairs of links behind wrong answers.
+    pub fn named(&self, names: &[String]) -> String {
+        let named = self.faults.iter().take(NAMED).map(|(links, faults)| {
+            let [a, b] = links.map(|link| names.get(link).map_or("", String::as_str));
+            format!(
+                "`{a}` and `{b}` ({} missed, {} false)",
+                faults.missed, faults.false_contacts
+            )
+        });
+        format!(
+            "Goals are at most {} % missed and {} % false. Pairs of links behind wrong answers, worst first: {}.",
+            100.0 * MAX_MISSED,
+            100.0 * MAX_FALSE,
+            named.collect::<Vec<_>>().join(", ")
+        )
+    }
+
+    pub fn json(&self) -> Value {
+        let default =
+            json!({ "exact_shapes_collide": self.default[0], "spheres_touch": self.default[1] });
+        json!({
+            "rates": self.rates.map(rates_json),
+            "rates_near_default_configuration": self.near_default.map(rates_json),
+            "default_configuration": default,
+        })
+    }
+}
+
+impl SphereRates {
+    fn said(&self) -> [String; 2] {
+        [
+            rate(
+                "missed collisions",
+                self.missed,
+                self.colliding,
+                "collisions",
+            ),
+            rate(
+                "false contacts",
+                self.false_contacts,
+                self.free,
+                "free configurations",
+            ),
+        ]
+    }
+}
+
+fn rate(what: &str, hits: usize, of: usize, all: &str) -> String {
+    let [low, high] = interval(hits, of).map(|x| 100.0 * x);
+    let part = 100.0 * hits as f64 / of.max(1) as f64;
+    format!("  {what}: {hits} of {of} {all}, {part:.2} % (95 % interval {low:.2} % to {high:.2} %)")
+}
+
+fn rates_json(rates: SphereRates) -> Value {
+    json!({
+        "colliding": rates.colliding,
+        "missed": rates.missed,
+        "missed_interval_95": interval(rates.missed, rates.colliding),
+        "free": rates.free,
+        "false_contacts": rates.false_contacts,
+        "false_contacts_interval_95": interval(rates.false_contacts, rates.free),
+    })
+}
+
+/// What is noted, beside the file, where spheres are not good enough to plan with.
+pub(super) fn note(model: &Model, names: &[String]) -> Option<String> {
+    if model.measured.is_good() {
+        return None;
+    }
+    let mut lines: Vec<String> = model.measured.said().into_iter().skip(1).collect();
+    lines.push(model.measured.named(names));
+    let lines: Vec<String> = lines
+        .iter()
+        .map(|line| escape::line(line.trim()).into_owned())
+        .collect();
+    Some(lines.join("; "))
+}

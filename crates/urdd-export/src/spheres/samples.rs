@@ -1,0 +1,111 @@
+//! Sampled configurations, and which pairs of links are in contact in them by exact shapes.
+
+use rayon::prelude::*;
+
+use super::frame::Pose;
+use super::pairs::Pairs;
+use urdd_robot::{Configurations, Robot, RobotError};
+
+/// The fractions of the way from the default configuration: the additive sequence of the golden ratio fills [0, 1).
+const STEP: f64 = 0.618_033_988_749_894_9;
+
+/// Where configurations are taken from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Region {
+    /// All that bounds allow: sample `k` is number `k` of SPEC 9.3.
+    Bounds,
+    /// Each sample is moved to the default configuration by a part of the way, and the parts are even in 0 to 1.
+    NearDefault,
+}
+
+/// A configuration.
+#[derive(Debug)]
+pub(super) struct Sample {
+    /// The poses of the links that have shapes, in the order of [`Pairs::links`].
+    pub poses: Vec<Pose>,
+    /// The pairs in contact, by number, ascending. Where only yes or no was asked: of a collision one pair at most is
+    /// listed, and it may be any.
+    pub touching: Vec<u32>,
+}
+
+impl Sample {
+    pub fn collides(&self) -> bool {
+        !self.touching.is_empty()
+    }
+}
+
+/// What is to be known of each sample.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ask {
+    /// Which pairs are in contact.
+    Pairs,
+    /// Whether any is.
+    Any,
+}
+
+/// `count` samples from number `first` on.
+pub(super) fn samples(
+    robot: &Robot,
+    pairs: &Pairs,
+    region: Region,
+    first: u64,
+    count: usize,
+    ask: Ask,
+) -> Result<Vec<Sample>, RobotError> {
+    let configurations = robot.configurations()?;
+    let one = |k: usize| {
+        let q = configuration(configurations, region, first + k as u64, k);
+        sample(robot, pairs, &q, ask)
+    };
+    (0..count).into_par_iter().map(one).collect()
+}
+
+/// Sample `k` of those from number `first` on, with the pairs in contact.
+pub(super) fn nth(
+    robot: &Robot,
+    pairs: &Pairs,
+    region: Region,
+    first: u64,
+    k: usize,
+) -> Result<Sample, RobotError> {
+    let q = configuration(robot.configurations()?, region, first + k as u64, k);
+    sample(robot, pairs, &q, Ask::Pairs)
+}
+
+/// The sample of a configuration.
+pub(super) fn sample(
+    robot: &Robot,
+    pairs: &Pairs,
+    configuration: &[f64],
+    ask: Ask,
+) -> Result<Sample, RobotError> {
+    let poses = robot.link_poses(configuration)?;
+    let touching = match ask {
+        Ask::Pairs => pairs.touching(&poses),
+        Ask::Any => Vec::from_iter(pairs.any_touches(&poses).then_some(0)),
+    };
+    Ok(Sample {
+        poses: pairs
+            .links
+            .iter()
+            .map(|link| Pose::from(&poses[*link]))
+            .collect(),
+        touching,
+    })
+}
+
+fn configuration(
+    configurations: &Configurations,
+    region: Region,
+    number: u64,
+    k: usize,
+) -> Vec<f64> {
+    let mut q = configurations.random(number);
+    if region == Region::NearDefault {
+        let part = (0.5 + STEP * k as f64) % 1.0;
+        for (value, start) in q.iter_mut().zip(configurations.zero()) {
+            *value = start + part * (*value - start);
+        }
+    }
+    q
+}

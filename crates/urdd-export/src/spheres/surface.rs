@@ -1,0 +1,112 @@
+//! Points on the surface of a link: where its spheres' surface should be.
+
+use super::frame::{Point, add, dot, length, scaled, sub};
+use urdd_geometry::Mesh;
+
+/// So far below the faces of another piece a point is inside of it, metres.
+const INSIDE: f64 = 1e-7;
+
+/// Steps of the additive sequence in the plane whose steps are made of the root of x^3 = x + 1: it fills a square evenly.
+const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
+
+/// The faces of a piece: outward normals, and how far along them.
+type Faces = Vec<(Point, f64)>;
+
+/// About `count` points, evenly on the pieces of a link where no other piece holds them; fewer where pieces overlap, and
+/// the vertices themselves where the pieces have no area.
+pub(super) fn points(pieces: &[Mesh], count: usize) -> Vec<Point> {
+    let mut triangles: Vec<(f64, usize, [Point; 3])> = Vec::new();
+    let mut area = 0.0;
+    let mut faces: Vec<Faces> = Vec::new();
+    for (piece, mesh) in pieces.iter().enumerate() {
+        let mut own = Faces::new();
+        for triangle in &mesh.triangles {
+            let corners = mesh.corners(*triangle);
+            let normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]));
+            let twice = length(normal);
+            if twice > 0.0 {
+                area += 0.5 * twice;
+                triangles.push((area, piece, corners));
+                let normal = scaled(normal, 1.0 / twice);
+                own.push((normal, dot(normal, corners[0])));
+            }
+        }
+        faces.push(own);
+    }
+    let is_inside = |piece: usize, p: Point| {
+        let holds = |faces: &Faces| faces.iter().all(|(n, at)| dot(*n, p) < at - INSIDE);
+        let mut others = faces.iter().enumerate();
+        others.any(|(other, faces)| other != piece && !faces.is_empty() && holds(faces))
+    };
+    let point = |k: usize| {
+        let at = (k as f64 + 0.5) / count as f64 * area;
+        let last = triangles.len().checked_sub(1)?;
+        let place = triangles.partition_point(|triangle| triangle.0 < at);
+        let (_, piece, corners) = triangles[place.min(last)];
+        let [mut u, mut v] = STEPS.map(|step| (0.5 + step * k as f64) % 1.0);
+        if u + v > 1.0 {
+            (u, v) = (1.0 - u, 1.0 - v);
+        }
+        let along = add(
+            scaled(sub(corners[1], corners[0]), u),
+            scaled(sub(corners[2], corners[0]), v),
+        );
+        let p = add(corners[0], along);
+        (!is_inside(piece, p)).then_some(p)
+    };
+    let found: Vec<Point> = (0..count).filter_map(point).collect();
+    match found.is_empty() {
+        true => pieces
+            .iter()
+            .flat_map(|mesh| mesh.vertices.clone())
+            .collect(),
+        false => found,
+    }
+}
+
+fn cross(a: Point, b: Point) -> Point {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use urdd_geometry::hull::ConvexHull;
+
+    fn cube(at: f64, size: f64) -> Mesh {
+        let corner = |k: usize| [0, 1, 2].map(|axis| at + size * ((k >> axis & 1) as f64));
+        let corners: Vec<Point> = (0..8).map(corner).collect();
+        ConvexHull::new(&corners).expect("a hull").into_mesh()
+    }
+
+    #[test]
+    fn points_are_on_the_outside_of_all_pieces_together() {
+        let pieces = [cube(0.0, 1.0), cube(0.5, 1.0)];
+        let found = points(&pieces, 2000);
+        // Of each cube's six faces three have a quarter in the other.
+        assert!((found.len() as f64 / 2000.0 - 0.875).abs() < 0.01);
+        for p in &found {
+            let on = |low: f64, high: f64| {
+                p.iter()
+                    .any(|x| (x - low).abs() < 1e-12 || (x - high).abs() < 1e-12)
+            };
+            let inside =
+                |low: f64, high: f64| p.iter().all(|x| low + 1e-6 < *x && *x < high - 1e-6);
+            assert!(on(0.0, 1.0) || on(0.5, 1.5));
+            assert!(!inside(0.0, 1.0) && !inside(0.5, 1.5));
+        }
+    }
+
+    #[test]
+    fn a_piece_without_area_has_its_vertices() {
+        let line = Mesh {
+            vertices: vec![[0.0; 3], [1.0, 0.0, 0.0]],
+            ..Mesh::default()
+        };
+        assert_eq!(points(&[line], 10), vec![[0.0; 3], [1.0, 0.0, 0.0]]);
+    }
+}

@@ -1,0 +1,58 @@
+//! SRDF: the pairs of links that MoveIt does not check. Groups and the rest are left alone.
+
+use super::Export;
+use super::element::Element;
+use super::error::ExportError;
+use super::pairs::LinkPair;
+use super::subject::Subject;
+use urdd_format::link_shapes_simple_skips::SkipReason;
+use urdd_robot::RobotError;
+
+pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    let mut robot = Element::new("robot").with("name", subject.urdf.name.as_str());
+    for pair in subject.disabled() {
+        robot.push(disabled(subject, pair));
+    }
+    let notes = subject.notes();
+    Ok(Export {
+        text: robot.document(&subject.comments(basis(subject)?, &notes)?),
+        files: Vec::new(),
+        notes,
+    })
+}
+
+fn disabled(subject: &Subject, pair: &LinkPair) -> Element {
+    let [a, b] = pair.links.map(|link| subject.links[link].as_str());
+    Element::new("disable_collisions")
+        .with("link1", a)
+        .with("link2", b)
+        .with("reason", reason(subject, pair))
+}
+
+/// As MoveIt's Setup Assistant has them: of two links that a joint connects it says so, whether they always touch or not.
+fn reason(subject: &Subject, pair: &LinkPair) -> &'static str {
+    let [a, b] = pair.links;
+    let parent = &subject.tree.parent_link;
+    let adjacent = parent[a] == Some(b) || parent[b] == Some(a);
+    match (&pair.edit, pair.reason) {
+        (Some(_), _) => "User",
+        (_, Some(SkipReason::Always)) if adjacent => "Adjacent",
+        (_, Some(SkipReason::Always | SkipReason::SameLink)) => "Always",
+        (_, Some(SkipReason::Adjacent)) => "Adjacent",
+        (_, Some(SkipReason::Default)) => "Default",
+        (_, Some(SkipReason::Never)) => "Never",
+        // A pair of which only some shapes are skipped is not disabled for a reason.
+        (_, Some(SkipReason::None) | None) => "User",
+    }
+}
+
+/// What the reasons rest on.
+fn basis(subject: &Subject) -> Result<String, RobotError> {
+    let shapes = subject.options.shapes;
+    Ok(match subject.robot.num_samples()? {
+        Some(samples) => {
+            format!("Reasons by {shapes}; Always and Never by {samples} sampled configurations.")
+        }
+        None => format!("Reasons by {shapes}."),
+    })
+}

@@ -1,0 +1,204 @@
+//! An SRDF read into a person's edits of the skips.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use roxmltree::Node;
+use thiserror::Error;
+
+use super::srdf_merge::{SrdfError, parse};
+use urdd_format::link_shapes_skips::SkipEdit;
+use urdd_robot::{Robot, RobotError, ShapeKind};
+
+/// Why an SRDF is no edits of a robot.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ImportError {
+    /// It is no SRDF, or that of another robot.
+    #[error(transparent)]
+    Srdf(#[from] SrdfError),
+    /// An element lacks the name of a link.
+    #[error("line {line}: `<{element}>` has no `{attribute}`")]
+    NoLink {
+        /// The line, from 1.
+        line: u32,
+        /// The element.
+        element: &'static str,
+        /// What it lacks.
+        attribute: &'static str,
+    },
+    /// The robot cannot be asked, or has no such link.
+    #[error("{}{error}", line.map_or(String::new(), |line| format!("line {line}: ")))]
+    Robot {
+        /// The line, from 1, where it is about one.
+        line: Option<u32>,
+        /// Why.
+        error: RobotError,
+    },
+    /// A person decided otherwise.
+    #[error(
+        "the URDD has an edit that says of `{}` and `{}` what the SRDF does not (\"{}\"); --force lets the SRDF decide", link_a.escape_debug(), link_b.escape_debug(), reason.escape_debug()
+    )]
+    Edited {
+        /// One link.
+        link_a: String,
+        /// The other.
+        link_b: String,
+        /// The edit's reason.
+        reason: String,
+    },
+}
+
+impl From<RobotError> for ImportError {
+    fn from(error: RobotError) -> Self {
+        ImportError::Robot { line: None, error }
+    }
+}
+
+/// The edits of a robot after an SRDF was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImportedSkips {
+    /// Those that were there, in their order, and after them those of the SRDF.
+    pub edits: Vec<SkipEdit>,
+    /// How many the SRDF adds.
+    pub added: usize,
+    /// Pairs of the SRDF that are as it says already.
+    pub already: usize,
+    /// Pairs that the URDD skips and the SRDF does not: they stay skipped.
+    pub unlisted: usize,
+}
+
+/// Reads an SRDF: `<disable_collisions>`, `<disable_default_collisions>` and `<enable_collisions>`, in the order in which
+/// MoveIt applies them. Edits that are there stay; where one of them says the contrary, `force` lets the SRDF come after it.
+///
+/// # Errors
+/// Where it is no SRDF of the robot, names a link that the robot does not have, or contradicts an edit.
+pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSkips, ImportError> {
+    let document = parse(text)?;
+    let root = document.root_element();
+    let found = root.attribute("name").unwrap_or_default();
+    let expected = robot.description()?.name;
+    if found != expected {
+        let found = found.to_owned();
+        return Err(SrdfError::OtherRobot { found, expected }.into());
+    }
+    let links = robot.links()?;
+    let names = links.iter().map(String::as_str).zip(0..);
+    let by_name: HashMap<&str, usize> = names.collect();
+    // Lines are counted for an error only: each is counted from the beginning of the text.
+    let line = |node: Node| document.text_pos_at(node.range().start).row;
+    let link = |node: Node, element: &'static str, attribute: &'static str| {
+        let name = node
+            .attribute(attribute)
+            .ok_or_else(|| ImportError::NoLink {
+                line: line(node),
+                element,
+                attribute,
+            })?;
+        let known = by_name.get(name).copied();
+        let unknown = |error| ImportError::Robot {
+            line: Some(line(node)),
+            error,
+        };
+        known.map_or_else(|| robot.link(name).map_err(unknown), Ok)
+    };
+    let elements = |name: &'static str| {
+        let children = root.children();
+        children.filter(move |child| child.is_element() && child.tag_name().name() == name)
+    };
+    // Pairs of links, the lower index first: whether they are skipped, and why.
+    let mut wanted: BTreeMap<(usize, usize), (bool, String)> = BTreeMap::new();
+    let mut defaults = BTreeSet::new();
+    for node in elements("disable_default_collisions") {
+        defaults.insert(link(node, "disable_default_collisions", "link")?);
+    }
+    for of in defaults {
+        for other in (0..links.len()).filter(|other| *other != of) {
+            wanted.insert(pair(of, other), (true, "SRDF: default".to_owned()));
+        }
+    }
+    for (name, skip) in [("enable_collisions", false), ("disable_collisions", true)] {
+        for node in elements(name) {
+            let of = [link(node, name, "link1")?, link(node, name, "link2")?];
+            let reason = match node.attribute("reason") {
+                Some(reason) if !reason.trim().is_empty() => format!("SRDF: {}", reason.trim()),
+                _ => "SRDF".to_owned(),
+            };
+            if of[0] != of[1] {
+                wanted.insert(pair(of[0], of[1]), (skip, reason));
+            }
+        }
+    }
+    let now = skipped_now(robot)?;
+    let there = robot.skips(ShapeKind::Hulls)?.edits().to_vec();
+    // Of several edits of a pair the last one counts.
+    let mut last: HashMap<(usize, usize), &SkipEdit> = HashMap::new();
+    for edit in &there {
+        let of = [&edit.link_a, &edit.link_b].map(|name| by_name.get(name.as_str()).copied());
+        if let [Some(a), Some(b)] = of {
+            last.insert(pair(a, b), edit);
+        }
+    }
+    let mut imported = ImportedSkips {
+        edits: there.clone(),
+        added: 0,
+        already: 0,
+        unlisted: 0,
+    };
+    for ((a, b), (skip, reason)) in &wanted {
+        // Of links without shapes there is nothing to decide.
+        let Some(all_are) = now.get(&(*a, *b)) else {
+            continue;
+        };
+        if *all_are == Some(*skip) {
+            imported.already += 1;
+            continue;
+        }
+        let names = [&links[*a], &links[*b]];
+        if let Some(edit) = last.get(&(*a, *b)).filter(|_| !force) {
+            return Err(ImportError::Edited {
+                link_a: edit.link_a.clone(),
+                link_b: edit.link_b.clone(),
+                reason: edit.reason.clone(),
+            });
+        }
+        imported.added += 1;
+        imported.edits.push(SkipEdit {
+            link_a: names[0].clone(),
+            link_b: names[1].clone(),
+            skip: *skip,
+            reason: reason.clone(),
+        });
+    }
+    let unlisted = now.iter().filter(|(pair, skipped)| {
+        **skipped == Some(true) && !wanted.get(pair).is_some_and(|(skip, _)| *skip)
+    });
+    imported.unlisted = unlisted.count();
+    Ok(imported)
+}
+
+fn pair(a: usize, b: usize) -> (usize, usize) {
+    (a.min(b), a.max(b))
+}
+
+/// For each pair of links with shapes, whether all pairs of their shapes, of all kinds, are skipped, or none is; `None`
+/// where some are.
+fn skipped_now(robot: &Robot) -> Result<BTreeMap<(usize, usize), Option<bool>>, RobotError> {
+    let mut found: BTreeMap<(usize, usize), BTreeSet<bool>> = BTreeMap::new();
+    for kind in ShapeKind::ALL {
+        let skips = robot.skips(kind)?;
+        let places = skips.places();
+        for i in 0..places.len() {
+            for j in 0..i {
+                let of = pair(places[i].0, places[j].0);
+                if of.0 != of.1 {
+                    found.entry(of).or_default().insert(skips.is_skipped(i, j));
+                }
+            }
+        }
+    }
+    let all = found.into_iter().map(|(pair, said)| {
+        let one = (said.len() == 1).then(|| said.contains(&true));
+        (pair, one)
+    });
+    Ok(all.collect())
+}

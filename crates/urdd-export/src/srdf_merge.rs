@@ -1,0 +1,322 @@
+//! An SRDF that is there already: the pairs of links that programs wrote are replaced, everything else stays as it was, to
+//! the byte. The work is linear in the length of the file.
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use roxmltree::{Document, Node};
+use thiserror::Error;
+
+use urdd_xml::Kind;
+
+/// The element that is replaced.
+const DISABLED: &str = "disable_collisions";
+
+/// The reasons that MoveIt's Setup Assistant and this program find by themselves. A pair with another one, `User` or a
+/// sentence, is a person's.
+const FOUND_BY_PROGRAMS: &[&str] = &["Adjacent", "Always", "Default", "Never"];
+
+/// Why an SRDF cannot be merged.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SrdfError {
+    /// It is not well-formed XML, or has too much of something.
+    #[error("line {line}, column {column}: this is not well-formed XML: {reason}")]
+    Xml {
+        /// The line, from 1.
+        line: u32,
+        /// The column, from 1.
+        column: u32,
+        /// What is wrong.
+        reason: String,
+    },
+    /// It is no SRDF.
+    #[error("this is no SRDF: its element is `{}`, not `robot`", .0.escape_debug())]
+    NotSrdf(String),
+    /// It is that of another robot.
+    #[error("this is the SRDF of robot `{}`, not of `{}`", .found.escape_debug(), .expected.escape_debug())]
+    OtherRobot {
+        /// The name in it.
+        found: String,
+        /// The robot's.
+        expected: String,
+    },
+}
+
+/// An SRDF with other pairs of links.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MergedSrdf {
+    /// Its text.
+    pub text: String,
+    /// Pairs that a person disabled: they stay as they are.
+    pub kept: usize,
+    /// Pairs that a person enabled (`<enable_collisions>`) and the new text disables: they are left out.
+    pub enabled: usize,
+}
+
+/// `old` with the pairs of links of `new` instead of those that programs wrote. Pairs with a person's reason, groups,
+/// states, end effectors, comments, white space and line ends stay. The new pairs stand where the first old one stood, or
+/// at the end. Merging the result again changes nothing.
+///
+/// # Errors
+/// Where `old` is no SRDF, or that of another robot.
+pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
+    let old_document = parse(old)?;
+    let new_document = parse(new)?;
+    let (robot, source) = (old_document.root_element(), new_document.root_element());
+    let names = [robot, source].map(|robot| robot.attribute("name").unwrap_or_default());
+    if names[0] != names[1] {
+        return Err(SrdfError::OtherRobot {
+            found: names[0].to_owned(),
+            expected: names[1].to_owned(),
+        });
+    }
+    let (gone, persons): (Vec<Node>, Vec<Node>) =
+        elements(robot, DISABLED).partition(|pair| is_found_by_programs(*pair));
+    let kept: HashSet<[&str; 2]> = persons.iter().map(|pair| links(*pair)).collect();
+    let enabled: HashSet<[&str; 2]> = elements(robot, "enable_collisions").map(links).collect();
+    let mut num_enabled = 0;
+    let newline = newline_of(old);
+    let margin = match robot.children().find(Node::is_element) {
+        Some(first) => margin_before(old, first.range().start),
+        None => "  ",
+    };
+    let mut pairs = Vec::new();
+    for pair in elements(source, DISABLED) {
+        let of = links(pair);
+        let is_enabled = enabled.contains(&of);
+        num_enabled += usize::from(is_enabled);
+        if !is_enabled && !kept.contains(&of) {
+            pairs.push(&new[pair.range()]);
+        }
+    }
+    let merged = |text: String| MergedSrdf {
+        text,
+        kept: persons.len(),
+        enabled: num_enabled,
+    };
+    // They may stand between those of a person.
+    if gone
+        .iter()
+        .map(|pair| &old[pair.range()])
+        .eq(pairs.iter().copied())
+    {
+        return Ok(merged(old.to_owned()));
+    }
+    let lines = pairs.iter().map(|pair| format!("{margin}{pair}{newline}"));
+    let lines: String = lines.collect();
+    // An element without anything in it has no end tag to stand before.
+    let range = robot.range();
+    let end = old[range.clone()].rfind("</").map(|end| range.start + end);
+    let Some(end) = end else {
+        let head = old[..range.end].trim_end_matches("/>").trim_end();
+        let tail = &old[range.end..];
+        return Ok(merged(format!("{head}>{newline}{lines}</robot>{tail}")));
+    };
+    let gone: Vec<Range<usize>> = gone
+        .iter()
+        .map(|pair| whole_line(old, pair.range()))
+        .collect();
+    let place = gone
+        .first()
+        .map_or_else(|| line_start(old, end), |first| first.start);
+    let mut text = String::with_capacity(old.len() + lines.len());
+    text += &old[..place];
+    if !lines.is_empty() && !text.ends_with('\n') {
+        text += newline;
+    }
+    text += &lines;
+    let mut from = place;
+    for cut in gone {
+        text += &old[from..cut.start];
+        from = cut.end;
+    }
+    text += &old[from..];
+    Ok(merged(text))
+}
+
+pub(super) fn parse(text: &str) -> Result<Document<'_>, SrdfError> {
+    let document = urdd_xml::parse(text, Kind::Other).map_err(|error| SrdfError::Xml {
+        line: error.pos().row,
+        column: error.pos().col,
+        reason: error.words(text),
+    })?;
+    match document.root_element().tag_name().name() {
+        "robot" => Ok(document),
+        other => Err(SrdfError::NotSrdf(other.to_owned())),
+    }
+}
+
+fn elements<'a>(robot: Node<'a, 'a>, name: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {
+    robot
+        .children()
+        .filter(move |child| child.is_element() && child.tag_name().name() == name)
+}
+
+fn is_found_by_programs(pair: Node) -> bool {
+    let reason = pair.attribute("reason").unwrap_or_default();
+    FOUND_BY_PROGRAMS.contains(&reason.trim())
+}
+
+/// The names of a pair's links, in an order that does not depend on which is first.
+fn links<'a>(pair: Node<'a, 'a>) -> [&'a str; 2] {
+    let mut names = ["link1", "link2"].map(|key| pair.attribute(key).unwrap_or_default());
+    names.sort_unstable();
+    names
+}
+
+/// How a text ends its lines: as its first one.
+fn newline_of(text: &str) -> &'static str {
+    match text.split_once('\n') {
+        Some((first, _)) if first.ends_with('\r') => "\r\n",
+        _ => "\n",
+    }
+}
+
+/// With the white space before it and the line break after it, where nothing else is on its line.
+fn whole_line(text: &str, range: Range<usize>) -> Range<usize> {
+    let start = line_start(text, range.start);
+    let rest = text[range.end..].trim_start_matches([' ', '\t', '\r']);
+    let begins = start == 0 || text.as_bytes()[start - 1] == b'\n';
+    match begins && rest.starts_with('\n') {
+        true => start..text.len() - rest.len() + 1,
+        false => range,
+    }
+}
+
+/// Where the line begins, if nothing but white space is before a place in it; otherwise the place.
+fn line_start(text: &str, at: usize) -> usize {
+    let start = text[..at].trim_end_matches([' ', '\t']).len();
+    match start == 0 || text.as_bytes()[start - 1] == b'\n' {
+        true => start,
+        false => at,
+    }
+}
+
+fn margin_before(text: &str, at: usize) -> &str {
+    let start = line_start(text, at);
+    match start > 0 && start < at {
+        true => &text[start..at],
+        false => "  ",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NEW: &str = "<robot name=\"r\">\n  <disable_collisions link1=\"a\" link2=\"b\" reason=\"Never\"/>\n</robot>\n";
+
+    fn merged(old: &str) -> String {
+        merge_srdf(old, NEW).expect("merged").text
+    }
+
+    #[test]
+    fn pairs_are_replaced_and_the_rest_stays() {
+        let old = "<?xml version=\"1.0\"?>\n<!-- mine -->\n<robot name=\"r\">\n    <group name=\"arm\"><chain base_link=\"a\" tip_link=\"b\"/></group>\n    <disable_collisions link1=\"x\" link2=\"y\" reason=\"Never\"/>\n    <!-- kept -->\n    <disable_collisions link1=\"x\" link2=\"z\" reason=\"Always\"/>\n    <end_effector name=\"e\" parent_link=\"b\" group=\"g\"/>\n</robot>\n";
+        let expected = "<?xml version=\"1.0\"?>\n<!-- mine -->\n<robot name=\"r\">\n    <group name=\"arm\"><chain base_link=\"a\" tip_link=\"b\"/></group>\n    <disable_collisions link1=\"a\" link2=\"b\" reason=\"Never\"/>\n    <!-- kept -->\n    <end_effector name=\"e\" parent_link=\"b\" group=\"g\"/>\n</robot>\n";
+        assert_eq!(merged(old), expected);
+        assert_eq!(merged(expected), expected);
+    }
+
+    #[test]
+    fn pairs_go_to_the_end_where_there_were_none() {
+        let old = "<robot name=\"r\">\n  <group name=\"arm\"/>\n</robot>\n";
+        let expected = "<robot name=\"r\">\n  <group name=\"arm\"/>\n  <disable_collisions link1=\"a\" link2=\"b\" reason=\"Never\"/>\n</robot>\n";
+        assert_eq!(merged(old), expected);
+        let empty = merged("<robot name=\"r\"/>\n");
+        let parsed = Document::parse(&empty).expect("well-formed");
+        assert_eq!(elements(parsed.root_element(), DISABLED).count(), 1);
+    }
+
+    #[test]
+    fn elements_on_one_line_are_replaced() {
+        let old = "<robot name=\"r\"><disable_collisions link1=\"x\" link2=\"y\" reason=\"Default\"/><group name=\"g\"/></robot>";
+        let merged = merged(old);
+        let parsed = Document::parse(&merged).expect("well-formed");
+        let pairs: Vec<_> = elements(parsed.root_element(), DISABLED).collect();
+        assert_eq!(pairs.len(), 1);
+        assert_eq!(pairs[0].attribute("link1"), Some("a"));
+        assert!(merged.contains("<group name=\"g\"/>"));
+    }
+
+    #[test]
+    fn other_files_are_refused() {
+        assert!(matches!(
+            merge_srdf("<robot name=\"q\"/>", NEW),
+            Err(SrdfError::OtherRobot { .. })
+        ));
+        assert!(matches!(
+            merge_srdf("<urdf/>", NEW),
+            Err(SrdfError::NotSrdf(_))
+        ));
+        assert!(matches!(merge_srdf("no", NEW), Err(SrdfError::Xml { .. })));
+    }
+
+    #[test]
+    fn pairs_of_a_person_stay_and_are_counted() {
+        let pair = |a: &str, b: &str, reason: &str| {
+            format!("  <disable_collisions link1=\"{a}\" link2=\"{b}\"{reason}/>\n")
+        };
+        let own = [
+            pair("b", "a", " reason=\"User\""),
+            pair("a", "c", " reason=\"bolted together\""),
+            pair("a", "d", ""),
+        ];
+        let gone = pair("c", "d", " reason=\" Adjacent \"");
+        let old = format!(
+            "<robot name=\"r\">\n{}{gone}{}{}</robot>\n",
+            own[0], own[1], own[2]
+        );
+        let made = merge_srdf(&old, NEW).expect("merged");
+        // The pair of the new text is one of a person's, the other way round.
+        assert_eq!(
+            made.text,
+            format!("<robot name=\"r\">\n{}</robot>\n", own.concat())
+        );
+        assert_eq!((made.kept, made.enabled), (3, 0));
+        assert_eq!(merge_srdf(&made.text, NEW).expect("merged"), made);
+        // What a person enabled is not disabled.
+        let old = "<robot name=\"r\">\n  <enable_collisions link1=\"b\" link2=\"a\"/>\n</robot>";
+        let made = merge_srdf(old, NEW).expect("merged");
+        assert_eq!((made.text.as_str(), made.kept, made.enabled), (old, 0, 1));
+    }
+
+    #[test]
+    fn line_ends_stay_and_a_second_run_changes_nothing() {
+        let group = "<group name=\"g\"/>";
+        let gone = "<disable_collisions link1=\"x\" link2=\"y\" reason=\"Never\"/>";
+        let own = "<disable_collisions link1=\"x\" link2=\"z\" reason=\"User\"/>";
+        let blanks = [
+            "",
+            " ",
+            "\n",
+            "\n  ",
+            "\n\n\t",
+            " <!-- c -->\n",
+            "\n<!-- c -->",
+        ];
+        for first in [group, gone, own] {
+            for second in ["", group, gone, own] {
+                for before in blanks {
+                    for between in blanks {
+                        let old = format!(
+                            "<?xml version=\"1.0\"?>\n<robot name=\"r\">{before}{first}{between}{second}{before}</robot>\n"
+                        );
+                        for old in [old.clone(), old.replace('\n', "\r\n")] {
+                            let made = merge_srdf(&old, NEW).expect("merged").text;
+                            assert_eq!(merged(&made), made, "{old:?}");
+                            let is_mixed = made.replace("\r\n", "").contains('\n');
+                            assert!(is_mixed != old.contains('\r'), "{old:?}: {made:?}");
+                            let count = |text: &str, of: &str| text.matches(of).count();
+                            assert_eq!(count(&made, own), count(&old, own), "{old:?}");
+                            assert_eq!(count(&made, "<!-- c -->"), count(&old, "<!-- c -->"));
+                            assert_eq!(count(&made, group), count(&old, group));
+                            assert_eq!((count(&made, gone), count(&made, "link1=\"a\"")), (0, 1));
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! What exports are made from.
+
+use std::cmp::Reverse;
+
+use super::contacts::link_pairs;
+use super::error::{ExportError, Note};
+use super::pairs::{LinkPair, pairs};
+use super::{Format, Options, names};
+use urdd_document::mimics::Mimics;
+use urdd_document::robot::{Robot as View, of_urdf};
+use urdd_document::tree::Tree;
+use urdd_format::urdf::UrdfModule;
+use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind};
+
+/// A robot, as far as every format needs it.
+pub(super) struct Subject<'a> {
+    pub robot: &'a Robot,
+    pub format: Format,
+    pub options: &'a Options,
+    pub urdf: UrdfModule,
+    /// The same with the defaults of URDF filled in.
+    pub view: View,
+    pub tree: Tree,
+    /// Of each joint what it follows, chains resolved.
+    pub mimics: Mimics,
+    /// Names of links, in link order.
+    pub links: Vec<String>,
+    /// Empty where there are no skips.
+    pub pairs: Vec<LinkPair>,
+}
+
+impl<'a> Subject<'a> {
+    pub fn new(
+        robot: &'a Robot,
+        format: Format,
+        options: &'a Options,
+    ) -> Result<Self, ExportError> {
+        let urdf = robot.description()?;
+        let view = of_urdf(&urdf);
+        let tree = Tree::new(&view).ok_or(ExportError::NoTree)?;
+        names::check(format, &view, &tree)?;
+        let mimics = Mimics::resolve(&view).ok_or(ExportError::Mimics)?;
+        let links: Vec<String> = urdf.links.iter().map(|link| link.name.clone()).collect();
+        let pairs = match format {
+            // A URDF has no place for them; with spheres others are ignored.
+            Format::Urdf | Format::Curobo | Format::Foam => Vec::new(),
+            // It says of pieces what the URDD says of them.
+            Format::Mjcf => pairs(robot, options)?,
+            _ => link_pairs(robot, options)?,
+        };
+        Ok(Subject {
+            robot,
+            format,
+            options,
+            urdf,
+            view,
+            tree,
+            mimics,
+            links,
+            pairs,
+        })
+    }
+
+    /// The shapes of a kind, of each link, in link order.
+    pub fn shapes_by_link(&self, kind: ShapeKind) -> Result<Vec<Vec<LinkShape>>, ExportError> {
+        let mut shapes: Vec<Vec<LinkShape>> = self.links.iter().map(|_| Vec::new()).collect();
+        for shape in self.robot.shapes(kind)? {
+            if let Some(of_link) = shapes.get_mut(shape.link) {
+                of_link.push(shape);
+            }
+        }
+        // Lists of spheres hold nothing else.
+        let is_needed = matches!(self.format, Format::Curobo | Format::Foam);
+        match is_needed && shapes.iter().all(Vec::is_empty) {
+            true => Err(ExportError::NoShapes(kind)),
+            false => Ok(shapes),
+        }
+    }
+
+    /// The pairs that need no check.
+    pub fn disabled(&self) -> impl Iterator<Item = &LinkPair> {
+        self.pairs.iter().filter(|pair| pair.disabled)
+    }
+
+    /// What a format that knows links only has to say about the pairs: those first of which most is lost.
+    pub fn notes(&self) -> Vec<Note> {
+        let contacts = |pair: &&LinkPair| {
+            let counted = pair.mixed.as_ref().and_then(|mixed| mixed.contacts);
+            Reverse(counted.map_or(0, |contacts| match pair.disabled {
+                true => contacts.checked,
+                false => contacts.skipped,
+            }))
+        };
+        let mut pairs: Vec<&LinkPair> = self.pairs.iter().collect();
+        pairs.sort_by_key(contacts);
+        pairs.into_iter().filter_map(Note::of_pair).collect()
+    }
+
+    /// What the file was made from, a sentence an element.
+    pub fn origin(&self) -> Result<Vec<String>, RobotError> {
+        let mut lines = vec![format!(
+            "{} of robot `{}`, made by urdd {} from the URDD `{}`.",
+            self.format.name(),
+            self.urdf.name,
+            env!("CARGO_PKG_VERSION"),
+            self.robot.folder_name(),
+        )];
+        if let Some(source) = self.robot.source()? {
+            let (path, digest) = (source.path, source.sha256);
+            lines.push(format!("Source: {path}, SHA-256 {digest}."));
+        }
+        Ok(lines)
+    }
+
+    /// Comments for the head of a file: what it was made from, what it holds, and what it says in another way.
+    pub fn comments(&self, what: String, notes: &[Note]) -> Result<Vec<String>, RobotError> {
+        let mut lines = self.origin()?;
+        lines.push(what);
+        lines.extend(notes.iter().map(|note| format!("Note: {note}.")));
+        Ok(lines)
+    }
+}

@@ -1,0 +1,262 @@
+//! The elements of a URDF: links with our shapes, and joints.
+
+use nalgebra::Isometry3;
+
+use super::element::Element;
+use super::error::{ExportError, Note};
+use super::joints::without_quaternion;
+use super::meshes::{Look, MeshFiles, MeshFormat, looks};
+use super::numbers::{number, numbers, rpy};
+use super::subject::Subject;
+use urdd_document::pose::has_quaternions;
+use urdd_document::robot::Inertial as InertialView;
+use urdd_format::urdf::{Inertial, Joint, JointType, Link, Origin};
+use urdd_robot::{LinkShape, Solid};
+use urdd_xml::Kind;
+
+/// Half the thickness of a flat box where a program wants some, m.
+const HALF_THICKNESS: f64 = 1e-6;
+
+/// How collision geometry is said.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Geometry {
+    /// As any reader takes it.
+    Plain,
+    /// As Drake takes it: OBJ, which is taken for convex where it says so, and no flat boxes.
+    Drake,
+}
+
+/// The `robot` element, without anything in it.
+pub(super) fn robot(subject: &Subject) -> Element {
+    Element::new("robot")
+        .with("name", subject.urdf.name.as_str())
+        .with_some("version", subject.urdf.version.as_deref())
+}
+
+/// Files by name.
+type Files = Vec<(String, Vec<u8>)>;
+
+/// The links, and the files that they name.
+pub(super) fn links(
+    subject: &Subject,
+    geometry: Geometry,
+    notes: &mut Vec<Note>,
+) -> Result<(Vec<Element>, Files), ExportError> {
+    let shapes = subject.shapes_by_link(subject.options.shapes)?;
+    if shapes.iter().all(Vec::is_empty) {
+        notes.push(Note::NoShapes(subject.options.shapes));
+    }
+    let quaternions = has_quaternions(subject.urdf.version.as_deref());
+    let mut files = MeshFiles::new(subject);
+    let mut elements = Vec::new();
+    let each = subject.urdf.links.iter().zip(&subject.view.links);
+    let each = each.zip(shapes.into_iter().zip(looks(subject)?));
+    for (idx, ((link, view), (shapes, looks))) in each.enumerate() {
+        let mut element = element_of_link(link, view.inertial.as_ref(), quaternions);
+        for (look, place) in looks.into_iter().zip(0..) {
+            element.push(visual(idx, place, look, &mut files)?);
+        }
+        for shape in shapes {
+            element.push(collision(idx, shape, geometry, &mut files)?);
+        }
+        elements.push(element);
+    }
+    Ok((elements, files.into_files()))
+}
+
+/// Adds elements that URDF does not define, as their own text. How many cannot be there.
+pub(super) fn push_unknown(element: &mut Element, texts: &[String], known: &[&str]) -> usize {
+    let mut lost = 0;
+    for text in texts {
+        match urdd_xml::parse(text, Kind::Other) {
+            Ok(document) if !known.contains(&document.root_element().tag_name().name()) => {
+                element.push_raw(&text[document.root_element().range()]);
+            }
+            _ => lost += 1,
+        }
+    }
+    lost
+}
+
+/// The elements that URDF defines in `robot`, `link` and `joint`.
+pub(super) const IN_ROBOT: &[&str] = &["link", "joint", "material"];
+pub(super) const IN_LINK: &[&str] = &["inertial", "visual", "collision"];
+pub(super) const IN_JOINT: &[&str] = &[
+    "origin",
+    "parent",
+    "child",
+    "axis",
+    "limit",
+    "dynamics",
+    "mimic",
+    "safety_controller",
+    "calibration",
+];
+
+fn element_of_link(link: &Link, view: Option<&InertialView>, quaternions: bool) -> Element {
+    let mut element = Element::new("link").with("name", link.name.as_str());
+    if let Some((inertial, view)) = link.inertial.as_ref().zip(view) {
+        element.push(element_of_inertial(inertial, view, quaternions));
+    }
+    element
+}
+
+fn element_of_inertial(inertial: &Inertial, view: &InertialView, quaternions: bool) -> Element {
+    let mut element = Element::new("inertial");
+    if let Some(origin) = &inertial.origin {
+        let plain = without_quaternion(origin, &view.origin, quaternions);
+        element.push(element_of_origin(&plain));
+    }
+    // Most programs refuse an element that lacks one of these; what is absent is 0 (SPEC 6.1.8).
+    let [ixx, ixy, ixz, iyy, iyz, izz] = view.inertia.unwrap_or_default().map(number);
+    element.push(Element::new("mass").with("value", number(view.mass.unwrap_or(0.0))));
+    element.push(
+        Element::new("inertia")
+            .with("ixx", ixx)
+            .with("ixy", ixy)
+            .with("ixz", ixz)
+            .with("iyy", iyy)
+            .with("iyz", iyz)
+            .with("izz", izz),
+    );
+    element
+}
+
+fn element_of_origin(origin: &Origin) -> Element {
+    Element::new("origin")
+        .with_some("xyz", origin.xyz.map(|xyz| numbers(&xyz)))
+        .with_some("rpy", origin.rpy.map(|rpy| numbers(&rpy)))
+}
+
+fn visual(
+    link: usize,
+    place: usize,
+    look: Look,
+    files: &mut MeshFiles,
+) -> Result<Element, ExportError> {
+    let what = format!("visual_{place}");
+    let path = files.add(link, &what, look.mesh, MeshFormat::Obj)?;
+    let mesh = Element::new("mesh").with("filename", path);
+    let mut visual = Element::new("visual").holding(Element::new("geometry").holding(mesh));
+    if let Some(rgba) = look.rgba {
+        let color = Element::new("color").with("rgba", numbers(&rgba));
+        let name = format!("rgba {}", numbers(&rgba));
+        visual.push(Element::new("material").with("name", name).holding(color));
+    }
+    Ok(visual)
+}
+
+fn collision(
+    link: usize,
+    shape: LinkShape,
+    as_said: Geometry,
+    files: &mut MeshFiles,
+) -> Result<Element, ExportError> {
+    let mut collision = Element::new("collision");
+    let geometry = match shape.solid {
+        Solid::Mesh(mesh) => {
+            let format = match as_said {
+                Geometry::Plain => MeshFormat::Stl,
+                Geometry::Drake => MeshFormat::Obj,
+            };
+            let path = files.add(link, &format!("piece_{}", shape.piece), mesh, format)?;
+            let mut mesh = Element::new("mesh").with("filename", path);
+            if as_said == Geometry::Drake {
+                mesh.push(Element::new("drake:declare_convex"));
+            }
+            mesh
+        }
+        Solid::Box { pose, half_extents } => {
+            collision.push(placed(&pose));
+            let least = match as_said {
+                Geometry::Plain => 0.0,
+                Geometry::Drake => HALF_THICKNESS,
+            };
+            let size = half_extents.map(|half| 2.0 * half.max(least));
+            Element::new("box").with("size", numbers(&size))
+        }
+        Solid::Sphere { centre, radius } => {
+            collision.push(Element::new("origin").with("xyz", numbers(&centre)));
+            Element::new("sphere").with("radius", number(radius))
+        }
+    };
+    Ok(collision.holding(Element::new("geometry").holding(geometry)))
+}
+
+fn placed(pose: &Isometry3<f64>) -> Element {
+    let rotation = pose.rotation.to_rotation_matrix();
+    Element::new("origin")
+        .with("xyz", numbers(pose.translation.vector.as_slice()))
+        .with("rpy", numbers(&rpy(rotation.matrix())))
+}
+
+/// A joint; `tag` and `kind` are its element and its type, as a program has them.
+pub(super) fn element_of_joint(joint: &Joint, tag: &'static str, kind: &str) -> Element {
+    let mut element = Element::new(tag)
+        .with("name", joint.name.as_str())
+        .with("type", kind);
+    if let Some(origin) = &joint.origin {
+        element.push(element_of_origin(origin));
+    }
+    element.push(Element::new("parent").with("link", joint.parent.link.as_str()));
+    element.push(Element::new("child").with("link", joint.child.link.as_str()));
+    if let Some(axis) = &joint.axis {
+        element.push(Element::new("axis").with_some("xyz", axis.xyz.map(|xyz| numbers(&xyz))));
+    }
+    if let Some(limit) = &joint.limit {
+        element.push(
+            Element::new("limit")
+                .with_some("lower", limit.lower.map(number))
+                .with_some("upper", limit.upper.map(number))
+                .with_some("effort", limit.effort.map(number))
+                .with_some("velocity", limit.velocity.map(number))
+                .with_some("acceleration", limit.acceleration.map(number))
+                .with_some("deceleration", limit.deceleration.map(number))
+                .with_some("jerk", limit.jerk.map(number)),
+        );
+    }
+    if let Some(dynamics) = &joint.dynamics {
+        element.push(
+            Element::new("dynamics")
+                .with_some("damping", dynamics.damping.map(number))
+                .with_some("friction", dynamics.friction.map(number)),
+        );
+    }
+    if let Some(mimic) = &joint.mimic {
+        element.push(
+            Element::new("mimic")
+                .with("joint", mimic.joint.as_str())
+                .with_some("multiplier", mimic.multiplier.map(number))
+                .with_some("offset", mimic.offset.map(number)),
+        );
+    }
+    if let Some(safety) = &joint.safety_controller {
+        element.push(
+            Element::new("safety_controller")
+                .with_some("soft_lower_limit", safety.soft_lower_limit.map(number))
+                .with_some("soft_upper_limit", safety.soft_upper_limit.map(number))
+                .with_some("k_position", safety.k_position.map(number))
+                .with_some("k_velocity", safety.k_velocity.map(number)),
+        );
+    }
+    if let Some(calibration) = &joint.calibration {
+        element.push(
+            Element::new("calibration")
+                .with_some("rising", calibration.rising.map(number))
+                .with_some("falling", calibration.falling.map(number)),
+        );
+    }
+    element
+}
+
+pub(super) fn type_name(joint_type: JointType) -> &'static str {
+    match joint_type {
+        JointType::Revolute => "revolute",
+        JointType::Continuous => "continuous",
+        JointType::Prismatic => "prismatic",
+        JointType::Fixed => "fixed",
+        JointType::Floating => "floating",
+        JointType::Planar => "planar",
+        JointType::Spherical => "spherical",
+    }
+}

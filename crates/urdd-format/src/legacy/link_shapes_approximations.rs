@@ -1,0 +1,42 @@
+//! `link_shapes_approximations_module` 0.0.3: boxes and spheres about links and pieces.
+
+use crate::object::{module, object};
+
+module! {
+    /// Oriented bounding boxes (OBBs) and bounding spheres of each link and of each convex piece, in
+    /// the link's frame.
+    pub struct LinkShapesApproximationsModule {
+        /// For each link its box; null for a link without a mesh.
+        pub full_obbs: Vec<Option<Obb>>,
+        /// For each link its sphere; null for a link without a mesh.
+        pub full_bounding_spheres: Vec<Option<BoundingSphere>>,
+        /// For each link, a box for each convex piece.
+        pub decomposition_obbs: Vec<Vec<Obb>>,
+        /// For each link, a sphere for each convex piece.
+        pub decomposition_bounding_spheres: Vec<Vec<BoundingSphere>>,
+    }
+}
+
+object! {
+    /// An oriented bounding box.
+    pub struct Obb {
+        /// Half of each side length, metres, along the box's own axes.
+        pub half_extents: [f64; 3],
+        /// Centre in the link's frame, metres.
+        pub offset_xyz: [f64; 3],
+        /// Rotation from the box's axes to the link's: fixed-axis roll, pitch, yaw, radians.
+        pub offset_rpy: [f64; 3],
+    }
+}
+
+object! {
+    /// A bounding sphere.
+    pub struct BoundingSphere {
+        /// Radius, metres.
+        pub radius: f64,
+        /// Centre in the link's frame, metres.
+        pub offset_xyz: [f64; 3],
+        /// A rotation, which means nothing for a sphere.
+        pub offset_rpy: [f64; 3],
+    }
+}

@@ -1,0 +1,21 @@
+//! `link_shapes_max_distance_from_origin_module` 0.0.3: how far shapes reach from their link's origin.
+
+use crate::object::module;
+
+module! {
+    /// The largest distance of any point of a shape from the origin of its link's frame, metres.
+    pub struct LinkShapesMaxDistanceFromOriginModule {
+        /// For each link, of its convex hull; null for a link without one.
+        pub full_convex_hulls_maximum_distances: Vec<Option<f64>>,
+        /// For each link, of its box; null for a link without one.
+        pub full_obbs_maximum_distances: Vec<Option<f64>>,
+        /// For each link, of its sphere; null for a link without one.
+        pub full_bounding_spheres_maximum_distances: Vec<Option<f64>>,
+        /// For each link, of each convex piece.
+        pub decomposition_convex_hulls_maximum_distances: Vec<Vec<f64>>,
+        /// For each link, of the box of each convex piece.
+        pub decomposition_obbs_maximum_distances: Vec<Vec<f64>>,
+        /// For each link, of the sphere of each convex piece.
+        pub decomposition_bounding_spheres_maximum_distances: Vec<Vec<f64>>,
+    }
+}

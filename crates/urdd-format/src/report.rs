@@ -1,0 +1,335 @@
+//! The validator's report, as `--format json` writes it.
+
+use super::index::Count;
+use super::object::{module, object, string_enum};
+
+/// Version of the report's own format.
+pub const REPORT_VERSION: &str = "1.0.0";
+
+module! {
+    /// What a run of `urdd validate` found.
+    pub struct Report {
+        /// The program.
+        pub tool: Tool,
+        /// Version of the specification that was checked against.
+        pub spec_version: String,
+        /// Every URDD, in the order of the paths given, then by name.
+        pub urdds: Vec<Urdd>,
+        /// Ignores of the settings that matched nothing.
+        pub stale_ignores: Vec<StaleIgnore>,
+        /// Sums over all URDDs.
+        pub totals: Totals,
+    }
+}
+
+impl Report {
+    /// How many URDDs have a verdict.
+    pub fn count(&self, verdict: Verdict) -> usize {
+        self.urdds
+            .iter()
+            .filter(|urdd| urdd.verdict == verdict)
+            .count()
+    }
+}
+
+object! {
+    /// The program that wrote a report.
+    pub struct Tool {
+        /// Its name.
+        pub name: String,
+        /// Its version.
+        pub version: String,
+    }
+}
+
+object! {
+    /// One URDD, or a URDF by itself.
+    pub struct Urdd {
+        /// Which of them it is.
+        pub kind: Kind,
+        /// Its folder's path from the path that was given, with forward slashes; its own name where
+        /// that path was the URDD itself.
+        pub path: String,
+        /// Name of the robot; null where no module says it.
+        pub name: Option<String>,
+        /// What came of it.
+        pub verdict: Verdict,
+        /// Why it is unreadable; else null.
+        pub reason: Option<String>,
+        /// How large the robot is.
+        pub size: Size,
+        /// Its modules.
+        pub modules: Vec<Module>,
+        /// Every rule, in order of code.
+        pub checks: Vec<CheckStatus>,
+        /// What was found: by module, then by severity and code.
+        pub findings: Vec<Finding>,
+        /// What was not verified, by reason.
+        pub not_checked: Vec<NotChecked>,
+        /// Links whose geometry was not verified by every rule, in order of index.
+        pub geometry_not_verified: Vec<LinkNotVerified>,
+        /// Why the rates of `self_collision_model_module` were not verified; null where they were, and where there is no
+        /// such module.
+        pub model_not_verified: Option<ModelNotVerified>,
+    }
+}
+
+string_enum! {
+    /// What was examined.
+    pub enum Kind {
+        /// A URDD.
+        Urdd = "urdd",
+        /// A URDF by itself, judged by the rules that need nothing else.
+        Urdf = "urdf",
+    }
+}
+
+object! {
+    /// How large a robot is; null where no module says it.
+    pub struct Size {
+        /// Number of links.
+        pub links: Option<Count>,
+        /// Number of joints.
+        pub joints: Option<Count>,
+        /// Number of degrees of freedom.
+        pub dofs: Option<Count>,
+    }
+}
+
+string_enum! {
+    /// What came of examining a URDD.
+    pub enum Verdict {
+        /// Nothing found at or above the severity at which a run fails.
+        Pass = "pass",
+        /// Something found.
+        Fail = "fail",
+        /// The folder could not be read.
+        Unreadable = "unreadable",
+        /// A rule crashed: a fault of this program. The URDD is not fully examined.
+        Incomplete = "incomplete",
+    }
+}
+
+object! {
+    /// A module of a URDD.
+    pub struct Module {
+        /// Its name.
+        pub name: String,
+        /// Its folder, relative to the URDD's root.
+        pub path: String,
+        /// Its version; null where it has none.
+        pub version: Option<String>,
+        /// `1.0` or `legacy`; null for extensions and unknown modules.
+        pub profile: Option<String>,
+    }
+}
+
+object! {
+    /// What became of a rule.
+    pub struct CheckStatus {
+        /// Its code.
+        pub code: String,
+        /// What became of it.
+        pub status: Status,
+        /// Why it was skipped, or how it crashed; else null.
+        pub reason: Option<String>,
+        /// What kind of reason a skip has; null where it was not skipped.
+        pub skipped: Option<Skipped>,
+    }
+}
+
+string_enum! {
+    /// Why a rule did not run.
+    pub enum Skipped {
+        /// What it is about is not there.
+        Absent = "absent",
+        /// It is for another family of URDDs.
+        OtherFormat = "other-format",
+        /// The settings say to leave it out.
+        Ignored = "ignored",
+        /// Something that it needs is at fault or missing: what it checks is not verified.
+        NotVerified = "not-verified",
+    }
+}
+
+object! {
+    /// What was not verified.
+    pub struct NotChecked {
+        /// Codes of the rules that were to verify it.
+        pub codes: Vec<String>,
+        /// Why they could not.
+        pub reason: String,
+    }
+}
+
+object! {
+    /// Why the rates of the self-collision model were not verified.
+    pub struct ModelNotVerified {
+        /// The rules that did not verify them.
+        pub codes: Vec<String>,
+        /// Why not.
+        pub reasons: Vec<String>,
+    }
+}
+
+object! {
+    /// A link of which some mesh or shape was not verified.
+    pub struct LinkNotVerified {
+        /// Index of the link.
+        pub link: Count,
+        /// Codes of the rules that were to verify it.
+        pub codes: Vec<String>,
+        /// Why they could not.
+        pub reasons: Vec<String>,
+    }
+}
+
+string_enum! {
+    /// What became of a rule.
+    pub enum Status {
+        /// It found nothing.
+        Passed = "passed",
+        /// It found something.
+        Failed = "failed",
+        /// It did not run.
+        Skipped = "skipped",
+        /// It ran into a fault of its own.
+        Crashed = "crashed",
+    }
+}
+
+string_enum! {
+    /// How bad a finding is; the worst is the greatest.
+    pub enum Severity {
+        /// A convention of old, or something worth knowing.
+        Info = "info",
+        /// A SHOULD of the specification that is not kept, or an odd robot.
+        Warning = "warning",
+        /// A MUST of the specification that is not kept.
+        Error = "error",
+    }
+}
+
+string_enum! {
+    /// What a fault does to whoever uses the URDD; the worst is the greatest.
+    pub enum Consequence {
+        /// Nothing is wrong, but it could be tighter, or the robot itself is odd.
+        Looseness = "looseness",
+        /// The robot is shown in other colours or textures.
+        Appearance = "appearance",
+        /// A reader may refuse it, or read it in another way.
+        Format = "format",
+        /// Collision checking misses contacts, or sees some that are not there.
+        Collisions = "collisions",
+        /// Geometry is not there, or cannot be read.
+        MissingGeometry = "missing-geometry",
+        /// Something is in another place than the robot has it.
+        WrongPlace = "wrong-place",
+        /// The robot moves otherwise than it says.
+        WrongMotion = "wrong-motion",
+    }
+}
+
+object! {
+    /// By how much something is off.
+    pub struct Magnitude {
+        /// How much; null where it is no finite number.
+        pub value: Option<f64>,
+        /// Its unit; empty for a ratio.
+        pub unit: String,
+    }
+}
+
+object! {
+    /// Something that was found, or several of the same.
+    pub struct Finding {
+        /// Code of the rule.
+        pub code: String,
+        /// Name of the rule.
+        pub name: String,
+        /// How bad it is, settings applied.
+        pub severity: Severity,
+        /// The severity that the rule has without settings.
+        pub default_severity: Severity,
+        /// Clause of the specification.
+        pub clause: String,
+        /// What it does to whoever uses the URDD.
+        pub consequence: Consequence,
+        /// The module; null where it is about none.
+        pub module: Option<String>,
+        /// The file, relative to the URDD's root, with forward slashes.
+        pub file: Option<String>,
+        /// JSON Pointer into the document.
+        pub pointer: Option<String>,
+        /// Line in the file, from 1.
+        pub line: Option<Count>,
+        /// Column in the line, in characters, from 1.
+        pub column: Option<Count>,
+        /// What the pointer leads to, by the names of links, joints or DOFs.
+        pub subject: Option<String>,
+        /// What is wrong, and what to do.
+        pub message: String,
+        /// What should be there.
+        pub expected: Option<String>,
+        /// What is there.
+        pub actual: Option<String>,
+        /// Where numbers were compared: the tolerance, in their unit.
+        pub tolerance: Option<f64>,
+        /// Where numbers were compared: by how much they differ.
+        pub magnitude: Option<Magnitude>,
+        /// How many findings this one stands for.
+        pub count: Count,
+        /// All places, the worst first; the first is the finding's own.
+        pub places: Vec<Place>,
+        /// How many of the count have no place here, since there are too many.
+        pub places_cut: Count,
+    }
+}
+
+object! {
+    /// A place of a finding.
+    pub struct Place {
+        /// The file.
+        pub file: Option<String>,
+        /// JSON Pointer into the document.
+        pub pointer: Option<String>,
+        /// Line in the file, from 1.
+        pub line: Option<Count>,
+        /// Column in the line, in characters, from 1.
+        pub column: Option<Count>,
+        /// What should be there.
+        pub expected: Option<String>,
+        /// What is there.
+        pub actual: Option<String>,
+        /// What the pointer leads to, by the names of links, joints or DOFs.
+        pub subject: Option<String>,
+        /// What is wrong there, where that is not what the finding says.
+        pub message: Option<String>,
+        /// By how much it is off.
+        pub magnitude: Option<Magnitude>,
+    }
+}
+
+object! {
+    /// An ignore of the settings that matched nothing.
+    pub struct StaleIgnore {
+        /// Code of the rule; null where it is for all.
+        pub code: Option<String>,
+        /// The pattern.
+        pub path: String,
+    }
+}
+
+object! {
+    /// Sums over all URDDs.
+    pub struct Totals {
+        /// Number of URDDs.
+        pub urdds: Count,
+        /// Number of errors.
+        pub error: Count,
+        /// Number of warnings.
+        pub warning: Count,
+        /// Number of informations.
+        pub info: Count,
+    }
+}

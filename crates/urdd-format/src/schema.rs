@@ -1,0 +1,336 @@
+//! The published JSON Schemas: what the types say, as the text of files. Pure: reading and writing
+//! them is [`urdd_directory::schema_files`].
+
+use schemars::Schema;
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+use sha2::{Digest, Sha256};
+
+use super::conformance::{ProducerResult, RESULT_VERSION, ValidatorResult};
+use super::hexadecimal::hexadecimal;
+use super::registry::{MODULES, ModuleSpec};
+use super::report::{REPORT_VERSION, Report};
+use super::root_metadata::RootMetadata;
+
+/// A document that has a published schema.
+#[derive(Clone, Copy)]
+pub enum Subject {
+    /// `urdd.json`.
+    RootMetadata,
+    /// The document of a module.
+    Module(&'static ModuleSpec),
+    /// What `urdd validate --format json` writes.
+    Report,
+    /// What `urdd conformance producer --format json` writes.
+    ProducerResult,
+    /// What `urdd conformance validator --format json` writes.
+    ValidatorResult,
+}
+
+/// Whom a schema is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Variant {
+    /// For producers and validators: no unknown keys.
+    Strict,
+    /// For code generators: unknown keys pass, so that a document of a later minor version is read.
+    Open,
+}
+
+/// A file of the folder of published schemas.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SchemaFile {
+    /// Path relative to that folder, with forward slashes.
+    pub path: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// What can be wrong with the schemas themselves.
+#[derive(Debug, thiserror::Error)]
+pub enum SchemaError {
+    /// No schema has this id.
+    #[error("there is no schema `{id}`{}", hint(near))]
+    UnknownId {
+        /// The id that was asked for.
+        id: String,
+        /// Ids that look like it, nearest first.
+        near: Vec<String>,
+    },
+    /// The list of released schemas cannot be read.
+    #[error("{RELEASED_PATH}: {0}")]
+    Released(#[from] serde_json::Error),
+}
+
+fn hint(near: &[String]) -> String {
+    let words: Vec<String> = near.iter().map(|id| format!("`{id}`")).collect();
+    match words.as_slice() {
+        [] => String::new(),
+        words => format!("; did you mean {}?", words.join(" or ")),
+    }
+}
+
+/// A schema that never changes again.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Release {
+    /// Which one: `dof_module@0.0.2`.
+    pub id: String,
+    /// [`validating_hash`] of it.
+    pub sha256: String,
+}
+
+/// Path of the list of released schemas in the folder of published schemas.
+pub const RELEASED_PATH: &str = "released.json";
+
+/// The list itself. It is written by hand: a program that brought it up to date would freeze nothing.
+const RELEASED: &str = include_str!("released.json");
+
+/// The schemas that are released, in the order of the list.
+///
+/// # Errors
+/// Where the list is no list of releases.
+pub fn released() -> Result<Vec<Release>, SchemaError> {
+    Ok(serde_json::from_str(RELEASED)?)
+}
+
+impl Subject {
+    /// Everything that has a published schema: the root metadata, the registry in its order, the
+    /// report, and the results of the conformance commands.
+    pub fn all() -> impl Iterator<Item = Subject> {
+        std::iter::once(Subject::RootMetadata)
+            .chain(MODULES.iter().map(Subject::Module))
+            .chain([
+                Subject::Report,
+                Subject::ProducerResult,
+                Subject::ValidatorResult,
+            ])
+    }
+
+    /// The subject of an id such as `dof_module@1.0.0`.
+    ///
+    /// # Errors
+    /// Where there is none; the error knows ids that look like it.
+    pub fn find(id: &str) -> Result<Subject, SchemaError> {
+        Subject::all()
+            .find(|subject| subject.id() == id)
+            .ok_or_else(|| SchemaError::UnknownId {
+                id: id.to_owned(),
+                near: near_ids(id),
+            })
+    }
+
+    /// Name and version as one word: `dof_module@1.0.0`.
+    pub fn id(self) -> String {
+        format!("{}@{}", self.name(), self.version())
+    }
+
+    /// Name of the document.
+    pub fn name(self) -> &'static str {
+        match self {
+            Subject::RootMetadata => "root_metadata",
+            Subject::Report => "report",
+            Subject::ProducerResult => "producer_result",
+            Subject::ValidatorResult => "validator_result",
+            Subject::Module(spec) => spec.kind.name(),
+        }
+    }
+
+    /// Version of its format; `unversioned` for a legacy module without one.
+    pub fn version(self) -> &'static str {
+        match self {
+            Subject::RootMetadata => "1.0.0",
+            Subject::Report => REPORT_VERSION,
+            Subject::ProducerResult | Subject::ValidatorResult => RESULT_VERSION,
+            Subject::Module(spec) if spec.version.is_empty() => "unversioned",
+            Subject::Module(spec) => spec.version,
+        }
+    }
+
+    /// Path of its schema in the folder of published schemas.
+    pub fn path(self) -> String {
+        format!("{}/{}.json", self.name(), self.version())
+    }
+
+    /// Its schema, as published.
+    pub fn schema(self, variant: Variant) -> Value {
+        let schema = match self {
+            Subject::RootMetadata => schemars::schema_for!(RootMetadata),
+            Subject::Report => schemars::schema_for!(Report),
+            Subject::ProducerResult => schemars::schema_for!(ProducerResult),
+            Subject::ValidatorResult => schemars::schema_for!(ValidatorResult),
+            Subject::Module(spec) => spec.schema(),
+        };
+        let suffix = match variant {
+            Variant::Strict => "",
+            Variant::Open => ":open",
+        };
+        let id = format!("urn:urdd:schema:{}:{}{suffix}", self.name(), self.version());
+        published(schema, id, variant)
+    }
+
+    /// The text of its schema's file.
+    pub fn text(self, variant: Variant) -> String {
+        // `{:#}` is JSON, indented; unlike `to_string_pretty` it has no error to answer for.
+        format!("{:#}\n", self.schema(variant))
+    }
+}
+
+/// Every file of the folder of published schemas, sorted by path. The open ones are not frozen, so
+/// the list of released ones goes with the strict ones only.
+pub fn files(variant: Variant) -> Vec<SchemaFile> {
+    let mut files: Vec<SchemaFile> = Subject::all()
+        .map(|subject| SchemaFile {
+            path: subject.path(),
+            text: subject.text(variant),
+        })
+        .collect();
+    if variant == Variant::Strict {
+        files.push(SchemaFile {
+            path: RELEASED_PATH.to_owned(),
+            text: RELEASED.to_owned(),
+        });
+    }
+    files.sort_by(|a, b| a.path.cmp(&b.path));
+    files
+}
+
+/// The part of a schema that decides what is valid: without annotations, lists that are sets in
+/// order. Two schemas with equal validating parts accept the same documents.
+pub fn validating_part(schema: &Value) -> Value {
+    let mut part = each_schema(schema, &|object| {
+        for annotation in ["title", "description", "$id", "$comment", "examples"] {
+            object.shift_remove(annotation);
+        }
+        for set in ["required", "enum", "type"] {
+            if let Some(Value::Array(items)) = object.get_mut(set) {
+                items.sort_by_key(Value::to_string);
+            }
+        }
+    });
+    part.sort_all_objects();
+    part
+}
+
+/// SHA-256 of a schema's validating part as JSON without white space and with sorted keys: 64
+/// lower-case hexadecimal digits.
+pub fn validating_hash(schema: &Value) -> String {
+    let digest = Sha256::digest(validating_part(schema).to_string());
+    hexadecimal(&digest)
+}
+
+fn published(mut schema: Schema, id: String, variant: Variant) -> Value {
+    schema.insert("$id".to_owned(), json!(id));
+    name_definitions(&mut schema);
+    each_schema(schema.as_value(), &|object| {
+        // A width in bits is our affair, and validators warn of formats that they do not know.
+        object.shift_remove("format");
+        if let Some(Value::String(text)) = object.get_mut("description") {
+            *text = flowing(text);
+        }
+        // A reference with a text of its own beside it becomes a second type in some code generators.
+        if object.len() > 1
+            && let Some(reference) = object.shift_remove("$ref")
+        {
+            object.insert("allOf".to_owned(), json!([{ "$ref": reference }]));
+        }
+        if variant == Variant::Open {
+            object.shift_remove("additionalProperties");
+            object.shift_remove("patternProperties");
+            plain_integers(object);
+        }
+        // What a reader looks for first; the rest as the types have it.
+        let mut rest = std::mem::take(object);
+        for keyword in ["$schema", "$id", "title", "description"] {
+            if let Some(value) = rest.shift_remove(keyword) {
+                object.insert(keyword.to_owned(), value);
+            }
+        }
+        object.extend(rest);
+    })
+}
+
+/// Of a list of integers, some code generators make a type of its own for the elements as soon as these
+/// have bounds or a text; what they count is in the text of the list.
+fn plain_integers(list: &mut Map<String, Value>) {
+    let items = list.get_mut("items").and_then(Value::as_object_mut);
+    if let Some(items) = items.filter(|items| items.get("type") == Some(&json!("integer"))) {
+        items.retain(|keyword, _| keyword == "type");
+    }
+}
+
+/// Some code generators name a type after the title, and else after the property that holds it.
+fn name_definitions(schema: &mut Schema) {
+    let Some(Value::Object(definitions)) = schema.get_mut("$defs") else {
+        return;
+    };
+    for (name, definition) in definitions {
+        if let Value::Object(definition) = definition {
+            definition.insert("title".to_owned(), json!(name));
+        }
+    }
+}
+
+/// Undoes the line breaks of a doc comment; lists and paragraphs keep theirs.
+fn flowing(text: &str) -> String {
+    let mut flowing = String::with_capacity(text.len());
+    for line in text.lines() {
+        if line.is_empty() || line.starts_with("- ") {
+            flowing.push('\n');
+        } else if !flowing.is_empty() && !flowing.ends_with('\n') {
+            flowing.push(' ');
+        }
+        flowing.push_str(line);
+    }
+    flowing
+}
+
+/// Applies `change` to a schema and to every schema within it. Names of properties and values of
+/// enumerations are not schemas, whatever they are called.
+fn each_schema(schema: &Value, change: &impl Fn(&mut Map<String, Value>)) -> Value {
+    let Value::Object(object) = schema else {
+        return schema.clone();
+    };
+    let mut object: Map<String, Value> = object
+        .iter()
+        .map(|(keyword, value)| (keyword.clone(), each_schema_of(keyword, value, change)))
+        .collect();
+    change(&mut object);
+    Value::Object(object)
+}
+
+fn each_schema_of(
+    keyword: &str,
+    value: &Value,
+    change: &impl Fn(&mut Map<String, Value>),
+) -> Value {
+    match (keyword, value) {
+        ("properties" | "patternProperties" | "$defs", Value::Object(named)) => Value::Object(
+            named
+                .iter()
+                .map(|(name, schema)| (name.clone(), each_schema(schema, change)))
+                .collect(),
+        ),
+        ("prefixItems" | "anyOf" | "oneOf" | "allOf", Value::Array(schemas)) => Value::Array(
+            schemas
+                .iter()
+                .map(|schema| each_schema(schema, change))
+                .collect(),
+        ),
+        ("items" | "additionalProperties", schema) => each_schema(schema, change),
+        (_, other) => other.clone(),
+    }
+}
+
+/// The versions of the module that is named, else ids that are spelt alike.
+fn near_ids(id: &str) -> Vec<String> {
+    let name = id.split('@').next().unwrap_or_default();
+    let mut near: Vec<(usize, String)> = Subject::all()
+        .map(|subject| (strsim::levenshtein(name, subject.name()), subject.id()))
+        .collect();
+    near.sort_by_key(|(distance, _)| *distance);
+    let nearest = near.first().map_or(0, |(distance, _)| *distance);
+    near.into_iter()
+        .take_while(|(distance, _)| *distance == nearest && *distance <= name.len() / 3)
+        .map(|(_, id)| id)
+        .collect()
+}

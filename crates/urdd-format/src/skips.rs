@@ -1,0 +1,197 @@
+//! Which pairs of shapes a collision check skips: from the reasons of pairs, the reasons that are
+//! skipped, and a person's edits, the matrices of `link_shapes_skips_module` (SPEC 8.7).
+//!
+//! Whoever changes the edits writes the module with this: the generator, and editors of URDDs. The
+//! validator does not use it; it judges each pair by itself.
+
+use std::collections::HashMap;
+
+use crate::link_shapes_simple_skips::{LinkShapesSimpleSkipsModule, SkipReason};
+use crate::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
+
+/// The reasons of all pairs of one kind of shapes.
+type Reasons = Vec<Vec<SkipReason>>;
+/// Which of the pairs are skipped.
+type Skips = Vec<Vec<bool>>;
+
+/// Makes the module. `link_names` are the names of the robot's links in link order; an edit that
+/// names another link has no effect.
+pub fn skips_module(
+    simple: &LinkShapesSimpleSkipsModule,
+    skipped_reasons: Vec<SkippedReason>,
+    edits: Vec<SkipEdit>,
+    link_names: &[&str],
+) -> LinkShapesSkipsModule {
+    let full = simple.full_shapes.iter().map(|link| link.get());
+    let full = ShapesOfLinks::new(full, link_names);
+    let pieces = simple.decomposition_shapes.iter();
+    let pieces = ShapesOfLinks::new(pieces.map(|piece| piece.link_idx.get()), link_names);
+    let of_full = |reasons: &Reasons| skips(reasons, &full, &skipped_reasons, &edits);
+    let of_pieces = |reasons: &Option<Reasons>| {
+        let reasons = reasons.as_ref();
+        reasons.map(|reasons| skips(reasons, &pieces, &skipped_reasons, &edits))
+    };
+    let reasons = &simple.reasons;
+    LinkShapesSkipsModule {
+        full_shapes: simple.full_shapes.clone(),
+        decomposition_shapes: simple.decomposition_shapes.clone(),
+        full_convex_hulls_skips: of_full(&reasons.full_convex_hulls),
+        full_obbs_skips: of_full(&reasons.full_obbs),
+        full_bounding_spheres_skips: of_full(&reasons.full_bounding_spheres),
+        decomposition_convex_hulls_skips: of_pieces(&reasons.decomposition_convex_hulls),
+        decomposition_obbs_skips: of_pieces(&reasons.decomposition_obbs),
+        decomposition_bounding_spheres_skips: of_pieces(&reasons.decomposition_bounding_spheres),
+        skipped_reasons,
+        edits,
+    }
+}
+
+/// For each link that has shapes, by name, the indices of these.
+struct ShapesOfLinks<'a>(HashMap<&'a str, Vec<usize>>);
+
+impl<'a> ShapesOfLinks<'a> {
+    fn new(links: impl Iterator<Item = usize>, names: &[&'a str]) -> Self {
+        let mut shapes: HashMap<&str, Vec<usize>> = HashMap::new();
+        for (shape, link) in links.enumerate() {
+            if let Some(name) = names.get(link) {
+                shapes.entry(name).or_default().push(shape);
+            }
+        }
+        ShapesOfLinks(shapes)
+    }
+
+    fn of(&self, link: &str) -> &[usize] {
+        self.0.get(link).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// The matrix of one kind of shapes.
+fn skips(
+    reasons: &Reasons,
+    shapes: &ShapesOfLinks,
+    skipped: &[SkippedReason],
+    edits: &[SkipEdit],
+) -> Skips {
+    let is_skipped =
+        |reason: &SkipReason| skipped.iter().any(|skipped| skipped.of_pair() == *reason);
+    let rows = reasons.iter().enumerate().map(|(i, row)| {
+        let row = row.iter().enumerate();
+        row.map(|(j, reason)| i == j || is_skipped(reason))
+            .collect()
+    });
+    let mut skips: Skips = rows.collect();
+    let mut set = |i: usize, j: usize, skip: bool| {
+        if i != j
+            && let Some(element) = skips.get_mut(i).and_then(|row| row.get_mut(j))
+        {
+            *element = skip;
+        }
+    };
+    for edit in edits {
+        for &i in shapes.of(&edit.link_a) {
+            for &j in shapes.of(&edit.link_b) {
+                set(i, j, edit.skip);
+                set(j, i, edit.skip);
+            }
+        }
+    }
+    skips
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::index::{LinkIdx, PieceIdx};
+    use crate::link_shapes_simple_skips::SkipReasons;
+    use crate::shapes::PieceShape;
+    use SkipReason::{Adjacent, Always, Never, None as NoReason, SameLink};
+    use SkippedReason as Skipped;
+
+    /// Three links, of which the first has two pieces.
+    fn simple() -> LinkShapesSimpleSkipsModule {
+        let full = vec![
+            vec![SameLink, Adjacent, Never],
+            vec![Adjacent, SameLink, NoReason],
+            vec![Never, NoReason, SameLink],
+        ];
+        let pieces = vec![
+            vec![SameLink, SameLink, Adjacent, Never],
+            vec![SameLink, SameLink, Always, Never],
+            vec![Adjacent, Always, SameLink, NoReason],
+            vec![Never, Never, NoReason, SameLink],
+        ];
+        let piece = |link: u32, piece: u32| PieceShape {
+            link_idx: LinkIdx(link),
+            piece_idx: PieceIdx(piece),
+        };
+        LinkShapesSimpleSkipsModule {
+            full_shapes: (0..3).map(LinkIdx).collect(),
+            decomposition_shapes: vec![piece(0, 0), piece(0, 1), piece(1, 0), piece(2, 0)],
+            full_convex_hulls_simple_skips: Vec::new(),
+            full_obbs_simple_skips: Vec::new(),
+            full_bounding_spheres_simple_skips: Vec::new(),
+            decomposition_convex_hulls_simple_skips: None,
+            decomposition_obbs_simple_skips: None,
+            decomposition_bounding_spheres_simple_skips: None,
+            reasons: SkipReasons {
+                full_convex_hulls: full.clone(),
+                full_obbs: full.clone(),
+                full_bounding_spheres: full,
+                decomposition_convex_hulls: Some(pieces),
+                decomposition_obbs: None,
+                decomposition_bounding_spheres: None,
+            },
+        }
+    }
+
+    fn edit(link_a: &str, link_b: &str, skip: bool) -> SkipEdit {
+        SkipEdit {
+            link_a: link_a.to_owned(),
+            link_b: link_b.to_owned(),
+            skip,
+            reason: String::new(),
+        }
+    }
+
+    fn made(skipped: &[SkippedReason], edits: Vec<SkipEdit>) -> LinkShapesSkipsModule {
+        skips_module(&simple(), skipped.to_vec(), edits, &["a", "b", "c"])
+    }
+
+    const T: bool = true;
+    const F: bool = false;
+
+    #[test]
+    fn a_pair_is_skipped_for_its_reason() {
+        let of = |skipped: &[SkippedReason]| made(skipped, Vec::new()).full_convex_hulls_skips;
+        assert_eq!(of(&[]), [[T, F, F], [F, T, F], [F, F, T]]);
+        assert_eq!(
+            of(&[Skipped::SameLink, Skipped::Adjacent]),
+            [[T, T, F], [T, T, F], [F, F, T]]
+        );
+        assert_eq!(of(&[Skipped::Never]), [[T, F, T], [F, T, F], [T, F, T]]);
+        assert_eq!(
+            made(&[Skipped::Never], Vec::new()).decomposition_obbs_skips,
+            None
+        );
+    }
+
+    #[test]
+    fn of_several_edits_of_a_pair_the_last_counts_and_all_pieces_follow() {
+        let edits = vec![
+            edit("b", "a", true),
+            edit("c", "a", true),
+            edit("a", "b", false),
+            edit("a", "a", false),
+            edit("a", "nobody", true),
+        ];
+        let skips = made(
+            &[Skipped::SameLink, Skipped::Always, Skipped::Adjacent],
+            edits,
+        );
+        let pieces = skips.decomposition_convex_hulls_skips.expect("matrix");
+        assert_eq!(
+            pieces,
+            [[T, F, F, T], [F, T, F, T], [F, F, T, F], [T, T, F, T]]
+        );
+    }
+}

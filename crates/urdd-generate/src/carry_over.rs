@@ -1,0 +1,155 @@
+//! What a new URDD takes over from the folder that it replaces: every file that the old URDD does not
+//! list and that is not a module's own. A README, a `.git` folder, extension modules and notes that
+//! lie in a module's folder outlive a new run.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::metadata::FOUND_KEY;
+use super::old::Old;
+use urdd_directory::digest;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::file_entry;
+use urdd_directory::root::Root;
+use urdd_directory::staging::StagingError;
+use urdd_directory::take::take;
+use urdd_format::registry::ModuleKind;
+
+/// The files that every module has.
+const MODULE_FILES: [&str; 3] = ["VERSION", "module.json", "module.yaml"];
+
+/// Links or copies what is to stay from `folder` into `root`.
+///
+/// # Errors
+/// Where something cannot be read or written, or a file of the user's has a name that the URDD needs.
+pub(super) fn carry_over(
+    folder: &Path,
+    old: Option<&Old>,
+    root: &Path,
+) -> Result<(), StagingError> {
+    let listed = old.map(listed).unwrap_or_default();
+    merge(folder, root, "", &listed)
+}
+
+/// Every path that the old URDD says to be of it, but those of extensions.
+fn listed(old: &Old) -> BTreeSet<String> {
+    let source = &old.value["source"];
+    let sources = [&source["Urdf"]["path"], &source[FOUND_KEY]["path"]];
+    let sources = sources.iter().filter_map(|path| path.as_str());
+    let known = |name: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == name);
+    let modules = old.metadata.modules.iter();
+    let files = modules
+        .filter(|module| known(&module.name))
+        .flat_map(|module| &module.files);
+    files
+        .map(|file| file.path.clone())
+        .chain(sources.map(str::to_owned))
+        .collect()
+}
+
+/// Takes over the folder at `path`, relative to both roots; what is in a folder that is in both,
+/// one by one.
+fn merge(
+    folder: &Path,
+    root: &Path,
+    path: &str,
+    listed: &BTreeSet<String>,
+) -> Result<(), StagingError> {
+    let from = folder.join(path);
+    let unread = |error| StagingError::Read {
+        path: from.clone(),
+        error,
+    };
+    for entry in fs::read_dir(&from).map_err(unread)? {
+        let entry = entry.map_err(unread)?;
+        let name = entry.file_name();
+        let inside = match (path, name.to_string_lossy()) {
+            ("", name) => name.into_owned(),
+            (path, name) => format!("{path}/{name}"),
+        };
+        let from = entry.path();
+        let to = root.join(path).join(&name);
+        if entry.file_type().map_err(unread)?.is_dir() {
+            if is_of_modules(&inside) {
+                merge(folder, root, &inside, listed)?;
+            } else if fs::symlink_metadata(&to).is_err() {
+                make_above(&to)?;
+                take(&from, &to)?;
+            } else {
+                return Err(StagingError::InTheWay { path: from });
+            }
+        } else if !is_ours(&inside, listed) {
+            make_above(&to)?;
+            match fs::symlink_metadata(&to) {
+                Err(_) => take(&from, &to)?,
+                Ok(_) if is_same(&from, &to) => {}
+                Ok(_) => return Err(StagingError::InTheWay { path: from }),
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Makes the folder that something is to lie in.
+fn make_above(path: &Path) -> Result<(), StagingError> {
+    let Some(above) = path.parent() else {
+        return Ok(());
+    };
+    fs::create_dir_all(above).map_err(|error| StagingError::Write {
+        path: above.to_owned(),
+        error,
+    })
+}
+
+/// Whether a folder is a module's, or above or inside one.
+fn is_of_modules(path: &str) -> bool {
+    let begins = |long: &str, short: &str| {
+        long.strip_prefix(short)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+    };
+    let mut folders = ModuleKind::ALL.iter().map(|kind| kind.folder());
+    folders.any(|folder| begins(path, folder) || begins(folder, path))
+}
+
+/// Whether a file is the old URDD's: `urdd.json`, one that it lists, or a module's own.
+fn is_ours(path: &str, listed: &BTreeSet<String>) -> bool {
+    let of_a_module = || {
+        let (folder, file) = path.rsplit_once('/')?;
+        let is_module = ModuleKind::ALL.iter().any(|kind| kind.folder() == folder);
+        Some(is_module && MODULE_FILES.contains(&file))
+    };
+    path == ROOT_METADATA || listed.contains(path) || of_a_module().unwrap_or(false)
+}
+
+fn is_same(one: &Path, other: &Path) -> bool {
+    let size = |path: &Path| fs::metadata(path).map(|metadata| metadata.len()).ok();
+    size(one) == size(other) && fs::read(one).ok() == fs::read(other).ok()
+}
+
+/// The entries of extension modules that were carried over, their sizes and hashes brought up to
+/// date.
+pub(super) fn extensions(old: Option<&Old>, root: &Path) -> Vec<Value> {
+    let modules = old.and_then(|old| old.value["modules"].as_array());
+    let Ok(root) = Root::open(root) else {
+        return Vec::new();
+    };
+    let known = |name: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == name);
+    let mut entries = Vec::new();
+    for module in modules.into_iter().flatten() {
+        if module["name"].as_str().is_none_or(known) {
+            continue;
+        }
+        let mut module = module.clone();
+        for entry in file_entry::of_module(&mut module) {
+            let found = file_entry::path(entry).and_then(|path| digest::of(&root, path).ok());
+            if let Some((size, sha256)) = found {
+                file_entry::update(entry, size, &sha256);
+            }
+        }
+        entries.push(module);
+    }
+    entries
+}

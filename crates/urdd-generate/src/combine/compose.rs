@@ -1,0 +1,270 @@
+//! One URDF of all parts.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use super::error::CombineError;
+use super::frozen::{numbers, origin_text};
+use super::names::escaped;
+use super::part::Loaded;
+use super::recipe::{JointDescription, Part, Recipe, Word};
+use super::recipe_fault::{RecipeFault, joint_type_word};
+use super::rewrite::Rewritten;
+use super::trim::Trim;
+use crate::has_quaternions;
+use urdd_format::urdf::Material;
+
+/// Parts as they were taken up, with what of them comes along.
+pub(super) struct Taken<'a> {
+    pub part: &'a Part,
+    /// Shared by the parts of one source.
+    pub loaded: Rc<Loaded>,
+    pub trim: Trim,
+}
+
+impl Taken<'_> {
+    /// A name of the part as it is in the robot that is made.
+    pub fn renamed(&self, name: &str) -> String {
+        format!("{}{name}", self.part.prefix.text)
+    }
+
+    /// The name of its root link in the robot that is made.
+    pub fn root(&self) -> String {
+        self.renamed(&self.loaded.robot.links[self.trim.root].name)
+    }
+}
+
+/// The version that the URDF of all parts states: the highest.
+pub(super) fn version(parts: &[Taken]) -> Option<String> {
+    let number = |version: &str| -> Option<(u64, u64)> {
+        let (major, minor) = version.trim().split_once('.')?;
+        Some((major.parse().ok()?, minor.parse().ok()?))
+    };
+    let versions = parts
+        .iter()
+        .filter_map(|part| part.loaded.robot.version.clone());
+    versions.max_by_key(|version| (has_quaternions(Some(version)), number(version)))
+}
+
+/// Finds the first name that two things have, and materials at the top that one before them has too, alike:
+/// for each part their places.
+///
+/// # Errors
+/// The name.
+pub(super) fn check_names(
+    recipe: &Recipe,
+    parts: &[Taken],
+) -> Result<Vec<std::collections::BTreeSet<usize>>, CombineError> {
+    let mut names = NameBook {
+        recipe,
+        links: BTreeMap::new(),
+        joints: BTreeMap::new(),
+    };
+    if let Some(base) = &recipe.base {
+        names.link(&base.link.text, "`[base]`".to_owned(), &base.link)?;
+    }
+    for taken in parts {
+        let (part, robot) = (taken.part, &taken.loaded.robot);
+        let from = format!("part `{}`", part.id.text);
+        for (idx, link) in robot.links.iter().enumerate() {
+            if taken.trim.keeps_link(idx) {
+                names.link(&taken.renamed(&link.name), from.clone(), &part.id)?;
+            }
+        }
+        for (idx, joint) in robot.joints.iter().enumerate() {
+            if taken.trim.keeps_joint(idx) {
+                names.joint(&taken.renamed(&joint.name), from.clone(), &part.id)?;
+            }
+        }
+        let attach = part.attach.as_ref().map(|attach| &attach.joint.name);
+        let base = recipe.base.as_ref().map(|base| &base.joint.name);
+        if let Some(name) = attach.or(base) {
+            let of = format!("what part `{}` hangs on", part.id.text);
+            names.joint(&name.text, of, name)?;
+        }
+    }
+    materials(recipe, parts)
+}
+
+struct NameBook<'a> {
+    recipe: &'a Recipe,
+    links: BTreeMap<String, String>,
+    joints: BTreeMap<String, String>,
+}
+
+impl NameBook<'_> {
+    fn link(&mut self, name: &str, from: String, at: &Word) -> Result<(), CombineError> {
+        let before = self.links.insert(name.to_owned(), from.clone());
+        clash(self.recipe, "link", name, before, from, at)
+    }
+
+    fn joint(&mut self, name: &str, from: String, at: &Word) -> Result<(), CombineError> {
+        let before = self.joints.insert(name.to_owned(), from.clone());
+        clash(self.recipe, "joint", name, before, from, at)
+    }
+}
+
+fn clash(
+    recipe: &Recipe,
+    what: &'static str,
+    name: &str,
+    before: Option<String>,
+    second: String,
+    at: &Word,
+) -> Result<(), CombineError> {
+    let Some(first) = before else {
+        return Ok(());
+    };
+    let name = name.to_owned();
+    let fault = RecipeFault::Clash {
+        what,
+        name,
+        first,
+        second,
+    };
+    Err(recipe.refused(at, fault))
+}
+
+/// Materials of one name look alike in all parts, as in each part by itself the first counts.
+fn materials(
+    recipe: &Recipe,
+    parts: &[Taken],
+) -> Result<Vec<std::collections::BTreeSet<usize>>, CombineError> {
+    let mut known: BTreeMap<String, (usize, &Material)> = BTreeMap::new();
+    let mut repeated = Vec::new();
+    for (idx, taken) in parts.iter().enumerate() {
+        let robot = &taken.loaded.robot;
+        let visuals = robot.links.iter().flat_map(|link| &link.visual);
+        let inline = visuals.filter_map(|visual| visual.material.as_ref());
+        let top = robot.materials.iter().enumerate();
+        let all = top
+            .map(|(place, of)| (Some(place), of))
+            .chain(inline.map(|of| (None, of)));
+        let mut again = std::collections::BTreeSet::new();
+        for (place, material) in all {
+            let Some(name) = &material.name else {
+                continue;
+            };
+            let has_look = material.color.is_some() || material.texture.is_some();
+            if name.is_empty() || !has_look {
+                continue;
+            }
+            let name = taken.renamed(name);
+            let Some((of, first)) = known.get(&name).filter(|(of, _)| *of != idx) else {
+                known.entry(name).or_insert((idx, material));
+                continue;
+            };
+            if (&first.color, &first.texture) != (&material.color, &material.texture) {
+                let first = format!("part `{}`", parts[*of].part.id.text);
+                let second = format!("part `{}`, which gives it another look", taken.part.id.text);
+                return clash(
+                    recipe,
+                    "material",
+                    &name,
+                    Some(first),
+                    second,
+                    &taken.part.id,
+                )
+                .map(|()| Vec::new());
+            }
+            again.extend(place);
+        }
+        repeated.push(again);
+    }
+    Ok(repeated)
+}
+
+/// The text of the URDF.
+///
+/// # Errors
+/// Where parts mean different things by a prefix of XML names, or name things of their own alike.
+pub(super) fn urdf(
+    recipe: &Recipe,
+    parts: &[Taken],
+    rewritten: &[Rewritten],
+) -> Result<String, CombineError> {
+    let mut namespaces: BTreeMap<&str, &str> = BTreeMap::new();
+    let mut own: BTreeMap<&str, &Taken> = BTreeMap::new();
+    for (taken, text) in parts.iter().zip(rewritten) {
+        for (prefix, uri) in &text.namespaces {
+            let first = *namespaces.entry(prefix).or_insert(uri);
+            if first != uri {
+                let fault = RecipeFault::Namespace {
+                    prefix: prefix.clone(),
+                    first: first.to_owned(),
+                    second: uri.clone(),
+                    part: taken.part.id.text.clone(),
+                };
+                return Err(recipe.refused(&taken.part.id, fault));
+            }
+        }
+        for name in &text.own {
+            let before = own.insert(name, taken);
+            // A part may have two of one name by itself.
+            let before = before.filter(|before| before.part.id != taken.part.id);
+            let first = before.map(|before| format!("part `{}`", before.part.id.text));
+            let second = format!("part `{}`", taken.part.id.text);
+            let what = "transmission or ros2_control";
+            clash(recipe, what, name, first, second, &taken.part.id)?;
+        }
+    }
+    let mut text =
+        String::from("<?xml version=\"1.0\"?>\n<!-- Put together by urdd combine. -->\n");
+    text += &format!("<robot name=\"{}\"", escaped(&recipe.name.text));
+    if let Some(version) = version(parts) {
+        text += &format!(" version=\"{}\"", escaped(&version));
+    }
+    for (prefix, uri) in namespaces {
+        let colon = if prefix.is_empty() { "" } else { ":" };
+        text += &format!(" xmlns{colon}{prefix}=\"{}\"", escaped(uri));
+    }
+    text += ">\n";
+    if let Some(base) = &recipe.base {
+        text += &format!("  <link name=\"{}\"/>\n", escaped(&base.link.text));
+    }
+    for (taken, rewritten) in parts.iter().zip(rewritten) {
+        let attached = match (&taken.part.attach, &recipe.base) {
+            (Some(attach), _) => {
+                let (holder, link) = recipe.target(&attach.to)?;
+                let link = holder.map_or_else(|| link.to_owned(), |part| parts[part].renamed(link));
+                Some((link, &attach.joint))
+            }
+            (None, Some(base)) => Some((base.link.text.clone(), &base.joint)),
+            (None, None) => None,
+        };
+        if let Some((parent, described)) = attached {
+            text += &joint(described, &parent, &taken.root());
+        }
+        text += &rewritten.inner;
+        text.push('\n');
+    }
+    text += "</robot>\n";
+    Ok(text)
+}
+
+fn joint(described: &JointDescription, parent: &str, child: &str) -> String {
+    let mut text = format!(
+        "  <joint name=\"{}\" type=\"{}\">\n    <parent link=\"{}\"/>\n    <child link=\"{}\"/>\n    {}\n",
+        escaped(&described.name.text),
+        joint_type_word(described.joint_type),
+        escaped(parent),
+        escaped(child),
+        origin_text(described.xyz, described.rpy),
+    );
+    if let Some(axis) = described.axis {
+        text += &format!("    <axis xyz=\"{}\"/>\n", numbers(&axis));
+    }
+    if let Some(limit) = &described.limit {
+        let numbers_of = [
+            ("lower", limit.lower),
+            ("upper", limit.upper),
+            ("effort", limit.effort),
+            ("velocity", limit.velocity),
+        ];
+        let said = numbers_of
+            .iter()
+            .filter_map(|(key, value)| Some(format!(" {key}=\"{}\"", numbers(&[(*value)?]))));
+        text += &format!("    <limit{}/>\n", said.collect::<String>());
+    }
+    text + "  </joint>\n"
+}

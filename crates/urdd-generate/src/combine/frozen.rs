@@ -1,0 +1,103 @@
+//! A joint that is made fixed: where its child is then.
+
+use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
+
+use crate::origin_pose;
+use urdd_format::urdf::{Joint, JointType};
+use urdd_kinematics::rotation::{from_rotation_vector, planar_basis, unit_axis};
+
+/// The `<origin>` of a joint that is fixed at a position: a value for each of its DOFs (SPEC 5.8).
+pub(super) fn origin(joint: &Joint, position: &[f64], quaternions: bool) -> String {
+    let pose = origin_pose(joint.origin.as_ref(), quaternions) * motion(joint, position);
+    let rpy = roll_pitch_yaw(&pose.rotation);
+    let xyz = pose.translation.vector;
+    origin_text([xyz.x, xyz.y, xyz.z], rpy)
+}
+
+/// An `<origin>`.
+pub(super) fn origin_text(xyz: [f64; 3], rpy: [f64; 3]) -> String {
+    format!(
+        "<origin xyz=\"{}\" rpy=\"{}\"/>",
+        numbers(&xyz),
+        numbers(&rpy)
+    )
+}
+
+/// Numbers with spaces between them, each the shortest that means the same.
+pub(super) fn numbers(values: &[f64]) -> String {
+    let number = |value: &f64| {
+        // Adding 0 turns -0 into 0.
+        let text = format!("{:?}", value + 0.0);
+        text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+    };
+    values.iter().map(number).collect::<Vec<_>>().join(" ")
+}
+
+/// The pose of the child's frame in the joint's (SPEC 5.8).
+fn motion(joint: &Joint, position: &[f64]) -> Isometry3<f64> {
+    let written = joint.axis.as_ref().and_then(|axis| axis.xyz);
+    let axis = unit_axis(written.unwrap_or([1.0, 0.0, 0.0]));
+    let still = Isometry3::identity();
+    match (joint.joint_type, axis, position) {
+        (JointType::Revolute | JointType::Continuous, Some(axis), &[angle]) => {
+            let rotation = UnitQuaternion::from_axis_angle(&axis, angle);
+            Isometry3::from_parts(Translation3::identity(), rotation)
+        }
+        (JointType::Prismatic, Some(axis), &[length]) => {
+            Isometry3::from_parts((axis.into_inner() * length).into(), still.rotation)
+        }
+        (JointType::Planar, Some(axis), &[x, y, angle]) => {
+            let [along_x, along_y] = planar_basis(&axis);
+            let rotation = UnitQuaternion::from_axis_angle(&axis, angle);
+            Isometry3::from_parts((along_x * x + along_y * y).into(), rotation)
+        }
+        (JointType::Spherical, _, &[a, b, c]) => {
+            Isometry3::from_parts(Translation3::identity(), from_rotation_vector([a, b, c]))
+        }
+        (JointType::Floating, _, &[x, y, z, a, b, c]) => {
+            let rotation = from_rotation_vector([a, b, c]);
+            Isometry3::from_parts(Translation3::new(x, y, z), rotation)
+        }
+        _ => still,
+    }
+}
+
+/// Fixed-axis roll, pitch, yaw. Near a pitch of a right angle, where roll and yaw by themselves are
+/// hardly known, roll is what goes with the yaw that was found, so that the rotation keeps its digits.
+pub(super) fn roll_pitch_yaw(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
+    let r: Rotation3<f64> = rotation.to_rotation_matrix();
+    let yaw = r[(1, 0)].atan2(r[(0, 0)]);
+    let pitch = (-r[(2, 0)]).atan2(r[(0, 0)].hypot(r[(1, 0)]));
+    let (sin, cos) = yaw.sin_cos();
+    let roll = (sin * r[(0, 2)] - cos * r[(1, 2)]).atan2(cos * r[(1, 1)] - sin * r[(0, 1)]);
+    // Not -0.
+    [roll, pitch, yaw].map(|angle| angle + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+    use urdd_kinematics::rotation::{from_rpy, rotation_distance};
+
+    #[test]
+    fn angles_keep_the_rotation_to_the_last_digits() {
+        let pitches = [
+            0.0,
+            1.0,
+            FRAC_PI_2 - 1e-3,
+            FRAC_PI_2 - 1e-9,
+            FRAC_PI_2,
+            -FRAC_PI_2,
+            -FRAC_PI_2 + 2.7e-8,
+        ];
+        for pitch in pitches {
+            for (roll, yaw) in [(0.0, 0.0), (0.3, -2.0), (-3.0, 3.1), (1.5, 0.7)] {
+                let rotation = from_rpy([roll, pitch, yaw]);
+                let again = from_rpy(roll_pitch_yaw(&rotation));
+                let apart = rotation_distance(&rotation, &again);
+                assert!(apart < 4e-15, "{roll} {pitch} {yaw}: {apart:e}");
+            }
+        }
+    }
+}

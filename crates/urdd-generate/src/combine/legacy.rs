@@ -1,0 +1,142 @@
+//! A URDD of before version 1 as a part: its URDF names meshes by packages that are nowhere, and its
+//! `original_meshes_module` holds the files of those that links show. Where one of these is missing, the link's plain mesh
+//! stands for it.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use super::error::PartFault;
+use super::names::mesh_edits;
+use crate::{MAX_SOURCE_BYTES, read_urdf};
+use urdd_directory::json;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::root::Root;
+use urdd_format::legacy::plain_meshes::PlainMeshesModule;
+use urdd_format::registry::ModuleKind;
+use urdd_format::urdf::{Geometry, Link, Mesh};
+use urdd_xml::element::{Edit, apply, attribute, children};
+use urdd_xml::{Kind, parse};
+
+/// The URDF that a legacy URDD carries.
+pub(super) struct Carried {
+    /// Its file's name.
+    pub file: String,
+    /// As it was found.
+    pub found: Vec<u8>,
+    /// With the meshes that the URDD holds named where they are, relative to its folder.
+    pub text: Vec<u8>,
+    /// The links whose plain mesh is named, since the original is missing.
+    pub plain_meshes: Vec<String>,
+}
+
+/// Reads the URDF of the legacy URDD in `folder`. Nothing outside of that is opened.
+pub(super) fn read(folder: &Path) -> Result<Carried, PartFault> {
+    let file = urdf_in(folder).ok_or(PartFault::NoUrdf)?;
+    let unreadable = |reason: String| PartFault::Unreadable {
+        file: file.clone(),
+        reason,
+    };
+    let root = Root::open_folder(folder).map_err(|error| unreadable(error.to_string()))?;
+    let found = root.read(&file, MAX_SOURCE_BYTES);
+    let found = found.map_err(|error| unreadable(error.to_string()))?;
+    let robot = read_urdf(&found, "robot").map_err(|error| unreadable(error.to_string()))?;
+    let text = String::from_utf8(robot.carried).map_err(|error| unreadable(error.to_string()))?;
+    let links = &robot.robot.links;
+    let is_there = |place: &str| root.open_file(place).is_ok();
+    let mut places = BTreeMap::new();
+    for visual in links.iter().flat_map(|link| &link.visual) {
+        let Some(Geometry::Mesh(mesh)) = &visual.geometry else {
+            continue;
+        };
+        let name = last_component(mesh.filename.trim());
+        let place = format!("{}/meshes/{name}", ModuleKind::OriginalMeshes.folder());
+        if !name.is_empty() && is_there(&place) {
+            places.insert(mesh.filename.clone(), place);
+        }
+    }
+    let mut edits = mesh_edits(&text, &places).map_err(unreadable)?;
+    let mut plain = plain_meshes(&root);
+    plain.retain(|idx, place| {
+        let mesh = links.get(*idx).and_then(only_mesh);
+        mesh.is_some_and(|mesh| !places.contains_key(&mesh.filename)) && is_there(place)
+    });
+    edits.extend(plain_edits(&text, &plain).map_err(unreadable)?);
+    Ok(Carried {
+        text: apply(&text, edits).into_bytes(),
+        plain_meshes: plain.keys().map(|idx| links[*idx].name.clone()).collect(),
+        found,
+        file,
+    })
+}
+
+/// The name of the one URDF in the folder of a legacy URDD.
+fn urdf_in(folder: &Path) -> Option<String> {
+    let entries = fs::read_dir(folder).ok()?;
+    let files = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut urdfs = files.filter(|file| file.ends_with(".urdf"));
+    let first = urdfs.next()?;
+    urdfs.next().is_none().then_some(first)
+}
+
+fn last_component(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or_default()
+}
+
+/// The mesh of a link that shows nothing else, at its own size: the converter ignored scales.
+fn only_mesh(link: &Link) -> Option<&Mesh> {
+    let [visual] = link.visual.as_slice() else {
+        return None;
+    };
+    match &visual.geometry {
+        Some(Geometry::Mesh(mesh)) if mesh.scale.is_none_or(|scale| scale == [1.0; 3]) => {
+            Some(mesh)
+        }
+        _ => None,
+    }
+}
+
+/// By link, its plain mesh, in the link's frame. The converter wrote the plain meshes of links that share a name over each
+/// other, so these are left out.
+fn plain_meshes(root: &Root) -> BTreeMap<usize, String> {
+    let folder = ModuleKind::PlainMeshes.folder();
+    let bytes = root.read(&format!("{folder}/module.json"), MAX_DOCUMENT_BYTES);
+    let value = bytes.ok().and_then(|bytes| json::read(&bytes).ok());
+    let module =
+        value.and_then(|read| serde_json::from_value::<PlainMeshesModule>(read.value).ok());
+    let paths = module.map_or_else(Vec::new, |module| module.stl_link_mesh_relative_paths);
+    let paths = paths.iter().enumerate();
+    let named = paths.filter_map(|(idx, path)| Some((idx, last_component(path.as_ref()?))));
+    let mut links_of: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (idx, name) in named {
+        links_of.entry(name).or_default().push(idx);
+    }
+    let own = links_of.into_iter().filter(|(_, links)| links.len() == 1);
+    own.map(|(name, links)| (links[0], format!("{folder}/meshes/stl/{name}")))
+        .collect()
+}
+
+/// The edits that name the plain meshes of links, whose origins are applied already.
+fn plain_edits(text: &str, plain: &BTreeMap<usize, String>) -> Result<Vec<Edit>, String> {
+    let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
+    let links = children(document.root_element()).filter(|(tag, _)| *tag == "link");
+    let mut edits = Vec::new();
+    for (idx, (_, link)) in links.enumerate() {
+        let Some(place) = plain.get(&idx) else {
+            continue;
+        };
+        let visuals = children(link).filter(|(tag, _)| *tag == "visual");
+        for (tag, element) in visuals.flat_map(|(_, visual)| children(visual)) {
+            if tag == "origin" {
+                let (range, text) = (element.range(), String::new());
+                edits.push(Edit { range, text });
+            }
+            let meshes = children(element).filter(|(tag, _)| *tag == "mesh");
+            for found in meshes.filter_map(|(_, mesh)| attribute(mesh, "filename")) {
+                let (range, text) = (found.range_value(), super::names::escaped(place));
+                edits.push(Edit { range, text });
+            }
+        }
+    }
+    Ok(edits)
+}

@@ -1,0 +1,172 @@
+//! Where the meshes of parts are carried: each file once, however many parts have it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use super::error::{CombineError, PartFault};
+use super::part::{Loaded, MeshFile};
+use super::recipe::Part;
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_format::hexadecimal::hexadecimal;
+use urdd_format::registry::ModuleKind;
+
+/// The meshes of all parts. Each is written as soon as it was read, and put in its place at the end: no more than one mesh
+/// with its side files is in memory.
+pub(super) struct Meshes<'a> {
+    /// By the content of a mesh and the files that it names, where it is carried: below `meshes`.
+    places: BTreeMap<String, String>,
+    /// For each place, the file in `store`.
+    files: BTreeMap<String, PathBuf>,
+    store: PathBuf,
+    cancellation: &'a Cancellation,
+}
+
+/// The meshes of a part: by the names in its URDF, where they are carried, below `meshes`.
+pub(super) type Placed = BTreeMap<String, String>;
+
+impl<'a> Meshes<'a> {
+    /// None yet; files are kept in the folder `store`, which is there.
+    pub fn new(store: PathBuf, cancellation: &'a Cancellation) -> Self {
+        Meshes {
+            places: BTreeMap::new(),
+            files: BTreeMap::new(),
+            store,
+            cancellation,
+        }
+    }
+
+    /// Takes in the meshes of a part.
+    ///
+    /// # Errors
+    /// Where one cannot be read or written, and where it is asked to stop.
+    pub fn add(
+        &mut self,
+        part: &Part,
+        loaded: &Loaded,
+        used: &BTreeSet<String>,
+    ) -> Result<Placed, CombineError> {
+        let mut placed = Placed::new();
+        for (name, mesh) in loaded
+            .meshes
+            .iter()
+            .filter(|(name, _)| used.contains(*name))
+        {
+            self.cancellation.check().map_err(super::cancelled)?;
+            let read = |path: &String| {
+                let bytes = loaded.root.read(path, MAX_DOCUMENT_BYTES);
+                bytes.map_err(|error| CombineError::Part {
+                    id: part.id.text.clone(),
+                    source_path: part.source.display().to_string(),
+                    fault: PartFault::Unreadable {
+                        file: path.clone(),
+                        reason: error.to_string(),
+                    },
+                })
+            };
+            placed.insert(name.clone(), self.place(&part.id.text, mesh, &read)?);
+        }
+        Ok(placed)
+    }
+
+    fn place(
+        &mut self,
+        id: &str,
+        mesh: &MeshFile,
+        read: &dyn Fn(&String) -> Result<Vec<u8>, CombineError>,
+    ) -> Result<String, CombineError> {
+        let own = read(&mesh.path)?;
+        let mut sides = Vec::new();
+        for side in &mesh.side_files {
+            sides.push((side, read(side)?));
+        }
+        let hash = |bytes: &[u8]| hexadecimal(&Sha256::digest(bytes));
+        let ending = mesh.path.rsplit_once('.').map_or("", |(_, ending)| ending);
+        let mut content = format!("{} {}\n", ending.to_ascii_lowercase(), hash(&own));
+        for (side, bytes) in &sides {
+            // They lie where the mesh expects them.
+            content += &format!("{} {}\n", relative(&mesh.path, side), hash(bytes));
+        }
+        if let Some(place) = self.places.get(&content) {
+            return Ok(place.clone());
+        }
+        let place = format!("{id}/{}", below_meshes(&mesh.path));
+        for (side, bytes) in sides {
+            self.store(format!("{id}/{}", below_meshes(side)), &bytes)?;
+        }
+        self.store(place.clone(), &own)?;
+        self.places.insert(content, place.clone());
+        Ok(place)
+    }
+
+    fn store(&mut self, place: String, bytes: &[u8]) -> Result<(), CombineError> {
+        let path = self.store.join(self.files.len().to_string());
+        fs::write(&path, bytes).map_err(|error| CombineError::Unwritable {
+            path: path.clone(),
+            reason: error.to_string(),
+        })?;
+        self.files.insert(place, path);
+        Ok(())
+    }
+
+    /// Puts the files where the URDF names them, below `folder`, and returns what of a place is left out
+    /// there: the folders that all files share.
+    ///
+    /// # Errors
+    /// Where a file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<String, CombineError> {
+        let mut shared: Option<Vec<&str>> = None;
+        for place in self.files.keys() {
+            let mut folders: Vec<&str> = place.split('/').collect();
+            folders.pop();
+            shared = Some(match shared {
+                None => folders,
+                Some(before) => {
+                    let same = before.iter().zip(&folders).take_while(|(a, b)| a == b);
+                    same.map(|(a, _)| *a).collect()
+                }
+            });
+        }
+        let mut shared = shared.unwrap_or_default().join("/");
+        if !shared.is_empty() {
+            shared.push('/');
+        }
+        for (place, stored) in &self.files {
+            let path = folder.join(carried(place, &shared));
+            let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+            let put = made.and_then(|()| fs::rename(stored, &path));
+            put.map_err(|error| CombineError::Unwritable {
+                reason: error.to_string(),
+                path,
+            })?;
+        }
+        Ok(shared)
+    }
+}
+
+/// Where a file is carried in the URDD, and what the URDF calls it, so that it is found from there too.
+pub(super) fn carried(place: &str, shared: &str) -> String {
+    let place = place.strip_prefix(shared).unwrap_or(place);
+    format!("{}/meshes/{place}", ModuleKind::OriginalMeshes.folder())
+}
+
+fn below_meshes(path: &str) -> &str {
+    let folder = ModuleKind::OriginalMeshes.folder();
+    let below = path.strip_prefix(folder);
+    let below = below.and_then(|path| path.strip_prefix("/meshes/"));
+    below.unwrap_or(path)
+}
+
+/// A file as seen from the folder of another, both below one root.
+fn relative(from: &str, to: &str) -> String {
+    let from: Vec<&str> = from.split('/').collect();
+    let to: Vec<&str> = to.split('/').collect();
+    let folders = &from[..from.len() - 1];
+    let same = folders.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    let up = vec![".."; folders.len() - same];
+    let path: Vec<&str> = up.into_iter().chain(to[same..].iter().copied()).collect();
+    path.join("/")
+}

@@ -1,0 +1,358 @@
+//! Several robots become one: their URDFs one URDF, whose URDD carries all meshes, each once, and
+//! takes over what the parts' URDDs hold of their links.
+//!
+//! A [`Recipe`] says which robots, and how they hang on each other. [`combine`] makes the URDD. It does not judge
+//! the parts: whoever calls it validates those before, by [`check_parts`].
+
+mod check_parts;
+mod compose;
+mod error;
+mod from_legacy;
+mod frozen;
+mod keys;
+mod legacy;
+mod meshes;
+mod names;
+mod note;
+mod part;
+mod recipe;
+mod recipe_check;
+mod recipe_fault;
+mod recipe_file;
+mod record;
+mod rewrite;
+mod skips;
+mod sources;
+mod toml_file;
+mod toml_text;
+mod trim;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use self::compose::Taken;
+use self::meshes::Meshes;
+use self::rewrite::{Rewrite, Rewritten};
+use crate::note::{self as generated, NoteKind};
+use crate::{
+    Composed, GenerateError, Generated, MAX_SOURCE_BYTES, MOST_LINKS, Progress, Settings,
+    generate_composed, has_quaternions, read_urdf,
+};
+use urdd_format::composition::{CompositionModule, PartSource};
+use urdd_format::registry::ModuleKind;
+use urdd_format::urdf::Geometry;
+
+pub use check_parts::check_parts;
+pub use error::{CombineError, PartFault};
+pub use names::LeftAlone;
+pub use note::Note;
+pub use recipe::{
+    Attachment, Base, JointDescription, MAX_RECIPE_BYTES, Part, Recipe, Sources, Word,
+};
+pub use recipe_fault::RecipeFault;
+pub use sources::{SourceKind, source_kind};
+
+/// A robot that was put together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Combined {
+    /// Its URDD.
+    pub generated: Generated,
+    /// How it was put together.
+    pub composition: CompositionModule,
+    /// What there is to say of it.
+    pub notes: Vec<Note>,
+}
+
+/// Puts robots together: makes the URDD of a recipe in the folder `target`, which is there as a whole when this
+/// returns, or is as it was. What the URDDs of parts hold of their links is taken over, but for parts that are
+/// `distrusted`, by their ids.
+///
+/// # Errors
+/// Where the recipe cannot be followed, a part is no robot, or the URDD cannot be written.
+pub fn combine(
+    recipe: &Recipe,
+    target: &Path,
+    settings: &Settings,
+    distrusted: &BTreeSet<String>,
+    progress: &dyn Progress,
+) -> Result<Combined, CombineError> {
+    let internal = |reason: String| CombineError::Generate {
+        id: None,
+        error: GenerateError::Internal {
+            file: recipe.shown.clone(),
+            reason,
+        },
+    };
+    let unwritable = |path: &Path, error: std::io::Error| CombineError::Unwritable {
+        path: path.to_owned(),
+        reason: error.to_string(),
+    };
+    let workplace = tempfile::tempdir();
+    let workplace = workplace.map_err(|error| unwritable(&std::env::temp_dir(), error))?;
+    let mut notes = Vec::new();
+    let parts = take_up(recipe, workplace.path(), settings)?;
+    said(&parts, &mut notes);
+    for taken in &parts {
+        if let Some(attach) = &taken.part.attach {
+            let (holder, link) = recipe.target(&attach.to)?;
+            if let Some(holder) = holder {
+                skips::existing(recipe, &parts[holder], link, &attach.to)?;
+            }
+        }
+    }
+    let repeated = compose::check_names(recipe, &parts)?;
+    let (edits, skipped_reasons) = skips::decisions(recipe, &parts, &mut notes)?;
+
+    let [folder, store] = ["whole", "store"].map(|name| workplace.path().join(name));
+    for folder in [&folder, &store] {
+        std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;
+    }
+    let mut files = Meshes::new(store, &settings.cancellation);
+    let mut placed = Vec::new();
+    for taken in &parts {
+        placed.push(files.add(taken.part, &taken.loaded, &used_meshes(taken))?);
+    }
+    let shared = files.write(&folder)?;
+
+    let quaternions = has_quaternions(compose::version(&parts).as_deref());
+    let (mut rewritten, mut length) = (Vec::new(), 0);
+    for ((taken, placed), repeated) in parts.iter().zip(placed).zip(&repeated) {
+        settings.cancellation.check().map_err(cancelled)?;
+        let carried = placed.into_iter();
+        let carried = carried.map(|(name, place)| (name, meshes::carried(&place, &shared)));
+        let text = Rewrite {
+            loaded: &taken.loaded,
+            trim: &taken.trim,
+            prefix: &taken.part.prefix.text,
+            names: &names_told(recipe, taken.part)?,
+            meshes: &carried.collect::<BTreeMap<_, _>>(),
+            repeated_materials: repeated,
+            quaternions,
+        };
+        let text = text.run().map_err(internal)?;
+        said_of_text(taken, &text, &mut notes);
+        length += text.inner.len();
+        check_length(recipe, taken.part, "the URDFs", length)?;
+        rewritten.push(text);
+    }
+    let urdf = compose::urdf(recipe, &parts, &rewritten)?;
+    settings.cancellation.check().map_err(cancelled)?;
+    let robot = read_urdf(urdf.as_bytes(), &recipe.name.text);
+    let robot = robot.map_err(|error| CombineError::Generate { id: None, error })?;
+    let composition = record::composition(recipe, &parts, &robot.robot)?;
+
+    let mut settings = settings.clone();
+    let trusted = parts.iter().filter(|taken| {
+        let is_urdd = matches!(taken.loaded.source, PartSource::Urdd(_));
+        is_urdd && !distrusted.contains(&taken.part.id.text)
+    });
+    let mut reused = BTreeSet::new();
+    let trusted = trusted.filter(|taken| reused.insert(Rc::as_ptr(&taken.loaded)));
+    settings.reuse = trusted.map(|taken| taken.loaded.root.clone()).collect();
+    let composed = Composed {
+        shown: format!("{}.urdf", recipe.name.text),
+        folder,
+        edits,
+        skipped_reasons,
+        composition: composition.clone(),
+    };
+    let generated = generate_composed(urdf.into_bytes(), &composed, target, &settings, progress);
+    let mut generated = generated.map_err(|error| CombineError::Generate { id: None, error })?;
+    // That was said of the parts.
+    let is_said = |note: &generated::Note| note.kind == NoteKind::MeshNotFound;
+    generated.notes.retain(|note| !is_said(note));
+    Ok(Combined {
+        generated,
+        composition,
+        notes,
+    })
+}
+
+/// Reads the parts, each source once, up to the limits of a robot.
+fn take_up<'a>(
+    recipe: &'a Recipe,
+    workplace: &Path,
+    settings: &Settings,
+) -> Result<Vec<Taken<'a>>, CombineError> {
+    let mut parts = Vec::new();
+    let mut known: BTreeMap<PathBuf, Rc<part::Loaded>> = BTreeMap::new();
+    let (mut links, mut length, mut composition_length) = (0, 0, 0);
+    for (idx, part) in recipe.parts.iter().enumerate() {
+        settings.cancellation.check().map_err(cancelled)?;
+        let source = recipe.source(part, settings)?;
+        let loaded = match known.get(&source.path) {
+            Some(loaded) => loaded.clone(),
+            None => {
+                let place = workplace.join(format!("part_{idx}"));
+                Rc::new(part::load(&source, &part.id.text, &place, settings)?)
+            }
+        };
+        known.insert(source.path, loaded.clone());
+        let trim = trim::trim(recipe, part, &loaded)?;
+        links += (0..trim.dropped_links.len())
+            .filter(|link| trim.keeps_link(*link))
+            .count();
+        if links > MOST_LINKS {
+            let fault = RecipeFault::TooManyLinks {
+                found: links,
+                limit: MOST_LINKS,
+            };
+            return Err(recipe.refused(&part.id, fault));
+        }
+        length += loaded.text.len();
+        check_length(recipe, part, "the URDFs", length)?;
+        composition_length += loaded.composition_length;
+        let what = "the composition modules";
+        check_length(recipe, part, what, composition_length)?;
+        parts.push(Taken { part, loaded, trim });
+    }
+    Ok(parts)
+}
+
+/// Refuses parts that together have more text than a URDF may have.
+fn check_length(
+    recipe: &Recipe,
+    part: &Part,
+    what: &'static str,
+    length: usize,
+) -> Result<(), CombineError> {
+    let limit = MAX_SOURCE_BYTES;
+    match length as u64 > limit {
+        true => Err(recipe.refused(&part.id, RecipeFault::TooLong { what, limit })),
+        false => Ok(()),
+    }
+}
+
+fn cancelled(error: urdd_directory::cancellation::Cancelled) -> CombineError {
+    CombineError::Generate {
+        id: None,
+        error: error.into(),
+    }
+}
+
+/// The meshes that links name which come along.
+fn used_meshes(taken: &Taken) -> BTreeSet<String> {
+    let links = taken.loaded.robot.links.iter().enumerate();
+    let links = links.filter(|(idx, _)| taken.trim.keeps_link(*idx));
+    let geometries = links.flat_map(|(_, link)| {
+        let visual = link.visual.iter().map(|visual| &visual.geometry);
+        let collision = link.collision.iter().map(|collision| &collision.geometry);
+        visual.chain(collision).flatten()
+    });
+    let names = geometries.filter_map(|geometry| match geometry {
+        Geometry::Mesh(mesh) => Some(mesh.filename.clone()),
+        _ => None,
+    });
+    names.collect()
+}
+
+/// The files that materials which come along name as their textures.
+fn textures(taken: &Taken) -> BTreeSet<String> {
+    let robot = &taken.loaded.robot;
+    let links = robot.links.iter().enumerate();
+    let links = links.filter(|(idx, _)| taken.trim.keeps_link(*idx));
+    let visuals = links.flat_map(|(_, link)| &link.visual);
+    let own = visuals.filter_map(|visual| visual.material.as_ref());
+    let textures = own.chain(&robot.materials);
+    let textures = textures.filter_map(|material| material.texture.as_ref());
+    textures.map(|texture| texture.filename.clone()).collect()
+}
+
+/// What else names links and joints in a part, as the recipe tells it.
+fn names_told<'a>(recipe: &Recipe, part: &'a Part) -> Result<BTreeSet<&'a str>, CombineError> {
+    let mut told = BTreeSet::new();
+    for word in &part.names {
+        let mut words = word.text.split('@');
+        let is_word = |word: Option<&str>| word.is_none_or(|word| !word.trim().is_empty());
+        let fits = is_word(words.next()) && is_word(words.next()) && words.next().is_none();
+        if !fits {
+            let fault = RecipeFault::BadName(word.text.clone());
+            return Err(recipe.refused(word, fault));
+        }
+        told.insert(word.text.as_str());
+    }
+    Ok(told)
+}
+
+/// What there is to say of the parts by themselves.
+fn said(parts: &[Taken], notes: &mut Vec<Note>) {
+    let is_urdd = |taken: &&Taken| matches!(taken.loaded.source, PartSource::Urdd(_));
+    let urdds = parts.iter().filter(is_urdd);
+    let all: BTreeSet<&String> = urdds.flat_map(|taken| &taken.loaded.modules).collect();
+    for taken in parts {
+        let part = &taken.part.id.text;
+        for note in &taken.loaded.notes {
+            notes.push(Note::Part {
+                part: part.clone(),
+                note: note.clone(),
+            });
+        }
+        for link in &taken.loaded.plain_meshes {
+            if taken
+                .loaded
+                .links
+                .get(link)
+                .is_some_and(|idx| taken.trim.keeps_link(*idx))
+            {
+                notes.push(Note::PlainMesh {
+                    part: part.clone(),
+                    link: link.clone(),
+                });
+            }
+        }
+        for joint in &taken.trim.following {
+            notes.push(Note::Following {
+                part: part.clone(),
+                joint: joint.clone(),
+            });
+        }
+        for name in textures(taken) {
+            notes.push(Note::Texture {
+                part: part.clone(),
+                name,
+            });
+        }
+        if !is_urdd(&taken) {
+            continue;
+        }
+        for name in used_meshes(taken) {
+            if !taken.loaded.meshes.contains_key(&name) {
+                let part = part.clone();
+                notes.push(Note::NoMesh { part, name });
+            }
+        }
+        let known = ModuleKind::ALL.iter().map(|kind| kind.name());
+        let lacks = known.filter(|name| {
+            let is_there = |list: &Vec<String>| list.iter().any(|module| module == name);
+            let others_have = all.iter().any(|module| module == name);
+            others_have && !is_there(&taken.loaded.modules) && *name != "composition_module"
+        });
+        let lacks: Vec<String> = lacks.map(str::to_owned).collect();
+        if !lacks.is_empty() {
+            notes.push(Note::UnequalModules {
+                part: part.clone(),
+                lacks,
+            });
+        }
+    }
+}
+
+/// What there is to say of a part's text.
+fn said_of_text(taken: &Taken, text: &Rewritten, notes: &mut Vec<Note>) {
+    let part = &taken.part.id.text;
+    let is_renamed = !taken.part.prefix.text.is_empty();
+    for left in text.left_alone.iter().filter(|_| is_renamed) {
+        notes.push(Note::LeftAlone {
+            part: part.clone(),
+            place: left.place.clone(),
+            name: left.name.clone(),
+        });
+    }
+    for what in &text.gone {
+        notes.push(Note::Gone {
+            part: part.clone(),
+            what: what.clone(),
+        });
+    }
+}

@@ -1,0 +1,300 @@
+//! Where a URDF names its links, joints, materials and meshes, in its own elements and in those that it does
+//! not define.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use roxmltree::{Document, Node};
+
+use urdd_format::urdf::UrdfModule;
+use urdd_xml::element::{Edit, attribute, children, name};
+use urdd_xml::{Kind, parse};
+
+/// Attributes, in elements that URDF does not define, that name a link or joint where their value is one.
+const ATTRIBUTES: &[&str] = &[
+    "link",
+    "link1",
+    "link2",
+    "joint",
+    "joint1",
+    "joint2",
+    "reference",
+    "mimic_joint",
+];
+
+/// Elements, among those that URDF does not define, whose text names a link or joint where it is one.
+const TEXTS: &[&str] = &[
+    "bodyName",
+    "body_name",
+    "frameName",
+    "frame_name",
+    "frame_id",
+    "jointName",
+    "joint_name",
+    "linkName",
+    "link_name",
+    "left_joint",
+    "right_joint",
+    "leftJoint",
+    "rightJoint",
+    "robotBaseFrame",
+    "robot_base_frame",
+];
+
+/// Elements, among those that URDF does not define, whose `name` is a joint's where it is one.
+const OF_JOINTS: &[&str] = &[
+    "joint",
+    "flexJoint",
+    "rollJoint",
+    "gap_joint",
+    "passive_joint",
+    "simulated_actuated_joint",
+    "use_simulated_gripper_joint",
+];
+
+/// Elements, among those that URDF does not define, whose `name` is their own, and must differ from
+/// those of other parts.
+const OWN: &[&str] = &[
+    "transmission",
+    "actuator",
+    "leftActuator",
+    "rightActuator",
+    "ros2_control",
+    "gpio",
+    "sensor",
+];
+
+/// Something that bears a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Named {
+    Link,
+    Joint,
+    Material,
+    /// A link or joint, whichever has the name.
+    Either,
+    /// A thing of its own.
+    Own,
+}
+
+/// A place in a URDF's text where a name stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct NamePlace {
+    /// The name, without entities and white space.
+    pub name: String,
+    pub named: Named,
+    /// Bytes of the text: the value of the attribute, or the element's text.
+    pub range: std::ops::Range<usize>,
+    /// The element that stands directly in `<robot>` and holds it.
+    pub top: std::ops::Range<usize>,
+    /// The innermost element that is gone with the name where that is dropped: a joint of
+    /// `ros2_control`, a whole transmission.
+    pub unit: std::ops::Range<usize>,
+    /// Whether it stands in an element that URDF does not define.
+    pub unknown: bool,
+}
+
+/// A place where a link or joint may be named, and it is not known whether it is.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct LeftAlone {
+    /// `element`, or `element@attribute`.
+    pub place: String,
+    /// The name that stands there.
+    pub name: String,
+}
+
+/// All names in a URDF.
+#[derive(Debug, Default)]
+pub(super) struct Names {
+    pub places: Vec<NamePlace>,
+    pub left_alone: BTreeSet<LeftAlone>,
+}
+
+/// Finds the names in a URDF. `more` says what else names links and joints in elements that URDF does not
+/// define: `element`, or `element@attribute`.
+pub(super) fn find(document: &Document, robot: &UrdfModule, more: &BTreeSet<&str>) -> Names {
+    let mut finder = Finder {
+        links: robot.links.iter().map(|link| link.name.as_str()).collect(),
+        joints: robot
+            .joints
+            .iter()
+            .map(|joint| joint.name.as_str())
+            .collect(),
+        more,
+        found: Names::default(),
+        top: 0..0,
+    };
+    for (tag, element) in children(document.root_element()) {
+        finder.top = element.range();
+        match tag {
+            "link" => finder.link(element),
+            "joint" => finder.joint(element),
+            "material" => finder.attribute(element, "name", Named::Material),
+            _ => finder.unknown(element, element.range()),
+        }
+    }
+    finder.found
+}
+
+struct Finder<'a> {
+    links: BTreeSet<&'a str>,
+    joints: BTreeSet<&'a str>,
+    more: &'a BTreeSet<&'a str>,
+    found: Names,
+    top: std::ops::Range<usize>,
+}
+
+impl Finder<'_> {
+    fn push(&mut self, text: &str, named: Named, range: std::ops::Range<usize>, unit: Node) {
+        self.found.places.push(NamePlace {
+            name: text.to_owned(),
+            named,
+            range,
+            top: self.top.clone(),
+            unit: unit.range(),
+            unknown: false,
+        });
+    }
+
+    fn attribute<'a>(&mut self, element: Node<'a, 'a>, key: &str, named: Named) {
+        // An empty name is how some programs write that there is none.
+        if let Some(found) = attribute(element, key).filter(|found| !found.value().is_empty()) {
+            self.push(found.value(), named, found.range_value(), element);
+        }
+    }
+
+    fn link<'a>(&mut self, link: Node<'a, 'a>) {
+        self.attribute(link, "name", Named::Link);
+        for (tag, element) in children(link) {
+            match tag {
+                "visual" => {
+                    for (tag, inner) in children(element) {
+                        if tag == "material" {
+                            self.attribute(inner, "name", Named::Material);
+                        }
+                    }
+                }
+                "inertial" | "collision" => {}
+                _ => self.unknown(element, element.range()),
+            }
+        }
+    }
+
+    fn joint<'a>(&mut self, joint: Node<'a, 'a>) {
+        self.attribute(joint, "name", Named::Joint);
+        for (tag, element) in children(joint) {
+            match tag {
+                "parent" | "child" => self.attribute(element, "link", Named::Link),
+                "mimic" => self.attribute(element, "joint", Named::Joint),
+                "origin" | "axis" | "limit" | "dynamics" | "safety_controller" | "calibration" => {}
+                _ => self.unknown(element, element.range()),
+            }
+        }
+    }
+
+    fn named(&self, text: &str) -> Option<Named> {
+        match (self.links.contains(text), self.joints.contains(text)) {
+            (true, true) => Some(Named::Either),
+            (true, false) => Some(Named::Link),
+            (false, true) => Some(Named::Joint),
+            (false, false) => None,
+        }
+    }
+
+    /// An element that URDF does not define. `unit` is what goes with a name that is dropped.
+    fn unknown<'a>(&mut self, element: Node<'a, 'a>, unit: std::ops::Range<usize>) {
+        let tag = name(element);
+        let begins = self.found.places.len();
+        for found in element.attributes() {
+            let (key, value) = (found.name(), found.value());
+            let place = format!("{tag}@{key}");
+            let is_name = key == "name";
+            let told = self.more.contains(place.as_str());
+            let is_known = told
+                || ATTRIBUTES.contains(&key)
+                || (matches!(key, "parent" | "child") && self.links.contains(value))
+                || (is_name && OF_JOINTS.contains(&tag) && self.joints.contains(value));
+            let named = match self.named(value) {
+                Some(named) if is_known => Some(named),
+                None if is_name && OWN.contains(&tag) => Some(Named::Own),
+                Some(_) if is_name && OWN.contains(&tag) => Some(Named::Own),
+                Some(_) => {
+                    let name = value.to_owned();
+                    self.found.left_alone.insert(LeftAlone { place, name });
+                    None
+                }
+                None => None,
+            };
+            if let Some(named) = named {
+                self.push(value, named, found.range_value(), element);
+            }
+        }
+        let mut texts = element.children().filter(Node::is_text);
+        if let (Some(text), None) = (texts.next(), texts.next()) {
+            self.text(element, tag, text);
+        }
+        for place in &mut self.found.places[begins..] {
+            place.unit = unit.clone();
+            place.unknown = true;
+        }
+        for (inner_tag, inner) in children(element) {
+            // A joint of ros2_control goes by itself; of a transmission, all of it goes.
+            let is_own_unit = tag == "ros2_control";
+            let unit = match is_own_unit && matches!(inner_tag, "joint" | "sensor" | "gpio") {
+                true => inner.range(),
+                false => unit.clone(),
+            };
+            self.unknown(inner, unit);
+        }
+    }
+
+    fn text<'a>(&mut self, element: Node<'a, 'a>, tag: &str, text: Node<'a, 'a>) {
+        let value = text.text().unwrap_or_default().trim();
+        let Some(named) = self.named(value) else {
+            return;
+        };
+        let is_mimic_param = tag == "param"
+            && attribute(element, "name").is_some_and(|name| name.value() == "mimic");
+        let is_known = TEXTS.contains(&tag) || self.more.contains(tag) || is_mimic_param;
+        if is_known {
+            self.push(value, named, text.range(), element);
+        } else {
+            let place = tag.to_owned();
+            let name = value.to_owned();
+            self.found.left_alone.insert(LeftAlone { place, name });
+        }
+    }
+}
+
+/// The edits that give meshes other names.
+///
+/// # Errors
+/// Where the text is no XML.
+pub(super) fn mesh_edits(
+    text: &str,
+    names: &BTreeMap<String, String>,
+) -> Result<Vec<Edit>, String> {
+    let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
+    let mut edits = Vec::new();
+    for (_, link) in children(document.root_element()).filter(|(tag, _)| *tag == "link") {
+        let shapes = children(link).filter(|(tag, _)| matches!(*tag, "visual" | "collision"));
+        let geometries = shapes.flat_map(|(_, shape)| children(shape));
+        let geometries = geometries.filter(|(tag, _)| *tag == "geometry");
+        let meshes = geometries.flat_map(|(_, geometry)| children(geometry));
+        for (_, mesh) in meshes.filter(|(tag, _)| *tag == "mesh") {
+            let Some(filename) = attribute(mesh, "filename") else {
+                continue;
+            };
+            if let Some(new) = names.get(filename.value()) {
+                edits.push(Edit {
+                    range: filename.range_value(),
+                    text: escaped(new),
+                });
+            }
+        }
+    }
+    Ok(edits)
+}
+
+/// Text as it may stand in an attribute or an element.
+pub(super) fn escaped(text: &str) -> String {
+    quick_xml::escape::escape(text).into_owned()
+}

@@ -1,0 +1,166 @@
+//! What there is to say of robots that were put together.
+
+use std::fmt;
+
+use crate::note as generated;
+use urdd_format::escape;
+
+/// What there is to say of robots that were put together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Note {
+    /// Something was odd in the URDF of a part.
+    Part {
+        /// The part.
+        part: String,
+        /// What.
+        note: generated::Note,
+    },
+    /// The URDD of the part has no file for a mesh that its URDF names.
+    NoMesh {
+        /// The part.
+        part: String,
+        /// The mesh, as the URDF names it.
+        name: String,
+    },
+    /// A legacy URDD lacks the original mesh of a link, and its plain mesh was taken.
+    PlainMesh {
+        /// The part.
+        part: String,
+        /// The link.
+        link: String,
+    },
+    /// A material names a file of a texture. URDDs carry the textures that meshes name, not those that materials do.
+    Texture {
+        /// The part.
+        part: String,
+        /// The texture, as the URDF names it.
+        name: String,
+    },
+    /// A link's or joint's name in an element that URDF does not define was left as it is: it is not known whether it
+    /// means the link or joint.
+    LeftAlone {
+        /// The part.
+        part: String,
+        /// `element`, or `element@attribute`.
+        place: String,
+        /// The name.
+        name: String,
+    },
+    /// An element went with the link or joint that it names.
+    Gone {
+        /// The part.
+        part: String,
+        /// The element, and the name, in words.
+        what: String,
+    },
+    /// A joint was frozen because the joint that it follows was.
+    Following {
+        /// The part.
+        part: String,
+        /// The joint.
+        joint: String,
+    },
+    /// An edit of skips names a link that was dropped.
+    EditLost {
+        /// The part.
+        part: String,
+        /// One link.
+        link_a: String,
+        /// The other.
+        link_b: String,
+    },
+    /// A legacy module says something that a recipe cannot, or does not say what one must.
+    NotSaid(String),
+    /// The parts skip pairs for different reasons.
+    ReasonsDiffer,
+    /// Parts do not hold the same modules.
+    UnequalModules {
+        /// The part.
+        part: String,
+        /// What it lacks, and others have.
+        lacks: Vec<String>,
+    },
+}
+
+impl Note {
+    /// Its word, for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Note::Part { note, .. } => note.kind.as_str(),
+            Note::NoMesh { .. } => "mesh-not-found",
+            Note::PlainMesh { .. } => "plain-mesh",
+            Note::Texture { .. } => "texture",
+            Note::LeftAlone { .. } => "left-alone",
+            Note::Gone { .. } => "gone",
+            Note::Following { .. } => "following",
+            Note::EditLost { .. } => "edit-lost",
+            Note::NotSaid(_) => "not-said",
+            Note::ReasonsDiffer => "reasons-differ",
+            Note::UnequalModules { .. } => "unequal-modules",
+        }
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let line = escape::line;
+        match self {
+            Note::Part { part, note } => write!(f, "part `{}`: {note}", line(part)),
+            Note::NoMesh { part, name } => write!(
+                f,
+                "part `{}`: its URDD has no file for mesh `{}`: not carried; the element has no surface",
+                line(part),
+                line(name)
+            ),
+            Note::PlainMesh { part, link } => write!(
+                f,
+                "part `{}`: its URDD lacks the original mesh of link `{}`, and the plain one is taken: its colours are lost",
+                line(part),
+                line(link)
+            ),
+            Note::Texture { part, name } => write!(
+                f,
+                "part `{}`: texture `{}` of a material is not carried; its name stands as it is, and the file lies where it did",
+                line(part),
+                line(name)
+            ),
+            Note::LeftAlone { part, place, name } => write!(
+                f,
+                "part `{}`: `{}` says `{}`, the name of a link or joint, and was left as it is; where it means that, write names = [\"{}\"]",
+                line(part),
+                line(place),
+                line(name),
+                line(place)
+            ),
+            Note::Gone { part, what } => write!(f, "part `{}`: left out {}", line(part), line(what)),
+            Note::Following { part, joint } => write!(
+                f,
+                "part `{}`: joint `{}` follows one that is frozen, and is frozen where it is then",
+                line(part),
+                line(joint)
+            ),
+            Note::EditLost {
+                part,
+                link_a,
+                link_b,
+            } => write!(
+                f,
+                "part `{}`: the edit of the skips between `{}` and `{}` is left out, since one of them is dropped",
+                line(part),
+                line(link_a),
+                line(link_b)
+            ),
+            Note::NotSaid(what) => f.write_str(&line(what)),
+            Note::ReasonsDiffer => f.write_str(
+                "the parts skip pairs for different reasons; the usual ones are taken: same-link, always, adjacent, default (`--skip` says others)",
+            ),
+            Note::UnequalModules { part, lacks } => write!(
+                f,
+                "part `{}` has no {}, which other parts have; what it lacks is computed",
+                line(part),
+                lacks.join(", ")
+            ),
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! A part as it is taken up: its URDF, its meshes, what a person decided about its skips, and how it was
+//! put together itself.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
+
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
+use super::error::{CombineError, PartFault};
+use super::legacy;
+use super::sources::{Source, SourceKind};
+use crate::note::Note;
+use crate::{MAX_SOURCE_BYTES, Selection, Settings, generate, generate_text, read_urdf};
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::json;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::regular;
+use urdd_directory::root::Root;
+use urdd_directory::writer::sha256;
+use urdd_format::composition::{CompositionModule, PartSource};
+use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
+use urdd_format::original_meshes::OriginalMeshesModule;
+use urdd_format::registry::ModuleKind;
+use urdd_format::root_metadata::{self, RootMetadata};
+use urdd_format::urdf::UrdfModule;
+
+/// A part that was taken up.
+#[derive(Debug)]
+pub(super) struct Loaded {
+    /// The URDD: the source, or what was made of it.
+    pub root: Root,
+    /// The text of its URDF.
+    pub text: String,
+    /// What that says.
+    pub robot: UrdfModule,
+    /// The indices of its links, by name.
+    pub links: HashMap<String, usize>,
+    /// The indices of its joints, by name.
+    pub joints: HashMap<String, usize>,
+    /// Where the files of its meshes are in the URDD, by the names in the URDF.
+    pub meshes: BTreeMap<String, MeshFile>,
+    /// What a person decided about its skips.
+    pub skips: Option<Skips>,
+    /// What it is, and its digest.
+    pub source: PartSource,
+    /// How it was put together.
+    pub composition: Option<CompositionModule>,
+    /// How long the document is that says so, bytes.
+    pub composition_length: usize,
+    /// What was odd in a URDF.
+    pub notes: Vec<Note>,
+    /// Links whose mesh is the plain one of a legacy URDD, since it lacks the original.
+    pub plain_meshes: Vec<String>,
+    /// The classes' modules that it has.
+    pub modules: Vec<String>,
+}
+
+/// The file of a mesh, and the files that it names; paths in the URDD.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct MeshFile {
+    pub path: String,
+    pub side_files: Vec<String>,
+}
+
+/// What a person decided about skips.
+#[derive(Debug)]
+pub(super) struct Skips {
+    pub reasons: Vec<SkippedReason>,
+    pub edits: Vec<SkipEdit>,
+}
+
+/// Takes up a part. What has to be made of a URDF is made in `workplace`, a folder that is not there yet. `id` names a
+/// robot that has no name.
+///
+/// # Errors
+/// Where it cannot be read, or is no robot.
+pub(super) fn load(
+    source: &Source,
+    id: &str,
+    workplace: &Path,
+    settings: &Settings,
+) -> Result<Loaded, CombineError> {
+    let shown = source.path.display().to_string();
+    let refused = |fault| CombineError::Part {
+        id: id.to_owned(),
+        source_path: shown.clone(),
+        fault,
+    };
+    let unreadable = |file: &str, reason: String| {
+        let file = file.to_owned();
+        refused(PartFault::Unreadable { file, reason })
+    };
+    if source.kind == SourceKind::Urdd {
+        let root = Root::open(&source.path).map_err(|error| unreadable("", error.to_string()))?;
+        return read(root, None, id).map_err(refused);
+    }
+    let mut settings = settings.clone();
+    // What is made of links is made once, of what is put together.
+    settings.selection = Selection::parse(["original_meshes"]).unwrap_or_else(|_| Selection::all());
+    settings.reuse.clear();
+    let (made, digest, plain_meshes) = match source.kind {
+        SourceKind::Legacy => {
+            let carried = legacy::read(&source.path).map_err(refused)?;
+            let digest = sha256(&Sha256::digest(&carried.found));
+            let shown = source.path.join(&carried.file).display().to_string();
+            let made = generate_text(
+                carried.text,
+                &shown,
+                &source.path,
+                workplace,
+                &settings,
+                &(),
+            );
+            (made, digest, carried.plain_meshes)
+        }
+        _ => {
+            let bytes = regular::read(&source.path, MAX_SOURCE_BYTES);
+            let bytes = bytes.map_err(|error| unreadable("", error.to_string()))?;
+            let digest = sha256(&Sha256::digest(&bytes));
+            let made = generate(&source.path, workplace, &settings, &());
+            (made, digest, Vec::new())
+        }
+    };
+    let made = made.map_err(|error| CombineError::Generate {
+        id: Some(id.to_owned()),
+        error,
+    })?;
+    let root = Root::open_folder(workplace).map_err(|error| unreadable("", error.to_string()))?;
+    let loaded = read(root, Some(PartSource::Urdf(digest)), id).map_err(refused)?;
+    Ok(Loaded {
+        notes: made.notes,
+        plain_meshes,
+        ..loaded
+    })
+}
+
+/// Takes up a URDD of version 1.
+fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, PartFault> {
+    let unreadable = |file: &str, reason: String| PartFault::Unreadable {
+        file: file.to_owned(),
+        reason,
+    };
+    let bytes = |path: &str| {
+        root.read(path, MAX_DOCUMENT_BYTES)
+            .map_err(|error| unreadable(path, error.to_string()))
+    };
+    let text = bytes(ROOT_METADATA)?;
+    let value = json::read(&text).map_err(|error| unreadable(ROOT_METADATA, error.to_string()))?;
+    let metadata: RootMetadata = serde_json::from_value(value.value)
+        .map_err(|error| unreadable(ROOT_METADATA, error.to_string()))?;
+    let Some(root_metadata::Source::Urdf(urdf)) = &metadata.source else {
+        return Err(PartFault::NoUrdf);
+    };
+    let robot = read_urdf(&bytes(&urdf.path)?, id)
+        .map_err(|error| unreadable(&urdf.path, error.to_string()))?;
+    let text_of_urdf = String::from_utf8(robot.carried)
+        .map_err(|_| unreadable(&urdf.path, "it is not UTF-8".to_owned()))?;
+    let modules = Modules {
+        root: &root,
+        metadata: &metadata,
+    };
+    let original: Option<OriginalMeshesModule> = modules.read(ModuleKind::OriginalMeshes)?;
+    let skips: Option<Value> = modules.read(ModuleKind::LinkShapesSkips)?;
+    let skips = skips.map(|document| {
+        let of = |key: &str| document.get(key).cloned().unwrap_or_default();
+        let wrong = |error: serde_json::Error| {
+            let path = format!("{}/module.json", ModuleKind::LinkShapesSkips.folder());
+            unreadable(&path, error.to_string())
+        };
+        Ok(Skips {
+            reasons: serde_json::from_value(of("skipped_reasons")).map_err(wrong)?,
+            edits: serde_json::from_value(of("edits")).map_err(wrong)?,
+        })
+    });
+    let (composition, composition_length) = match modules.document(ModuleKind::Composition)? {
+        Some((composition, length)) => (Some(composition), length),
+        None => (None, 0),
+    };
+    Ok(Loaded {
+        meshes: original.map(meshes).unwrap_or_default(),
+        skips: skips.transpose()?,
+        composition,
+        composition_length,
+        source: source.unwrap_or_else(|| PartSource::Urdd(sha256(&Sha256::digest(&text)))),
+        modules: metadata
+            .modules
+            .iter()
+            .map(|module| module.name.clone())
+            .collect(),
+        text: text_of_urdf,
+        links: indices(robot.robot.links.iter().map(|link| &link.name)),
+        joints: indices(robot.robot.joints.iter().map(|joint| &joint.name)),
+        robot: robot.robot,
+        notes: Vec::new(),
+        plain_meshes: Vec::new(),
+        root,
+    })
+}
+
+fn indices<'a>(names: impl Iterator<Item = &'a String>) -> HashMap<String, usize> {
+    names.cloned().zip(0..).collect()
+}
+
+/// The files of meshes, by the names in the URDF.
+fn meshes(original: OriginalMeshesModule) -> BTreeMap<String, MeshFile> {
+    let files: BTreeMap<&str, &Vec<String>> = (original.files.iter())
+        .map(|file| (file.path.as_str(), &file.side_files))
+        .collect();
+    let mut meshes = BTreeMap::new();
+    for reference in &original.references {
+        let Some(path) = &reference.path else {
+            continue;
+        };
+        let side_files = files.get(path.as_str()).map(|files| (*files).clone());
+        let file = MeshFile {
+            path: path.clone(),
+            side_files: side_files.unwrap_or_default(),
+        };
+        meshes.insert(reference.filename.clone(), file);
+    }
+    meshes
+}
+
+struct Modules<'a> {
+    root: &'a Root,
+    metadata: &'a RootMetadata,
+}
+
+impl Modules<'_> {
+    /// The document of a module, where the URDD lists it.
+    fn read<T: DeserializeOwned>(&self, kind: ModuleKind) -> Result<Option<T>, PartFault> {
+        let document = self.document(kind)?;
+        Ok(document.map(|(document, _)| document))
+    }
+
+    /// The same, with its length in bytes.
+    fn document<T: DeserializeOwned>(
+        &self,
+        kind: ModuleKind,
+    ) -> Result<Option<(T, usize)>, PartFault> {
+        let mut listed = self.metadata.modules.iter();
+        let Some(module) = listed.find(|module| module.name == kind.name()) else {
+            return Ok(None);
+        };
+        let path = format!("{}/module.json", module.path);
+        let unreadable = |reason: String| PartFault::Unreadable {
+            file: path.clone(),
+            reason,
+        };
+        let bytes = self.root.read(&path, MAX_DOCUMENT_BYTES);
+        let bytes = bytes.map_err(|error| unreadable(error.to_string()))?;
+        let value = json::read(&bytes).map_err(|error| unreadable(error.to_string()))?;
+        let document = serde_json::from_value(value.value);
+        document
+            .map(|document| Some((document, bytes.len())))
+            .map_err(|error| unreadable(error.to_string()))
+    }
+}

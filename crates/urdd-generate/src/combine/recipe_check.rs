@@ -1,0 +1,150 @@
+//! What can be said of a recipe before any part is read. Recipes come from anybody: the work is linear in the parts, of
+//! which there are no more than a robot may have links.
+
+use std::collections::HashMap;
+
+use super::error::CombineError;
+use super::recipe::{Attachment, Recipe, Word};
+use super::recipe_fault::RecipeFault;
+use crate::MOST_LINKS;
+
+/// Longest name of a robot, bytes: files are named after it.
+const MAX_NAME_BYTES: usize = 200;
+
+/// Longest prefix, bytes: it is written before thousands of names.
+const MAX_PREFIX_BYTES: usize = 100;
+
+impl Recipe {
+    /// Checks the number of parts, their names, and what each hangs on.
+    pub(super) fn check(&self) -> Result<(), CombineError> {
+        if self.parts.is_empty() {
+            return Err(self.refused(&Word::default(), RecipeFault::NoParts));
+        }
+        if let Some(part) = self.parts.get(MOST_LINKS) {
+            let fault = RecipeFault::TooManyLinks {
+                found: self.parts.len(),
+                limit: MOST_LINKS,
+            };
+            return Err(self.refused(&part.id, fault));
+        }
+        self.check_words()?;
+        self.check_ids()?;
+        let mut roots = self.parts.iter().filter(|part| part.attach.is_none());
+        let first = roots.next();
+        if let (Some(first), Some(second)) = (first, roots.next()) {
+            let fault = RecipeFault::TwoRoots {
+                first: first.id.text.clone(),
+                second: second.id.text.clone(),
+            };
+            return Err(self.refused(&second.id, fault));
+        }
+        self.check_attachments()
+    }
+
+    /// Names and prefixes that a URDF can hold.
+    fn check_words(&self) -> Result<(), CombineError> {
+        let unlimited = usize::MAX;
+        self.check_word("the name", &self.name, MAX_NAME_BYTES)?;
+        if let Some(base) = &self.base {
+            self.check_word("the link", &base.link, unlimited)?;
+            self.check_word("the joint", &base.joint.name, unlimited)?;
+        }
+        for part in &self.parts {
+            if !part.prefix.text.is_empty() {
+                self.check_word("the prefix", &part.prefix, MAX_PREFIX_BYTES)?;
+            }
+            if let Some(attach) = &part.attach {
+                self.check_word("the joint", &attach.joint.name, unlimited)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_word(
+        &self,
+        what: &'static str,
+        word: &Word,
+        limit: usize,
+    ) -> Result<(), CombineError> {
+        let text = &word.text;
+        // XML holds no other control characters, and turns these into spaces.
+        let is_unfit = |c: &char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+        let why = if text.trim().is_empty() {
+            "is nothing but white space; write a name".to_owned()
+        } else if let Some(found) = text.chars().find(is_unfit) {
+            format!(
+                "has the character U+{:04X}, which names in a URDF cannot have; leave it out",
+                u32::from(found)
+            )
+        } else if text.len() > limit {
+            format!("has {} bytes; write at most {limit}", text.len())
+        } else {
+            return Ok(());
+        };
+        let found = text.clone();
+        Err(self.refused(word, RecipeFault::BadWord { what, found, why }))
+    }
+
+    fn check_ids(&self) -> Result<(), CombineError> {
+        let mut first_of: HashMap<String, &Word> = HashMap::new();
+        for part in &self.parts {
+            let id = &part.id;
+            let is_of_id = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
+            if id.text.is_empty() || !id.text.chars().all(is_of_id) {
+                return Err(self.refused(id, RecipeFault::BadId(id.text.clone())));
+            }
+            if let Some(first) = first_of.insert(id.text.to_ascii_lowercase(), id) {
+                let fault = RecipeFault::IdTwice {
+                    id: id.text.clone(),
+                    first: first.at,
+                };
+                return Err(self.refused(id, fault));
+            }
+        }
+        Ok(())
+    }
+
+    /// Follows each part to the one that holds all, no part twice.
+    fn check_attachments(&self) -> Result<(), CombineError> {
+        let mut holders: Vec<Option<(usize, &Attachment)>> = Vec::new();
+        for part in &self.parts {
+            holders.push(match &part.attach {
+                Some(attach) => self.target(&attach.to)?.0.map(|holder| (holder, attach)),
+                None => None,
+            });
+        }
+        // For each part, the part from which it was first reached.
+        let mut seen: Vec<Option<usize>> = vec![None; self.parts.len()];
+        for start in 0..self.parts.len() {
+            let mut now = start;
+            while seen[now].is_none() {
+                seen[now] = Some(start);
+                let Some((holder, attach)) = holders[now] else {
+                    break;
+                };
+                if seen[holder] == Some(start) {
+                    let at = holders[holder].map_or(&attach.to, |(_, attach)| &attach.to);
+                    return Err(self.refused(at, self.ring(holder, &holders)));
+                }
+                now = holder;
+            }
+        }
+        Ok(())
+    }
+
+    /// The ring that a part is in.
+    fn ring(&self, start: usize, holders: &[Option<(usize, &Attachment)>]) -> RecipeFault {
+        let (mut ids, mut now) = (Vec::new(), start);
+        while let Some((holder, _)) = holders[now] {
+            ids.push(self.parts[now].id.text.clone());
+            now = holder;
+            if now == start {
+                break;
+            }
+        }
+        match ids.len() {
+            1 => RecipeFault::OnItself(ids.swap_remove(0)),
+            _ => RecipeFault::Ring(ids),
+        }
+    }
+}

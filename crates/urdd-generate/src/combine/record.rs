@@ -1,0 +1,93 @@
+//! How a robot was put together, as its `composition_module` says it.
+
+use super::compose::Taken;
+use super::error::CombineError;
+use super::recipe::Recipe;
+use urdd_format::composition::{
+    CompositionBase, CompositionModule, CompositionPart, FrozenJoint, PartAttachment, PartJoint,
+    PartLink,
+};
+use urdd_format::index::{JointIdx, LinkIdx, RobotIdx};
+use urdd_format::urdf::UrdfModule;
+
+/// Makes the module of a robot that was put together.
+///
+/// # Errors
+/// Where an attachment names no part; that was found before.
+pub(super) fn composition(
+    recipe: &Recipe,
+    parts: &[Taken],
+    robot: &UrdfModule,
+) -> Result<CompositionModule, CombineError> {
+    let links = robot.links.iter().zip(0..);
+    let links: std::collections::HashMap<&str, u32> =
+        links.map(|(link, idx)| (link.name.as_str(), idx)).collect();
+    let joints = robot.joints.iter().zip(0..);
+    let joints: std::collections::HashMap<&str, u32> = joints
+        .map(|(joint, idx)| (joint.name.as_str(), idx))
+        .collect();
+    let link = |name: &str| LinkIdx(links.get(name).copied().unwrap_or_default());
+    let joint = |name: &str| JointIdx(joints.get(name).copied().unwrap_or_default());
+    let mut made = Vec::new();
+    for taken in parts {
+        let (part, of) = (taken.part, &taken.loaded.robot);
+        let attachment = match (&part.attach, &recipe.base) {
+            (Some(attach), _) => {
+                let (holder, name) = recipe.target(&attach.to)?;
+                Some(PartAttachment {
+                    part_idx: holder.map(|part| RobotIdx(part as u32)),
+                    link_idx: match holder {
+                        Some(part) => link(&parts[part].renamed(name)),
+                        None => link(name),
+                    },
+                    joint_idx: joint(&attach.joint.name.text),
+                })
+            }
+            (None, Some(base)) => Some(PartAttachment {
+                part_idx: None,
+                link_idx: link(&base.link.text),
+                joint_idx: joint(&base.joint.name.text),
+            }),
+            (None, None) => None,
+        };
+        let all_links = of.links.iter().map(|link| &link.name).enumerate();
+        let (kept, dropped): (Vec<_>, Vec<_>) =
+            all_links.partition(|(idx, _)| taken.trim.keeps_link(*idx));
+        let all_joints = of.joints.iter().map(|joint| &joint.name).enumerate();
+        let (kept_joints, dropped_joints): (Vec<_>, Vec<_>) =
+            all_joints.partition(|(idx, _)| taken.trim.keeps_joint(*idx));
+        let names =
+            |list: Vec<(usize, &String)>| list.into_iter().map(|(_, name)| name.clone()).collect();
+        let frozen = taken.trim.frozen.iter().map(|(idx, position)| FrozenJoint {
+            joint_idx: joint(&taken.renamed(&of.joints[*idx].name)),
+            position: position.iter().map(|value| value + 0.0).collect(),
+        });
+        made.push(CompositionPart {
+            id: part.id.text.clone(),
+            name: of.name.clone(),
+            source: taken.loaded.source.clone(),
+            prefix: part.prefix.text.clone(),
+            links: (kept.into_iter())
+                .map(|(_, name)| PartLink {
+                    name: name.clone(),
+                    link_idx: link(&taken.renamed(name)),
+                })
+                .collect(),
+            joints: (kept_joints.into_iter())
+                .map(|(_, name)| PartJoint {
+                    name: name.clone(),
+                    joint_idx: joint(&taken.renamed(name)),
+                })
+                .collect(),
+            dropped_links: names(dropped),
+            dropped_joints: names(dropped_joints),
+            frozen_joints: frozen.collect(),
+            attachment,
+            composition: taken.loaded.composition.clone().map(Into::into),
+        });
+    }
+    let base = recipe.base.as_ref().map(|base| CompositionBase {
+        link_idx: link(&base.link.text),
+    });
+    Ok(CompositionModule { base, parts: made })
+}

@@ -1,0 +1,93 @@
+//! Where the parts of a recipe come from, and what of them may run.
+//!
+//! A recipe may come from a stranger, with the folder that it is in. So it takes parts from there and no further, and runs
+//! no program, unless the user says so.
+
+use std::path::{Path, PathBuf};
+
+use super::error::{CombineError, PartFault};
+use super::recipe::{Part, Recipe, Sources};
+use crate::Settings;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::source::{is_archive, is_urdd};
+
+/// What a source is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SourceKind {
+    /// A URDD of version 1: a folder or an archive.
+    Urdd,
+    /// A URDD of before version 1, which is taken up by the URDF that it carries.
+    Legacy,
+    /// A URDF or xacro file.
+    Urdf,
+}
+
+/// What the source of a part is.
+///
+/// # Errors
+/// Where there is nothing.
+pub fn source_kind(path: &Path) -> Result<SourceKind, PartFault> {
+    if path.is_dir() {
+        return match (is_urdd(path), path.join(ROOT_METADATA).is_file()) {
+            (_, true) => Ok(SourceKind::Urdd),
+            (true, false) => Ok(SourceKind::Legacy),
+            (false, false) => Err(PartFault::Missing("this folder holds none".to_owned())),
+        };
+    }
+    match (path.is_file(), is_archive(path)) {
+        (true, true) => Ok(SourceKind::Urdd),
+        (true, false) => Ok(SourceKind::Urdf),
+        (false, _) => Err(PartFault::Missing("nothing is there".to_owned())),
+    }
+}
+
+/// The source of a part, which may be read.
+pub(super) struct Source {
+    /// Where it is; after links are resolved, unless the user named it.
+    pub path: PathBuf,
+    pub kind: SourceKind,
+}
+
+impl Recipe {
+    /// The source of one of the parts.
+    ///
+    /// # Errors
+    /// Where there is nothing, where it is outside of the folders that the recipe may take parts from, and where it is a
+    /// xacro file that may not run.
+    pub(super) fn source(&self, part: &Part, settings: &Settings) -> Result<Source, CombineError> {
+        self.allowed(&part.source, settings)
+            .map_err(|fault| CombineError::Part {
+                id: part.id.text.clone(),
+                source_path: part.source.display().to_string(),
+                fault,
+            })
+    }
+
+    fn allowed(&self, source: &Path, settings: &Settings) -> Result<Source, PartFault> {
+        let Sources::In(folder) = &self.sources else {
+            return Ok(Source {
+                path: source.to_owned(),
+                kind: source_kind(source)?,
+            });
+        };
+        let nothing = |_| PartFault::Missing("nothing is there".to_owned());
+        let path = source.canonicalize().map_err(nothing)?;
+        let folder = folder.canonicalize().unwrap_or_else(|_| folder.clone());
+        let allowed = settings.allowed_folders.iter();
+        let mut allowed = allowed.filter_map(|folder| folder.canonicalize().ok());
+        if !path.starts_with(&folder) && !allowed.any(|folder| path.starts_with(folder)) {
+            let shown = |path: &Path| path.display().to_string();
+            return Err(PartFault::Outside {
+                allow: shown(path.parent().unwrap_or(&path)),
+                found: shown(&path),
+                folder: shown(&folder),
+            });
+        }
+        let kind = source_kind(&path)?;
+        let is_xacro = path.extension().is_some_and(|ending| ending == "xacro");
+        match kind == SourceKind::Urdf && is_xacro && !settings.xacro.expand_urdf {
+            true => Err(PartFault::Xacro),
+            false => Ok(Source { path, kind }),
+        }
+    }
+}

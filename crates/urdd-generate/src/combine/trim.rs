@@ -1,0 +1,240 @@
+//! What of a part comes along: links and joints that are dropped, joints that are made fixed.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::error::CombineError;
+use super::part::Loaded;
+use super::recipe::{Part, Recipe, Word};
+use super::recipe_fault::RecipeFault;
+use urdd_format::nearest::nearest;
+use urdd_format::urdf::{Joint, JointType};
+
+/// What of a part comes along. Lists go with the part's own links and joints.
+#[derive(Debug)]
+pub(super) struct Trim {
+    /// For each link, the link with which it is dropped, by its place in the part's `drop`.
+    pub dropped_links: Vec<Option<usize>>,
+    pub dropped_joints: Vec<Option<usize>>,
+    /// Joints that become fixed, with a value for each of their DOFs.
+    pub frozen: BTreeMap<usize, Vec<f64>>,
+    /// Joints that become fixed because the joint that they follow does.
+    pub following: Vec<String>,
+    /// The root link.
+    pub root: usize,
+}
+
+impl Trim {
+    pub fn keeps_link(&self, link: usize) -> bool {
+        self.dropped_links[link].is_none()
+    }
+
+    pub fn keeps_joint(&self, joint: usize) -> bool {
+        self.dropped_joints[joint].is_none()
+    }
+}
+
+/// Finds out what comes along.
+///
+/// # Errors
+/// Where the recipe names what is not there, or what cannot be.
+pub(super) fn trim(recipe: &Recipe, part: &Part, loaded: &Loaded) -> Result<Trim, CombineError> {
+    let trimmer = Trimmer {
+        recipe,
+        part,
+        loaded,
+        id: part.id.text.clone(),
+    };
+    let robot = &loaded.robot;
+    let mut is_child = vec![false; robot.links.len()];
+    for joint in &robot.joints {
+        if let Some(child) = loaded.links.get(&joint.child.link) {
+            is_child[*child] = true;
+        }
+    }
+    let root = is_child.iter().position(|is_child| !is_child);
+    let mut trim = Trim {
+        dropped_links: vec![None; robot.links.len()],
+        dropped_joints: vec![None; robot.joints.len()],
+        frozen: BTreeMap::new(),
+        following: Vec::new(),
+        root: root.unwrap_or_default(),
+    };
+    trimmer.drop(&mut trim)?;
+    trimmer.freeze(&mut trim)?;
+    trimmer.follow(&mut trim)?;
+    Ok(trim)
+}
+
+struct Trimmer<'a> {
+    recipe: &'a Recipe,
+    part: &'a Part,
+    loaded: &'a Loaded,
+    id: String,
+}
+
+impl Trimmer<'_> {
+    fn drop(&self, trim: &mut Trim) -> Result<(), CombineError> {
+        let robot = &self.loaded.robot;
+        for (with, word) in self.part.drop.iter().enumerate() {
+            let link = self.find("link", &self.loaded.links, word)?;
+            if link == trim.root {
+                let fault = RecipeFault::DropsRoot {
+                    part: self.id.clone(),
+                    link: word.text.clone(),
+                };
+                return Err(self.recipe.refused(word, fault));
+            }
+            trim.dropped_links[link].get_or_insert(with);
+        }
+        // A joint goes with its child, and all that hangs on a link with the link: from the root outward.
+        let mut joints_on: Vec<Vec<(usize, usize)>> = vec![Vec::new(); robot.links.len()];
+        for (idx, joint) in robot.joints.iter().enumerate() {
+            let of = |name: &String| self.loaded.links.get(name).copied();
+            if let (Some(parent), Some(child)) = (of(&joint.parent.link), of(&joint.child.link)) {
+                joints_on[parent].push((idx, child));
+            }
+        }
+        let mut reached = vec![trim.root];
+        while let Some(parent) = reached.pop() {
+            for (joint, child) in std::mem::take(&mut joints_on[parent]) {
+                let with = trim.dropped_links[child].or(trim.dropped_links[parent]);
+                trim.dropped_links[child] = with;
+                trim.dropped_joints[joint] = with;
+                reached.push(child);
+            }
+        }
+        Ok(())
+    }
+
+    fn freeze(&self, trim: &mut Trim) -> Result<(), CombineError> {
+        for (word, values) in &self.part.freeze {
+            let idx = self.find("joint", &self.loaded.joints, word)?;
+            let joint = &self.loaded.robot.joints[idx];
+            let part = self.id.clone();
+            let name = joint.name.clone();
+            let refused = |fault| Err(self.recipe.refused(word, fault));
+            if let Some(with) = trim.dropped_joints[idx] {
+                let (what, with) = ("joint", self.part.drop[with].text.clone());
+                return refused(RecipeFault::Dropped {
+                    what,
+                    part,
+                    name,
+                    with,
+                });
+            }
+            let (expected, found) = (num_dofs(joint.joint_type), values.len());
+            if expected == 0 {
+                return refused(RecipeFault::FreezesFixed { part, joint: name });
+            }
+            if expected != found {
+                return refused(RecipeFault::FreezeCount {
+                    part,
+                    joint: name,
+                    expected,
+                    found,
+                });
+            }
+            if let (Some([lower, upper]), &[value]) = (limits(joint), values.as_slice())
+                && !(lower..=upper).contains(&value)
+            {
+                return refused(RecipeFault::FreezeBeyond {
+                    part,
+                    joint: name,
+                    value,
+                    lower,
+                    upper,
+                });
+            }
+            trim.frozen.insert(idx, values.clone());
+        }
+        Ok(())
+    }
+
+    /// What follows a joint that is frozen is frozen where it is then; what follows one that is dropped
+    /// has nothing to follow.
+    fn follow(&self, trim: &mut Trim) -> Result<(), CombineError> {
+        let joints = &self.loaded.robot.joints;
+        let mut followers: Vec<Vec<usize>> = vec![Vec::new(); joints.len()];
+        for (idx, joint) in joints.iter().enumerate() {
+            let moves = joint.joint_type != JointType::Fixed;
+            let is_free = trim.keeps_joint(idx) && !trim.frozen.contains_key(&idx) && moves;
+            let Some(mimic) = joint.mimic.as_ref().filter(|_| is_free) else {
+                continue;
+            };
+            let Some(&driver) = self.loaded.joints.get(&mimic.joint) else {
+                continue;
+            };
+            if let Some(with) = trim.dropped_joints[driver] {
+                let at = &self.part.drop[with];
+                let fault = RecipeFault::DriverDropped {
+                    part: self.id.clone(),
+                    joint: joint.name.clone(),
+                    driver: mimic.joint.clone(),
+                    with: at.text.clone(),
+                };
+                return Err(self.recipe.refused(at, fault));
+            }
+            followers[driver].push(idx);
+        }
+        let mut drivers: Vec<usize> = trim.frozen.keys().copied().collect();
+        let mut following = Vec::new();
+        while let Some(driver) = drivers.pop() {
+            let Some(&[value]) = trim.frozen.get(&driver).map(Vec::as_slice) else {
+                continue;
+            };
+            for idx in std::mem::take(&mut followers[driver]) {
+                let Some(mimic) = &joints[idx].mimic else {
+                    continue;
+                };
+                let (multiplier, offset) = (mimic.multiplier, mimic.offset);
+                let value = multiplier.unwrap_or(1.0) * value + offset.unwrap_or(0.0);
+                trim.frozen.insert(idx, vec![value]);
+                following.push(idx);
+                drivers.push(idx);
+            }
+        }
+        following.sort_unstable();
+        let names = following.into_iter().map(|idx| joints[idx].name.clone());
+        trim.following = names.collect();
+        Ok(())
+    }
+
+    fn find(
+        &self,
+        what: &'static str,
+        indices: &HashMap<String, usize>,
+        word: &Word,
+    ) -> Result<usize, CombineError> {
+        indices.get(&word.text).copied().ok_or_else(|| {
+            let mut names: Vec<&str> = indices.keys().map(String::as_str).collect();
+            names.sort_unstable_by_key(|name| indices[*name]);
+            let fault = RecipeFault::Unknown {
+                what,
+                part: self.id.clone(),
+                name: word.text.clone(),
+                nearest: nearest(names.into_iter(), &word.text),
+            };
+            self.recipe.refused(word, fault)
+        })
+    }
+}
+
+/// How many numbers say where a joint is.
+fn num_dofs(joint_type: JointType) -> usize {
+    match joint_type {
+        JointType::Fixed => 0,
+        JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
+        JointType::Planar | JointType::Spherical => 3,
+        JointType::Floating => 6,
+    }
+}
+
+/// The limits of a joint that has some: SPEC 6.5.
+fn limits(joint: &Joint) -> Option<[f64; 2]> {
+    let is_limited = matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic);
+    let limit = joint.limit.as_ref().filter(|_| is_limited)?;
+    match (limit.lower, limit.upper) {
+        (None, None) => None,
+        (lower, upper) => Some([lower.unwrap_or(0.0), upper.unwrap_or(0.0)]),
+    }
+}

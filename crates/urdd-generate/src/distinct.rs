@@ -1,0 +1,98 @@
+//! Work that is done once for each content. Robots show one mesh on many links: the legs of a quadruped, the fingers of
+//! a hand.
+
+use std::collections::HashMap;
+use std::hash::{Hash, Hasher};
+
+use rayon::prelude::*;
+
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_geometry::Mesh;
+
+/// What `work` makes of each mesh. It is asked once about meshes that are the same, bit for bit.
+///
+/// # Errors
+/// Where it is asked to stop: before the next mesh.
+pub fn for_each_content<T: Clone + Send>(
+    meshes: &[&Mesh],
+    cancellation: &Cancellation,
+    work: impl Fn(&Mesh) -> T + Sync,
+) -> Result<Vec<T>, Cancelled> {
+    let mut seen: HashMap<Content, usize> = HashMap::new();
+    let mut distinct: Vec<&Mesh> = Vec::new();
+    let places: Vec<usize> = meshes
+        .iter()
+        .map(|mesh| {
+            *seen.entry(Content(mesh)).or_insert_with(|| {
+                distinct.push(mesh);
+                distinct.len() - 1
+            })
+        })
+        .collect();
+    let made = distinct.into_par_iter().map(|mesh| {
+        cancellation.check()?;
+        Ok(work(mesh))
+    });
+    let made: Vec<T> = made.collect::<Result<_, Cancelled>>()?;
+    let made = places.into_iter().map(|place| made[place].clone());
+    Ok(made.collect())
+}
+
+/// A mesh as the bits of its numbers.
+struct Content<'a>(&'a Mesh);
+
+impl Content<'_> {
+    fn bits(&self) -> impl Iterator<Item = u64> {
+        self.0.vertices.as_flattened().iter().map(|x| x.to_bits())
+    }
+}
+
+impl PartialEq for Content<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.triangles == other.0.triangles && self.bits().eq(other.bits())
+    }
+}
+
+impl Eq for Content<'_> {}
+
+impl Hash for Content<'_> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0.triangles.hash(state);
+        self.bits().for_each(|bits| bits.hash(state));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+    use urdd_geometry::primitives::cuboid;
+
+    #[test]
+    fn equal_meshes_are_worked_through_once_and_each_has_its_own() {
+        let (one, other) = (cuboid([1.0, 2.0, 3.0]), cuboid([1.0, 2.0, 4.0]));
+        let (again, mut moved) = (one.clone(), one.clone());
+        moved.vertices[7][2] += 1e-12;
+        let mut turned = one.clone();
+        turned.triangles.reverse();
+        let asked = AtomicUsize::new(0);
+        let meshes = [&one, &other, &again, &moved, &turned, &other];
+        let cancellation = Cancellation::default();
+        let work = |mesh: &Mesh| {
+            asked.fetch_add(1, Ordering::Relaxed);
+            (mesh.vertices[7][2], mesh.triangles[0])
+        };
+        let found = for_each_content(&meshes, &cancellation, work).expect("all of them");
+        assert_eq!(asked.load(Ordering::Relaxed), 4);
+        let expected = [&one, &other, &one, &moved, &turned, &other];
+        assert_eq!(
+            found,
+            expected.map(|mesh| (mesh.vertices[7][2], mesh.triangles[0]))
+        );
+        cancellation.cancel();
+        let found = for_each_content(&meshes, &cancellation, work);
+        assert_eq!(found, Err(Cancelled));
+        assert_eq!(asked.into_inner(), 4);
+    }
+}

@@ -1,0 +1,108 @@
+//! `dof_module` from the robot: SPEC 6.2.
+
+use super::fault::Fault;
+use super::urdf::Tree;
+use urdd_format::dof::{Dof, DofModule, Quantity, ResolvedMimic};
+use urdd_format::index::{Count, DofIdx, JointIdx};
+use urdd_format::urdf::{JointType, UrdfModule};
+
+const TRANSLATIONS: [(&str, Quantity); 3] = [
+    ("/trans_x", Quantity::Length),
+    ("/trans_y", Quantity::Length),
+    ("/trans_z", Quantity::Length),
+];
+const ROTATIONS: [(&str, Quantity); 3] = [
+    ("/rot_x", Quantity::Angle),
+    ("/rot_y", Quantity::Angle),
+    ("/rot_z", Quantity::Angle),
+];
+
+/// What is added to the joint's name, and the quantity, of each DOF of a joint (SPEC 5.8).
+fn dofs_of(joint_type: JointType) -> Vec<(&'static str, Quantity)> {
+    match joint_type {
+        JointType::Fixed => Vec::new(),
+        JointType::Revolute | JointType::Continuous => vec![("", Quantity::Angle)],
+        JointType::Prismatic => vec![("", Quantity::Length)],
+        JointType::Planar => {
+            let [x, y, _] = TRANSLATIONS;
+            vec![x, y, ("/rot", Quantity::Angle)]
+        }
+        JointType::Floating => [TRANSLATIONS, ROTATIONS].concat(),
+        JointType::Spherical => ROTATIONS.to_vec(),
+    }
+}
+
+/// Makes the module.
+///
+/// # Errors
+/// Where the multipliers along a chain of mimics are beyond 64-bit numbers.
+pub(super) fn dof_module(robot: &UrdfModule, tree: &Tree) -> Result<DofModule, Fault> {
+    let mut dofs = Vec::new();
+    let mut joint_to_dofs = Vec::with_capacity(robot.joints.len());
+    for (joint_idx, joint) in (0..).zip(&robot.joints) {
+        let first = dofs.len();
+        if joint.mimic.is_none() {
+            for (suffix, quantity) in dofs_of(joint.joint_type) {
+                dofs.push(Dof {
+                    name: format!("{}{suffix}", joint.name),
+                    joint_idx: JointIdx(joint_idx),
+                    joint_name: joint.name.clone(),
+                    quantity,
+                });
+            }
+        }
+        let own = (first..dofs.len()).map(|dof| DofIdx(dof as u32));
+        joint_to_dofs.push(own.collect::<Vec<_>>());
+    }
+    let mimics = resolve(robot, tree, &joint_to_dofs)?;
+    Ok(DofModule {
+        num_dofs: Count(dofs.len() as u32),
+        dof_idx_to_joint_idx_mapping: dofs.iter().map(|dof| dof.joint_idx).collect(),
+        joint_idx_to_dof_idxs_mapping: joint_to_dofs,
+        joint_idx_to_mimic_mapping: mimics,
+        dofs,
+    })
+}
+
+/// SPEC 5.10: along the chains of mimics to the joints that move by themselves, or not at all.
+fn resolve(
+    robot: &UrdfModule,
+    tree: &Tree,
+    joint_to_dofs: &[Vec<DofIdx>],
+) -> Result<Vec<Option<ResolvedMimic>>, Fault> {
+    let is_fixed = |idx: usize| robot.joints[idx].joint_type == JointType::Fixed;
+    let mut resolved: Vec<Option<ResolvedMimic>> = vec![None; robot.joints.len()];
+    for start in 0..robot.joints.len() {
+        let mut chain = Vec::new();
+        let mut end = start;
+        while let (Some(mimic), false, None) =
+            (&robot.joints[end].mimic, is_fixed(end), &resolved[end])
+        {
+            chain.push((end, mimic));
+            match tree.drivers[end] {
+                Some(driver) => end = driver,
+                None => break,
+            }
+        }
+        let mut driver = resolved[end].clone().unwrap_or(ResolvedMimic {
+            dof_idx: joint_to_dofs[end].first().copied(),
+            multiplier: 1.0,
+            offset: 0.0,
+        });
+        // From the far end: m1 (m2 q + o2) + o1 is (m1 m2) q + (m1 o2 + o1).
+        for (idx, mimic) in chain.into_iter().rev() {
+            let multiplier = mimic.multiplier.unwrap_or(1.0);
+            let offset = mimic.offset.unwrap_or(0.0);
+            driver = ResolvedMimic {
+                dof_idx: driver.dof_idx,
+                multiplier: multiplier * driver.multiplier,
+                offset: multiplier * driver.offset + offset,
+            };
+            if !(driver.multiplier.is_finite() && driver.offset.is_finite()) {
+                return Err(Fault::MimicOverflow(robot.joints[idx].name.clone()));
+            }
+            resolved[idx] = Some(driver.clone());
+        }
+    }
+    Ok(resolved)
+}

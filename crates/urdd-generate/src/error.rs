@@ -1,0 +1,270 @@
+//! Why a URDD could not be made.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::fault::PlacedFault;
+use super::note::Note;
+use urdd_directory::cancellation::Cancelled;
+use urdd_directory::position::Position;
+use urdd_directory::staging::StagingError;
+use urdd_format::escape;
+
+/// Most faults of a file that are shown one by one.
+const MOST_SHOWN: usize = 5;
+
+/// Why a URDD could not be made. Nothing was written then, and what was there before still is.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum GenerateError {
+    /// The source cannot be read.
+    #[error("{file}: cannot be read: {reason}")]
+    Read {
+        /// The file, as the user named it.
+        file: String,
+        /// Why.
+        reason: String,
+    },
+    /// The source is no robot.
+    #[error("{}", FaultLines(file, faults))]
+    Refused {
+        /// The file, as the user named it.
+        file: String,
+        /// What is wrong with it, in the order of the file; never empty.
+        faults: Vec<PlacedFault>,
+    },
+    /// The robot names files that lie outside of its folders, and that it may not make us publish.
+    #[error("{}", OutsideMeshes(file, meshes))]
+    Outside {
+        /// The file, as the user named it.
+        file: String,
+        /// The meshes, in the order of the file; never empty.
+        meshes: Vec<OutsideMesh>,
+    },
+    /// Something had to be assumed, and nothing may be.
+    #[error("{}", Assumptions(notes))]
+    Strict {
+        /// What was assumed; never empty.
+        notes: Vec<Note>,
+    },
+    /// The URDD that is to be replaced holds a person's edits, and they would be lost.
+    #[error(
+        "{}{}: {fault}; the edits of skips there are a person's, and a new run would lose them. Correct the file, or drop all its edits: `--drop-edits`",
+        file.display(),
+        at.map(|at| format!(":{at}")).unwrap_or_default()
+    )]
+    Edits {
+        /// The file of the module.
+        file: PathBuf,
+        /// The place in it.
+        at: Option<Position>,
+        /// Why they would be lost.
+        fault: EditsFault,
+    },
+    /// A xacro file, and no xacro program.
+    #[error(
+        "{file}: this is to be expanded by xacro, and there is no program `xacro` on the PATH to expand it; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
+    )]
+    NoXacro {
+        /// The file, as the user named it.
+        file: String,
+    },
+    /// The xacro program failed.
+    #[error("{file}: `xacro` could not expand it: {reason}")]
+    Xacro {
+        /// The file, as the user named it.
+        file: String,
+        /// The last lines that the program wrote.
+        reason: String,
+    },
+    /// The URDD would replace its own source.
+    #[error("{file}: it lies in the output folder {}, which is to be replaced; give another output folder", target.display())]
+    SourceInTarget {
+        /// The file, as the user named it.
+        file: String,
+        /// The output folder.
+        target: PathBuf,
+    },
+    /// The URDD cannot be written.
+    #[error(transparent)]
+    Write(StagingError),
+    /// It was asked to stop: `Settings::cancellation`.
+    #[error("stopped before it was done; nothing was changed")]
+    Cancelled,
+    /// The robot's geometry is beyond what can be computed.
+    #[error("{file}: {reason}; fix the mesh, or leave out the distances: `--modules geometry`")]
+    Geometry {
+        /// The file, as the user named it.
+        file: String,
+        /// Why.
+        reason: String,
+    },
+    /// A fault of this program.
+    #[error(
+        "{file}: the generator failed: {reason}; this is a fault of the program, please report it with the file"
+    )]
+    Internal {
+        /// The file, as the user named it.
+        file: String,
+        /// What happened.
+        reason: String,
+    },
+}
+
+impl From<StagingError> for GenerateError {
+    fn from(error: StagingError) -> Self {
+        match error {
+            StagingError::Cancelled => GenerateError::Cancelled,
+            error => GenerateError::Write(error),
+        }
+    }
+}
+
+impl From<Cancelled> for GenerateError {
+    fn from(_: Cancelled) -> Self {
+        GenerateError::Cancelled
+    }
+}
+
+impl GenerateError {
+    /// A word for programs: what kind of error it is.
+    pub fn code(&self) -> &'static str {
+        match self {
+            GenerateError::Read { .. } => "unreadable",
+            GenerateError::Refused { .. } => "refused",
+            GenerateError::Outside { .. } => "outside",
+            GenerateError::Strict { .. } => "strict",
+            GenerateError::Edits { .. } => "edits",
+            GenerateError::NoXacro { .. } => "no-xacro",
+            GenerateError::Xacro { .. } => "xacro-failed",
+            GenerateError::SourceInTarget { .. } => "source-in-output",
+            GenerateError::Write(_) => "not-written",
+            GenerateError::Cancelled => "cancelled",
+            GenerateError::Geometry { .. } => "geometry",
+            GenerateError::Internal { .. } => "internal",
+        }
+    }
+}
+
+/// Why the edits of a module would be lost.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum EditsFault {
+    /// The file cannot be read.
+    #[error("the file cannot be read: {0}")]
+    Unreadable(String),
+    /// The document has no edits.
+    #[error("`edits` is missing")]
+    NoEdits,
+    /// The edits are no list.
+    #[error("`edits` must be a list")]
+    NotAList,
+    /// One edit is wrong.
+    #[error("this edit cannot be used: {0}")]
+    Edit(String),
+    /// An edit names a link that the URDD does not have.
+    #[error("this edit names the link `{}`, and the robot of this URDD has no such link", escape::line(.0))]
+    UnknownLink(String),
+    /// There is a YAML file, and no JSON file.
+    #[error("there is no module.json beside this file, and it may hold edits")]
+    NoJson,
+    /// The YAML file says something else than the JSON file.
+    #[error("this file differs from module.json, which is the one that counts: {0}")]
+    Yaml(String),
+    /// The modules that were asked for hold no edits.
+    #[error(
+        "it holds {0} edit{s}, and the modules asked for leave out link_shapes_skips_module; add `link_shapes_skips` to `--modules`",
+        s = if *.0 == 1 { "" } else { "s" }
+    )]
+    NotAskedFor(usize),
+}
+
+/// A mesh outside of the folders that files are taken from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutsideMesh {
+    /// Line of the URDF, from 1.
+    pub line: u32,
+    /// Column in the line, from 1, in characters.
+    pub column: u32,
+    /// The mesh, as the URDF names it.
+    pub name: String,
+    /// The file that this leads to, links followed.
+    pub path: PathBuf,
+}
+
+/// Meshes outside, as lines.
+struct OutsideMeshes<'a>(&'a str, &'a [OutsideMesh]);
+
+impl fmt::Display for OutsideMeshes<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let OutsideMeshes(file, meshes) = self;
+        let file = escape::line(file);
+        for mesh in meshes.iter().take(MOST_SHOWN) {
+            writeln!(
+                f,
+                "{file}:{}:{}: mesh `{}` lies outside of the folders of the robot and its packages, at {}",
+                mesh.line,
+                mesh.column,
+                escape::line(&mesh.name),
+                escape::line(&mesh.path.display().to_string())
+            )?;
+        }
+        if meshes.len() > MOST_SHOWN {
+            writeln!(
+                f,
+                "{file}: and {} more of such meshes",
+                meshes.len() - MOST_SHOWN
+            )?;
+        }
+        write!(
+            f,
+            "{file}: a URDD carries its meshes, and a URDF must not make you publish other files; where these are meant, give their folder: `--allow-folder FOLDER`, or `--package NAME=FOLDER`"
+        )
+    }
+}
+
+/// Notes that are errors, as lines.
+struct Assumptions<'a>(&'a [Note]);
+
+impl fmt::Display for Assumptions<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for note in self.0.iter().take(MOST_SHOWN) {
+            writeln!(f, "{note}")?;
+        }
+        if self.0.len() > MOST_SHOWN {
+            writeln!(f, "and {} more", self.0.len() - MOST_SHOWN)?;
+        }
+        f.write_str(
+            "nothing was written: with --strict, nothing that changes the robot may be assumed",
+        )
+    }
+}
+
+/// The faults of a file, as lines.
+struct FaultLines<'a>(&'a str, &'a [PlacedFault]);
+
+impl fmt::Display for FaultLines<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let FaultLines(file, faults) = self;
+        // A line for each: no name may add another.
+        let file = escape::line(file);
+        for (number, placed) in faults.iter().take(MOST_SHOWN).enumerate() {
+            if number > 0 {
+                f.write_str("\n")?;
+            }
+            let (line, column) = (placed.line, placed.column);
+            let fault = placed.fault.to_string();
+            write!(f, "{file}:{line}:{column}: {}", escape::line(&fault))?;
+        }
+        if faults.len() > MOST_SHOWN {
+            write!(
+                f,
+                "\n{file}: and {} more of such faults",
+                faults.len() - MOST_SHOWN
+            )?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,226 @@
+//! The stage that trains `self_collision_model_module`: SPEC 8.8.
+
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+
+use sha2::{Digest, Sha256 as Hash};
+
+use super::error::GenerateError;
+use super::geometry_stages::unmeasurable;
+use super::made::{Made, document};
+use super::meshes::written::LinkPieces;
+use super::work::Work;
+use crate::train::{self, MOST_PAIRS, NoModel, Subject, Useless};
+use urdd_directory::writer::sha256;
+use urdd_format::chain::ChainModule;
+use urdd_format::dof::Quantity;
+use urdd_format::index::DofIdx;
+use urdd_format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule;
+use urdd_format::link_shapes_skips::LinkShapesSkipsModule;
+use urdd_format::registry::ModuleKind;
+use urdd_format::root_metadata::Sha256;
+use urdd_format::self_collision_model::{AngleInput, LengthInput, ModelInput, RotationVectorInput};
+use urdd_format::urdf::JointType;
+use urdd_geometry::convex::BodyPairs;
+use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
+
+/// Distances count up to this part of the largest between two hulls.
+const CLIP: f64 = 1.0 / 16.0;
+
+/// Another one where another model comes out.
+const TRAINING: &str = "2";
+
+pub(super) fn settings(work: &Work) -> String {
+    format!("{TRAINING} {:?}", work.settings.model_effort)
+}
+
+/// Trains the model; none where it would be of no use, which is noted.
+pub(super) fn self_collision_model(work: &mut Work) -> Result<Option<Made>, GenerateError> {
+    let pieces = work.artifacts.pieces()?;
+    let skips = work.artifacts.skips()?;
+    let statistics = work.artifacts.statistics()?;
+    let unusable = |work: &Work, error: &dyn std::fmt::Display| {
+        let reason = error.to_string();
+        unmeasurable(work, reason)
+    };
+    let (dof, chain, bounds) = (&work.dof, &work.chain, &work.bounds);
+    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|e| unusable(work, &e))?;
+    let kinematics = ForwardKinematics::new(chain, dof).map_err(|e| unusable(work, &e))?;
+    let pairs = pairs(&pieces, &skips).map_err(|e| unusable(work, &e))?;
+    let trained_on = trained_on(work, &skips);
+    let made = match pairs.bodies().len() > MOST_PAIRS {
+        true => Err(Useless::ManyPairs { most: MOST_PAIRS }),
+        false => inputs(work, &pairs),
+    };
+    let made = made.map_err(NoModel::OfNoUse);
+    let made = made.and_then(|inputs| {
+        let subject = Subject {
+            kinematics: &kinematics,
+            space: &space,
+            inputs,
+            pairs: &pairs,
+            clip_distance: clip_distance(&statistics),
+            trained_on,
+            effort: work.settings.model_effort,
+        };
+        let progress = |done: usize, total: usize| {
+            work.progress
+                .part(ModuleKind::SelfCollisionModel, done, total);
+        };
+        train::train(subject, &work.settings.cancellation, &progress)
+    });
+    match made {
+        Ok(module) => Ok(Some(document(&module)?)),
+        Err(NoModel::OfNoUse(useless)) => {
+            let problem = format!("a self-collision model is of no use: {useless}");
+            work.of_no_use(problem, "self_collision_model_module is left out");
+            Ok(None)
+        }
+        Err(NoModel::Cancelled(cancelled)) => Err(cancelled.into()),
+        Err(NoModel::Configuration(error)) => Err(unusable(work, &error)),
+    }
+}
+
+/// The pairs of links that are not skipped: of which two pieces are not, or, where there are no matrices over pieces,
+/// the hulls.
+fn pairs(pieces: &LinkPieces, skips: &LinkShapesSkipsModule) -> Result<BodyPairs, String> {
+    // Pieces that were kept come from their files, with vertices in another order, and the last digits of distances
+    // hang on it.
+    let in_order = |vertices: &[[f64; 3]]| {
+        let mut vertices = vertices.to_vec();
+        vertices.sort_by(|a, b| {
+            let keys = a.iter().zip(b).map(|(a, b)| a.total_cmp(b));
+            keys.fold(Ordering::Equal, Ordering::then)
+        });
+        vertices.dedup();
+        vertices
+    };
+    let shapes = pieces.iter().enumerate();
+    let shapes: Vec<(usize, Vec<[f64; 3]>)> = shapes
+        .flat_map(|(link, pieces)| {
+            let vertices = pieces.iter().map(|piece| in_order(&piece.mesh.vertices));
+            vertices.map(move |vertices| (link, vertices))
+        })
+        .collect();
+    let each = shapes
+        .iter()
+        .map(|(link, vertices)| (*link, vertices.as_slice()));
+    let mut pairs = BodyPairs::new(each).map_err(|(piece, error)| {
+        let of = skips.decomposition_shapes.get(piece);
+        let of = of.map_or_else(String::new, |of| {
+            format!(" piece {} of link {}", of.piece_idx, of.link_idx)
+        });
+        format!("distances cannot be taken of{of}: {error}")
+    })?;
+    let links = &skips.full_shapes;
+    for (i, a) in links.iter().enumerate() {
+        for (j, b) in links.iter().enumerate().skip(i + 1) {
+            // Of so many no model is made, however many there are.
+            if pairs.bodies().len() > MOST_PAIRS {
+                return Ok(pairs);
+            }
+            let skipped = |a: usize, b: usize| match &skips.decomposition_convex_hulls_skips {
+                Some(rows) => rows[a][b],
+                None => skips.full_convex_hulls_skips[i][j],
+            };
+            pairs.add([a.get(), b.get()], |a, b| !skipped(a, b));
+        }
+    }
+    Ok(pairs)
+}
+
+fn clip_distance(statistics: &LinkShapesDistanceStatisticsModule) -> f64 {
+    let distances = &statistics.full_convex_hulls.max_distances;
+    let largest = distances.iter().flatten().copied().fold(0.0, f64::max);
+    train::rounded(CLIP * largest)
+}
+
+/// SHA-256 of the text of the hashes of all files that the model follows from: SPEC 8.8.7.
+fn trained_on(work: &Work, skips: &LinkShapesSkipsModule) -> Sha256 {
+    let kinds = [
+        ModuleKind::Dof,
+        ModuleKind::Chain,
+        ModuleKind::Bounds,
+        ModuleKind::LinkShapesSkips,
+    ];
+    let documents = kinds.map(|kind| format!("{}/module.json", kind.folder()));
+    let kind = ModuleKind::ConvexDecompositionMeshes;
+    let pieces = skips.decomposition_shapes.iter().map(|piece| {
+        let (link, piece) = (piece.link_idx.get(), piece.piece_idx.get());
+        work.mesh_files(kind, link, Some(piece)).glb
+    });
+    let mut text = String::new();
+    for path in documents.into_iter().chain(pieces) {
+        // Every one of them was written or kept before.
+        text += work.digests.get(&path).map_or("", String::as_str);
+        text.push('\n');
+    }
+    sha256(&Hash::digest(text))
+}
+
+/// What the network is told: of each DOF that moves the links of a pair against each other.
+fn inputs(work: &Work, pairs: &BodyPairs) -> Result<Vec<ModelInput>, Useless> {
+    let dofs: BTreeSet<usize> = pairs
+        .bodies()
+        .flat_map(|links| between(&work.chain, links))
+        .flat_map(|joint| {
+            let own = work.dof.joint_idx_to_dof_idxs_mapping[joint].iter();
+            let mimic = work.dof.joint_idx_to_mimic_mapping[joint].as_ref();
+            let followed = mimic.and_then(|mimic| mimic.dof_idx.as_ref());
+            own.chain(followed).map(|dof| dof.get())
+        })
+        .collect();
+    let mut inputs = Vec::new();
+    let mut turned: BTreeSet<usize> = BTreeSet::new();
+    for dof in dofs {
+        let of = &work.dof.dofs[dof];
+        let joint = of.joint_idx.get();
+        let joint_type = work.chain.joints_in_chain[joint].joint_type;
+        let dofs = &work.dof.joint_idx_to_dof_idxs_mapping[joint];
+        let index = |dof: usize| DofIdx(u32::try_from(dof).unwrap_or(u32::MAX));
+        match (of.quantity, joint_type) {
+            (Quantity::Length, JointType::Floating | JointType::Planar) => {
+                let dof = of.name.clone();
+                return Err(Useless::NoLimits { dof });
+            }
+            (Quantity::Length, _) => {
+                let [lower, upper] = work.bounds.bounds[dof];
+                let half_range = train::rounded(0.5 * (upper - lower).abs());
+                inputs.push(ModelInput::Length(LengthInput {
+                    dof_idx: index(dof),
+                    middle: train::rounded(0.5 * lower + 0.5 * upper),
+                    half_range: if half_range > 0.0 { half_range } else { 1.0 },
+                }));
+            }
+            (Quantity::Angle, JointType::Floating | JointType::Spherical) => {
+                if let (true, Some(dof_idxs)) = (turned.insert(joint), dofs.last_chunk()) {
+                    let dof_idxs = *dof_idxs;
+                    inputs.push(ModelInput::RotationVector(RotationVectorInput { dof_idxs }));
+                }
+            }
+            (Quantity::Angle, _) => {
+                let dof_idx = index(dof);
+                inputs.push(ModelInput::Angle(AngleInput { dof_idx }));
+            }
+        }
+    }
+    Ok(inputs)
+}
+
+/// The joints between two links.
+fn between(chain: &ChainModule, [a, b]: [usize; 2]) -> Vec<usize> {
+    let up = |link: usize| {
+        let joint = move |link: &usize| {
+            let joint = chain.links_in_chain[*link].parent_joint_idx?;
+            Some(joint.get())
+        };
+        let above = move |link: &usize| {
+            let link = chain.links_in_chain[*link].parent_link_idx?;
+            Some(link.get())
+        };
+        std::iter::successors(Some(link), above).map_while(move |link| joint(&link))
+    };
+    let of_a: BTreeSet<usize> = up(a).collect();
+    let of_b: BTreeSet<usize> = up(b).collect();
+    of_a.symmetric_difference(&of_b).copied().collect()
+}

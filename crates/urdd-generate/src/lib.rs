@@ -1,0 +1,55 @@
+//! The reference generator: a URDF becomes a URDD, each module a pure function of those before it.
+//!
+//! [`generate`] makes one URDD, [`batch`] many. It imports nothing from `validate`, nor the other
+//! way about: both are written from SPEC.md.
+
+mod artifacts;
+pub mod batch;
+mod bounded;
+mod bounds;
+mod carry_over;
+mod chain;
+pub mod combine;
+mod composed;
+mod connections;
+mod distinct;
+mod dof;
+mod edits;
+mod error;
+pub mod fault;
+mod geometry_stages;
+mod kinematics_samples;
+mod learned;
+mod made;
+mod meshes;
+mod metadata;
+pub mod note;
+mod old;
+mod pose;
+pub mod process;
+mod reuse;
+mod robot;
+mod selection;
+mod settings;
+mod shape_documents;
+mod shapes;
+mod size;
+mod source;
+mod stages;
+mod taken;
+pub mod train;
+mod urdf;
+mod work;
+
+pub use bounded::MAX_SOURCE_BYTES;
+pub use composed::{Composed, generate_composed};
+pub use connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS};
+pub use error::{EditsFault, GenerateError, OutsideMesh};
+pub use kinematics_samples::NUM_SAMPLED;
+pub use meshes::{MeshCount, PackagePathError, Packages};
+pub use pose::{has_quaternions, of as origin_pose};
+pub use robot::{Generated, MadeModule, Progress, generate, generate_text};
+pub use selection::{Selection, UnknownModule};
+pub use settings::{MeshFormats, Pieces, Settings};
+pub use size::{MOST_ELEMENTS, MOST_LINKS};
+pub use source::{SourceRobot, XacroSettings, read_urdf};

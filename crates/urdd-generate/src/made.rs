@@ -1,0 +1,46 @@
+//! A module that was made: its document, and its files.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use super::error::GenerateError;
+use urdd_directory::document::Document;
+
+/// A module that was made.
+pub(super) struct Made {
+    pub document: Document,
+    /// The files that the document names.
+    pub files: Vec<MadeFile>,
+}
+
+/// A file of a module.
+pub(super) struct MadeFile {
+    /// Path relative to the URDD's root.
+    pub path: String,
+    pub content: Content,
+}
+
+/// What a file holds.
+pub(super) enum Content {
+    Bytes(Vec<u8>),
+    /// Of a mesh, which a reader looks at too.
+    Shared(Arc<Vec<u8>>),
+}
+
+/// A module without files of its own.
+pub(super) fn document(module: &impl Serialize) -> Result<Made, GenerateError> {
+    streamed(serde_json::to_value(module).map(Document::Whole))
+}
+
+/// A module without files of its own, as its document.
+pub(super) fn streamed(
+    document: Result<Document, serde_json::Error>,
+) -> Result<Made, GenerateError> {
+    let document = document.map_err(|error| GenerateError::Internal {
+        file: String::new(),
+        reason: error.to_string(),
+    })?;
+    let files = Vec::new();
+    Ok(Made { document, files })
+}

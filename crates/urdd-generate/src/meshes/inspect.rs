@@ -1,0 +1,197 @@
+//! Mesh files: what they hold, and what they need besides themselves.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use super::roots::{Place, Roots};
+use super::sniff;
+use crate::bounded::read_file;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_geometry::read::{Format, NoteCode, Scene, read};
+
+/// What is known of a mesh file. A file is opened once: what was looked at is what is carried.
+#[derive(Debug, Clone)]
+pub(crate) struct Inspected {
+    /// The file itself, or `None` where it is no mesh, and not carried.
+    pub bytes: Option<Arc<Vec<u8>>>,
+    /// The files that the mesh names (`.mtl`, `.bin`, textures), as far as they are carried.
+    pub side_files: BTreeMap<PathBuf, SideFile>,
+    /// What it holds, or in words why it is no mesh with a surface.
+    pub scene: Result<Arc<Scene>, String>,
+    /// Files that it names and that are not carried, as it names them, and why.
+    pub left_out: Vec<(String, String)>,
+    /// What was repaired or left out in reading it.
+    pub remarks: Vec<String>,
+}
+
+/// A file that a mesh names.
+#[derive(Debug, Clone)]
+pub(crate) struct SideFile {
+    pub bytes: Arc<Vec<u8>>,
+    pub place: Place,
+}
+
+/// Kinds of files that a mesh may bring along, by their extension: the images last.
+const SIDE_FILES: &[&str] = &[
+    "mtl", "bin", "png", "jpg", "jpeg", "tga", "bmp", "dds", "gif", "tif", "tiff", "webp", "hdr",
+    "exr", "ktx2", "ppm", "pgm",
+];
+
+/// Looks into a mesh file of a place.
+pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
+    let unusable = |bytes: Option<Vec<u8>>, why: String| Inspected {
+        bytes: bytes.map(Arc::new),
+        side_files: BTreeMap::new(),
+        scene: Err(why),
+        left_out: Vec::new(),
+        remarks: Vec::new(),
+    };
+    let bytes = match read_file(mesh, MAX_DOCUMENT_BYTES) {
+        Ok(bytes) => bytes,
+        Err(why) => return unusable(None, why),
+    };
+    let name = mesh.file_name().unwrap_or_default().to_string_lossy();
+    let beside = Beside {
+        mesh,
+        place,
+        roots,
+        read: RefCell::default(),
+    };
+    let mut fetch = |side: &str| {
+        let (_, file) = beside.read(side).ok()?;
+        Some(file.bytes.as_ref().clone())
+    };
+    let scene = match read(&bytes, &name, &mut fetch) {
+        Ok(scene) => scene,
+        Err(error) => {
+            let words = error.to_string();
+            let file = format!("{name}: ");
+            // Whoever prints this names the file.
+            let words = words.strip_prefix(&file).unwrap_or(&words).to_owned();
+            let is_mesh = sniff::is_mesh(&bytes, None);
+            return unusable(is_mesh.then_some(bytes), words);
+        }
+    };
+    if !sniff::is_mesh(&bytes, Some(&scene)) {
+        return unusable(None, "it holds no mesh".to_owned());
+    }
+    let (mut side_files, mut left_out) = (BTreeMap::new(), Vec::new());
+    for side in &scene.side_files {
+        match beside.carried(side, scene.format) {
+            Ok((path, file)) => {
+                side_files.insert(path, file);
+            }
+            Err(why) => left_out.push((side.clone(), why)),
+        }
+    }
+    let is_said = |code| {
+        use NoteCode::{
+            NoTriangles, NodeTransform, SideFileMissing, TurnedToZUp, UnitApplied, UnusedVertices,
+            UpAxisIgnored, WrongBounds, WrongNormals,
+        };
+        // The first is said as why the mesh is unusable, the second of each file. The others are how
+        // such files are read; to say so of every mesh helps nobody.
+        !matches!(
+            code,
+            NoTriangles
+                | NodeTransform
+                | SideFileMissing
+                | TurnedToZUp
+                | UnitApplied
+                | UnusedVertices
+                | UpAxisIgnored
+                | WrongBounds
+                | WrongNormals
+        )
+    };
+    let notes = scene.notes.iter().filter(|note| is_said(note.code));
+    let remarks = notes.map(ToString::to_string).collect();
+    let has_area = scene.parts.iter().any(|part| part.mesh.area() > 0.0);
+    let scene = match has_area {
+        true => Ok(Arc::new(scene)),
+        false => Err("it holds no triangle with an area".to_owned()),
+    };
+    Inspected {
+        bytes: Some(Arc::new(bytes)),
+        side_files,
+        scene,
+        left_out,
+        remarks,
+    }
+}
+
+type Found = Result<(PathBuf, SideFile), String>;
+
+/// The files that a mesh names, each read once.
+struct Beside<'a> {
+    mesh: &'a Path,
+    place: &'a Place,
+    roots: &'a Roots,
+    read: RefCell<BTreeMap<String, Found>>,
+}
+
+impl Beside<'_> {
+    /// A file that the mesh names, where it is what a mesh of this format means by it.
+    fn carried(&self, side: &str, mesh: Format) -> Found {
+        let (path, file) = self.read(side)?;
+        let extension = extension(&path).unwrap_or_default();
+        match sniff::fault_of_side_file(&extension, &file.bytes, mesh) {
+            None => Ok((path, file)),
+            Some(fault) => Err(fault.to_owned()),
+        }
+    }
+
+    /// A file that the mesh names, of whatever content.
+    fn read(&self, side: &str) -> Found {
+        if let Some(found) = self.read.borrow().get(side) {
+            return found.clone();
+        }
+        let found = self.look(side);
+        self.read
+            .borrow_mut()
+            .insert(side.to_owned(), found.clone());
+        found
+    }
+
+    fn look(&self, side: &str) -> Found {
+        let missing = || "which is not there".to_owned();
+        let name = side.replace('\\', "/");
+        let name = Path::new(&name);
+        let is_relative = name.components().all(|part| {
+            matches!(
+                part,
+                Component::Normal(_) | Component::CurDir | Component::ParentDir
+            )
+        });
+        if !is_relative {
+            return Err("which is not named from the mesh's own folder".to_owned());
+        }
+        let folder = self.mesh.parent().ok_or_else(missing)?;
+        let file = folder.join(name).canonicalize().map_err(|_| missing())?;
+        // Of what the links lead to: a link of a harmless name may lead to anything.
+        let extension = extension(&file).unwrap_or_default();
+        if !file.is_file() || !SIDE_FILES.contains(&extension.as_str()) {
+            return Err("which is no kind of file that meshes bring along".to_owned());
+        }
+        let package = match self.place {
+            Place::Package(name, folder) => Some((name.as_str(), folder.as_path())),
+            Place::Own | Place::Allowed => None,
+        };
+        let Some(place) = self.roots.place(&file, package) else {
+            return Err(format!(
+                "which lies outside of the robot's folders ({}; `--allow-folder` allows it)",
+                file.display()
+            ));
+        };
+        let bytes = read_file(&file, MAX_DOCUMENT_BYTES);
+        let bytes = bytes.map_err(|why| format!("which cannot be read: {why}"))?;
+        let bytes = Arc::new(bytes);
+        Ok((file, SideFile { bytes, place }))
+    }
+}
+
+fn extension(file: &Path) -> Option<String> {
+    Some(file.extension()?.to_str()?.to_ascii_lowercase())
+}

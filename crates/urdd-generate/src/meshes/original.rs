@@ -1,0 +1,316 @@
+//! `original_meshes_module` from the robot: SPEC 7.5.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::inspect::{Inspected, inspect};
+use super::layout::Layout;
+use super::resolve::{FoundMesh, NotFound, resolve};
+use super::roots::{Place, Roots};
+use crate::error::{GenerateError, OutsideMesh};
+use crate::note::{Note, NoteKind};
+use crate::settings::Settings;
+use crate::source::Source;
+use urdd_format::index::{ElementIdx, LinkIdx};
+use urdd_format::meshes::GeometryKind;
+use urdd_format::original_meshes::{MeshReference, OriginalMesh, OriginalMeshesModule};
+use urdd_format::registry::ModuleKind;
+use urdd_format::urdf::{Geometry, UrdfModule};
+use urdd_geometry::read::Scene;
+
+/// The module, and the files that go with it.
+#[derive(Debug)]
+pub(crate) struct OriginalMeshes {
+    pub module: OriginalMeshesModule,
+    /// Each file that is carried, by its path in the URDD.
+    pub files: BTreeMap<String, Arc<Vec<u8>>>,
+    /// What each usable mesh file holds, by its path in the URDD.
+    pub scenes: BTreeMap<String, Arc<Scene>>,
+    /// What came of the names of meshes.
+    pub count: MeshCount,
+    pub notes: Vec<Note>,
+}
+
+/// How many meshes a URDF names, and of how many there is no surface; a name that stands there twice
+/// counts once.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct MeshCount {
+    /// Names of mesh files.
+    pub named: usize,
+    /// Those of which no file was found, or one that is no mesh.
+    pub not_found: usize,
+    /// Those whose file is carried and cannot be used.
+    pub not_usable: usize,
+}
+
+/// A mesh that the URDF names.
+struct Named<'a> {
+    link: usize,
+    geometry: GeometryKind,
+    element: usize,
+    filename: &'a str,
+}
+
+/// Makes the module.
+///
+/// # Errors
+/// Where the URDF names files that it may not make us publish.
+pub(crate) fn original_meshes(
+    source: &Source,
+    settings: &Settings,
+) -> Result<OriginalMeshes, GenerateError> {
+    let named = named(&source.reading.robot);
+    let packages = &settings.packages;
+    let roots = Roots::new(&source.folder, packages, &settings.allowed_folders);
+    let mut found_files: BTreeMap<&str, Result<FoundMesh, NotFound>> = BTreeMap::new();
+    // The names, each once, in the order of the URDF, and where each stands first.
+    let mut names: Vec<(&str, (u32, u32))> = Vec::new();
+    for (mesh, place) in named.iter().zip(&source.mesh_places) {
+        found_files.entry(mesh.filename).or_insert_with(|| {
+            names.push((mesh.filename, *place));
+            resolve(mesh.filename, &source.folder, packages, &roots)
+        });
+    }
+    refuse_outside(&source.shown, &names, &found_files)?;
+    let places: BTreeMap<&PathBuf, &Place> = found_files
+        .values()
+        .flatten()
+        .map(|found| (&found.file, &found.place))
+        .collect();
+    let places: Vec<_> = places.into_iter().collect();
+    let inspected: BTreeMap<PathBuf, Inspected> = places
+        .into_par_iter()
+        .map(|(file, place)| (file.clone(), inspect(file, place, &roots)))
+        .collect();
+
+    let mut notes = Notes {
+        file: &source.shown,
+        roots: &roots,
+        said: BTreeSet::new(),
+        notes: Vec::new(),
+    };
+    let mut count = MeshCount {
+        named: names.len(),
+        ..MeshCount::default()
+    };
+    let mut carried = Vec::new();
+    for (name, place) in &names {
+        let found = match &found_files[name] {
+            Ok(found) => found,
+            Err(why) => {
+                count.not_found += 1;
+                notes.not_found(name, *place, why);
+                continue;
+            }
+        };
+        let inside = &inspected[&found.file];
+        match (&inside.bytes, &inside.scene) {
+            (None, _) => count.not_found += 1,
+            (Some(_), Err(_)) => count.not_usable += 1,
+            (Some(_), Ok(_)) => {}
+        }
+        notes.found(name, *place, found, inside);
+        if inside.bytes.is_some() {
+            let side_files = inside.side_files.iter();
+            let side_files = side_files.map(|(path, side)| (path.as_path(), &side.place));
+            let mesh = found.file.as_path();
+            let files = side_files.chain([(mesh, &found.place)]);
+            carried.extend(files.map(|(file, place)| (file, place, mesh)));
+        }
+    }
+    let layout = Layout::new(carried.into_iter());
+    let folder = ModuleKind::OriginalMeshes.folder();
+    let path = |file: &Path| Some(format!("{folder}/meshes/{}", layout.name(file)?));
+
+    let (mut meshes, mut files, mut scenes) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
+    for (file, inside) in &inspected {
+        let (Some(bytes), Some(mesh_path)) = (&inside.bytes, path(file)) else {
+            continue;
+        };
+        let mut side_files = BTreeSet::new();
+        for (side, content) in inside.side_files.iter().filter(|(side, _)| *side != file) {
+            if let Some(path) = path(side) {
+                files.insert(path.clone(), Arc::clone(&content.bytes));
+                side_files.insert(path);
+            }
+        }
+        files.insert(mesh_path.clone(), Arc::clone(bytes));
+        if let Ok(scene) = &inside.scene {
+            scenes.insert(mesh_path.clone(), Arc::clone(scene));
+        }
+        meshes.push(OriginalMesh {
+            path: mesh_path,
+            side_files: side_files.into_iter().collect(),
+            usable: inside.scene.is_ok(),
+        });
+    }
+    meshes.sort_by(|a, b| a.path.cmp(&b.path));
+    let references = named.iter().map(|mesh| MeshReference {
+        link_idx: LinkIdx(mesh.link as u32),
+        geometry: mesh.geometry,
+        element_idx: ElementIdx(mesh.element as u32),
+        filename: mesh.filename.to_owned(),
+        path: found_files[mesh.filename]
+            .as_ref()
+            .ok()
+            .and_then(|found| path(&found.file)),
+    });
+    Ok(OriginalMeshes {
+        module: OriginalMeshesModule {
+            references: references.collect(),
+            files: meshes,
+        },
+        files,
+        scenes,
+        count,
+        notes: notes.notes,
+    })
+}
+
+/// Refuses a robot that names files which lie in none of the folders that they may be taken from.
+fn refuse_outside(
+    file: &str,
+    names: &[(&str, (u32, u32))],
+    found: &BTreeMap<&str, Result<FoundMesh, NotFound>>,
+) -> Result<(), GenerateError> {
+    let outside = names.iter().filter_map(|(name, (line, column))| {
+        let path = found[name].as_ref().err()?.outside.clone()?;
+        Some(OutsideMesh {
+            line: *line,
+            column: *column,
+            name: (*name).to_owned(),
+            path,
+        })
+    });
+    let meshes: Vec<OutsideMesh> = outside.collect();
+    if meshes.is_empty() {
+        return Ok(());
+    }
+    let file = file.to_owned();
+    Err(GenerateError::Outside { file, meshes })
+}
+
+/// What there is to say of meshes.
+struct Notes<'a> {
+    file: &'a str,
+    roots: &'a Roots,
+    /// Files of which everything was said.
+    said: BTreeSet<&'a Path>,
+    notes: Vec<Note>,
+}
+
+impl<'a> Notes<'a> {
+    fn note(&mut self, kind: NoteKind, place: (u32, u32), problem: String, assumed: &str) {
+        self.notes.push(Note {
+            kind,
+            file: self.file.to_owned(),
+            line: place.0,
+            column: place.1,
+            problem,
+            assumed: assumed.to_owned(),
+        });
+    }
+
+    fn not_found(&mut self, name: &str, place: (u32, u32), why: &NotFound) {
+        let problem = format!("mesh `{name}` was not found ({})", why.in_words());
+        let assumed = "not carried; the element has no surface";
+        self.note(NoteKind::MeshNotFound, place, problem, assumed);
+    }
+
+    fn found(
+        &mut self,
+        name: &str,
+        place: (u32, u32),
+        found: &'a FoundMesh,
+        inside: &'a Inspected,
+    ) {
+        if let Some(assumed) = &found.assumed {
+            let problem = format!("mesh `{name}` is not named as files are");
+            self.note(NoteKind::Mesh, place, problem, assumed);
+        }
+        if !self.said.insert(&found.file) {
+            return;
+        }
+        for remark in &inside.remarks {
+            let problem = format!("mesh `{name}`: {remark}");
+            self.note(NoteKind::Mesh, place, problem, "the rest of it is used");
+        }
+        let path = found.file.display();
+        match (&inside.bytes, &inside.scene) {
+            (Some(_), Ok(_)) => {}
+            (Some(_), Err(why)) => {
+                let problem = format!("mesh `{name}` is not usable ({path}: {why})");
+                let assumed = "carried as it is; the element has no surface";
+                self.note(NoteKind::MeshNotUsable, place, problem, assumed);
+            }
+            (None, why) => {
+                let why = why.as_ref().err().map_or("", String::as_str);
+                let problem = format!("mesh `{name}` is no mesh ({path}: {why})");
+                let assumed = "not carried; the element has no surface";
+                self.note(NoteKind::MeshNotFound, place, problem, assumed);
+                return;
+            }
+        }
+        for (side, why) in &inside.left_out {
+            let problem = format!("mesh `{name}` names `{side}`, {why}");
+            self.note(
+                NoteKind::Mesh,
+                place,
+                problem,
+                "the mesh is carried without it",
+            );
+        }
+        self.outside(format!("mesh `{name}`"), place, &found.file, &found.place);
+        for (file, side) in &inside.side_files {
+            let side_name = file.file_name().unwrap_or_default().to_string_lossy();
+            let what = format!("`{side_name}`, which mesh `{name}` names,");
+            self.outside(what, place, file, &side.place);
+        }
+    }
+
+    /// Names a file that is carried, and is not the robot's own.
+    fn outside(&mut self, what: String, place: (u32, u32), file: &Path, of: &Place) {
+        if self.roots.is_own(file) {
+            return;
+        }
+        let assumed = match of {
+            Place::Package(name, _) => format!("carried, as of the package `{name}`"),
+            Place::Own | Place::Allowed => "carried, since --allow-folder allows it".to_owned(),
+        };
+        let path = file.display();
+        let problem = format!("{what} lies outside of the URDF's folder and package, at {path}");
+        self.note(NoteKind::Outside, place, problem, &assumed);
+    }
+}
+
+/// Every mesh of the URDF: links ascending, visual before collision, elements ascending.
+fn named(robot: &UrdfModule) -> Vec<Named<'_>> {
+    let mut named = Vec::new();
+    for (link, of) in robot.links.iter().enumerate() {
+        let visual = of.visual.iter().map(|visual| visual.geometry.as_ref());
+        let collision = of
+            .collision
+            .iter()
+            .map(|collision| collision.geometry.as_ref());
+        let visual = visual
+            .enumerate()
+            .map(|found| (GeometryKind::Visual, found));
+        let collision = collision
+            .enumerate()
+            .map(|found| (GeometryKind::Collision, found));
+        for (geometry, (element, found)) in visual.chain(collision) {
+            if let Some(Geometry::Mesh(mesh)) = found {
+                named.push(Named {
+                    link,
+                    geometry,
+                    element,
+                    filename: &mesh.filename,
+                });
+            }
+        }
+    }
+    named
+}

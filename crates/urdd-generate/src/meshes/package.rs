@@ -1,0 +1,173 @@
+//! Where ROS packages are.
+
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::bounded::read_file;
+
+/// How deep the folders of `ROS_PACKAGE_PATH` are searched for packages.
+const CRAWL_DEPTH: usize = 5;
+/// Most folders that are looked into in one search.
+const MOST_FOLDERS: usize = 20_000;
+/// Longest `package.xml` that is read, bytes.
+const MAX_PACKAGE_XML: u64 = 1 << 20;
+
+/// A `--package` that cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum PackagePathError {
+    /// No `=`.
+    #[error("`{0}`: write NAME=PATH, the name of the package and its folder")]
+    NoEquals(String),
+    /// No such folder.
+    #[error("package `{name}`: {} is not a folder", path.display())]
+    NoFolder {
+        /// The package.
+        name: String,
+        /// The path.
+        path: PathBuf,
+    },
+}
+
+/// Where packages are looked for.
+#[derive(Debug, Clone, Default)]
+pub struct Packages {
+    given: BTreeMap<String, PathBuf>,
+    ros_package_path: Vec<PathBuf>,
+    ament_prefix_path: Vec<PathBuf>,
+    model_path: Vec<PathBuf>,
+}
+
+impl Packages {
+    /// No packages but those found above the URDF.
+    pub fn none() -> Self {
+        Self::default()
+    }
+
+    /// What the environment says: `ROS_PACKAGE_PATH`, `AMENT_PREFIX_PATH`, and for `model://`
+    /// `GAZEBO_MODEL_PATH`, `GZ_SIM_RESOURCE_PATH` and `IGN_GAZEBO_RESOURCE_PATH`.
+    pub fn from_environment(variable: impl Fn(&str) -> Option<OsString>) -> Self {
+        let paths = |name: &str| -> Vec<PathBuf> {
+            let value = variable(name).unwrap_or_default();
+            let paths = std::env::split_paths(&value);
+            paths.filter(|path| !path.as_os_str().is_empty()).collect()
+        };
+        Self {
+            given: BTreeMap::new(),
+            ros_package_path: paths("ROS_PACKAGE_PATH"),
+            ament_prefix_path: paths("AMENT_PREFIX_PATH"),
+            model_path: [
+                "GAZEBO_MODEL_PATH",
+                "GZ_SIM_RESOURCE_PATH",
+                "IGN_GAZEBO_RESOURCE_PATH",
+            ]
+            .into_iter()
+            .flat_map(paths)
+            .collect(),
+        }
+    }
+
+    /// Adds `NAME=PATH`; a later one of the same name counts.
+    ///
+    /// # Errors
+    /// Where that is not its form, or the path is not a folder.
+    pub fn add(&mut self, argument: &str) -> Result<(), PackagePathError> {
+        let split = argument
+            .split_once('=')
+            .filter(|(name, path)| !name.is_empty() && !path.is_empty());
+        let Some((name, path)) = split else {
+            return Err(PackagePathError::NoEquals(argument.to_owned()));
+        };
+        let path = PathBuf::from(path);
+        if !path.is_dir() {
+            let name = name.to_owned();
+            return Err(PackagePathError::NoFolder { name, path });
+        }
+        self.given.insert(name.to_owned(), path);
+        Ok(())
+    }
+
+    /// The packages that the user named, and their folders.
+    pub(crate) fn given(&self) -> impl Iterator<Item = (&str, &Path)> {
+        let given = self.given.iter();
+        given.map(|(name, path)| (name.as_str(), path.as_path()))
+    }
+
+    /// The folders that may be the package, the likeliest first. Where the user has said where it
+    /// is, nowhere else.
+    pub(super) fn folders(&self, name: &str, urdf_folder: &Path, is_model: bool) -> Vec<PathBuf> {
+        if let Some(path) = self.given.get(name) {
+            return vec![path.clone()];
+        }
+        let mut folders = Vec::new();
+        // The URDF's own package, by its package.xml or its folder's name, or one beside it.
+        for above in urdf_folder.ancestors() {
+            if package_name(above).as_deref() == Some(name) || is_named(above, name) {
+                folders.push(above.to_owned());
+            }
+            folders.push(above.join(name));
+        }
+        for folder in &self.ros_package_path {
+            if package_name(folder).as_deref() == Some(name) || is_named(folder, name) {
+                folders.push(folder.clone());
+            }
+            folders.push(folder.join(name));
+        }
+        for prefix in &self.ament_prefix_path {
+            folders.push(prefix.join("share").join(name));
+        }
+        if is_model {
+            folders.extend(self.model_path.iter().map(|folder| folder.join(name)));
+        }
+        folders
+    }
+
+    /// As ROS finds packages deep below `ROS_PACKAGE_PATH`. Slow, so only when all else failed.
+    pub(super) fn crawl(&self, name: &str) -> Option<PathBuf> {
+        let mut looked = 0;
+        self.ros_package_path
+            .iter()
+            .find_map(|folder| crawl(folder, name, CRAWL_DEPTH, &mut looked))
+    }
+}
+
+fn is_named(folder: &Path, name: &str) -> bool {
+    folder.file_name().is_some_and(|found| found == name)
+}
+
+/// The name in a folder's `package.xml`.
+pub(super) fn package_name(folder: &Path) -> Option<String> {
+    let bytes = read_file(&folder.join("package.xml"), MAX_PACKAGE_XML).ok()?;
+    let text = String::from_utf8(bytes).ok()?;
+    let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).ok()?;
+    let mut elements = document.root_element().children();
+    let name = elements.find(|element| element.has_tag_name("name"))?;
+    Some(name.text()?.trim().to_owned())
+}
+
+fn crawl(folder: &Path, name: &str, depth: usize, looked: &mut usize) -> Option<PathBuf> {
+    *looked += 1;
+    if *looked > MOST_FOLDERS || folder.join("CATKIN_IGNORE").exists() {
+        return None;
+    }
+    match package_name(folder) {
+        Some(found) if found == name => return Some(folder.to_owned()),
+        // Packages are not nested.
+        Some(_) => return None,
+        None if depth == 0 => return None,
+        None => {}
+    }
+    let mut below: Vec<PathBuf> = fs::read_dir(folder)
+        .ok()?
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(|path| path.is_dir())
+        .collect();
+    below.sort();
+    below
+        .iter()
+        .find_map(|folder| crawl(folder, name, depth - 1, looked))
+}

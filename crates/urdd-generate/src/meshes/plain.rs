@@ -1,0 +1,231 @@
+//! `plain_meshes_module` from the URDF and its mesh files: SPEC 7.2 and 7.4.
+
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::fault::Fault;
+use crate::pose;
+use crate::size::{TriangleBudget, check_resolved};
+use urdd_format::meshes::GeometryKind;
+use urdd_format::original_meshes::OriginalMeshesModule;
+use urdd_format::urdf::{Geometry, Link, Material, Origin, UrdfModule};
+use urdd_geometry::Mesh;
+use urdd_geometry::mesh::placement;
+use urdd_geometry::primitives;
+use urdd_geometry::read::{Part, Scene};
+
+/// What a link looks like: its triangles by colour, in its own frame.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct LinkGeometry {
+    pub geometry: GeometryKind,
+    pub parts: Vec<Part>,
+}
+
+/// A visual or collision element.
+struct Element<'a> {
+    origin: Option<&'a Origin>,
+    geometry: Option<&'a Geometry>,
+    material: Option<&'a Material>,
+    /// The mesh that it names, where that can be used.
+    scene: Option<&'a Scene>,
+}
+
+/// The geometry of every link; `None` for a link without any. `scenes` are the meshes by their paths
+/// in the URDD. `have` says which links need none made.
+///
+/// # Errors
+/// Where a link has too many triangles, or too small a shape too far away.
+pub(crate) fn link_geometries(
+    robot: &UrdfModule,
+    original: &OriginalMeshesModule,
+    scenes: &BTreeMap<String, Arc<Scene>>,
+    preferred: GeometryKind,
+    have: &(dyn Fn(usize) -> bool + Sync),
+) -> Result<Vec<Option<LinkGeometry>>, Fault> {
+    let named: BTreeMap<(usize, GeometryKind, usize), &Scene> = original
+        .references
+        .iter()
+        .filter_map(|reference| {
+            let scene = scenes.get(reference.path.as_ref()?)?;
+            let place = (
+                reference.link_idx.get(),
+                reference.geometry,
+                reference.element_idx.get(),
+            );
+            Some((place, scene.as_ref()))
+        })
+        .collect();
+    let other = match preferred {
+        GeometryKind::Visual => GeometryKind::Collision,
+        GeometryKind::Collision => GeometryKind::Visual,
+    };
+    let quaternions = pose::has_quaternions(robot.version.as_deref());
+    let budget = TriangleBudget::default();
+    let links: Vec<_> = robot.links.iter().enumerate().collect();
+    let geometries: Vec<Result<Option<LinkGeometry>, Fault>> = links
+        .into_par_iter()
+        .map(|(link_idx, link)| {
+            if have(link_idx) {
+                return Ok(None);
+            }
+            for kind in [preferred, other] {
+                let mut elements = elements(link, kind);
+                for (element_idx, element) in elements.iter_mut().enumerate() {
+                    element.scene = named.get(&(link_idx, kind, element_idx)).copied();
+                }
+                elements.retain(is_usable);
+                if !budget.take(&link.name, elements.iter().map(num_triangles).sum())? {
+                    return Ok(None);
+                }
+                let parts: Vec<Part> = elements
+                    .iter()
+                    .flat_map(|element| placed(element, &robot.materials, quaternions))
+                    .collect();
+                let has_shapes = elements.iter().any(|element| element.scene.is_none());
+                if !parts.is_empty() || has_shapes {
+                    check_resolved(&link.name, &parts)?;
+                    return Ok(Some(LinkGeometry {
+                        geometry: kind,
+                        parts: by_look(parts),
+                    }));
+                }
+            }
+            Ok(None)
+        })
+        .collect();
+    let geometries = geometries.into_iter().collect::<Result<_, Fault>>()?;
+    budget.check()?;
+    Ok(geometries)
+}
+
+fn elements(link: &Link, kind: GeometryKind) -> Vec<Element<'_>> {
+    match kind {
+        GeometryKind::Visual => link
+            .visual
+            .iter()
+            .map(|visual| Element {
+                origin: visual.origin.as_ref(),
+                geometry: visual.geometry.as_ref(),
+                material: visual.material.as_ref(),
+                scene: None,
+            })
+            .collect(),
+        GeometryKind::Collision => link
+            .collision
+            .iter()
+            .map(|collision| Element {
+                origin: collision.origin.as_ref(),
+                geometry: collision.geometry.as_ref(),
+                material: None,
+                scene: None,
+            })
+            .collect(),
+    }
+}
+
+/// Whether an element has a surface with an area.
+fn is_usable(element: &Element) -> bool {
+    let extends = |numbers: [f64; 3]| numbers.iter().filter(|number| **number != 0.0).count() >= 2;
+    match element.geometry {
+        None => false,
+        Some(Geometry::Mesh(mesh)) => {
+            element.scene.is_some() && extends(mesh.scale.unwrap_or([1.0; 3]))
+        }
+        Some(Geometry::Box(cuboid)) => extends(cuboid.size.map(|side| side.max(0.0))),
+        Some(Geometry::Cylinder(of)) => of.radius > 0.0 && of.length >= 0.0,
+        Some(Geometry::Capsule(of)) => of.radius > 0.0 && of.length >= 0.0,
+        Some(Geometry::Sphere(of)) => of.radius > 0.0,
+    }
+}
+
+/// How many triangles a usable element has, before those without an area are dropped.
+fn num_triangles(element: &Element) -> usize {
+    match element.geometry {
+        None => 0,
+        Some(Geometry::Mesh(_)) => element.scene.map_or(0, Scene::triangle_count),
+        Some(Geometry::Box(_)) => primitives::CUBOID_TRIANGLES,
+        Some(Geometry::Cylinder(_)) => primitives::CYLINDER_TRIANGLES,
+        Some(Geometry::Capsule(_)) => primitives::CAPSULE_TRIANGLES,
+        Some(Geometry::Sphere(_)) => primitives::SPHERE_TRIANGLES,
+    }
+}
+
+/// The parts of an element, in the link's frame, rounded to what files hold.
+fn placed(element: &Element, materials: &[Material], quaternions: bool) -> Vec<Part> {
+    let (parts, scale) = match (element.geometry, element.scene) {
+        (None, _) | (Some(Geometry::Mesh(_)), None) => return Vec::new(),
+        (Some(Geometry::Mesh(mesh)), Some(scene)) => {
+            (scene.parts.clone(), mesh.scale.unwrap_or([1.0; 3]))
+        }
+        (Some(Geometry::Box(of)), _) => (vec![primitives::cuboid(of.size).into()], [1.0; 3]),
+        (Some(Geometry::Cylinder(of)), _) => {
+            let mesh = primitives::cylinder(of.radius, of.length);
+            (vec![mesh.into()], [1.0; 3])
+        }
+        (Some(Geometry::Capsule(of)), _) => {
+            let mesh = primitives::capsule(of.radius, of.length);
+            (vec![mesh.into()], [1.0; 3])
+        }
+        (Some(Geometry::Sphere(of)), _) => (vec![primitives::sphere(of.radius).into()], [1.0; 3]),
+    };
+    let color = color(element.material, materials);
+    let pose = pose::of(element.origin, quaternions);
+    let rotation = pose.rotation.to_rotation_matrix();
+    let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
+    let place = placement(scale, rows, pose.translation.vector.into());
+    let moved = parts.into_iter().map(|part: Part| Part {
+        mesh: tidy(part.mesh, &place),
+        color: part.color.or(color),
+        material: part.material,
+    });
+    moved
+        .filter(|part| !part.mesh.triangles.is_empty())
+        .collect()
+}
+
+/// Parts that look alike made one, in the order in which each look first appears: a link may have many
+/// thousand elements, and a viewer draws each part by itself.
+fn by_look(parts: Vec<Part>) -> Vec<Part> {
+    let mut place: HashMap<(Option<[u64; 4]>, Option<String>), usize> = HashMap::new();
+    let mut joined: Vec<Part> = Vec::new();
+    for part in parts {
+        let look = (
+            part.color.map(|color| color.map(f64::to_bits)),
+            part.material.clone(),
+        );
+        match place.get(&look) {
+            Some(at) => joined[*at].mesh.append(&part.mesh),
+            None => {
+                place.insert(look, joined.len());
+                joined.push(part);
+            }
+        }
+    }
+    joined
+}
+
+fn tidy(mut mesh: Mesh, place: &nalgebra::Matrix4<f64>) -> Mesh {
+    mesh.transform(place);
+    mesh.round_to_f32();
+    mesh.weld();
+    mesh.drop_degenerate();
+    mesh.drop_unused_vertices();
+    mesh
+}
+
+/// An element's colour: its own, or that of the robot's material of the same name.
+fn color(material: Option<&Material>, materials: &[Material]) -> Option<[f64; 4]> {
+    let material = material?;
+    let of = |material: &Material| material.color.as_ref().map(|color| color.rgba);
+    let named = || {
+        let name = material.name.as_ref()?;
+        let mut named = materials.iter().filter(|m| m.name.as_ref() == Some(name));
+        named.find_map(of)
+    };
+    of(material)
+        .or_else(named)
+        // What a .glb can hold.
+        .map(|rgba| rgba.map(|part| part.clamp(0.0, 1.0)))
+}

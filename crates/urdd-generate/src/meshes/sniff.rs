@@ -1,0 +1,137 @@
+//! Whether the bytes of a file are what its use says: nothing else is carried.
+
+use urdd_geometry::read::{Format, Scene};
+
+/// How far into a file the marks of its format are looked for.
+const HEAD: usize = 64 << 10;
+
+/// Whether a file is a mesh, given what came of reading it.
+pub(super) fn is_mesh(bytes: &[u8], scene: Option<&Scene>) -> bool {
+    match scene {
+        Some(scene) if scene.triangle_count() > 0 => true,
+        // STL and COLLADA are known by their marks, which any text lacks.
+        Some(scene) if !matches!(scene.format, Format::Obj | Format::Gltf) => true,
+        _ => is_marked(bytes),
+    }
+}
+
+/// Whether a file begins as a mesh does, also one that cannot be read.
+fn is_marked(bytes: &[u8]) -> bool {
+    const MAGIC: &[&[u8]] = &[
+        b"glTF",
+        b"ply\n",
+        b"ply\r",
+        b"Kaydara FBX",
+        b"BLENDER",
+        b"OFF\n",
+    ];
+    if MAGIC.iter().any(|magic| bytes.starts_with(magic)) {
+        return true;
+    }
+    let head = &bytes[..bytes.len().min(HEAD)];
+    let text = String::from_utf8_lossy(head);
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    match text.chars().next() {
+        Some('<') => text.contains("<COLLADA"),
+        Some('{') => text.contains("\"asset\"") && text.contains("\"version\""),
+        Some('s') if text.starts_with("solid") => text.contains("facet"),
+        _ => text.lines().any(is_obj_vertex),
+    }
+}
+
+/// `v` and three numbers.
+fn is_obj_vertex(line: &str) -> bool {
+    let mut words = line.split_ascii_whitespace();
+    let numbers = |words: std::str::SplitAsciiWhitespace| {
+        words
+            .take(3)
+            .filter(|word| word.parse::<f64>().is_ok())
+            .count()
+    };
+    words.next() == Some("v") && numbers(words) == 3
+}
+
+/// Why a file is not what a mesh of some format means by it, in words; `None` where it is.
+pub(super) fn fault_of_side_file(
+    extension: &str,
+    bytes: &[u8],
+    mesh: Format,
+) -> Option<&'static str> {
+    match extension {
+        "mtl" if mesh == Format::Obj => {
+            (!is_mtl(bytes)).then_some("which is not a material library (.mtl)")
+        }
+        // Numbers: any bytes are some.
+        "bin" if matches!(mesh, Format::Gltf | Format::Glb) => None,
+        "mtl" | "bin" => Some("which is not a file that meshes of this format have"),
+        _ => (!is_image(bytes)).then_some("which is not an image that is known here"),
+    }
+}
+
+/// Whether a file is an image, by its first bytes and its size in pixels.
+pub(super) fn is_image(bytes: &[u8]) -> bool {
+    imagesize::blob_size(bytes).is_ok_and(|size| size.width > 0 && size.height > 0)
+}
+
+/// Whether a file is a material library: text that declares a material, or nothing but comments.
+pub(super) fn is_mtl(bytes: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        // Names of materials may be in an older encoding.
+        return !bytes.contains(&0) && declares_material(&String::from_utf8_lossy(bytes));
+    };
+    let is_comment = |line: &str| line.trim().is_empty() || line.trim().starts_with('#');
+    declares_material(text) || text.lines().all(is_comment)
+}
+
+fn declares_material(text: &str) -> bool {
+    let mut lines = text.lines().map(str::trim_start);
+    lines.any(|line| {
+        let mut words = line.split_ascii_whitespace();
+        words
+            .next()
+            .is_some_and(|word| word.eq_ignore_ascii_case("newmtl"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn secrets_are_no_meshes_nor_images_nor_materials() {
+        for secret in [
+            "-----BEGIN OPENSSH PRIVATE KEY-----\nb3BlbnNzaC1rZXktdjEAAAAA\n",
+            "{\"token\": \"ghp_0123\"}",
+            "solid advice: root:x:0:0:root:/root:/bin/bash\n",
+            "v 1 2\nv one two three\n",
+            "<keys><key>1</key></keys>",
+            "export TOKEN=abc\n",
+            "",
+        ] {
+            let bytes = secret.as_bytes();
+            assert!(!is_mesh(bytes, None), "{secret}");
+            assert!(!is_image(bytes), "{secret}");
+            assert_eq!(is_mtl(bytes), secret.is_empty(), "{secret}");
+        }
+        // A DER key, and random bytes.
+        for bytes in [
+            &[0x30, 0x82, 4, 0xa4, 2, 1, 0][..],
+            &[7, 200, 3, 0, 0, 1, 9],
+        ] {
+            assert!(!is_mesh(bytes, None) && !is_image(bytes), "{bytes:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_known_by_its_mark_is() {
+        let png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0";
+        assert!(is_image(png));
+        assert!(is_mtl(b"# a\nnewmtl red\nKd 1 0 0\n") && is_mtl(b"# none\n"));
+        assert!(is_mesh(b"ply\nformat ascii 1.0\n", None));
+        assert!(is_mesh(b"# made by\nv 0 0 1e-3\n", None));
+        assert!(is_mesh(
+            b"\xef\xbb\xbf<?xml version=\"1.0\"?><COLLADA/>",
+            None
+        ));
+    }
+}

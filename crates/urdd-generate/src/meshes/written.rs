@@ -1,0 +1,123 @@
+//! Meshes as files, and from files.
+
+use std::sync::Arc;
+
+use crate::error::GenerateError;
+use crate::made::{Content, MadeFile};
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::root::Root;
+use urdd_format::meshes::MeshFiles;
+use urdd_geometry::Mesh;
+use urdd_geometry::read::{GltfUp, Options, Part, read_with};
+use urdd_geometry::write;
+
+/// A mesh of a link, or of a piece, as its files have it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct WrittenMesh {
+    pub mesh: Mesh,
+    /// Of the most of its surface.
+    pub color: Option<[f64; 4]>,
+}
+
+/// For each link its mesh.
+pub(crate) type LinkMeshes = Arc<Vec<Option<WrittenMesh>>>;
+/// For each link its pieces.
+pub(crate) type LinkPieces = Arc<Vec<Vec<WrittenMesh>>>;
+
+impl WrittenMesh {
+    /// Of parts of several colours.
+    pub fn of(parts: &[Part]) -> Self {
+        let mut mesh = Mesh::default();
+        let mut areas: Vec<(Option<[f64; 4]>, f64)> = Vec::new();
+        for part in parts {
+            mesh.append(&part.mesh);
+            let area = part.mesh.area();
+            match areas.iter_mut().find(|(color, _)| *color == part.color) {
+                Some((_, sum)) => *sum += area,
+                None => areas.push((part.color, area)),
+            }
+        }
+        let largest = areas
+            .into_iter()
+            .reduce(|a, b| if b.1 > a.1 { b } else { a });
+        WrittenMesh {
+            mesh,
+            color: largest.and_then(|(color, _)| color),
+        }
+    }
+
+    /// As one part.
+    pub fn part(&self) -> Part {
+        Part {
+            mesh: self.mesh.clone(),
+            color: self.color,
+            material: None,
+        }
+    }
+}
+
+/// How a .glb is shaded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shading {
+    /// Each face by itself, as hulls and pieces are.
+    Flat,
+    /// With normals.
+    Smooth,
+}
+
+/// The files of a mesh, in the formats that are named.
+pub(crate) fn files_of(
+    parts: &[Part],
+    files: &MeshFiles,
+    shading: Shading,
+) -> Result<Vec<MadeFile>, GenerateError> {
+    let glb = match shading {
+        Shading::Flat => write::glb(parts),
+        Shading::Smooth => write::smooth_glb(parts),
+    };
+    let internal = |error: write::WriteError| GenerateError::Internal {
+        file: files.glb.clone(),
+        reason: error.to_string(),
+    };
+    let file = |path: &String, bytes: Vec<u8>| MadeFile {
+        path: path.clone(),
+        content: Content::Bytes(bytes),
+    };
+    let mut made = Vec::with_capacity(3);
+    if let Some(stl) = &files.stl {
+        made.push(file(stl, write::stl(parts).map_err(internal)?));
+    }
+    if let Some(obj) = &files.obj {
+        made.push(file(obj, write::obj(parts).map_err(internal)?));
+    }
+    made.push(file(&files.glb, glb.map_err(internal)?));
+    Ok(made)
+}
+
+/// Takes up a mesh that was written before.
+pub(crate) fn take_up(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, GenerateError> {
+    let bytes = root.read(&files.glb, MAX_DOCUMENT_BYTES);
+    let bytes = bytes.map_err(|error| GenerateError::Internal {
+        file: files.glb.clone(),
+        reason: error.to_string(),
+    })?;
+    take_up_bytes(&bytes, &files.glb)
+}
+
+/// Takes up a mesh from the bytes of its .glb.
+pub(crate) fn take_up_bytes(bytes: &[u8], path: &str) -> Result<WrittenMesh, GenerateError> {
+    let options = Options {
+        gltf_up: GltfUp::Keep,
+        ..Options::default()
+    };
+    let scene = read_with(bytes, path, &mut |_| None, &options);
+    let mut scene = scene.map_err(|error| GenerateError::Internal {
+        file: path.to_owned(),
+        reason: error.to_string(),
+    })?;
+    for part in &mut scene.parts {
+        // Vertices that have several normals.
+        part.mesh.weld();
+    }
+    Ok(WrittenMesh::of(&scene.parts))
+}

@@ -1,0 +1,129 @@
+//! `urdd.json`, and what this program adds to it.
+
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+
+use super::error::GenerateError;
+use urdd_directory::writer::sha256;
+use urdd_format::registry::{ModuleKind, SPEC_VERSION};
+use urdd_format::root_metadata::{
+    ConformanceClass, FileEntry, Generator, ModuleEntry, RootMetadata, Source, Version,
+};
+
+/// The name by which a URDD of this program is known.
+pub(super) const GENERATOR: &str = "urdd";
+/// In the entry of a module: the hash of all that it was made of.
+pub(super) const INPUTS_KEY: &str = "x_urdd_inputs";
+/// In the source: the file as it was found, where another text is carried.
+pub(super) const FOUND_KEY: &str = "x_urdd_found";
+
+/// A module of the new URDD.
+pub(super) struct Entry {
+    pub module: ModuleEntry,
+    pub inputs: Option<String>,
+}
+
+/// The version of every module that this program makes.
+pub(super) const MODULE_VERSION: &str = "1.0.0";
+
+fn version(text: &str) -> Version {
+    Version::new(text).unwrap_or_else(|| unreachable!("a constant of this program"))
+}
+
+/// The entry of a module. `files` may stand in any order.
+pub(super) fn entry(kind: ModuleKind, mut files: Vec<FileEntry>, inputs: Option<String>) -> Entry {
+    files.sort_by(|a, b| a.path.cmp(&b.path));
+    Entry {
+        module: ModuleEntry {
+            name: kind.name().to_owned(),
+            version: version(MODULE_VERSION),
+            path: kind.folder().to_owned(),
+            depends_on: kind
+                .depends_on()
+                .iter()
+                .map(|kind| kind.name().to_owned())
+                .collect(),
+            files,
+        },
+        inputs,
+    }
+}
+
+/// The hash of all that a module is made of: this program's version, the module and its settings,
+/// and the files of the modules that it is derived from.
+pub(super) fn inputs(kind: ModuleKind, settings: &str, made: &[Entry]) -> String {
+    let mut text = format!(
+        "{GENERATOR} {}\n{} {MODULE_VERSION}\n{settings}\n",
+        env!("CARGO_PKG_VERSION"),
+        kind.name()
+    );
+    let needed = kind.depends_on().iter().map(|kind| kind.name());
+    for name in needed {
+        let files = made.iter().filter(|entry| entry.module.name == name);
+        for file in files.flat_map(|entry| &entry.module.files) {
+            text += &format!("{} {} {}\n", file.path, file.size, file.sha256);
+        }
+    }
+    sha256(&Sha256::digest(text)).as_str().to_owned()
+}
+
+/// The highest class all of whose modules were made.
+pub(super) fn class(made: &[Entry]) -> ConformanceClass {
+    let has = |kind: ModuleKind| made.iter().any(|entry| entry.module.name == kind.name());
+    let whole = |class: ConformanceClass| {
+        let mut kinds = ModuleKind::ALL
+            .iter()
+            .filter(|kind| kind.class() == Some(class));
+        kinds.all(|kind| has(*kind))
+    };
+    match (
+        whole(ConformanceClass::Geometry),
+        whole(ConformanceClass::Shapes),
+    ) {
+        (true, true) => ConformanceClass::Shapes,
+        (true, false) => ConformanceClass::Geometry,
+        _ => ConformanceClass::Core,
+    }
+}
+
+/// The document. `extensions` are entries of modules that this program knows nothing of.
+pub(super) fn document(
+    robot_name: &str,
+    source: FileEntry,
+    found: Option<FileEntry>,
+    made: Vec<Entry>,
+    extensions: Vec<Value>,
+) -> Result<Value, GenerateError> {
+    let metadata = RootMetadata {
+        urdd_version: version(SPEC_VERSION),
+        robot_name: robot_name.to_owned(),
+        conformance_class: class(&made),
+        generator: Some(Generator {
+            name: GENERATOR.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        }),
+        source: Some(Source::Urdf(source)),
+        modules: made.iter().map(|entry| entry.module.clone()).collect(),
+    };
+    let to_value = |value| {
+        serde_json::to_value(value).map_err(|error: serde_json::Error| GenerateError::Internal {
+            file: robot_name.to_owned(),
+            reason: error.to_string(),
+        })
+    };
+    let mut document = to_value(metadata)?;
+    if let Some(found) = found {
+        document["source"][FOUND_KEY] = json!({
+            "path": found.path, "size": found.size, "sha256": found.sha256,
+        });
+    }
+    if let Some(modules) = document["modules"].as_array_mut() {
+        for (module, entry) in modules.iter_mut().zip(made) {
+            if let Some(inputs) = entry.inputs {
+                module[INPUTS_KEY] = json!(inputs);
+            }
+        }
+        modules.extend(extensions);
+    }
+    Ok(document)
+}

@@ -1,0 +1,98 @@
+//! Origins of a URDF as poses: SPEC 5.4 and 6.1.9.
+
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+
+use urdd_format::urdf::Origin;
+use urdd_kinematics::rotation::from_rpy;
+
+/// Whether `quat_xyzw` counts in a URDF of this version: from 1.1 on. Absent, or no two numbers with
+/// a dot between them, is 1.0.
+pub fn has_quaternions(version: Option<&str>) -> bool {
+    let number = |text: &str| -> Option<u64> {
+        let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        // What is beyond 64 bits is later than any version.
+        digits.then(|| text.parse().unwrap_or(u64::MAX))
+    };
+    let white_space = |c: char| matches!(c, ' ' | '\t' | '\r' | '\n');
+    let version = version.and_then(|version| version.trim_matches(white_space).split_once('.'));
+    let numbers = version.and_then(|(major, minor)| number(major).zip(number(minor)));
+    numbers.is_some_and(|version| version >= (1, 1))
+}
+
+/// The pose of an origin; what is absent is zero. `quaternions` says whether `quat_xyzw` counts.
+pub fn of(origin: Option<&Origin>, quaternions: bool) -> Isometry3<f64> {
+    let xyz = origin.and_then(|origin| origin.xyz).unwrap_or_default();
+    let quaternion = origin
+        .and_then(|origin| origin.quat_xyzw)
+        .filter(|_| quaternions);
+    let rotation = match (quaternion, origin.and_then(|origin| origin.rpy)) {
+        (Some(quaternion), _) => from_xyzw(quaternion).unwrap_or_else(UnitQuaternion::identity),
+        (None, Some(rpy)) => from_rpy(rpy),
+        (None, None) => UnitQuaternion::identity(),
+    };
+    Isometry3::from_parts(Translation3::from(xyz), rotation)
+}
+
+/// The rotation of a quaternion of any length but zero.
+pub(super) fn from_xyzw(xyzw: [f64; 4]) -> Option<UnitQuaternion<f64>> {
+    // First to components near 1: the squares of huge or tiny ones overflow or vanish.
+    let largest = xyzw
+        .iter()
+        .fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let [x, y, z, w] = xyzw.map(|x| x / largest);
+    UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_1_SQRT_2;
+
+    fn rotation(origin: &Origin, version: &str) -> [f64; 4] {
+        let pose = of(Some(origin), has_quaternions(Some(version)));
+        pose.rotation.coords.into()
+    }
+
+    #[test]
+    fn quaternions_count_from_version_1_1() {
+        let origin = Origin {
+            xyz: None,
+            rpy: None,
+            // A quarter turn about z, of length 2 sqrt 2 e-200.
+            quat_xyzw: Some([0.0, 0.0, 2e-200, 2e-200]),
+        };
+        for version in ["1.1", "1.2", " 2.0 ", "01.10", "99999999999999999999.0"] {
+            let [x, y, z, w] = rotation(&origin, version);
+            assert_eq!([x, y], [0.0, 0.0]);
+            assert!((z - FRAC_1_SQRT_2).abs() < 1e-15 && (w - FRAC_1_SQRT_2).abs() < 1e-15);
+        }
+        for version in [
+            "1.0",
+            "0.9",
+            "1",
+            "",
+            "1.1.0",
+            "1.x",
+            "-1.1",
+            "+1.1",
+            "\u{a0}1.1",
+        ] {
+            assert_eq!(
+                rotation(&origin, version),
+                [0.0, 0.0, 0.0, 1.0],
+                "{version:?}"
+            );
+        }
+        assert!(!has_quaternions(None));
+    }
+
+    #[test]
+    fn a_quaternion_without_length_says_nothing() {
+        let origin = Origin {
+            xyz: None,
+            rpy: None,
+            quat_xyzw: Some([0.0; 4]),
+        };
+        assert_eq!(rotation(&origin, "1.1"), [0.0, 0.0, 0.0, 1.0]);
+    }
+}

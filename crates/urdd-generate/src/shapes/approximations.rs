@@ -1,0 +1,90 @@
+//! `link_shapes_approximations_module`: SPEC 8.2.
+
+use super::ConvexMeshes;
+use crate::distinct::for_each_content;
+use crate::reuse::Shape;
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_format::link_shapes_approximations::{
+    BoundingSphere, LinkShapesApproximationsModule, Obb,
+};
+use urdd_geometry::Mesh;
+use urdd_geometry::bounding_sphere::BoundingSphere as Ball;
+use urdd_geometry::hull::{ConvexHull, HullError};
+use urdd_geometry::oriented_box::OrientedBox;
+
+/// Makes the module. `known` are the boxes and spheres that need not be computed: of the hulls, then of
+/// the pieces.
+///
+/// # Errors
+/// Where it is asked to stop; and where a mesh has no hull: a fault of what made it.
+pub(crate) fn approximations(
+    solids: &ConvexMeshes,
+    known: Vec<Option<Shape>>,
+    cancellation: &Cancellation,
+) -> Result<Result<LinkShapesApproximationsModule, HullError>, Cancelled> {
+    let all = solids
+        .hulls
+        .iter()
+        .flatten()
+        .chain(solids.pieces.iter().flatten());
+    let meshes = all.map(|written| &written.mesh).zip(&known);
+    let meshes: Vec<&Mesh> = meshes
+        .filter_map(|(mesh, known)| known.is_none().then_some(mesh))
+        .collect();
+    let mut found = for_each_content(&meshes, cancellation, of_mesh)?.into_iter();
+    let found = known.into_iter().map(|known| match known {
+        Some(known) => Ok(known),
+        None => found.next().unwrap_or(Err(HullError::Empty)),
+    });
+    let found: Result<Vec<Shape>, HullError> = found.collect();
+    Ok(found.map(|found| module(solids, &found)))
+}
+
+/// The module of the boxes and spheres about all hulls, then about all pieces.
+fn module(solids: &ConvexMeshes, found: &[Shape]) -> LinkShapesApproximationsModule {
+    let (of_hulls, of_pieces) = found.split_at(solids.hulls.iter().flatten().count());
+    let (mut of_hulls, mut of_pieces) = (of_hulls.iter().cloned(), of_pieces.iter().cloned());
+    let hulls = solids.hulls.iter();
+    let full: Vec<_> = hulls
+        .map(|hull| hull.as_ref().and_then(|_| of_hulls.next()))
+        .collect();
+    let pieces: Vec<Vec<_>> = solids
+        .pieces
+        .iter()
+        .map(|pieces| of_pieces.by_ref().take(pieces.len()).collect())
+        .collect();
+    let (full_obbs, full_bounding_spheres) = full.into_iter().map(Option::unzip).unzip();
+    let (decomposition_obbs, decomposition_bounding_spheres) = pieces
+        .into_iter()
+        .map(|pieces| pieces.into_iter().unzip())
+        .unzip();
+    LinkShapesApproximationsModule {
+        full_obbs,
+        full_bounding_spheres,
+        decomposition_obbs,
+        decomposition_bounding_spheres,
+    }
+}
+
+fn of_mesh(mesh: &Mesh) -> Result<Shape, HullError> {
+    let hull = ConvexHull::new(&mesh.vertices)?;
+    let found = (OrientedBox::around(&hull), Ball::around(&hull));
+    Ok((of_box(&found.0), of_ball(&found.1)))
+}
+
+fn of_box(found: &OrientedBox) -> Obb {
+    // No box is turned so far that its pitch is near a right angle.
+    let (roll, pitch, yaw) = found.rotation.euler_angles();
+    Obb {
+        half_extents: found.half_extents,
+        offset_xyz: found.centre,
+        offset_rpy: [roll, pitch, yaw].map(|angle| angle + 0.0),
+    }
+}
+
+fn of_ball(found: &Ball) -> BoundingSphere {
+    BoundingSphere {
+        radius: found.radius,
+        offset_xyz: found.centre,
+    }
+}

@@ -1,0 +1,240 @@
+//! `link_shapes_distance_statistics_module`: SPEC 8.5.
+
+use nalgebra::{Isometry3, Translation3, Vector3};
+use rayon::prelude::*;
+
+use super::rounding::seven_digits;
+use super::{ConvexMeshes, MOST_PIECES_WITH_MATRICES};
+use crate::meshes::written::WrittenMesh;
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_format::bounds::BoundsModule;
+use urdd_format::chain::ChainModule;
+use urdd_format::dof::DofModule;
+use urdd_format::index::Count;
+use urdd_format::link_shapes_approximations::{
+    BoundingSphere, LinkShapesApproximationsModule, Obb,
+};
+use urdd_format::link_shapes_distance_statistics::{
+    DistanceStatistics, LinkShapesDistanceStatisticsModule,
+};
+use urdd_format::urdf::JointType;
+use urdd_geometry::convex::{
+    ConvexShape, Motion, OrientedBox, PairStatistics, PlacedShape, ShapeError, ShapeList, Sphere,
+    statistics_of_kinds,
+};
+use urdd_kinematics::rotation::from_rpy;
+use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
+
+/// Something of each kind of shapes, in the order of the documents: hulls, boxes and spheres of links, then, of a
+/// robot with matrices over pieces, those of pieces.
+pub(crate) struct Kinds<T> {
+    pub full: [T; 3],
+    pub pieces: Option<[T; 3]>,
+}
+
+/// Makes the module, or says in words why there is none.
+///
+/// # Errors
+/// Where it is asked to stop.
+pub(crate) fn statistics(
+    solids: &ConvexMeshes,
+    approximations: &LinkShapesApproximationsModule,
+    (dof, chain, bounds): Kinematics,
+    num_samples: u32,
+    cancellation: &Cancellation,
+) -> Result<Result<LinkShapesDistanceStatisticsModule, String>, Cancelled> {
+    let found = sampled(
+        solids,
+        approximations,
+        (dof, chain, bounds),
+        num_samples,
+        cancellation,
+    );
+    cancellation.check()?;
+    Ok(found.map(|found| module(solids, num_samples, found)))
+}
+
+/// The statistics of all pairs; they do not hold where it was asked to stop.
+fn sampled(
+    solids: &ConvexMeshes,
+    approximations: &LinkShapesApproximationsModule,
+    (dof, chain, bounds): Kinematics,
+    num_samples: u32,
+    cancellation: &Cancellation,
+) -> Result<Kinds<PairStatistics>, String> {
+    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
+    let configuration = |sample: u32| {
+        let name = format!("sampled configuration {sample}");
+        (name, space.sampled(u64::from(sample)))
+    };
+    let configurations = (0..num_samples).into_par_iter().map(configuration);
+    let motion = motion(dof, chain, configurations)?;
+    over(&motion, solids, approximations, chain, cancellation)
+}
+
+fn module(
+    solids: &ConvexMeshes,
+    num_samples: u32,
+    found: Kinds<PairStatistics>,
+) -> LinkShapesDistanceStatisticsModule {
+    let matrices = |pairs: PairStatistics| DistanceStatistics {
+        mean_distances: to_seven_digits(pairs.mean),
+        min_distances: to_seven_digits(pairs.min),
+        max_distances: to_seven_digits(pairs.max),
+    };
+    let [full_convex_hulls, full_obbs, full_bounding_spheres] = found.full.map(matrices);
+    let pieces = found
+        .pieces
+        .map(|pieces| pieces.map(|one| Some(matrices(one))));
+    let [
+        decomposition_convex_hulls,
+        decomposition_obbs,
+        decomposition_bounding_spheres,
+    ] = pieces.unwrap_or_default();
+    LinkShapesDistanceStatisticsModule {
+        num_samples: Count(num_samples),
+        full_shapes: solids.full_shapes(),
+        decomposition_shapes: solids.decomposition_shapes(),
+        full_convex_hulls,
+        full_obbs,
+        full_bounding_spheres,
+        decomposition_convex_hulls,
+        decomposition_obbs,
+        decomposition_bounding_spheres,
+    }
+}
+
+/// The distances in the default configuration (SPEC 9.4), metres.
+pub(crate) fn at_default_configuration(
+    solids: &ConvexMeshes,
+    approximations: &LinkShapesApproximationsModule,
+    (dof, chain, bounds): Kinematics,
+) -> Result<Kinds<Vec<Vec<f64>>>, String> {
+    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
+    let name = "the default configuration".to_owned();
+    let configuration = [(name, space.default_configuration())];
+    let motion = motion(dof, chain, configuration.into_par_iter())?;
+    let never = Cancellation::default();
+    let found = over(&motion, solids, approximations, chain, &never)?;
+    // Of one configuration, all three are the distance.
+    let distances = |pairs: PairStatistics| pairs.min;
+    Ok(Kinds {
+        full: found.full.map(distances),
+        pieces: found.pieces.map(|pieces| pieces.map(distances)),
+    })
+}
+
+/// What sampled configurations and their poses follow from.
+pub(crate) type Kinematics<'a> = (&'a DofModule, &'a ChainModule, &'a BoundsModule);
+
+/// The distances of all shapes while the robot moves; they do not hold where it was asked to stop.
+fn over(
+    motion: &Motion,
+    solids: &ConvexMeshes,
+    of: &LinkShapesApproximationsModule,
+    chain: &ChainModule,
+    cancellation: &Cancellation,
+) -> Result<Kinds<PairStatistics>, String> {
+    let hulls = placed(&solids.hulls, chain, of_mesh)?;
+    let boxes = placed(&of.full_obbs, chain, of_box)?;
+    let spheres = placed(&of.full_bounding_spheres, chain, of_sphere)?;
+    let with_pieces = solids.decomposition_shapes().len() <= MOST_PIECES_WITH_MATRICES;
+    let pieces = with_pieces.then(|| {
+        let pieces = placed(&solids.pieces, chain, of_mesh)?;
+        let boxes = placed(&of.decomposition_obbs, chain, of_box)?;
+        let spheres = placed(&of.decomposition_bounding_spheres, chain, of_sphere)?;
+        Ok::<_, String>((pieces, boxes, spheres))
+    });
+    let pieces = pieces.transpose()?;
+
+    let (hulls, boxes, spheres) = (&hulls[..], &boxes[..], &spheres[..]);
+    let mut kinds: Vec<&dyn ShapeList> = vec![&hulls, &boxes, &spheres];
+    let of_pieces = pieces.as_ref().map(|(a, b, c)| (&a[..], &b[..], &c[..]));
+    if let Some((pieces, boxes, spheres)) = &of_pieces {
+        kinds.extend::<[&dyn ShapeList; 3]>([pieces, boxes, spheres]);
+    }
+    // Every body is one of the chain's links, which the motion is of.
+    let mut found = statistics_of_kinds(&kinds, motion, &|| cancellation.is_cancelled())
+        .unwrap_or_default()
+        .into_iter();
+    let mut three = || [(); 3].map(|()| found.next().unwrap_or_default());
+    Ok(Kinds {
+        full: three(),
+        pieces: of_pieces.map(|_| three()),
+    })
+}
+
+/// The links' poses in configurations, each with its name.
+fn motion(
+    dof: &DofModule,
+    chain: &ChainModule,
+    configurations: impl IndexedParallelIterator<Item = (String, Vec<f64>)>,
+) -> Result<Motion, String> {
+    let kinematics = ForwardKinematics::new(chain, dof).map_err(|error| error.to_string())?;
+    let poses: Vec<Vec<Isometry3<f64>>> = configurations
+        .map(|(name, configuration)| {
+            let poses = kinematics.link_poses(&configuration);
+            poses.map_err(|error| format!("{name}: {error}"))
+        })
+        .collect::<Result<_, String>>()?;
+    Motion::new(&poses, &rigid_groups(chain)).map_err(|error| error.to_string())
+}
+
+/// For each link the number of its group: links that only fixed joints are between.
+fn rigid_groups(chain: &ChainModule) -> Vec<usize> {
+    let mut groups: Vec<usize> = (0..chain.links_in_chain.len()).collect();
+    for link in chain.kinematic_hierarchy.iter().flatten() {
+        let joint = chain.links_in_chain[link.get()].parent_joint_idx;
+        let Some(joint) = joint.map(|joint| &chain.joints_in_chain[joint.get()]) else {
+            continue;
+        };
+        if joint.joint_type == JointType::Fixed {
+            groups[link.get()] = groups[joint.parent_link_idx.get()];
+        }
+    }
+    groups
+}
+
+/// The shapes of each link, on it; or why one cannot be used, in words.
+fn placed<L, T, S>(
+    links: &[L],
+    chain: &ChainModule,
+    shape: fn(&T) -> Result<S, ShapeError>,
+) -> Result<Vec<PlacedShape<S>>, String>
+where
+    for<'a> &'a L: IntoIterator<Item = &'a T>,
+{
+    let mut shapes = Vec::new();
+    for (body, of_link) in links.iter().enumerate() {
+        for of in of_link {
+            let shape = shape(of).map_err(|error| {
+                let name = &chain.links_in_chain[body].name;
+                format!(
+                    "the mesh of link `{name}` is not one that distances can be taken of: {error}"
+                )
+            })?;
+            shapes.push(PlacedShape { body, shape });
+        }
+    }
+    Ok(shapes)
+}
+
+fn to_seven_digits(mut matrix: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let elements = matrix.iter_mut().flatten();
+    elements.for_each(|element| *element = seven_digits(*element));
+    matrix
+}
+
+fn of_mesh(mesh: &WrittenMesh) -> Result<ConvexShape, ShapeError> {
+    ConvexShape::new(&mesh.mesh)
+}
+
+fn of_box(of: &Obb) -> Result<OrientedBox, ShapeError> {
+    let place = Translation3::from(of.offset_xyz);
+    let pose = Isometry3::from_parts(place, from_rpy(of.offset_rpy));
+    OrientedBox::new(pose, of.half_extents)
+}
+
+fn of_sphere(of: &BoundingSphere) -> Result<Sphere, ShapeError> {
+    Sphere::new(Vector3::from(of.offset_xyz), of.radius)
+}

@@ -1,0 +1,134 @@
+//! How large a robot may be.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use nalgebra::Vector3;
+
+use super::error::GenerateError;
+use super::fault::Fault;
+use super::source::Source;
+use urdd_geometry::read::Part;
+
+/// Most links. The matrix of common ancestors grows with their square.
+pub const MOST_LINKS: usize = 2_000;
+
+/// Most elements besides links and joints; 2,000 links have some 10,000.
+pub const MOST_ELEMENTS: usize = 100_000;
+
+/// Most triangles of a link: its .obj stays below what readers of URDDs read, 512 MiB.
+pub const MOST_LINK_TRIANGLES: usize = 3_000_000;
+
+/// Most triangles of all links together.
+pub const MOST_TRIANGLES: usize = 10_000_000;
+
+/// A shape is wider than this part of its largest coordinate. Files hold coordinates as binary32, and
+/// their readers hold them to be known to eight steps of that, some 1e-6: below it a shape has no
+/// width for them.
+const LEAST_WIDTH: f64 = 4e-6;
+
+/// Refuses a robot of which the URDD would be too large for its readers.
+///
+/// # Errors
+/// Where it has too many links, or too many elements.
+pub(super) fn check(source: &Source) -> Result<(), GenerateError> {
+    let robot = &source.reading.robot;
+    let links = robot.links.len();
+    let shapes = robot
+        .links
+        .iter()
+        .map(|link| link.visual.len() + link.collision.len() + link.unknown_elements.len());
+    let joints = robot.joints.iter();
+    let of_joints = joints.map(|joint| joint.unknown_elements.len());
+    let elements = shapes.chain(of_joints).sum::<usize>()
+        + robot.materials.len()
+        + robot.unknown_elements.len();
+    let fault = if links > MOST_LINKS {
+        Fault::TooManyLinks {
+            found: links,
+            limit: MOST_LINKS,
+        }
+    } else if elements > MOST_ELEMENTS {
+        Fault::TooManyElements {
+            found: elements,
+            limit: MOST_ELEMENTS,
+        }
+    } else {
+        return Ok(());
+    };
+    Err(source.refused(fault))
+}
+
+/// Counts the triangles of links before they are made: a URDF of some bytes names a mesh, or a
+/// sphere, as often as it likes.
+#[derive(Debug, Default)]
+pub(super) struct TriangleBudget(AtomicUsize);
+
+impl TriangleBudget {
+    /// Takes the triangles of a link. Whether all links so far are within the budget.
+    ///
+    /// # Errors
+    /// Where the link by itself has too many.
+    pub fn take(&self, link: &str, triangles: usize) -> Result<bool, Fault> {
+        if triangles > MOST_LINK_TRIANGLES {
+            return Err(Fault::TooManyTriangles {
+                link: link.to_owned(),
+                found: triangles,
+                limit: MOST_LINK_TRIANGLES,
+            });
+        }
+        let before = self.0.fetch_add(triangles, Ordering::Relaxed);
+        Ok(before + triangles <= MOST_TRIANGLES)
+    }
+
+    /// # Errors
+    /// Where the links together have too many.
+    pub fn check(&self) -> Result<(), Fault> {
+        if self.0.load(Ordering::Relaxed) > MOST_TRIANGLES {
+            return Err(Fault::TooManyTrianglesInAll {
+                limit: MOST_TRIANGLES,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Refuses a link whose shape would have no width in the files of its mesh.
+///
+/// # Errors
+/// Where it has none.
+pub(super) fn check_resolved(link: &str, parts: &[Part]) -> Result<(), Fault> {
+    let vertices = || parts.iter().flat_map(|part| &part.mesh.vertices);
+    let mut largest = 0.0_f64;
+    for vertex in vertices() {
+        largest = vertex.iter().fold(largest, |most, x| most.max(x.abs()));
+    }
+    let width = width(vertices().map(|vertex| Vector3::from(*vertex)));
+    if width > LEAST_WIDTH * largest {
+        return Ok(());
+    }
+    Err(Fault::Unresolved {
+        link: link.to_owned(),
+    })
+}
+
+/// How far points lie from a line through two of them that are far apart; 0 where there are none.
+fn width(points: impl Iterator<Item = Vector3<f64>> + Clone) -> f64 {
+    let Some(first) = points.clone().next() else {
+        return 0.0;
+    };
+    let farthest = |distance: &dyn Fn(&Vector3<f64>) -> f64| {
+        points
+            .clone()
+            .map(|point| distance(&point))
+            .fold(0.0, f64::max)
+    };
+    let length = farthest(&|point| (point - first).norm());
+    let Some(last) = points
+        .clone()
+        .find(|point| (point - first).norm() >= length)
+    else {
+        return 0.0;
+    };
+    let along = (last - first) / length;
+    farthest(&|point| (point - first).cross(&along).norm())
+}

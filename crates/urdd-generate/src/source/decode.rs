@@ -1,0 +1,100 @@
+//! From bytes to text.
+
+use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
+
+use crate::error::GenerateError;
+use crate::note::{Note, NoteKind};
+
+/// The text of a file, and whether it is carried as it is. SPEC 6.1.8 asks for UTF-8; a byte order
+/// mark does no harm.
+pub(super) fn decode(
+    bytes: &[u8],
+    shown: &str,
+    notes: &mut Vec<Note>,
+) -> Result<(String, bool), GenerateError> {
+    let (bytes, mark) = match Encoding::for_bom(bytes) {
+        Some((encoding, length)) => (&bytes[length..], Some(encoding)),
+        None => (bytes, None),
+    };
+    let declared = declared(bytes);
+    if mark.is_none_or(|encoding| encoding == UTF_8)
+        && let Ok(text) = std::str::from_utf8(bytes)
+    {
+        if declared.is_none_or(|encoding| encoding == UTF_8) {
+            return Ok((text.to_owned(), true));
+        }
+        // Declared as another encoding, in which it would be the same characters, or which the
+        // mark denies.
+        if mark.is_some() || text.is_ascii() {
+            return Ok((redeclared(text), false));
+        }
+    }
+    // Two bytes a character without a mark: the first is `<`.
+    let guessed = match bytes {
+        [b'<', 0, ..] => Some(UTF_16LE),
+        [0, b'<', ..] => Some(UTF_16BE),
+        _ => None,
+    };
+    let encoding = mark
+        .or(guessed)
+        .or(declared.filter(|encoding| *encoding != UTF_8));
+    let mut note = |problem: String, assumed: String| {
+        notes.push(Note {
+            kind: NoteKind::Encoding,
+            file: shown.to_owned(),
+            line: 0,
+            column: 0,
+            problem,
+            assumed,
+        });
+    };
+    let encoding = match encoding {
+        Some(encoding) => {
+            let name = encoding.name();
+            let problem = format!("the file is in {name}, and URDDs are in UTF-8");
+            note(problem, "carried in UTF-8".to_owned());
+            encoding
+        }
+        None => {
+            let problem = "the file is not UTF-8, and declares no other encoding".to_owned();
+            note(problem, "read as windows-1252, carried in UTF-8".to_owned());
+            WINDOWS_1252
+        }
+    };
+    let (text, had_errors) = encoding.decode_without_bom_handling(bytes);
+    if had_errors {
+        return Err(GenerateError::Read {
+            file: shown.to_owned(),
+            reason: format!("it is not valid {}; save it as UTF-8", encoding.name()),
+        });
+    }
+    Ok((redeclared(&text), false))
+}
+
+/// Where the XML declaration names the encoding: the bytes of the name.
+fn declaration(text: &[u8]) -> Option<std::ops::Range<usize>> {
+    let end = text.windows(2).take(200).position(|pair| pair == b"?>")?;
+    let declaration = text.get(..end).filter(|text| text.starts_with(b"<?xml"))?;
+    let word = b"encoding";
+    let after = declaration.windows(word.len()).position(|w| w == word)? + word.len();
+    let quote = after
+        + declaration[after..]
+            .iter()
+            .position(|b| matches!(b, b'"' | b'\''))?;
+    let length = declaration[quote + 1..]
+        .iter()
+        .position(|b| *b == declaration[quote])?;
+    Some(quote + 1..quote + 1 + length)
+}
+
+fn declared(bytes: &[u8]) -> Option<&'static Encoding> {
+    Encoding::for_label(&bytes[declaration(bytes)?])
+}
+
+/// The text with a declaration that is true of it in UTF-8.
+fn redeclared(text: &str) -> String {
+    match declaration(text.as_bytes()) {
+        Some(range) => format!("{}UTF-8{}", &text[..range.start], &text[range.end..]),
+        None => text.to_owned(),
+    }
+}

@@ -1,0 +1,191 @@
+//! Expanding xacro files, by the program of that name.
+//!
+//! A xacro file is a program: it may hold any expression, and include any file. So it runs only where
+//! the user says so, by the file's extension or by a flag, and for a limited time.
+
+use std::ffi::OsString;
+use std::io::{self, ErrorKind, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus};
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
+use std::time::Duration;
+
+use tempfile::TempDir;
+
+use crate::bounded::{MAX_SOURCE_BYTES, read_up_to};
+use crate::error::GenerateError;
+use crate::meshes::package::Packages;
+use crate::process::{Ended, Running};
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+
+/// How much of what it says is read, bytes.
+const MAX_WORDS: u64 = 1 << 20;
+/// Most of its last lines that are passed on, and most characters of them.
+const MOST_LINES: usize = 3;
+const MOST_CHARACTERS: usize = 1000;
+/// How long its last words are waited for, where something holds its output open.
+const LAST_WORDS: Duration = Duration::from_secs(2);
+
+/// How xacro files are expanded.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct XacroSettings {
+    /// Whether a `.urdf` that holds macros is expanded too; a `.xacro` always is.
+    pub expand_urdf: bool,
+    /// Arguments of the file, each `name:=value`.
+    pub arguments: Vec<String>,
+    /// How long the program may take.
+    pub time_limit: Duration,
+}
+
+impl Default for XacroSettings {
+    /// Only `.xacro` files, without arguments, for a minute.
+    fn default() -> Self {
+        XacroSettings {
+            expand_urdf: false,
+            arguments: Vec::new(),
+            time_limit: Duration::from_secs(60),
+        }
+    }
+}
+
+/// The URDF that a xacro file makes.
+///
+/// # Errors
+/// Where there is no such program, or it fails, takes too long, or writes too much; where it is asked to stop.
+pub(super) fn expand(
+    path: &Path,
+    shown: &str,
+    settings: &XacroSettings,
+    packages: &Packages,
+    cancellation: &Cancellation,
+) -> Result<String, GenerateError> {
+    let failed = |reason: String| GenerateError::Xacro {
+        file: shown.to_owned(),
+        reason,
+    };
+    // An absolute path never begins as an option does.
+    let path = path
+        .canonicalize()
+        .map_err(|error| failed(error.to_string()))?;
+    let given = PackageIndex::new(packages).map_err(|error| failed(error.to_string()))?;
+    let mut command = Command::new("xacro");
+    command.arg(&path).args(&settings.arguments);
+    given.tell(&mut command);
+    let mut running = Running::start(command).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => GenerateError::NoXacro {
+            file: shown.to_owned(),
+        },
+        _ => failed(error.to_string()),
+    })?;
+    let (Some(output), Some(words)) = running.streams() else {
+        return Err(failed("its output cannot be read".to_owned()));
+    };
+    let output = read_beside(output, MAX_SOURCE_BYTES);
+    let words = read_beside(words, MAX_WORDS);
+    let mut written = None;
+    let ended = running.wait(settings.time_limit, cancellation, || {
+        if written.is_none() {
+            written = output.try_recv().ok();
+        }
+        matches!(written, Some(Err(_)))
+    });
+    let status = match ended.map_err(|error| failed(error.to_string()))? {
+        Ended::Itself(status) => Some(status),
+        Ended::Enough => None,
+        Ended::Cancelled => return Err(Cancelled.into()),
+        Ended::TimeLimit => {
+            let limit = settings.time_limit.as_secs();
+            return Err(failed(format!(
+                "it took more than {limit} s and was stopped"
+            )));
+        }
+    };
+    let unread = || Err("it does not end".to_owned());
+    let written =
+        written.unwrap_or_else(|| output.recv_timeout(LAST_WORDS).unwrap_or_else(|_| unread()));
+    let written = written.map_err(|why| failed(format!("its output: {why}")))?;
+    if let Some(status) = status.filter(|status: &ExitStatus| !status.success()) {
+        let words = words.recv_timeout(LAST_WORDS).ok().and_then(Result::ok);
+        let words = last_lines(&words.unwrap_or_default());
+        return Err(failed(words.unwrap_or_else(|| status.to_string())));
+    }
+    String::from_utf8(written).map_err(|_| failed("what it writes is not UTF-8".to_owned()))
+}
+
+/// Reads a stream beside the program, so that it never waits for us.
+fn read_beside(
+    stream: impl Read + Send + 'static,
+    limit: u64,
+) -> Receiver<Result<Vec<u8>, String>> {
+    let (sender, receiver) = mpsc::channel();
+    thread::spawn(move || sender.send(read_up_to(stream, limit)));
+    receiver
+}
+
+/// Below a Python traceback, the last lines say what is wrong.
+fn last_lines(words: &[u8]) -> Option<String> {
+    let words = String::from_utf8_lossy(words);
+    let lines = words.lines().filter(|line| !line.trim().is_empty());
+    let lines: Vec<&str> = lines.collect();
+    let last = lines[lines.len().saturating_sub(MOST_LINES)..].join("; ");
+    let start = last.chars().count().saturating_sub(MOST_CHARACTERS);
+    let last: String = last.chars().skip(start).collect();
+    (!last.is_empty()).then_some(last)
+}
+
+/// Packages that the user named, laid out as ROS looks for them: `$(find NAME)` finds these first.
+struct PackageIndex {
+    prefix: Option<TempDir>,
+}
+
+impl PackageIndex {
+    fn new(packages: &Packages) -> io::Result<Self> {
+        let mut given = packages.given().peekable();
+        if given.peek().is_none() {
+            return Ok(PackageIndex { prefix: None });
+        }
+        let prefix = TempDir::new()?;
+        let index = prefix
+            .path()
+            .join("share/ament_index/resource_index/packages");
+        std::fs::create_dir_all(&index)?;
+        for (name, folder) in given {
+            std::fs::write(index.join(name), "")?;
+            let folder = folder.canonicalize()?;
+            link(&folder, &prefix.path().join("share").join(name))?;
+        }
+        let prefix = Some(prefix);
+        Ok(PackageIndex { prefix })
+    }
+
+    /// Puts them before those that the environment names.
+    fn tell(&self, command: &mut Command) {
+        let Some(prefix) = &self.prefix else {
+            return;
+        };
+        for (name, folder) in [
+            ("AMENT_PREFIX_PATH", prefix.path().to_owned()),
+            ("ROS_PACKAGE_PATH", prefix.path().join("share")),
+        ] {
+            command.env(name, before(folder, std::env::var_os(name)));
+        }
+    }
+}
+
+fn before(folder: PathBuf, paths: Option<OsString>) -> OsString {
+    let paths = paths.unwrap_or_default();
+    let paths = std::env::split_paths(&paths).filter(|path| !path.as_os_str().is_empty());
+    let all = std::iter::once(folder.clone()).chain(paths);
+    std::env::join_paths(all).unwrap_or_else(|_| folder.into_os_string())
+}
+
+#[cfg(unix)]
+fn link(folder: &Path, at: &Path) -> io::Result<()> {
+    std::os::unix::fs::symlink(folder, at)
+}
+
+#[cfg(not(unix))]
+fn link(folder: &Path, at: &Path) -> io::Result<()> {
+    std::os::windows::fs::symlink_dir(folder, at)
+}

@@ -1,0 +1,200 @@
+//! How each module is made of those before it.
+//!
+//! A stage that takes long says what it depends on besides other modules; it is passed over where
+//! that, and the files of those modules, are as they were. What it made is then taken up from the
+//! files, by whoever needs it.
+
+use super::connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS, connections_module};
+use super::error::GenerateError;
+use super::geometry_stages as geometry;
+use super::learned;
+use super::made::{Content, Made, MadeFile, document};
+use super::meshes::original::original_meshes;
+use super::reuse::SettingsTexts;
+use super::work::Work;
+use urdd_directory::document::{Document, Member, Rows};
+use urdd_format::registry::ModuleKind;
+
+/// When a module that was made before is kept, rather than made again.
+pub(super) enum Reuse {
+    /// Never: to make it takes no time.
+    Never,
+    /// While the modules that it is made of, and this version of the stage, are the same. The text
+    /// changes whenever the stage makes something else of the same.
+    SameInputs(&'static str),
+    /// As `SameInputs`, and while these settings are the same too.
+    SameSettings(fn(&Work) -> String),
+}
+
+impl Reuse {
+    /// What the module depends on besides other modules; `None` where it is always made.
+    pub fn inputs(&self, work: &Work) -> Option<String> {
+        match self {
+            Reuse::Never => None,
+            Reuse::SameInputs(version) => Some((*version).to_owned()),
+            Reuse::SameSettings(settings) => Some(settings(work)),
+        }
+    }
+}
+
+/// One stage.
+pub(super) struct Stage {
+    pub kind: ModuleKind,
+    /// When a module that was made before is kept.
+    pub reuse: Reuse,
+    /// Makes the module.
+    pub make: Make,
+}
+
+/// How a module is made.
+#[derive(Clone, Copy)]
+pub(super) enum Make {
+    /// Of every robot.
+    Always(fn(&mut Work) -> Result<Made, GenerateError>),
+    /// Of robots for which it is of use.
+    WhereOfUse(fn(&mut Work) -> Result<Option<Made>, GenerateError>),
+}
+
+/// Every stage, in the order of the specification.
+const STAGES: &[Stage] = &[
+    Stage {
+        kind: ModuleKind::Urdf,
+        reuse: Reuse::Never,
+        make: Make::Always(|work| document(&work.source.reading.robot)),
+    },
+    Stage {
+        kind: ModuleKind::Dof,
+        reuse: Reuse::Never,
+        make: Make::Always(|work| document(&work.dof)),
+    },
+    Stage {
+        kind: ModuleKind::Chain,
+        reuse: Reuse::Never,
+        make: Make::Always(|work| document(&work.chain)),
+    },
+    Stage {
+        kind: ModuleKind::Connections,
+        // With hundreds of links it is megabytes of text.
+        reuse: Reuse::SameInputs("2"),
+        make: Make::Always(connections),
+    },
+    Stage {
+        kind: ModuleKind::Bounds,
+        reuse: Reuse::Never,
+        make: Make::Always(|work| document(&work.bounds)),
+    },
+    Stage {
+        kind: ModuleKind::KinematicsSamples,
+        reuse: Reuse::Never,
+        make: Make::Always(|work| document(&work.samples)),
+    },
+    Stage {
+        kind: ModuleKind::Composition,
+        reuse: Reuse::Never,
+        make: Make::Always(|work| document(&work.composition)),
+    },
+    Stage {
+        kind: ModuleKind::OriginalMeshes,
+        reuse: Reuse::Never,
+        make: Make::Always(meshes),
+    },
+    Stage {
+        kind: ModuleKind::PlainMeshes,
+        reuse: Reuse::SameSettings(geometry::plain_settings),
+        make: Make::Always(geometry::plain),
+    },
+    Stage {
+        kind: ModuleKind::ConvexHullMeshes,
+        reuse: Reuse::SameSettings(geometry::hulls_settings),
+        make: Make::Always(geometry::hulls),
+    },
+    Stage {
+        kind: ModuleKind::ConvexDecompositionMeshes,
+        reuse: Reuse::SameSettings(geometry::decomposition_settings),
+        make: Make::Always(geometry::pieces),
+    },
+    Stage {
+        kind: ModuleKind::LinkShapesApproximations,
+        reuse: Reuse::SameInputs(""),
+        make: Make::Always(geometry::boxes_and_spheres),
+    },
+    Stage {
+        kind: ModuleKind::LinkShapesMaxDistanceFromOrigin,
+        reuse: Reuse::SameInputs(""),
+        make: Make::Always(geometry::distances_from_origin),
+    },
+    Stage {
+        kind: ModuleKind::LinkShapesDistanceStatistics,
+        reuse: Reuse::SameSettings(geometry::statistics_settings),
+        make: Make::Always(geometry::distance_statistics),
+    },
+    Stage {
+        kind: ModuleKind::LinkShapesSimpleSkips,
+        reuse: Reuse::SameInputs("2"),
+        make: Make::Always(geometry::skips_by_distance),
+    },
+    Stage {
+        kind: ModuleKind::LinkShapesSkips,
+        reuse: Reuse::SameSettings(geometry::skips_settings),
+        make: Make::Always(geometry::edited_skips),
+    },
+    Stage {
+        kind: ModuleKind::SelfCollisionModel,
+        reuse: Reuse::SameSettings(learned::settings),
+        make: Make::WhereOfUse(learned::self_collision_model),
+    },
+];
+
+/// The stage of a module.
+pub(super) fn of(kind: ModuleKind) -> Option<&'static Stage> {
+    STAGES.iter().find(|stage| stage.kind == kind)
+}
+
+/// What each module depends on besides other modules.
+pub(super) fn settings_texts(work: &Work) -> SettingsTexts {
+    let texts = STAGES
+        .iter()
+        .filter_map(|stage| Some((stage.kind, stage.reuse.inputs(work)?)));
+    texts.collect()
+}
+
+/// With 180 links in a line these are 5 million numbers.
+fn connections(work: &mut Work) -> Result<Made, GenerateError> {
+    let module = connections_module(&work.chain);
+    if module.link_to_link_paths.is_none() {
+        let links = work.chain.links_in_chain.len();
+        work.too_large(
+            format!(
+                "the robot has {links} links, and the paths of all pairs grow too large above {MOST_LINKS_WITH_PAIRS} links, or {MOST_LINKS_IN_PAIRS} links in the paths"
+            ),
+            "connections_module leaves them out; they follow from its root paths and lowest common ancestors",
+        );
+    }
+    let pairs = module.link_to_link_paths.map(Rows::new);
+    let descents = module.link_connection_paths.map(Rows::new);
+    let document = Document::Object(vec![
+        ("root_paths", Member::Rows(Rows::new(module.root_paths))),
+        (
+            "lowest_common_ancestors",
+            Member::Rows(Rows::new(module.lowest_common_ancestors)),
+        ),
+        ("link_to_link_paths", Member::rows_or_null(pairs)),
+        ("link_connection_paths", Member::rows_or_null(descents)),
+    ]);
+    let files = Vec::new();
+    Ok(Made { document, files })
+}
+
+fn meshes(work: &mut Work) -> Result<Made, GenerateError> {
+    let mut original = original_meshes(work.source, work.settings)?;
+    work.notes.append(&mut original.notes);
+    let files = std::mem::take(&mut original.files).into_iter();
+    let files = files.map(|(path, bytes)| MadeFile {
+        path,
+        content: Content::Shared(bytes),
+    });
+    let files = files.collect();
+    let made = document(&original.module)?;
+    work.original = Some(original);
+    Ok(Made { files, ..made })
+}

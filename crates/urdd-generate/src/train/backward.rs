@@ -1,0 +1,134 @@
+//! The loss of some configurations, and its derivatives by all weights.
+
+use fearless_simd::{Level, Simd, dispatch};
+
+use super::labels::Labels;
+use super::settings::{CONTACT_WEIGHT, IN_CONTACT, NEAR_WEIGHT};
+use urdd_kinematics::learn::kernel::{LANES, Lanes};
+use urdd_kinematics::learn::network::{Layer, Network};
+
+/// Room for the work on [`LANES`] configurations.
+pub(super) struct Work {
+    values: Vec<Vec<Lanes>>,
+    /// Derivatives by the values of the layer at hand, and by those before.
+    by_values: [Vec<Lanes>; 2],
+    /// Derivatives by weights and biases, of each layer.
+    pub gradients: Vec<Layer>,
+    pub loss: f64,
+}
+
+impl Work {
+    pub fn new(network: &Network) -> Self {
+        let zeros = |layer: &Layer| Layer {
+            weights: vec![0.0; layer.weights.len()],
+            biases: vec![0.0; layer.biases.len()],
+        };
+        Self {
+            values: network.room(),
+            by_values: [Vec::new(), Vec::new()],
+            gradients: network.layers.iter().map(zeros).collect(),
+            loss: 0.0,
+        }
+    }
+
+    /// Takes the loss of at most [`LANES`] configurations, and its derivatives where they are wanted.
+    pub fn run(
+        &mut self,
+        level: Level,
+        network: &Network,
+        (told, labels): (&[f64], &Labels),
+        configurations: &[u32],
+        with_gradients: bool,
+    ) {
+        let width = self.values[0].len();
+        for (lane, configuration) in configurations.iter().enumerate() {
+            let row = &told[*configuration as usize * width..][..width];
+            for (value, told) in self.values[0].iter_mut().zip(row) {
+                value[lane] = *told;
+            }
+        }
+        network.values(level, &mut self.values);
+        self.judge(labels, configurations);
+        if with_gradients {
+            dispatch!(level, simd => self.back(simd, network));
+        }
+    }
+
+    /// The loss, and its derivative by each output.
+    fn judge(&mut self, labels: &Labels, configurations: &[u32]) {
+        let outputs = self.values.last().map_or(&[][..], Vec::as_slice);
+        let by_outputs = &mut self.by_values[0];
+        by_outputs.clear();
+        by_outputs.resize(outputs.len(), [0.0; LANES]);
+        let mut loss = 0.0;
+        for (lane, configuration) in configurations.iter().enumerate() {
+            let distances = labels.row(*configuration as usize);
+            for (pair, distance) in distances.iter().enumerate() {
+                let (output, distance) = (outputs[pair][lane], f64::from(*distance));
+                let (error, weight) = match distance {
+                    0.0 => ((output + IN_CONTACT).max(0.0), CONTACT_WEIGHT),
+                    1.0.. => ((output - 1.0).min(0.0), 1.0),
+                    _ => (output - distance, NEAR_WEIGHT),
+                };
+                loss += weight * error * error;
+                by_outputs[pair][lane] = 2.0 * weight * error;
+            }
+        }
+        self.loss = loss;
+    }
+
+    #[inline(always)]
+    fn back<S: Simd>(&mut self, _: S, network: &Network) {
+        for (place, layer) in network.layers.iter().enumerate().rev() {
+            let before = &self.values[place];
+            let gradients = &mut self.gradients[place];
+            let [by_outputs, by_inputs] = &mut self.by_values;
+            by_weights(by_outputs, before, gradients);
+            if place == 0 {
+                return;
+            }
+            by_inputs.clear();
+            by_inputs.resize(before.len(), [0.0; LANES]);
+            let rows = layer.weights.chunks_exact(before.len().max(1));
+            for (row, by_output) in rows.zip(by_outputs.iter()) {
+                for (weight, sums) in row.iter().zip(by_inputs.iter_mut()) {
+                    for (sum, by_output) in sums.iter_mut().zip(by_output) {
+                        *sum += weight * by_output;
+                    }
+                }
+            }
+            // Between the layers is a hyperbolic tangent, of which the derivative is 1 - t^2.
+            let both = by_inputs.as_flattened_mut().iter_mut();
+            for (by_input, t) in both.zip(before.as_flattened()) {
+                *by_input *= 1.0 - t * t;
+            }
+            self.by_values.swap(0, 1);
+        }
+    }
+}
+
+/// The derivatives by a layer's weights and biases.
+#[inline(always)]
+fn by_weights(by_outputs: &[Lanes], before: &[Lanes], gradients: &mut Layer) {
+    let rows = gradients.weights.chunks_exact_mut(before.len().max(1));
+    let outputs = rows.zip(&mut gradients.biases).zip(by_outputs);
+    for ((row, bias), by_output) in outputs {
+        for (gradient, value) in row.iter_mut().zip(before) {
+            *gradient = dot(by_output, value);
+        }
+        *bias = dot(by_output, &[1.0; LANES]);
+    }
+}
+
+/// The sum of the products, in an order of its own.
+#[inline(always)]
+fn dot(a: &Lanes, b: &Lanes) -> f64 {
+    const SUMS: usize = 8;
+    let mut sums = [0.0; SUMS];
+    for (a, b) in a.chunks_exact(SUMS).zip(b.chunks_exact(SUMS)) {
+        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+            *sum += a * b;
+        }
+    }
+    ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7]))
+}

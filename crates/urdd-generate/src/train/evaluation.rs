@@ -1,0 +1,141 @@
+//! Counting how often a model is right: SPEC 8.8.9 to 8.8.12.
+
+use nalgebra::Isometry3;
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+
+use super::{NoModel, Subject, Useless};
+use urdd_directory::cancellation::Cancellation;
+use urdd_format::self_collision_model::{
+    CONFIRMATION_SECOND, EVALUATION_FIRST, EVALUATION_MIN, ModelEvaluation, NEAR_CONTACT_STEP,
+    SelfCollisionModelModule,
+};
+use urdd_kinematics::learn::model::CollisionModel;
+
+/// Sampled configurations, and what is true of each.
+pub(super) struct Counted {
+    configurations: Vec<f64>,
+    truths: Vec<Truth>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Truth {
+    Free,
+    Colliding,
+    /// In collision, and a small step away from a free configuration.
+    NearContact,
+}
+
+/// Configurations that one thread works on at once.
+const BLOCK: usize = 64;
+
+impl Counted {
+    /// The sampled configurations from `first` on, `count` of them. Whether they are near contact is found out of those
+    /// of the evaluation alone.
+    pub fn new(
+        subject: &Subject,
+        [first, count]: [u32; 2],
+        cancellation: &Cancellation,
+    ) -> Result<Self, NoModel> {
+        let num_dofs = subject.space.num_dofs();
+        let mut configurations = vec![0.0; count as usize * num_dofs];
+        let blocks = configurations.par_chunks_mut(BLOCK * num_dofs.max(1));
+        let truths = blocks.enumerate().map(|(block, configurations)| {
+            cancellation.check()?;
+            let mut poses: Vec<Isometry3<f64>> = Vec::new();
+            let mut collides = |configuration: &[f64]| -> Result<bool, NoModel> {
+                subject
+                    .kinematics
+                    .link_poses_into(configuration, &mut poses)?;
+                Ok(subject.pairs.any_touches(&poses))
+            };
+            let rows = configurations.chunks_mut(num_dofs.max(1)).enumerate();
+            let truth = |(k, configuration): (usize, &mut [f64])| {
+                let sample = u64::from(first) + (block * BLOCK + k) as u64;
+                configuration.copy_from_slice(&subject.space.sampled(sample));
+                if !collides(configuration)? {
+                    return Ok(Truth::Free);
+                }
+                if first != EVALUATION_FIRST {
+                    return Ok(Truth::Colliding);
+                }
+                let next = subject.space.sampled(sample + 1);
+                Ok(match collides(&stepped(configuration, &next))? {
+                    true => Truth::Colliding,
+                    false => Truth::NearContact,
+                })
+            };
+            rows.map(truth).collect()
+        });
+        let truths: Vec<Vec<Truth>> = truths.collect::<Result<_, NoModel>>()?;
+        Ok(Self {
+            configurations,
+            truths: truths.concat(),
+        })
+    }
+
+    /// Whether there are enough collisions and free configurations to state rates.
+    pub fn check(&self) -> Result<(), NoModel> {
+        let of = self.truths.len();
+        let free = self.truths.iter().filter(|truth| **truth == Truth::Free);
+        let free = free.count();
+        let (found, least) = (of - free, EVALUATION_MIN as usize);
+        if found < least {
+            return Err(NoModel::OfNoUse(Useless::FewCollisions { found, of }));
+        }
+        match free < least {
+            true => Err(NoModel::OfNoUse(Useless::FewFree { found: free, of })),
+            false => Ok(()),
+        }
+    }
+
+    /// What comes of a model.
+    pub fn count(&self, model: &CollisionModel) -> Result<ModelEvaluation, NoModel> {
+        let may_collide = model.may_collide_batch(&self.configurations)?;
+        let mut counts = ModelEvaluation::NOTHING;
+        for (truth, may_collide) in self.truths.iter().zip(may_collide) {
+            let cleared = u32::from(!may_collide);
+            match truth {
+                Truth::Free => {
+                    counts.num_free.0 += 1;
+                    counts.num_cleared.0 += cleared;
+                }
+                Truth::Colliding | Truth::NearContact => {
+                    counts.num_colliding.0 += 1;
+                    counts.num_missed.0 += cleared;
+                }
+            }
+            if *truth == Truth::NearContact {
+                counts.num_near_contact.0 += 1;
+                counts.num_near_contact_missed.0 += cleared;
+            }
+        }
+        Ok(counts)
+    }
+}
+
+/// A step towards another configuration, as far as no DOF changes by more than [`NEAR_CONTACT_STEP`].
+fn stepped(from: &[f64], to: &[f64]) -> Vec<f64> {
+    let apart = from.iter().zip(to).map(|(a, b)| (b - a).abs());
+    let largest = apart.fold(0.0, f64::max);
+    let part = match largest > NEAR_CONTACT_STEP {
+        true => NEAR_CONTACT_STEP / largest,
+        false => 1.0,
+    };
+    let steps = from.iter().zip(to).map(|(a, b)| a + part * (b - a));
+    steps.collect()
+}
+
+/// The first configuration of the second confirmation: 29 bits of the SHA-256 of the network's numbers say it.
+pub(super) fn second_confirmation(module: &SelfCollisionModelModule) -> u32 {
+    let layers = module.layers.iter();
+    let numbers = layers.flat_map(|of| of.weights.iter().flatten().chain(&of.biases));
+    let margins = module.pairs.iter().map(|pair| &pair.margin);
+    let mut hash = Sha256::new();
+    for number in numbers.chain(margins) {
+        hash.update(number.to_le_bytes());
+    }
+    let digest: [u8; 32] = hash.finalize().into();
+    let first = u32::from_be_bytes([digest[0], digest[1], digest[2], digest[3]]);
+    CONFIRMATION_SECOND + (first >> 3)
+}

@@ -1,0 +1,143 @@
+//! What configurations are really like.
+
+use nalgebra::Isometry3;
+use rayon::prelude::*;
+
+use super::{NoModel, Subject, Useless, rows, settings};
+use urdd_directory::cancellation::Cancellation;
+use urdd_kinematics::learn::inputs::Input;
+
+/// Sampled configurations, and the distances in them.
+pub(super) struct Labels {
+    pub configurations: Vec<f64>,
+    num_dofs: usize,
+    /// Of each configuration one number for each pair: the distance, as a part of the clip distance, 1 from there on.
+    pub distances: Vec<f32>,
+    pub num_pairs: usize,
+    /// Whether any pair is in contact.
+    pub collides: Vec<bool>,
+}
+
+/// Configurations that one thread works on at once.
+const BLOCK: usize = 64;
+
+impl Labels {
+    /// Of the sampled configurations from `first` on, `count` of them.
+    pub fn new(
+        subject: &Subject,
+        [first, count]: [u32; 2],
+        cancellation: &Cancellation,
+    ) -> Result<Self, NoModel> {
+        let num_pairs = subject.pairs.bodies().len();
+        let num_dofs = subject.space.num_dofs();
+        let clip = subject.clip_distance;
+        let mut configurations = vec![0.0; count as usize * num_dofs];
+        let mut distances = vec![0.0_f32; count as usize * num_pairs];
+        let blocks = configurations
+            .par_chunks_mut(BLOCK * num_dofs.max(1))
+            .zip(distances.par_chunks_mut(BLOCK * num_pairs.max(1)))
+            .enumerate();
+        let faults: Vec<NoModel> = blocks
+            .filter_map(|(block, (configurations, distances))| {
+                if let Err(cancelled) = cancellation.check() {
+                    return Some(cancelled.into());
+                }
+                let mut poses: Vec<Isometry3<f64>> = Vec::new();
+                let mut of_pairs = vec![0.0; num_pairs];
+                let rows = configurations.chunks_mut(num_dofs);
+                let rows = rows.zip(distances.chunks_mut(num_pairs));
+                for (k, (configuration, distances)) in rows.enumerate() {
+                    let sample = u64::from(first) + (block * BLOCK + k) as u64;
+                    configuration.copy_from_slice(&subject.space.sampled(sample));
+                    let kinematics = subject.kinematics;
+                    if let Err(error) = kinematics.link_poses_into(configuration, &mut poses) {
+                        return Some(error.into());
+                    }
+                    subject.pairs.distances(&poses, clip, &mut of_pairs);
+                    for (to, from) in distances.iter_mut().zip(&of_pairs) {
+                        // What is not contact stays more than 0.
+                        *to = match *from > 0.0 {
+                            true => ((from / clip) as f32).max(f32::MIN_POSITIVE),
+                            false => 0.0,
+                        };
+                    }
+                }
+                None
+            })
+            .collect();
+        if let Some(fault) = faults.into_iter().next() {
+            return Err(fault);
+        }
+        let rows = distances.chunks(num_pairs);
+        let collides = rows.map(|row| row.contains(&0.0)).collect();
+        Ok(Self {
+            configurations,
+            num_dofs,
+            distances,
+            num_pairs,
+            collides,
+        })
+    }
+
+    /// Whether there is enough to learn from.
+    pub fn check(&self) -> Result<(), NoModel> {
+        let of = self.collides.len();
+        let colliding = self.collides.iter().filter(|collides| **collides).count();
+        let free = of - colliding;
+        let found = colliding;
+        if colliding < settings::LEAST {
+            return Err(NoModel::OfNoUse(Useless::FewCollisions { found, of }));
+        }
+        match free < settings::LEAST {
+            true => Err(NoModel::OfNoUse(Useless::FewFree { found: free, of })),
+            false => Ok(()),
+        }
+    }
+
+    /// The pairs that come nearer than a part of the clip distance.
+    pub fn near_pairs(&self, limit: f64) -> Vec<usize> {
+        let mut least = vec![f32::INFINITY; self.num_pairs];
+        for row in self.distances.chunks(self.num_pairs) {
+            for (least, distance) in least.iter_mut().zip(row) {
+                *least = least.min(*distance);
+            }
+        }
+        let limit = limit as f32;
+        (0..self.num_pairs)
+            .filter(|pair| least[*pair] < limit)
+            .collect()
+    }
+
+    /// Keeps the distances of some pairs only. Which configurations are in collision stays as it was.
+    pub fn keep(&mut self, pairs: &[usize]) {
+        let rows = self.distances.chunks(self.num_pairs);
+        let kept = rows.flat_map(|row| pairs.iter().map(|pair| row[*pair]));
+        self.distances = kept.collect();
+        self.num_pairs = pairs.len();
+    }
+
+    /// What a network is told of each configuration, row by row.
+    pub fn told(&self, inputs: &[Input]) -> Vec<f64> {
+        rows(&self.configurations, self.num_dofs, inputs)
+    }
+
+    /// The distances in a configuration.
+    pub fn row(&self, configuration: usize) -> &[f32] {
+        &self.distances[configuration * self.num_pairs..][..self.num_pairs]
+    }
+
+    /// Configurations of a robot with one pair, the first of them in contact.
+    #[cfg(test)]
+    pub fn of_one_pair(colliding: usize, free: usize) -> Self {
+        let collides = (0..colliding + free).map(|k| k < colliding);
+        let collides: Vec<bool> = collides.collect();
+        let distance = |collides: &bool| if *collides { 0.0 } else { 1.0 };
+        Self {
+            configurations: Vec::new(),
+            num_dofs: 1,
+            distances: collides.iter().map(distance).collect(),
+            num_pairs: 1,
+            collides,
+        }
+    }
+}

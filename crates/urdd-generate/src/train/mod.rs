@@ -1,0 +1,320 @@
+//! Making a model: SPEC 8.8 says what it is, this how it comes about.
+//!
+//! Each pair of links that comes near has one output. In training a distance counts up to the clip distance; farther
+//! ones only have to come out at that or more, and contact only at 0 or less by some distance, so that the network may
+//! go on smoothly beyond both ends. Margins are then chosen on configurations of their own, such that few collisions
+//! are missed and as many free configurations as possible are cleared; the counts that are stated come from those that
+//! the specification keeps for that.
+//!
+//! The result is the same bits for each number of threads.
+
+mod backward;
+mod calibration;
+mod evaluation;
+mod labels;
+mod optimiser;
+mod settings;
+
+use rayon::prelude::*;
+use thiserror::Error;
+
+pub use self::settings::{Effort, MOST_DOFS, MOST_PAIRS};
+
+use self::evaluation::Counted;
+use self::labels::Labels;
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_format::escape;
+use urdd_format::index::{Count, LinkIdx, SampleIdx};
+use urdd_format::root_metadata::Sha256;
+use urdd_format::self_collision_model::{
+    CONFIRMATION_COUNT, CONFIRMATION_FIRST, EVALUATION_COUNT, EVALUATION_FIRST, LinkPair,
+    ModelEvaluation, ModelInput, ModelLayer, ModelPair, ModelTestVector, SampleRange,
+    SelfCollisionModelModule,
+};
+use urdd_geometry::convex::BodyPairs;
+use urdd_kinematics::learn::CollisionModel;
+use urdd_kinematics::learn::inputs::{self, Input};
+use urdd_kinematics::learn::network::{Layer, Network};
+use urdd_kinematics::{ConfigurationError, ConfigurationSpace, ForwardKinematics};
+
+/// A robot of which a model is made.
+pub struct Subject<'a> {
+    /// How it moves.
+    pub kinematics: &'a ForwardKinematics,
+    /// Its configurations.
+    pub space: &'a ConfigurationSpace,
+    /// What the network is told: of each DOF that moves two links of a pair against each other.
+    pub inputs: Vec<ModelInput>,
+    /// The pairs of links that are not skipped, of which the bodies are the links' indices.
+    pub pairs: &'a BodyPairs,
+    /// From here on distances are all the same, metres.
+    pub clip_distance: f64,
+    /// Digest of the shapes and the kinematics.
+    pub trained_on: Sha256,
+    /// How much work it is.
+    pub effort: Effort,
+}
+
+/// Why no model was made.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum NoModel {
+    /// A model of this robot is of no use.
+    #[error("{0}")]
+    OfNoUse(Useless),
+    /// A configuration has no poses.
+    #[error(transparent)]
+    Configuration(#[from] ConfigurationError),
+    /// It was asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Why a model of a robot is of no use.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum Useless {
+    /// A length that has no limits, and is sampled from a stretch that says nothing about the robot.
+    #[error("DOF `{}` is a length without limits", escape::line(.dof))]
+    NoLimits {
+        /// Its name.
+        dof: String,
+    },
+    /// No two links that are not skipped move against each other.
+    #[error("no two links that are not skipped move against each other")]
+    NothingMoves,
+    /// Too many pairs.
+    #[error(
+        "more than {most} pairs of links are not skipped, and a model of so many is no faster than what it stands for"
+    )]
+    ManyPairs {
+        /// How many there may be.
+        most: usize,
+    },
+    /// Too many DOFs.
+    #[error("the robot has {found} DOFs, and a model is made of {most} at most")]
+    ManyDofs {
+        /// How many there are.
+        found: usize,
+        /// How many there may be.
+        most: usize,
+    },
+    /// Too few collisions among the samples.
+    #[error(
+        "of {of} sampled configurations {found} are in collision, which is too few to learn from"
+    )]
+    FewCollisions {
+        /// How many there are.
+        found: usize,
+        /// Among how many.
+        of: usize,
+    },
+    /// Too few free configurations.
+    #[error(
+        "of {of} sampled configurations {found} are free of collisions, which is too few to learn from"
+    )]
+    FewFree {
+        /// How many there are.
+        found: usize,
+        /// Among how many.
+        of: usize,
+    },
+    /// Its rates came out worse on other configurations, time and again.
+    #[error("the rates of {attempts} models were not confirmed on other configurations")]
+    NotConfirmed {
+        /// How many were trained.
+        attempts: u64,
+    },
+}
+
+/// Makes a model. `progress` is told how much of the work is done.
+///
+/// # Errors
+/// Where one is of no use, a configuration has no poses, or it is asked to stop.
+pub fn train(
+    subject: Subject,
+    cancellation: &Cancellation,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<SelfCollisionModelModule, NoModel> {
+    let num_pairs = subject.pairs.bodies().len();
+    if num_pairs > MOST_PAIRS {
+        return Err(NoModel::OfNoUse(Useless::ManyPairs { most: MOST_PAIRS }));
+    }
+    let (found, most) = (subject.space.num_dofs(), MOST_DOFS);
+    if found > most {
+        return Err(NoModel::OfNoUse(Useless::ManyDofs { found, most }));
+    }
+    let inputs = inputs::read(&subject.inputs, found);
+    let inputs = inputs.unwrap_or_default();
+    if num_pairs == 0 || inputs.is_empty() {
+        return Err(NoModel::OfNoUse(Useless::NothingMoves));
+    }
+    // Labels take about as long as some epochs.
+    let total = subject.effort.epochs as usize + 3;
+    let [training, calibration] = subject.effort.ranges();
+    let step = |done: usize| progress(done, total);
+    step(0);
+    let mut training = Labels::new(&subject, training, cancellation)?;
+    training.check()?;
+    let near = training.near_pairs(settings::NEAR * subject.clip_distance);
+    training.keep(&near);
+    step(1);
+    let mut calibration = Labels::new(&subject, calibration, cancellation)?;
+    calibration.keep(&near);
+    step(2);
+    let counted = |[first, count]: [u32; 2]| Counted::new(&subject, [first, count], cancellation);
+    let evaluated = counted([EVALUATION_FIRST, EVALUATION_COUNT])?;
+    evaluated.check()?;
+    let confirming = counted([CONFIRMATION_FIRST, CONFIRMATION_COUNT])?;
+    let told = |labels: &Labels| labels.told(&inputs);
+    let examples = [told(&training), told(&calibration)];
+    for attempt in 0..settings::ATTEMPTS {
+        let mut network = start(&inputs, near.len(), attempt);
+        optimiser::train(
+            &mut network,
+            (&examples[0], &training),
+            (&examples[1], &calibration),
+            subject.effort.epochs as usize,
+            cancellation,
+            &|epoch| step(2 + epoch),
+        )?;
+        let (mut module, model) = module(&subject, &network, &near, &calibration)?;
+        module.evaluation = evaluated.count(&model)?;
+        let own = counted([evaluation::second_confirmation(&module), CONFIRMATION_COUNT])?;
+        let found = [confirming.count(&model)?, own.count(&model)?];
+        if found
+            .iter()
+            .all(|found| confirms(&module.evaluation, found))
+        {
+            step(total);
+            return Ok(module);
+        }
+    }
+    let attempts = settings::ATTEMPTS;
+    Err(NoModel::OfNoUse(Useless::NotConfirmed { attempts }))
+}
+
+/// Whether the rates that are found do not contradict those that are stated: SPEC 8.8.12.
+fn confirms(stated: &ModelEvaluation, found: &ModelEvaluation) -> bool {
+    let misses_more = found.miss_rate().is_above(&stated.miss_rate());
+    !misses_more && !stated.clear_rate().is_above(&found.clear_rate())
+}
+
+/// A network of weights as good as random, of which the outputs begin above 0.
+fn start(inputs: &[Input], num_outputs: usize, attempt: u64) -> Network {
+    let width: usize = inputs.iter().map(Input::width).sum();
+    let widths = [width, settings::HIDDEN, settings::HIDDEN, num_outputs];
+    // Beyond the sequences that the order of the examples is drawn from.
+    let sequence = settings::SEED + (attempt << 24);
+    let mut drawn = 0;
+    let mut layer = |pair: &[usize]| {
+        let (before, after) = (pair[0], pair[1]);
+        // Glorot and Bengio (2010): the values of each layer vary as much as those before.
+        let most = (6.0 / (before + after) as f64).sqrt();
+        let mut weight = || {
+            drawn += 1;
+            (2.0 * urdd_kinematics::unit(sequence, drawn) - 1.0) * most
+        };
+        Layer {
+            weights: (0..before * after).map(|_| weight()).collect(),
+            biases: vec![0.0; after],
+        }
+    };
+    let mut layers: Vec<Layer> = widths.windows(2).map(&mut layer).collect();
+    if let Some(last) = layers.last_mut() {
+        last.biases.fill(settings::FIRST_OUTPUT);
+    }
+    Network { layers }
+}
+
+/// Seven significant digits: what a number says in a document.
+pub(crate) fn rounded(number: f64) -> f64 {
+    format!("{number:.6e}").parse().unwrap_or(number)
+}
+
+/// The layers as the module has them: numbers rounded, outputs in metres.
+fn layers(network: &Network, clip_distance: f64) -> Vec<ModelLayer> {
+    let last = network.layers.len().saturating_sub(1);
+    let layer = |(place, layer): (usize, &Layer)| {
+        let unit = if place == last { clip_distance } else { 1.0 };
+        let of = |numbers: &[f64]| numbers.iter().map(|x| rounded(unit * x)).collect();
+        let rows = layer.weights.chunks_exact(layer.num_inputs().max(1));
+        ModelLayer {
+            weights: rows.map(of).collect(),
+            biases: of(&layer.biases),
+        }
+    };
+    network.layers.iter().enumerate().map(layer).collect()
+}
+
+/// The module, without its counts, and the model that it is.
+fn module(
+    subject: &Subject,
+    network: &Network,
+    near: &[usize],
+    calibration: &Labels,
+) -> Result<(SelfCollisionModelModule, CollisionModel), NoModel> {
+    let links: Vec<[LinkIdx; 2]> = subject
+        .pairs
+        .bodies()
+        .map(|bodies| bodies.map(|link| LinkIdx(u32::try_from(link).unwrap_or(u32::MAX))))
+        .collect();
+    let is_near = |pair: &usize| near.contains(pair);
+    let others = (0..links.len()).filter(|pair| !is_near(pair));
+    let pairs = near.iter().map(|pair| ModelPair {
+        link_a_idx: links[*pair][0],
+        link_b_idx: links[*pair][1],
+        margin: 0.0,
+    });
+    let range = |[first, count]: [u32; 2]| SampleRange {
+        first_sample_idx: SampleIdx(first),
+        num_configurations: Count(count),
+    };
+    let [trained, calibrated] = subject.effort.ranges();
+    let mut module = SelfCollisionModelModule {
+        trained_on: subject.trained_on.clone(),
+        clip_distance: subject.clip_distance,
+        layers: layers(network, subject.clip_distance),
+        inputs: subject.inputs.clone(),
+        pairs: pairs.collect(),
+        other_pairs: others
+            .map(|pair| LinkPair {
+                link_a_idx: links[pair][0],
+                link_b_idx: links[pair][1],
+            })
+            .collect(),
+        training: range(trained),
+        calibration: range(calibrated),
+        evaluation: ModelEvaluation::NOTHING,
+        test_vectors: Vec::new(),
+    };
+    let num_dofs = subject.space.num_dofs();
+    let of = |module: &SelfCollisionModelModule| CollisionModel::new(module, num_dofs);
+    // The module was made right above.
+    let model = of(&module).unwrap_or_else(|error| unreachable!("{error}"));
+    let outputs = model.clearances_batch(&calibration.configurations)?;
+    let margins = calibration::margins(&outputs, calibration, module.clip_distance);
+    for (pair, margin) in module.pairs.iter_mut().zip(margins) {
+        pair.margin = rounded(margin);
+    }
+    let model = of(&module).unwrap_or_else(|error| unreachable!("{error}"));
+    let samples = (0..settings::TEST_VECTORS).map(|k| subject.space.sampled(u64::from(k)));
+    let configurations = std::iter::once(subject.space.default_configuration()).chain(samples);
+    let vector = |configuration: Vec<f64>| {
+        Ok(ModelTestVector {
+            clearances: model.clearances(&configuration)?,
+            configuration,
+        })
+    };
+    module.test_vectors = configurations.map(vector).collect::<Result<_, NoModel>>()?;
+    Ok((module, model))
+}
+
+/// Values of each configuration for the network, in rows: used in any order.
+fn rows(configurations: &[f64], num_dofs: usize, inputs: &[Input]) -> Vec<f64> {
+    let width: usize = inputs.iter().map(Input::width).sum();
+    let mut rows = vec![0.0; configurations.len() / num_dofs.max(1) * width];
+    let each = rows
+        .par_chunks_exact_mut(width.max(1))
+        .zip(configurations.par_chunks_exact(num_dofs.max(1)));
+    each.for_each(|(row, configuration)| inputs::tell(inputs, configuration, row));
+    rows
+}

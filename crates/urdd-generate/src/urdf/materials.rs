@@ -1,0 +1,50 @@
+//! Materials that are not as URDF should have them. They are kept as they are.
+
+use std::collections::{BTreeSet, HashMap};
+
+use super::reader::{Reader, shortened};
+use crate::note::NoteKind;
+
+/// Notes materials of one name and two looks, of no name, and names that no material has. (A link
+/// may name a material that is declared further down.)
+pub(super) fn check(reader: &mut Reader) {
+    let materials = std::mem::take(&mut reader.materials);
+    let mut looks = HashMap::new();
+    for (_, material) in &materials {
+        let look = (&material.color, &material.texture);
+        if let (Some(name), true) = (&material.name, look != (&None, &None)) {
+            looks.entry(name.as_str()).or_insert(look);
+        }
+    }
+    let mut told = BTreeSet::new();
+    let mut notes = Vec::new();
+    for (offset, material) in &materials {
+        let look = (&material.color, &material.texture);
+        let has_look = look != (&None, &None);
+        // An empty name is how some programs write that there is none.
+        if material.name.as_deref() == Some("") {
+            continue;
+        }
+        let (problem, assumed) = match &material.name {
+            None => (
+                "a material has no name".to_owned(),
+                "it is that of its element alone",
+            ),
+            Some(name) => match looks.get(name.as_str()) {
+                Some(first) if has_look && *first != look && told.insert(name) => (
+                    format!("there is another look of material `{}`", shortened(name)),
+                    "each element keeps its own; where only the name stands, the first counts",
+                ),
+                None if told.insert(name) => (
+                    format!("no material `{}` has a colour or texture", shortened(name)),
+                    "the name is kept, and has no look",
+                ),
+                _ => continue,
+            },
+        };
+        notes.push((*offset, problem, assumed));
+    }
+    for (offset, problem, assumed) in notes {
+        reader.remark(NoteKind::Material, offset, problem, assumed);
+    }
+}

@@ -1,0 +1,339 @@
+//! From the XML to the robot.
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use roxmltree::Document;
+
+use super::numbers::{self, Numbers};
+use super::xml::{self, Element};
+use super::{Edit, Reading};
+use crate::fault::Fault;
+use crate::note::{NoteKind, Remark};
+use crate::pose::{from_xyzw, has_quaternions};
+use urdd_format::urdf as v1;
+
+/// Most links, joints or elements of a kind: indices are of 32 bits.
+const MOST: usize = 10_000_000;
+
+/// Reads the robot of a document, and says what makes it none.
+pub(super) fn read(document: &Document<'_>, file_stem: &str) -> Reader {
+    let mut reader = Reader::default();
+    reader.robot(document.root_element(), file_stem);
+    reader
+}
+
+/// Where the parts of a joint stand.
+#[derive(Debug, Clone, Default)]
+pub(super) struct JointPlace {
+    pub joint: usize,
+    pub parent: usize,
+    pub child: usize,
+    pub axis: usize,
+    pub mimic: Range<usize>,
+}
+
+#[derive(Default)]
+pub(super) struct Reader {
+    pub(super) reading: Reading,
+    pub(super) faults: Vec<(usize, Fault)>,
+    pub(super) link_places: Vec<usize>,
+    pub(super) joint_places: Vec<JointPlace>,
+    /// Every material, and where it stands.
+    pub(super) materials: Vec<(usize, v1::Material)>,
+    /// Where attributes stand whose names are mended.
+    mended: HashSet<usize>,
+}
+
+impl Reader {
+    pub(super) fn fault(&mut self, offset: usize, fault: Fault) {
+        self.faults.push((offset, fault));
+    }
+
+    pub(super) fn remark(
+        &mut self,
+        kind: NoteKind,
+        offset: usize,
+        problem: String,
+        assumed: impl Into<String>,
+    ) {
+        self.reading.remarks.push(Remark {
+            kind,
+            offset,
+            problem,
+            assumed: assumed.into(),
+        });
+    }
+
+    pub(super) fn edit(&mut self, range: Range<usize>, text: impl Into<String>) {
+        let text = text.into();
+        self.reading.edits.push(Edit { range, text });
+    }
+
+    /// Takes an attribute out of the text, with the white space before it.
+    fn remove_attribute(&mut self, element: Element<'_>, attribute: Range<usize>) {
+        let text = element.document().input_text();
+        let before = text[..attribute.start].trim_end().len();
+        self.edit(before..attribute.end, "");
+    }
+
+    /// The first element of a name in another; others do not count.
+    pub(super) fn only<'a>(&mut self, parent: Element<'a>, name: &str) -> Option<Element<'a>> {
+        let mut found = xml::children(parent).filter(|(found, _)| *found == name);
+        let (_, first) = found.next()?;
+        for (_, again) in found {
+            let problem = format!("another `<{name}>` in one `<{}>`", xml::name(parent));
+            self.remark(
+                NoteKind::Repeated,
+                again.range().start,
+                problem,
+                "the first counts",
+            );
+        }
+        Some(first)
+    }
+
+    /// An attribute; one that is written in another case is read, and mended.
+    pub(super) fn attribute<'a>(
+        &mut self,
+        element: Element<'a>,
+        name: &str,
+    ) -> Option<roxmltree::Attribute<'a, 'a>> {
+        if let Some(found) = xml::attribute(element, name) {
+            return Some(found);
+        }
+        let mut others = element.attributes();
+        let found = others
+            .find(|other| other.namespace().is_none() && other.name().eq_ignore_ascii_case(name))?;
+        let offset = found.range().start;
+        // Some attributes are asked for twice.
+        if self.mended.insert(offset) {
+            let element = xml::name(element);
+            let problem = format!(
+                "`{}` of `<{element}>` is not as URDF writes it",
+                found.name()
+            );
+            self.remark(NoteKind::Case, offset, problem, format!("read as `{name}`"));
+            self.edit(found.range_qname(), name);
+        }
+        Some(found)
+    }
+
+    pub(super) fn text(&mut self, element: Element<'_>, attribute: &str) -> Option<String> {
+        self.attribute(element, attribute)
+            .map(|found| found.value().to_owned())
+    }
+
+    pub(super) fn needed(
+        &mut self,
+        element: Element<'_>,
+        name: &'static str,
+        attribute: &'static str,
+    ) -> Option<String> {
+        let text = self.text(element, attribute);
+        if text.is_none() {
+            let fault = Fault::MissingAttribute {
+                element: name,
+                attribute,
+            };
+            self.fault(element.range().start, fault);
+        }
+        text
+    }
+
+    /// An attribute of `N` numbers. One that is something else counts as absent, and is taken out
+    /// of the text; one with a number that is not finite counts as absent too (SPEC 6.1.8).
+    pub(super) fn vector<const N: usize>(
+        &mut self,
+        element: Element<'_>,
+        attribute: &str,
+    ) -> Option<[f64; N]> {
+        let found = self.attribute(element, attribute)?;
+        let what = || {
+            let element = xml::name(element);
+            format!(
+                "`{attribute}` of `<{element}>` is `{}`",
+                shortened(found.value())
+            )
+        };
+        match numbers::read(found.value()) {
+            Numbers::Finite(numbers) => Some(numbers),
+            Numbers::NotFinite => {
+                let problem = format!("{}, which is not finite", what());
+                let assumed = absent(xml::name(element), attribute);
+                self.remark(NoteKind::NotFinite, found.range().start, problem, assumed);
+                None
+            }
+            Numbers::Wrong => {
+                let problem = format!("{}, and should be {}", what(), numbers::what(N));
+                if let Some(numbers) = completed::<N>(attribute, found.value()) {
+                    let words: Vec<String> = numbers.iter().map(f64::to_string).collect();
+                    let text = words.join(" ");
+                    let assumed = format!("read as `{text}`");
+                    self.remark(NoteKind::Numbers, found.range().start, problem, assumed);
+                    self.edit(found.range_value(), text);
+                    return Some(numbers);
+                }
+                let assumed = absent(xml::name(element), attribute);
+                self.remark(NoteKind::Numbers, found.range().start, problem, assumed);
+                self.remove_attribute(element, found.range());
+                None
+            }
+        }
+    }
+
+    pub(super) fn number(&mut self, element: Element<'_>, attribute: &str) -> Option<f64> {
+        self.vector::<1>(element, attribute).map(|[number]| number)
+    }
+
+    /// The elements that URDF does not define, as text.
+    pub(super) fn unknown(&mut self, parent: Element<'_>, known: &[&str]) -> Vec<String> {
+        let mut unknown = Vec::new();
+        for (name, element) in xml::children(parent) {
+            if known.contains(&name) {
+                continue;
+            }
+            if name.starts_with("xacro:") {
+                self.reading.has_xacro = true;
+                let problem = format!("`<{name}>` is a macro that was not expanded");
+                let assumed = "kept as text, without effect";
+                self.remark(
+                    NoteKind::XacroLeftOver,
+                    element.range().start,
+                    problem,
+                    assumed,
+                );
+            }
+            let lower = name.to_ascii_lowercase();
+            if known.contains(&lower.as_str()) {
+                let problem = format!("`<{name}>` is no element of URDF, but `<{lower}>` is");
+                let assumed = "kept as text, without effect";
+                self.remark(NoteKind::Case, element.range().start, problem, assumed);
+            }
+            unknown.push(xml::verbatim(element));
+        }
+        unknown
+    }
+
+    fn robot(&mut self, robot: Element<'_>, file_stem: &str) {
+        let offset = robot.range().start;
+        let name = xml::name(robot);
+        if name != "robot" {
+            self.fault(offset, Fault::NotRobot(shortened(name)));
+            return;
+        }
+        let name = self.text(robot, "name").unwrap_or_else(|| {
+            let problem = "`<robot>` has no name".to_owned();
+            let assumed = format!("named `{file_stem}`, after the file");
+            self.remark(NoteKind::RobotName, offset, problem, assumed);
+            let start = offset + "<robot".len();
+            self.edit(start..start, format!(" name=\"{}\"", escaped(file_stem)));
+            file_stem.to_owned()
+        });
+        self.reading.robot.name = name;
+        self.reading.robot.version = self.text(robot, "version");
+        self.reading.robot.unknown_elements = self.unknown(robot, &["link", "joint", "material"]);
+        for (name, element) in xml::children(robot) {
+            match name {
+                "link" => {
+                    if let Some(link) = self.link(element) {
+                        self.reading.robot.links.push(link);
+                        self.link_places.push(element.range().start);
+                    }
+                }
+                "joint" => self.joint(element),
+                "material" => {
+                    let material = self.material(element);
+                    self.reading.robot.materials.push(material);
+                }
+                _ => {}
+            }
+        }
+        let robot = &self.reading.robot;
+        if robot.links.len() > MOST || robot.joints.len() > MOST {
+            self.fault(offset, Fault::TooMany(MOST as u32));
+        }
+    }
+
+    /// What was read, and what is wrong.
+    pub(super) fn finish(self) -> (Reading, Vec<(usize, Fault)>) {
+        let Reader {
+            mut reading,
+            faults,
+            ..
+        } = self;
+        reading.remarks.sort_by_key(|remark| remark.offset);
+        (reading, faults)
+    }
+
+    pub(super) fn origin(&mut self, parent: Element<'_>) -> Option<v1::Origin> {
+        let origin = self.only(parent, "origin")?;
+        let read = v1::Origin {
+            xyz: self.vector(origin, "xyz"),
+            rpy: self.vector(origin, "rpy"),
+            quat_xyzw: self.vector(origin, "quat_xyzw"),
+        };
+        let offset = origin.range().start;
+        let both = self.attribute(origin, "rpy").is_some()
+            && self.attribute(origin, "quat_xyzw").is_some();
+        if !has_quaternions(self.reading.robot.version.as_deref()) {
+            if read.quat_xyzw.is_some() {
+                let problem = "`quat_xyzw` of `<origin>` has a meaning from URDF 1.1 on, and this is an older one";
+                let assumed = "kept, without effect; `version=\"1.1\"` of `<robot>` gives it one";
+                self.remark(NoteKind::Numbers, offset, problem.to_owned(), assumed);
+            }
+        } else if both {
+            self.fault(offset, Fault::TwoRotations);
+        } else if read.quat_xyzw.is_some_and(|xyzw| from_xyzw(xyzw).is_none()) {
+            let problem = "`quat_xyzw` of `<origin>` has no length".to_owned();
+            self.remark(NoteKind::Numbers, offset, problem, "taken as no rotation");
+        }
+        Some(read)
+    }
+}
+
+/// Numbers that are not as URDF writes them, where there is one way to read them: commas between all
+/// of them; one factor of a scale, for all axes; a colour without opacity, which is opaque.
+fn completed<const N: usize>(attribute: &str, text: &str) -> Option<[f64; N]> {
+    let between_commas = || {
+        let words = text.split(',').map(|word| word.trim().parse().ok());
+        words.collect::<Option<Vec<f64>>>()
+    };
+    let mut numbers = numbers::words(text).or_else(between_commas)?;
+    match (attribute, numbers.len()) {
+        ("scale", 1) => numbers = vec![numbers[0]; 3],
+        ("rgba", 3) => numbers.push(1.0),
+        _ => {}
+    }
+    let all_finite = numbers.iter().all(|x| x.is_finite());
+    <[f64; N]>::try_from(numbers).ok().filter(|_| all_finite)
+}
+
+/// What it means that an attribute counts as absent.
+fn absent(element: &str, attribute: &str) -> String {
+    let means = match (element, attribute) {
+        ("origin", "xyz" | "rpy") => "0 0 0",
+        ("axis", "xyz") => "1 0 0",
+        ("mesh", "scale") => "1 1 1",
+        ("mimic", "multiplier") => "1",
+        ("mimic", "offset") => "0",
+        ("limit", "lower" | "upper") => "0 beside another limit",
+        _ => return "taken as absent".to_owned(),
+    };
+    format!("taken as absent, which means {means}")
+}
+
+/// Text for a message.
+pub(super) fn shortened(text: &str) -> String {
+    const LONGEST: usize = 60;
+    let mut short: String = text.chars().take(LONGEST).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short.replace(char::is_control, " ")
+}
+
+fn escaped(text: &str) -> String {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    text.replace('"', "&quot;")
+}

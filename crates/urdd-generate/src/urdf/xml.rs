@@ -1,0 +1,28 @@
+//! Elements and attributes, by the names that are written.
+
+use roxmltree::Node;
+
+use crate::fault::{Fault, PlacedFault};
+use urdd_xml::XmlError;
+pub(super) use urdd_xml::element::{attribute, children, name};
+
+pub(super) type Element<'a> = Node<'a, 'a>;
+
+/// An element's own characters.
+pub(super) fn verbatim(element: Element<'_>) -> String {
+    element.document().input_text()[element.range()].to_owned()
+}
+
+/// What the parser refused, in words and with its place.
+pub(super) fn fault(error: &XmlError, text: &str) -> PlacedFault {
+    let at = error.pos();
+    let fault = match error {
+        XmlError::Entities(_) => Fault::Entities,
+        _ => Fault::NotXml(error.words(text)),
+    };
+    PlacedFault {
+        line: at.row,
+        column: at.col,
+        fault,
+    }
+}

@@ -1,0 +1,173 @@
+//! Distances of one pair of shapes in all samples.
+
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
+use nalgebra::Isometry3;
+
+use super::gjk;
+use super::lanes::{LANES, Pose, Vec3, select, splat};
+use super::motion::PoseLanes;
+use super::shape::{ConvexShape, OrientedBox, Sphere};
+use super::support::Support;
+
+/// A shape of which distances can be worked out: [`ConvexShape`], [`OrientedBox`] or [`Sphere`].
+pub trait Shape: sealed::Distances + Sync {}
+
+impl Shape for ConvexShape {}
+impl Shape for OrientedBox {}
+impl Shape for Sphere {}
+
+/// Distance of two shapes, metres, 0 if they touch or overlap; `b_in_a` is the pose of the frame of `b` in
+/// that of `a`, with finite numbers.
+pub fn distance<T: Shape>(a: &T, b: &T, b_in_a: &Isometry3<f64>) -> f64 {
+    let poses = PoseLanes::new(std::iter::once(b_in_a));
+    let mut lanes = [0.0; LANES];
+    T::distances(Level::new(), a, b, &poses, &mut lanes);
+    lanes[0]
+}
+
+mod sealed {
+    use super::{Level, PoseLanes};
+
+    pub trait Distances: Sized {
+        /// The distance in each sample, in order. `distances` has room for whole lanes.
+        fn distances(level: Level, a: &Self, b: &Self, poses: &PoseLanes, distances: &mut [f64]);
+    }
+}
+
+impl sealed::Distances for ConvexShape {
+    fn distances(level: Level, a: &Self, b: &Self, poses: &PoseLanes, distances: &mut [f64]) {
+        dispatch!(level, simd => hulls(simd, a, b, poses, distances));
+    }
+}
+
+impl sealed::Distances for OrientedBox {
+    fn distances(level: Level, a: &Self, b: &Self, poses: &PoseLanes, distances: &mut [f64]) {
+        dispatch!(level, simd => boxes(simd, a, b, poses, distances));
+    }
+}
+
+impl sealed::Distances for Sphere {
+    fn distances(level: Level, a: &Self, b: &Self, poses: &PoseLanes, distances: &mut [f64]) {
+        dispatch!(level, simd => spheres(simd, a, b, poses, distances));
+    }
+}
+
+#[inline(always)]
+fn hulls<S: Simd>(
+    simd: S,
+    a: &ConvexShape,
+    b: &ConvexShape,
+    poses: &PoseLanes,
+    distances: &mut [f64],
+) {
+    let (centre_a, centre_b) = (Vec3::splat(simd, a.centre), Vec3::splat(simd, b.centre));
+    for (at, out) in groups(distances) {
+        let mut pose = poses.load(simd, at);
+        pose.shift = pose.shift + pose.rotate(centre_b) - centre_a;
+        store(simd, a, b, &pose, poses.num_samples() - at, out);
+    }
+}
+
+#[inline(always)]
+fn boxes<S: Simd>(
+    simd: S,
+    a: &OrientedBox,
+    b: &OrientedBox,
+    poses: &PoseLanes,
+    distances: &mut [f64],
+) {
+    let (frame_a, frame_b) = (Pose::splat(simd, &a.pose), Pose::splat(simd, &b.pose));
+    for (at, out) in groups(distances) {
+        let pose = poses.load(simd, at);
+        let shift = pose.shift + pose.rotate(frame_b.shift) - frame_a.shift;
+        let pose = Pose {
+            columns: [
+                frame_a.rotate_back(pose.rotate(frame_b.columns[0])),
+                frame_a.rotate_back(pose.rotate(frame_b.columns[1])),
+                frame_a.rotate_back(pose.rotate(frame_b.columns[2])),
+            ],
+            shift: frame_a.rotate_back(shift),
+        };
+        store(simd, a, b, &pose, poses.num_samples() - at, out);
+    }
+}
+
+#[inline(always)]
+fn spheres<S: Simd>(simd: S, a: &Sphere, b: &Sphere, poses: &PoseLanes, distances: &mut [f64]) {
+    let (centre_a, centre_b) = (Vec3::splat(simd, a.centre), Vec3::splat(simd, b.centre));
+    let radii = splat(simd, a.radius + b.radius);
+    let zero = splat(simd, 0.0);
+    for (at, out) in groups(distances) {
+        let pose = poses.load(simd, at);
+        let between = pose.shift + pose.rotate(centre_b) - centre_a;
+        let gap = between.dot(between).sqrt() - radii;
+        out.copy_from_slice(&select(gap.simd_gt(zero), gap, zero).to_array());
+    }
+}
+
+/// The samples of each group of lanes: the first's number, and where their distances go.
+#[inline(always)]
+fn groups(distances: &mut [f64]) -> impl Iterator<Item = (usize, &mut [f64])> {
+    let groups = distances.chunks_exact_mut(LANES).enumerate();
+    groups.map(|(i, out)| (i * LANES, out))
+}
+
+/// Works out and stores the distances of one group, of which the first `samples` lanes count.
+#[inline(always)]
+fn store<S: Simd, T: Support>(
+    simd: S,
+    a: &T,
+    b: &T,
+    pose: &Pose<S>,
+    samples: usize,
+    out: &mut [f64],
+) {
+    let lanes = if samples < LANES {
+        (1 << samples) - 1
+    } else {
+        gjk::ALL
+    };
+    out.copy_from_slice(&gjk::distances(simd, a, b, pose, lanes));
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Translation3, UnitQuaternion};
+
+    use super::sealed::Distances;
+    use super::*;
+    use crate::levels::levels;
+
+    #[test]
+    fn the_same_bits_on_each_instruction_set() {
+        let point = |i: u32| {
+            let x = f64::from(i);
+            [(1.7 * x).sin(), (2.3 * x).cos(), (0.9 * x).sin() * 0.3]
+        };
+        let hull = |from| ConvexShape::of_points(&(from..from + 60).map(point).collect::<Vec<_>>());
+        let (a, b) = (hull(0).expect("a shape"), hull(100).expect("a shape"));
+        let poses: Vec<Isometry3<f64>> = (0..999)
+            .map(|k| {
+                let p = point(1000 + k).map(|x| 4.0 * x);
+                let q = UnitQuaternion::from_euler_angles(p[1], p[2], p[0]);
+                Isometry3::from_parts(Translation3::from(p), q)
+            })
+            .collect();
+        let lanes = PoseLanes::new(poses.iter());
+        let boxes = [0.3, 0.7].map(|h| OrientedBox::new(poses[3], [h, 0.5, 0.1]).expect("a box"));
+        let all = levels().into_iter().map(|level| {
+            let mut found = vec![0.0; 3000];
+            let (hulls, of_boxes) = found.split_at_mut(1000);
+            ConvexShape::distances(level, &a, &b, &lanes, hulls);
+            OrientedBox::distances(level, &boxes[0], &boxes[1], &lanes, &mut of_boxes[..1000]);
+            found
+                .iter()
+                .map(|x: &f64| x.to_bits())
+                .collect::<Vec<u64>>()
+        });
+        let all: Vec<_> = all.collect();
+        assert!(all.iter().all(|found| *found == all[0]));
+        let touching = all[0][..999].iter().filter(|&&x| x == 0).count();
+        assert!((50..950).contains(&touching), "{touching} of 999 touch");
+    }
+}

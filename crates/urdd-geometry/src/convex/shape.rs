@@ -1,0 +1,117 @@
+//! Convex shapes.
+
+use nalgebra::{Isometry3, Vector3};
+
+use super::support_table::SupportTable;
+use crate::mesh::Mesh;
+
+/// The convex hull of some points, prepared for distances.
+#[derive(Clone, Debug)]
+pub struct ConvexShape {
+    /// Middle of the bounds, in the frame of the body.
+    pub(crate) centre: [f64; 3],
+    /// Of the points about the centre.
+    pub(crate) table: SupportTable,
+}
+
+/// A box, prepared for distances.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OrientedBox {
+    pub(crate) pose: Isometry3<f64>,
+    pub(crate) half_extents: [f64; 3],
+}
+
+/// A sphere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sphere {
+    pub(crate) centre: [f64; 3],
+    pub(crate) radius: f64,
+}
+
+/// Why there is no such convex shape.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ShapeError {
+    #[error("the shape has no vertices; give at least one")]
+    Empty,
+    #[error("vertex {vertex} is not finite, or farther than 1e9 m from the origin")]
+    OutOfRange { vertex: usize },
+    #[error("the centre or the axes are not finite, or farther than 1e9 m from the origin")]
+    Pose,
+    #[error("a half extent or radius is {size}; give one from 0 to 1e9 m")]
+    Size { size: f64 },
+}
+
+/// Larger coordinates would make squares of squares that no number holds, and are no robot.
+const FARTHEST: f64 = 1e9;
+
+fn in_range(v: &[f64; 3]) -> bool {
+    v.iter().all(|x| x.abs() <= FARTHEST)
+}
+
+impl ConvexShape {
+    /// The convex hull of a mesh's vertices; the triangles are not looked at. A hull may be flat, a line or
+    /// a point.
+    pub fn new(mesh: &Mesh) -> Result<Self, ShapeError> {
+        Self::of_points(&mesh.vertices)
+    }
+
+    /// The convex hull of points, metres. The fewer of them are inside, the less there is to prepare.
+    pub fn of_points(points: &[[f64; 3]]) -> Result<Self, ShapeError> {
+        if let Some(vertex) = points.iter().position(|p| !in_range(p)) {
+            return Err(ShapeError::OutOfRange { vertex });
+        }
+        let Some(&first) = points.first() else {
+            return Err(ShapeError::Empty);
+        };
+        let (mut low, mut high) = (first, first);
+        for p in points {
+            for k in 0..3 {
+                low[k] = low[k].min(p[k]);
+                high[k] = high[k].max(p[k]);
+            }
+        }
+        let centre: [f64; 3] = std::array::from_fn(|k| 0.5 * low[k] + 0.5 * high[k]);
+        let points: Vec<[f64; 3]> = points
+            .iter()
+            .map(|p| std::array::from_fn(|k| p[k] - centre[k]))
+            .collect();
+        let table = SupportTable::new(&points);
+        Ok(Self { centre, table })
+    }
+
+    /// Middle of the bounds, in the frame of the body, metres.
+    pub fn centre(&self) -> [f64; 3] {
+        self.centre
+    }
+}
+
+impl OrientedBox {
+    /// A box with its centre and axes, in the frame of its body, and half of each edge's length, metres.
+    pub fn new(pose: Isometry3<f64>, half_extents: [f64; 3]) -> Result<Self, ShapeError> {
+        let rotation = pose.rotation.coords;
+        if !in_range(&pose.translation.vector.into()) || !rotation.iter().all(|x| x.is_finite()) {
+            return Err(ShapeError::Pose);
+        }
+        match half_extents
+            .into_iter()
+            .find(|h| !(0.0..=FARTHEST).contains(h))
+        {
+            Some(size) => Err(ShapeError::Size { size }),
+            None => Ok(Self { pose, half_extents }),
+        }
+    }
+}
+
+impl Sphere {
+    /// A sphere with its centre, in the frame of its body, and its radius, metres.
+    pub fn new(centre: Vector3<f64>, radius: f64) -> Result<Self, ShapeError> {
+        let centre = centre.into();
+        if !in_range(&centre) {
+            Err(ShapeError::Pose)
+        } else if !(0.0..=FARTHEST).contains(&radius) {
+            Err(ShapeError::Size { size: radius })
+        } else {
+            Ok(Self { centre, radius })
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! The whole surface handed out to the groups that the search found.
+//!
+//! Every triangle goes down the tree of cuts; one that crosses a plane is clipped there
+//! (Sutherland and Hodgman, "Reentrant polygon clipping", 1974) and both parts go on. So the parts
+//! of the groups make up the surface exactly, but for the rounding of the new points.
+
+use super::clean::Surface;
+use super::part::Plane;
+use super::search::Node;
+use super::vector::{cross, dot, lerp, norm, sub};
+use crate::hull::ConvexHull;
+
+/// A corner on its way down: its place in unit coordinates, and which vertex or point it is.
+#[derive(Clone, Copy)]
+struct Corner {
+    unit: [f64; 3],
+    at: [f64; 3],
+    /// The vertex, or `NEW` for a point made by a cut.
+    vertex: u32,
+}
+
+const NEW: u32 = u32::MAX;
+
+/// The points of each group, in metres: of the surface, and of points inside. Points made by a cut are rounded to
+/// f32, as meshes are written.
+pub(super) fn assign(
+    surface: &Surface,
+    inside: &Inside,
+    nodes: &[Node],
+    group_of_leaf: &[usize],
+    groups: usize,
+    eps: f64,
+) -> Vec<Vec<[f64; 3]>> {
+    let mut out = Hands {
+        points: vec![Vec::new(); groups],
+        most: vec![MOST_POINTS; groups],
+        last: vec![u32::MAX; surface.vertices.len()],
+        nodes,
+        group_of_leaf,
+        eps,
+    };
+    for &t in &surface.triangles {
+        let corners = t.map(|i| Corner {
+            unit: surface.unit[i as usize],
+            at: surface.vertices[i as usize],
+            vertex: i,
+        });
+        out.descend(0, &corners, &|direction| {
+            dot(surface.normal(t), direction) > 0.0
+        });
+    }
+    for &p in inside.points {
+        out.drop_in(0, p, inside, surface);
+    }
+    out.points
+}
+
+/// Points inside the body, in unit coordinates.
+pub(super) struct Inside<'a> {
+    points: &'a [[f64; 3]],
+    /// How near to a cut they are put into it.
+    reach: f64,
+    /// Planes about the body: outward normals of unit length, and their offsets.
+    planes: Vec<([f64; 3], f64)>,
+}
+
+impl<'a> Inside<'a> {
+    /// `body` are points of the surface whose hull is the body's, or within it.
+    pub fn new(points: &'a [[f64; 3]], reach: f64, body: &[[f64; 3]]) -> Inside<'a> {
+        let hull = match points {
+            [] => None,
+            _ => ConvexHull::new(body).ok(),
+        };
+        let planes = hull.map_or(Vec::new(), |hull| {
+            let mesh = hull.into_mesh();
+            let planes = mesh.triangles.iter().map(|t| {
+                let [a, b, c] = t.map(|i| mesh.vertices[i as usize]);
+                let normal = cross(sub(b, a), sub(c, a));
+                let normal = normal.map(|x| x / norm(normal));
+                (normal, dot(normal, a))
+            });
+            planes.collect()
+        });
+        Inside {
+            points,
+            reach,
+            planes,
+        }
+    }
+
+    fn hull_holds(&self, p: [f64; 3]) -> bool {
+        self.planes
+            .iter()
+            .all(|(normal, offset)| dot(*normal, p) <= *offset)
+    }
+}
+
+/// So many points of a group are gathered before they are thinned out.
+const MOST_POINTS: usize = 1 << 21;
+
+struct Hands<'a> {
+    points: Vec<Vec<[f64; 3]>>,
+    /// For each group, at how many points it is thinned out next.
+    most: Vec<usize>,
+    /// The group that a vertex was last given to: most belong to one only.
+    last: Vec<u32>,
+    nodes: &'a [Node],
+    group_of_leaf: &'a [usize],
+    eps: f64,
+}
+
+impl Hands<'_> {
+    fn descend(&mut self, mut node: usize, polygon: &[Corner], faces: &dyn Fn([f64; 3]) -> bool) {
+        loop {
+            match self.nodes[node] {
+                Node::Leaf(leaf) => return self.give(self.group_of_leaf[leaf], polygon),
+                Node::Cut(plane, sides) => {
+                    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+                    for c in polygon {
+                        let h = plane.height(c.unit);
+                        low = low.min(h);
+                        high = high.max(h);
+                    }
+                    let side = if low >= -self.eps && high <= self.eps {
+                        usize::from(!faces(plane.normal))
+                    } else if low >= -self.eps {
+                        1
+                    } else if high <= self.eps {
+                        0
+                    } else {
+                        let halves = clip(polygon, &plane, self.eps);
+                        self.descend(sides[0], &halves[0], faces);
+                        self.descend(sides[1], &halves[1], faces);
+                        return;
+                    };
+                    node = sides[side];
+                }
+            }
+        }
+    }
+
+    /// A point inside, in unit coordinates: near a plane it is put into that too, for both sides. One that left
+    /// the hull of the body on its way is dropped: each move is short, but they add up.
+    fn drop_in(&mut self, node: usize, p: [f64; 3], inside: &Inside, surface: &Surface) {
+        match self.nodes[node] {
+            Node::Leaf(leaf) => {
+                if inside.hull_holds(p) {
+                    let at = [0, 1, 2]
+                        .map(|a| f64::from((p[a] * surface.scale + surface.centre[a]) as f32));
+                    self.points[self.group_of_leaf[leaf]].push(at);
+                }
+            }
+            Node::Cut(plane, sides) => {
+                let height = plane.height(p);
+                if height.abs() <= inside.reach {
+                    let q = plane.project(p);
+                    self.drop_in(sides[0], q, inside, surface);
+                    self.drop_in(sides[1], q, inside, surface);
+                }
+                self.drop_in(sides[usize::from(height > 0.0)], p, inside, surface);
+            }
+        }
+    }
+
+    fn give(&mut self, group: usize, polygon: &[Corner]) {
+        for c in polygon {
+            if c.vertex != NEW {
+                let last = &mut self.last[c.vertex as usize];
+                if *last == group as u32 {
+                    continue;
+                }
+                *last = group as u32;
+            }
+            self.points[group].push(c.at);
+        }
+        if self.points[group].len() >= self.most[group] {
+            self.thin_out(group);
+        }
+    }
+
+    /// Keeps the corners of a group's hull: each triangle of a tangle leaves some points in every group, and
+    /// all of them together would take many times the memory of the mesh.
+    fn thin_out(&mut self, group: usize) {
+        if let Ok(hull) = ConvexHull::new(&self.points[group]) {
+            self.points[group] = hull.into_mesh().vertices;
+        }
+        self.most[group] = MOST_POINTS.max(2 * self.points[group].len());
+    }
+}
+
+/// The parts of a convex polygon below and above a plane.
+fn clip(polygon: &[Corner], plane: &Plane, eps: f64) -> [Vec<Corner>; 2] {
+    let mut out = [
+        Vec::with_capacity(polygon.len() + 1),
+        Vec::with_capacity(polygon.len() + 1),
+    ];
+    for (k, c) in polygon.iter().enumerate() {
+        let d = &polygon[(k + 1) % polygon.len()];
+        let (hc, hd) = (plane.height(c.unit), plane.height(d.unit));
+        if hc <= eps {
+            out[0].push(*c);
+        }
+        if hc >= -eps {
+            out[1].push(*c);
+        }
+        if (hc < -eps && hd > eps) || (hc > eps && hd < -eps) {
+            // From the lower end always, so that two triangles with this edge make the same point.
+            let (from, to, hf, ht) = if hc < hd {
+                (c, d, hc, hd)
+            } else {
+                (d, c, hd, hc)
+            };
+            let t = hf / (hf - ht);
+            let cut = Corner {
+                unit: lerp(from.unit, to.unit, t),
+                at: lerp(from.at, to.at, t).map(|x| f64::from(x as f32)),
+                vertex: NEW,
+            };
+            out[0].push(cut);
+            out[1].push(cut);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decompose::clean::Surface;
+    use crate::primitives::cuboid;
+
+    #[test]
+    fn a_point_that_two_cuts_move_out_of_the_body_is_dropped() {
+        let surface = Surface::new(&cuboid([2.0, 2.0, 2.0])).expect("a surface");
+        // Two planes through the edge x = y = 1.02, which lies just outside: a point near it goes into both.
+        let plane = |degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            Plane {
+                normal: [sin, -cos, 0.0],
+                offset: 1.02 * (sin - cos),
+            }
+        };
+        let nodes = [
+            Node::Cut(plane(44.0), [1, 2]),
+            Node::Cut(plane(134.0), [3, 4]),
+            Node::Cut(plane(134.0), [5, 6]),
+            Node::Leaf(0),
+            Node::Leaf(1),
+            Node::Leaf(2),
+            Node::Leaf(3),
+        ];
+        let point = [[0.95, 0.95, 0.0]];
+        let given = |reach: f64| {
+            let inside = Inside::new(&point, reach, &surface.unit);
+            let parts = assign(&surface, &inside, &nodes, &[0, 1, 2, 3], 4, 1e-9);
+            parts.into_iter().flatten().collect::<Vec<_>>()
+        };
+        let out = |p: &[f64; 3]| p.iter().any(|x| x.abs() > 1.0 + 1e-6);
+        assert!(!given(0.11).iter().any(out), "{:?}", given(0.11));
+        // The move into the first plane alone stays.
+        assert!(given(0.11).len() > given(0.0).len());
+    }
+}

@@ -1,0 +1,196 @@
+//! The surface as the decomposition sees it: valid triangles over welded vertices, in a unit frame.
+
+use super::vector::{cross, dot, sub};
+use crate::Mesh;
+
+/// A welded surface. `unit` are the vertices moved and scaled so that the largest extent runs from
+/// -1 to 1; planes are kept in those coordinates.
+pub(super) struct Surface {
+    pub vertices: Vec<[f64; 3]>,
+    pub unit: Vec<[f64; 3]>,
+    pub triangles: Vec<[u32; 3]>,
+    /// Metres for one unit.
+    pub scale: f64,
+    /// The origin of unit coordinates, in metres.
+    pub centre: [f64; 3],
+    /// Triangles left out: an index out of range or a coordinate that is not a finite number.
+    pub ignored: usize,
+}
+
+impl Surface {
+    /// Welds equal vertices and leaves out what is not a triangle of finite points; None where nothing is left.
+    pub fn new(mesh: &Mesh) -> Option<Self> {
+        let (vertices, index) = weld(&mesh.vertices);
+        let mut triangles = Vec::with_capacity(mesh.triangles.len());
+        for t in &mesh.triangles {
+            let corner = t.map(|i| index.get(i as usize).copied().unwrap_or(u32::MAX));
+            if corner.iter().all(|&i| i != u32::MAX) {
+                triangles.push(corner);
+            }
+        }
+        let ignored = mesh.triangles.len() - triangles.len();
+        let triangles = each_once(triangles);
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        for &i in triangles.as_flattened() {
+            let p = vertices[i as usize];
+            for a in 0..3 {
+                low[a] = low[a].min(p[a]);
+                high[a] = high[a].max(p[a]);
+            }
+        }
+        if triangles.is_empty() {
+            return None;
+        }
+        let half = [0, 1, 2].map(|a| high[a] / 2.0 - low[a] / 2.0);
+        let scale = half.iter().copied().fold(0.0, f64::max);
+        let scale = if scale > f64::MIN_POSITIVE {
+            scale
+        } else {
+            1.0
+        };
+        let centre = [0, 1, 2].map(|a| low[a] + half[a]);
+        let unit = vertices
+            .iter()
+            .map(|p| sub(*p, centre).map(|x| x / scale))
+            .collect();
+        let mut out = Surface {
+            vertices,
+            unit,
+            triangles,
+            scale,
+            centre,
+            ignored,
+        };
+        // A surface that is inside out as a whole is turned: fronts are to look outwards.
+        if out.volume() < 0.0 {
+            out.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+        }
+        Some(out)
+    }
+
+    /// The volume enclosed where the surface is closed, in unit coordinates.
+    fn volume(&self) -> f64 {
+        self.triangles
+            .iter()
+            .map(|t| {
+                let [a, b, c] = t.map(|i| self.unit[i as usize]);
+                dot(cross(a, b), c) / 6.0
+            })
+            .sum()
+    }
+
+    /// Twice the area vector of a triangle, in unit coordinates.
+    pub fn normal(&self, t: [u32; 3]) -> [f64; 3] {
+        let [a, b, c] = t.map(|i| self.unit[i as usize]);
+        cross(sub(b, a), sub(c, a))
+    }
+
+    /// The sum of the triangles' areas, in unit coordinates.
+    pub fn area(&self) -> f64 {
+        self.triangles
+            .iter()
+            .map(|&t| dot(self.normal(t), self.normal(t)).sqrt() / 2.0)
+            .sum()
+    }
+}
+
+/// The triangles without repetitions: of those with the same corners that face the same way, the first.
+/// A file of a few bytes a triangle can say one many thousand times, and once is all that it means.
+fn each_once(triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
+    let from_lowest = |[a, b, c]: [u32; 3]| {
+        if a <= b && a <= c {
+            [a, b, c]
+        } else if b <= c {
+            [b, c, a]
+        } else {
+            [c, a, b]
+        }
+    };
+    let mut numbered: Vec<([u32; 3], u32)> = (0..)
+        .zip(&triangles)
+        .map(|(at, t)| (from_lowest(*t), at))
+        .collect();
+    numbered.sort_unstable();
+    numbered.dedup_by_key(|(t, _)| *t);
+    let mut first: Vec<u32> = numbered.into_iter().map(|(_, at)| at).collect();
+    first.sort_unstable();
+    first.into_iter().map(|at| triangles[at as usize]).collect()
+}
+
+/// Different vertices in order of first use, and for each given vertex its place among them
+/// (`u32::MAX` where it is not finite). An open-addressing table keyed by the bits of the coordinates.
+fn weld(given: &[[f64; 3]]) -> (Vec<[f64; 3]>, Vec<u32>) {
+    let size = (given.len() * 2).next_power_of_two().max(16);
+    let shift = 64 - size.trailing_zeros();
+    let mut table = vec![u32::MAX; size];
+    let mut out: Vec<[f64; 3]> = Vec::with_capacity(given.len() / 2);
+    let index = given
+        .iter()
+        .map(|p| {
+            // The range of the hull's arithmetic: no robot is that large.
+            if !p.iter().all(|x| x.abs() < 1e60) {
+                return u32::MAX;
+            }
+            // Below its range is nothing, and -0 and 0 are one place.
+            let p = p.map(|x| if x.abs() < 1e-59 { 0.0 } else { x });
+            let mut hash = 0_u64;
+            for x in p {
+                hash = (hash.rotate_left(23) ^ x.to_bits()).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+            }
+            let mut slot = (hash >> shift) as usize;
+            loop {
+                match table[slot] {
+                    u32::MAX => {
+                        table[slot] = out.len() as u32;
+                        out.push(p);
+                        return table[slot];
+                    }
+                    i if out[i as usize] == p => return i,
+                    _ => slot = (slot + 1) & (size - 1),
+                }
+            }
+        })
+        .collect();
+    (out, index)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_vertices_are_one_and_bad_triangles_go() {
+        let nan = f64::NAN;
+        let mesh = Mesh {
+            vertices: vec![
+                [0.0; 3],
+                [-0.0, 0.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [0.0, 3.0, 0.0],
+                [nan, 0.0, 0.0],
+            ],
+            triangles: vec![
+                [0, 2, 3],
+                [1, 2, 3],
+                [2, 3, 0],
+                [0, 3, 2],
+                [0, 2, 9],
+                [0, 2, 4],
+            ],
+        };
+        let s = Surface::new(&mesh).unwrap();
+        assert_eq!(s.vertices.len(), 3);
+        // Three times the same, and once from behind.
+        assert_eq!(s.triangles, vec![[0, 1, 2], [0, 2, 1]]);
+        assert_eq!(s.ignored, 2);
+        assert_eq!(s.scale, 1.5);
+        assert!(
+            Surface::new(&Mesh {
+                triangles: vec![[0, 1, 9]],
+                ..mesh
+            })
+            .is_none()
+        );
+    }
+}

@@ -1,0 +1,204 @@
+//! A convex hull that grows point by point and always knows its volume and area.
+//!
+//! The plain incremental (beneath-beyond) construction: faces that see the new point go, the
+//! horizon's edges are joined to it. Each face is tested for each point; with a hundred faces that is
+//! faster than keeping conflict lists. Points are moved by a fixed tiny pseudo-random step first, so
+//! that no four lie in a plane ("joggled input", Barber and Huhdanpaa, Qhull manual): CAD is full of flat
+//! faces, and those break a plain incremental hull. So it serves the search and the choice of vertices;
+//! what is handed out is made by [`crate::hull`].
+
+use super::planes::{Above, Planes};
+use super::vector::{cross, dot, sub};
+
+#[derive(Clone, Default)]
+pub(super) struct GrowingHull {
+    /// The points taken, moved; those before the first insertion not.
+    pub points: Vec<[f64; 3]>,
+    jitter: f64,
+    corners: Vec<[u16; 3]>,
+    planes: Planes,
+    area: Vec<f64>,
+    free: Vec<u32>,
+    /// What the point that comes next sees.
+    seen: Above,
+    /// The edges around that: the first corner in the upper half.
+    edges: Vec<u32>,
+    volume6: f64,
+    area_sum: f64,
+}
+
+impl GrowingHull {
+    /// A hull of four points, or none where the last is no farther than `thinnest` from the plane of
+    /// the others. `jitter` is how far points may be moved.
+    pub fn tetrahedron(p: [[f64; 3]; 4], thinnest: f64, jitter: f64) -> Option<Self> {
+        let n = cross(sub(p[1], p[0]), sub(p[2], p[0]));
+        let side = dot(n, sub(p[3], p[0]));
+        if side.abs() <= thinnest * dot(n, n).sqrt() {
+            return None;
+        }
+        let mut hull = GrowingHull {
+            points: p.to_vec(),
+            jitter,
+            ..GrowingHull::default()
+        };
+        let faces = if side > 0.0 {
+            [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+        } else {
+            [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]
+        };
+        hull.volume6 = side.abs();
+        for f in faces {
+            hull.add_face(f);
+        }
+        Some(hull)
+    }
+
+    /// A small octahedron about `centre`: a start that makes every later hull solid, so that flat
+    /// and thin parts need no cases of their own. Its size is far below what the search resolves.
+    pub fn seed(centre: [f64; 3], radius: f64) -> Self {
+        let mut hull = GrowingHull {
+            jitter: radius * 1e-4,
+            ..GrowingHull::default()
+        };
+        for axis in 0..3 {
+            for sign in [radius, -radius] {
+                let mut p = centre;
+                p[axis] += sign;
+                hull.points.push(p);
+            }
+        }
+        for code in 0..8_u16 {
+            let (a, b, c) = (code & 1, 2 + (code >> 1 & 1), 4 + (code >> 2 & 1));
+            let even = (code & 1) + (code >> 1 & 1) + (code >> 2 & 1);
+            hull.add_face(if even % 2 == 0 { [a, b, c] } else { [a, c, b] });
+        }
+        hull.volume6 = 8.0 * radius * radius * radius;
+        hull
+    }
+
+    fn add_face(&mut self, f: [u16; 3]) {
+        let [a, b, c] = f.map(|i| self.points[i as usize]);
+        let n = cross(sub(b, a), sub(c, a));
+        let length = dot(n, n).sqrt();
+        let n = if length > 0.0 {
+            n.map(|x| x / length)
+        } else {
+            [0.0; 3]
+        };
+        let offset = if length > 0.0 { dot(n, a) } else { 0.0 };
+        self.area_sum += length;
+        if let Some(slot) = self.free.pop() {
+            let i = slot as usize;
+            self.corners[i] = f;
+            self.planes.set(i, n, offset);
+            self.area[i] = length;
+        } else {
+            self.corners.push(f);
+            self.planes.push(n, offset);
+            self.area.push(length);
+        }
+    }
+
+    /// Volume.
+    pub fn volume(&self) -> f64 {
+        self.volume6 / 6.0
+    }
+
+    /// Slots for faces, empty ones too.
+    pub fn slots(&self) -> usize {
+        self.planes.slots()
+    }
+
+    /// Surface area.
+    pub fn area(&self) -> f64 {
+        self.area_sum / 2.0
+    }
+
+    /// Whether the hull may take no more points: corners are 16-bit, and more faces than Euler's
+    /// formula allows mean that rounding has broken it.
+    fn is_full(&self) -> bool {
+        self.points.len() >= usize::from(u16::MAX) || self.slots() > 2 * self.points.len()
+    }
+
+    /// The point moved by up to `jitter` along each axis; the same for the same place in the order.
+    fn moved(&self, p: [f64; 3]) -> [f64; 3] {
+        let mut state = self.points.len() as u64;
+        p.map(|x| {
+            // SplitMix64 (Steele, Lea and Flood, 2014).
+            state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+            let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            x + self.jitter * ((z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
+        })
+    }
+
+    /// The face slot whose plane the point is farthest above, and how far; below all: negative.
+    pub fn farthest_face(&self, p: [f64; 3]) -> (u32, f64) {
+        self.planes.highest(p)
+    }
+
+    /// Slots whose faces went with the last insertion.
+    pub fn removed(&self) -> &[u32] {
+        &self.seen.slots
+    }
+
+    /// The corners of a face slot: places in the order of insertion.
+    pub fn face(&self, slot: u32) -> [u16; 3] {
+        self.corners[slot as usize]
+    }
+
+    /// The slot, the corners and the area of each face.
+    pub fn faces(&self) -> impl Iterator<Item = (usize, [u16; 3], f64)> {
+        (0..self.corners.len())
+            .filter(|&i| !self.planes.is_empty(i))
+            .map(|i| (i, self.corners[i], self.area[i] / 2.0))
+    }
+
+    /// The places of points that are corners of a face, ascending.
+    pub fn used(&self) -> Vec<usize> {
+        let mut used = vec![false; self.points.len()];
+        for (slot, f) in self.corners.iter().enumerate() {
+            if !self.planes.is_empty(slot) {
+                f.iter().for_each(|&i| used[i as usize] = true);
+            }
+        }
+        (0..used.len()).filter(|&i| used[i]).collect()
+    }
+
+    /// Makes the hull hold `p`; false where it is inside already, to within `eps` (which is to be
+    /// more than the jitter).
+    pub fn insert(&mut self, p: [f64; 3], eps: f64) -> bool {
+        let p = self.moved(p);
+        if self.is_full() || !self.planes.above(p, eps, &mut self.seen) {
+            return false;
+        }
+        self.edges.clear();
+        for &slot in &self.seen.slots {
+            let i = slot as usize;
+            self.volume6 += self.seen.heights[i] * self.area[i];
+            self.area_sum -= self.area[i];
+            let [a, b, c] = self.corners[i].map(u32::from);
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                // An edge seen from both sides is not on the horizon.
+                let opposite = to << 16 | from;
+                match self.edges.iter().position(|&e| e == opposite) {
+                    Some(k) => {
+                        self.edges.swap_remove(k);
+                    }
+                    None => self.edges.push(from << 16 | to),
+                }
+            }
+            self.planes.clear(i);
+            self.area[i] = 0.0;
+            self.free.push(slot);
+        }
+        let apex = self.points.len() as u16;
+        self.points.push(p);
+        let edges = std::mem::take(&mut self.edges);
+        for e in &edges {
+            self.add_face([(e >> 16) as u16, *e as u16, apex]);
+        }
+        self.edges = edges;
+        true
+    }
+}

@@ -1,0 +1,240 @@
+//! The planes of a hull's faces, several side by side.
+//!
+//! Only operations whose result is the same on every instruction set are used (IEEE add, subtract, multiply,
+//! compare, select; never a fused multiply-add), so that a hull does not depend on the machine.
+
+use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8, prelude::*};
+
+/// Slots of a block.
+const WIDTH: usize = 8;
+
+/// A slot that holds no face has this offset: every point is below it.
+const EMPTY: f64 = f64::INFINITY;
+
+/// Unit normals and offsets of some slots.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Block {
+    x: [f64; WIDTH],
+    y: [f64; WIDTH],
+    z: [f64; WIDTH],
+    offset: [f64; WIDTH],
+}
+
+const NOTHING: Block = Block {
+    x: [0.0; WIDTH],
+    y: [0.0; WIDTH],
+    z: [0.0; WIDTH],
+    offset: [EMPTY; WIDTH],
+};
+
+/// Slots for planes, some of them empty.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Planes {
+    /// The last one is filled up by empty slots.
+    blocks: Vec<Block>,
+    slots: usize,
+}
+
+/// The slots that a point lies above, and how far.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Above {
+    /// The slots, ascending.
+    pub slots: Vec<u32>,
+    /// The height above each slot, also those that the point lies below.
+    pub heights: Vec<f64>,
+}
+
+impl Planes {
+    /// Slots, empty ones too.
+    pub fn slots(&self) -> usize {
+        self.slots
+    }
+
+    /// Puts a plane into one more slot.
+    pub fn push(&mut self, normal: [f64; 3], offset: f64) {
+        if self.slots.is_multiple_of(WIDTH) {
+            self.blocks.push(NOTHING);
+        }
+        self.slots += 1;
+        self.set(self.slots - 1, normal, offset);
+    }
+
+    /// Puts a plane into a slot that is there.
+    pub fn set(&mut self, slot: usize, normal: [f64; 3], offset: f64) {
+        let (block, k) = (&mut self.blocks[slot / WIDTH], slot % WIDTH);
+        (block.x[k], block.y[k], block.z[k]) = (normal[0], normal[1], normal[2]);
+        block.offset[k] = offset;
+    }
+
+    /// Makes a slot empty.
+    pub fn clear(&mut self, slot: usize) {
+        self.set(slot, [0.0; 3], EMPTY);
+    }
+
+    /// Whether a slot is empty.
+    pub fn is_empty(&self, slot: usize) -> bool {
+        self.blocks[slot / WIDTH].offset[slot % WIDTH] == EMPTY
+    }
+
+    /// The slot whose plane the point is farthest above, the first of equals, and how far; below all: negative.
+    pub fn highest(&self, p: [f64; 3]) -> (u32, f64) {
+        self.highest_at(Level::new(), p)
+    }
+
+    /// Whether the point is farther than `limit` above some plane; if so, the planes that it is above.
+    pub fn above(&self, p: [f64; 3], limit: f64, found: &mut Above) -> bool {
+        self.above_at(Level::new(), p, limit, found)
+    }
+
+    fn highest_at(&self, level: Level, p: [f64; 3]) -> (u32, f64) {
+        dispatch!(level, simd => highest(simd, &self.blocks, p))
+    }
+
+    fn above_at(&self, level: Level, p: [f64; 3], limit: f64, found: &mut Above) -> bool {
+        dispatch!(level, simd => above(simd, &self.blocks, p, limit, found))
+    }
+}
+
+/// The heights of a point above the planes of a block.
+#[inline(always)]
+fn heights<S: Simd>(simd: S, block: &Block, [x, y, z]: [f64x8<S>; 3]) -> f64x8<S> {
+    f64x8::load_array_ref(simd, &block.x) * x
+        + f64x8::load_array_ref(simd, &block.y) * y
+        + f64x8::load_array_ref(simd, &block.z) * z
+        - f64x8::load_array_ref(simd, &block.offset)
+}
+
+#[inline(always)]
+fn splat<S: Simd>(simd: S, p: [f64; 3]) -> [f64x8<S>; 3] {
+    [
+        f64x8::splat(simd, p[0]),
+        f64x8::splat(simd, p[1]),
+        f64x8::splat(simd, p[2]),
+    ]
+}
+
+#[inline(always)]
+fn above<S: Simd>(simd: S, blocks: &[Block], p: [f64; 3], limit: f64, found: &mut Above) -> bool {
+    let p = splat(simd, p);
+    let limit = f64x8::splat(simd, limit);
+    if found.heights.len() < blocks.len() * WIDTH {
+        found.heights.resize(blocks.len() * WIDTH, 0.0);
+    }
+    let mut beyond = mask64x8::splat(simd, false);
+    let (rooms, _) = found.heights.as_chunks_mut::<WIDTH>();
+    for (block, room) in blocks.iter().zip(rooms) {
+        let height = heights(simd, block, p);
+        beyond |= height.simd_gt(limit);
+        height.store_slice(room);
+    }
+    if !beyond.any_true() {
+        return false;
+    }
+    let zero = f64x8::splat(simd, 0.0);
+    found.slots.clear();
+    let (rooms, _) = found.heights.as_chunks::<WIDTH>();
+    for (first, room) in (0..).step_by(WIDTH).zip(&rooms[..blocks.len()]) {
+        let mut seen = f64x8::load_array_ref(simd, room).simd_gt(zero).to_bitmask();
+        while seen != 0 {
+            found.slots.push(first + seen.trailing_zeros());
+            seen &= seen - 1;
+        }
+    }
+    true
+}
+
+#[inline(always)]
+fn highest<S: Simd>(simd: S, blocks: &[Block], p: [f64; 3]) -> (u32, f64) {
+    let p = splat(simd, p);
+    let mut most = f64x8::splat(simd, f64::NEG_INFINITY);
+    // Numbers of blocks, which doubles hold exactly.
+    let mut of = f64x8::splat(simd, 0.0);
+    let (mut number, one) = (of, f64x8::splat(simd, 1.0));
+    for block in blocks {
+        let height = heights(simd, block, p);
+        let higher = height.simd_gt(most);
+        most = higher.select(height, most);
+        of = higher.select(number, of);
+        number += one;
+    }
+    let (most, of) = (most.to_array(), of.to_array());
+    let mut best = (0, f64::NEG_INFINITY);
+    for k in 0..WIDTH {
+        let slot = of[k] as u32 * WIDTH as u32 + k as u32;
+        if most[k] > best.1 || (most[k] == best.1 && slot < best.0) {
+            best = (slot, most[k]);
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::levels::levels;
+
+    /// A normal and an offset.
+    type Plain = ([f64; 3], f64);
+
+    /// Planes about the origin at distances of about 1. Some are there again one or eight slots on, so that heights
+    /// are equal, and each fifth slot is empty.
+    fn planes(slots: usize) -> (Planes, Vec<Option<Plain>>) {
+        let mut plain: Vec<Option<Plain>> = Vec::new();
+        let mut planes = Planes::default();
+        for i in 0..slots {
+            let x = i.saturating_sub([0, 1, 8][i % 3]) as f64;
+            let (z, r) = ((1.9 * x).sin(), (1.9 * x).cos());
+            let plane = (
+                [r * (2.3 * x).cos(), r * (2.3 * x).sin(), z],
+                1.0 + 0.1 * (0.7 * x).sin(),
+            );
+            planes.push(plane.0, plane.1);
+            plain.push(Some(plane));
+        }
+        for i in (0..slots).skip(4).step_by(5) {
+            planes.clear(i);
+            plain[i] = None;
+        }
+        (planes, plain)
+    }
+
+    #[test]
+    fn each_instruction_set_sees_what_the_plain_loop_sees() {
+        for slots in [1, 3, 7, 8, 9, 16, 23, 100] {
+            let (planes, plain) = planes(slots);
+            assert_eq!(planes.slots(), slots);
+            let height = |p: [f64; 3], i: usize| {
+                plain[i].map_or(f64::NEG_INFINITY, |(n, offset)| {
+                    n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - offset
+                })
+            };
+            for k in 0..200 {
+                let x = f64::from(k);
+                let p = [(1.1 * x).sin(), (0.7 * x).cos(), (0.3 * x).sin()].map(|c| 1.3 * c);
+                let heights: Vec<f64> = (0..slots).map(|i| height(p, i)).collect();
+                let most = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                let first = heights.iter().position(|h| *h == most).unwrap_or(0);
+                let seen: Vec<u32> = (0..slots as u32)
+                    .filter(|i| heights[*i as usize] > 0.0)
+                    .collect();
+                for level in levels() {
+                    assert_eq!(
+                        planes.highest_at(level, p),
+                        (first as u32, most),
+                        "{level:?} {slots}"
+                    );
+                    let mut found = Above::default();
+                    for limit in [1e-3, most, f64::MAX] {
+                        let above = planes.above_at(level, p, limit, &mut found);
+                        assert_eq!(above, most > limit, "{level:?} {slots}");
+                        if above {
+                            assert_eq!(found.slots, seen, "{level:?} {slots}");
+                            assert_eq!(found.heights[..slots], heights, "{level:?} {slots}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

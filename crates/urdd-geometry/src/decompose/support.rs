@@ -1,0 +1,164 @@
+//! Support points in a fixed set of directions: a bounded stand-in for a point set's hull.
+//!
+//! A part may have thousands of points; its hull is described well enough for the *search* by the
+//! farthest point in each of [`COUNT`] directions. Hulls do not change under scaling along axes, so
+//! flat sets are best scaled to a cube first: then the directions find their rims.
+
+use std::sync::LazyLock;
+
+use fearless_simd::{Level, Simd, dispatch, f32x16, prelude::*, u32x16};
+
+/// Directions side by side.
+const WIDTH: usize = 16;
+
+/// Rows of directions.
+const ROWS: usize = 3;
+
+/// Number of directions.
+const COUNT: usize = ROWS * WIDTH;
+
+/// A number for each direction.
+type Row<T> = [[T; WIDTH]; ROWS];
+
+struct Directions {
+    x: Row<f32>,
+    y: Row<f32>,
+    z: Row<f32>,
+}
+
+/// The 26 directions of a cube's faces, corners and edges, the rest a Fibonacci lattice on the sphere
+/// (Gonzalez, "Measurement of areas on a sphere using Fibonacci and latitude-longitude lattices", 2010).
+static DIRECTIONS: LazyLock<Directions> = LazyLock::new(|| {
+    let mut list: Vec<[f64; 3]> = Vec::with_capacity(COUNT);
+    for kind in [1, 3, 2] {
+        for code in 0..27_i32 {
+            let d = [code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1];
+            if d.iter().map(|c| c * c).sum::<i32>() == kind {
+                list.push(d.map(f64::from));
+            }
+        }
+    }
+    let rest = COUNT - list.len();
+    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    for i in 0..rest {
+        let z = 1.0 - (2 * i + 1) as f64 / rest as f64;
+        let r = (1.0 - z * z).sqrt();
+        let a = golden * i as f64;
+        list.push([r * a.cos(), r * a.sin(), z]);
+    }
+    let mut out = Directions {
+        x: [[0.0; WIDTH]; ROWS],
+        y: [[0.0; WIDTH]; ROWS],
+        z: [[0.0; WIDTH]; ROWS],
+    };
+    for (i, d) in list.iter().enumerate() {
+        let n = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+        out.x[i / WIDTH][i % WIDTH] = (d[0] / n) as f32;
+        out.y[i / WIDTH][i % WIDTH] = (d[1] / n) as f32;
+        out.z[i / WIDTH][i % WIDTH] = (d[2] / n) as f32;
+    }
+    out
+});
+
+/// A point, and which one it is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    at: [f32; 3],
+    index: u32,
+}
+
+impl Candidate {
+    pub fn new(at: [f64; 3], index: u32) -> Self {
+        Candidate {
+            at: at.map(|x| x as f32),
+            index,
+        }
+    }
+}
+
+/// The different support points, in the order of the directions; of equally far ones the first.
+pub(super) fn support(candidates: &[Candidate]) -> Vec<u32> {
+    let mut out: Vec<u32> = Vec::with_capacity(COUNT);
+    if candidates.is_empty() {
+        return out;
+    }
+    for &i in farthest_at(Level::new(), candidates).as_flattened() {
+        if !out.contains(&i) {
+            out.push(i);
+        }
+    }
+    out
+}
+
+/// For each direction the index of the point that is farthest in it, the first of equals; of one point or more.
+fn farthest_at(level: Level, candidates: &[Candidate]) -> Row<u32> {
+    dispatch!(level, simd => farthest(simd, &DIRECTIONS, candidates))
+}
+
+#[inline(always)]
+fn farthest<S: Simd>(simd: S, d: &Directions, candidates: &[Candidate]) -> Row<u32> {
+    let mut rows = [[f32x16::splat(simd, 0.0); 3]; ROWS];
+    for (k, row) in rows.iter_mut().enumerate() {
+        *row = [
+            f32x16::load_array_ref(simd, &d.x[k]),
+            f32x16::load_array_ref(simd, &d.y[k]),
+            f32x16::load_array_ref(simd, &d.z[k]),
+        ];
+    }
+    let first = candidates.first().map_or(0, |c| c.index);
+    let mut value = [f32x16::splat(simd, f32::NEG_INFINITY); ROWS];
+    let mut point = [u32x16::splat(simd, first); ROWS];
+    for c in candidates {
+        let x = f32x16::splat(simd, c.at[0]);
+        let y = f32x16::splat(simd, c.at[1]);
+        let z = f32x16::splat(simd, c.at[2]);
+        let index = u32x16::splat(simd, c.index);
+        for k in 0..ROWS {
+            let [dx, dy, dz] = rows[k];
+            let v = dx * x + dy * y + dz * z;
+            let better = v.simd_gt(value[k]);
+            value[k] = better.select(v, value[k]);
+            point[k] = better.select(index, point[k]);
+        }
+    }
+    [
+        point[0].to_array(),
+        point[1].to_array(),
+        point[2].to_array(),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::levels::levels;
+
+    #[test]
+    fn each_instruction_set_finds_what_the_plain_loop_finds() {
+        for count in [1, 2, 5, 16, 33, 400] {
+            // On a coarse grid, so that many are equally far, also in directions with a zero.
+            let candidates: Vec<Candidate> = (0..count)
+                .map(|i| {
+                    let x = f64::from(i);
+                    let p = [(1.7 * x).sin(), (2.3 * x).cos(), (0.9 * x).sin()];
+                    Candidate::new(p.map(|c| (4.0 * c).round() / 4.0), 7 * i)
+                })
+                .collect();
+            let d = &*DIRECTIONS;
+            let mut plain = [[0; WIDTH]; ROWS];
+            for (k, found) in plain.as_flattened_mut().iter_mut().enumerate() {
+                let d = [&d.x, &d.y, &d.z].map(|row| row.as_flattened()[k]);
+                let along = |c: &Candidate| c.at[0] * d[0] + c.at[1] * d[1] + c.at[2] * d[2];
+                let most = candidates
+                    .iter()
+                    .map(along)
+                    .fold(f32::NEG_INFINITY, f32::max);
+                let first = candidates.iter().find(|c| along(c) == most);
+                *found = first.expect("one").index;
+            }
+            for level in levels() {
+                assert_eq!(farthest_at(level, &candidates), plain, "{level:?} {count}");
+            }
+        }
+    }
+}

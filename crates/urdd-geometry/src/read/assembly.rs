@@ -1,0 +1,203 @@
+//! Gathers what a reader finds into a [`Scene`].
+
+use std::collections::HashMap;
+
+use nalgebra::Matrix4;
+
+use super::error::{Failure, Fault, NoteCode, Notes};
+use super::{Format, Part, Scene};
+use crate::mesh::Mesh;
+
+/// A scene in the making: parts with one material each, in the order in which materials first appear.
+pub(super) struct Assembly {
+    parts: Vec<Part>,
+    part_of: HashMap<Look, usize>,
+    triangles: usize,
+    limit: usize,
+    side_files: Vec<String>,
+    pub(super) notes: Notes,
+}
+
+/// So many parts are told apart; what would be another goes to the part without a look. Real files have up
+/// to some hundred materials, and a part costs some hundred bytes for the ten that name it.
+pub(super) const MOST_PARTS: usize = 4096;
+
+/// How a part looks.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Material {
+    pub(super) name: Option<String>,
+    pub(super) color: Option<[f64; 4]>,
+}
+
+type Look = (Option<String>, Option<[u64; 4]>);
+
+impl Assembly {
+    pub(super) fn new(limit: usize) -> Self {
+        Self {
+            parts: Vec::new(),
+            part_of: HashMap::new(),
+            triangles: 0,
+            limit,
+            side_files: Vec::new(),
+            notes: Notes::default(),
+        }
+    }
+
+    /// Adds a mesh, placed by `matrix`, to the part that looks like it.
+    pub(super) fn add(
+        &mut self,
+        mesh: &Mesh,
+        matrix: &Matrix4<f64>,
+        material: &Material,
+    ) -> Result<(), Failure> {
+        if mesh.triangles.is_empty() {
+            return Ok(());
+        }
+        self.triangles += mesh.triangles.len();
+        self.check_triangles(self.triangles)?;
+        let mut placed = mesh.clone();
+        if *matrix != Matrix4::identity() {
+            placed.transform(matrix);
+        }
+        let dropped = placed.drop_non_finite();
+        self.notes.add_many(
+            NoteCode::NotFinite,
+            "a triangle with a corner that is no finite number was dropped",
+            dropped,
+        );
+        if placed.triangles.is_empty() {
+            return Ok(());
+        }
+        let mut look = look_of(material);
+        let mut material = material;
+        let plain = Material::default();
+        if self.parts.len() >= MOST_PARTS && !self.part_of.contains_key(&look) {
+            self.notes.add(NoteCode::Assumed, TOO_MANY_PARTS);
+            material = &plain;
+            look = look_of(material);
+        }
+        if let Some(part) = self.part_of.get(&look) {
+            self.parts[*part].mesh.append(&placed);
+        } else {
+            self.part_of.insert(look, self.parts.len());
+            self.parts.push(Part {
+                mesh: placed,
+                color: material.color,
+                material: material.name.clone(),
+            });
+        }
+        Ok(())
+    }
+
+    /// Notes vertices of an array that no triangle uses.
+    pub(super) fn note_unused(&mut self, vertices: &[[f64; 3]], used: &[bool]) {
+        let mut unused = vertices.iter().zip(used).filter(|(_, used)| !**used);
+        let Some(([x, y, z], _)) = unused.next() else {
+            return;
+        };
+        let text = match unused.count() {
+            0 => format!("no triangle uses the vertex ({x}, {y}, {z})"),
+            more => format!(
+                "no triangle uses {} vertices, the first at ({x}, {y}, {z})",
+                more + 1
+            ),
+        };
+        self.notes.add(NoteCode::UnusedVertices, text);
+    }
+
+    /// Whether so many triangles may be held.
+    pub(super) fn check_triangles(&self, count: usize) -> Result<(), Failure> {
+        within("triangles", count, self.limit)
+    }
+
+    /// Whether so many vertices may be held: three for each triangle.
+    pub(super) fn check_vertices(&self, count: usize) -> Result<(), Failure> {
+        within("vertices", count, self.limit.saturating_mul(3))
+    }
+
+    pub(super) fn add_side_file(&mut self, name: &str) {
+        if !name.is_empty() {
+            self.side_files.push(name.to_owned());
+        }
+    }
+
+    pub(super) fn into_scene(mut self, format: Format) -> Scene {
+        if self.parts.is_empty() {
+            self.notes
+                .add(NoteCode::NoTriangles, "the file has no triangles");
+        }
+        self.side_files.sort();
+        self.side_files.dedup();
+        Scene {
+            format,
+            parts: self.parts,
+            side_files: self.side_files,
+            notes: self.notes.0,
+        }
+    }
+}
+
+/// What a note says where parts are not told apart.
+pub(super) const TOO_MANY_PARTS: &str =
+    "more than 4096 materials; what has another one is taken without material";
+
+fn look_of(material: &Material) -> Look {
+    (
+        material.name.clone(),
+        material.color.map(|color| color.map(f64::to_bits)),
+    )
+}
+
+fn within(what: &'static str, count: usize, limit: usize) -> Result<(), Failure> {
+    if count > limit {
+        return Err(Fault::TooLarge { what, limit }.into());
+    }
+    Ok(())
+}
+
+/// Picks the vertices that some triangles use, from an array that several share.
+#[derive(Default)]
+pub(super) struct Picker {
+    index_of: Vec<u32>,
+}
+
+const UNSEEN: u32 = u32::MAX;
+
+impl Picker {
+    /// A mesh of these triangles and the vertices they use, in the order of first use. Triangles that name a vertex
+    /// that is not there are left out; the second value says how many.
+    pub(super) fn pick(&mut self, vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> (Mesh, usize) {
+        if self.index_of.len() < vertices.len() {
+            self.index_of.resize(vertices.len(), UNSEEN);
+        }
+        let mut mesh = Mesh {
+            vertices: Vec::new(),
+            triangles: Vec::with_capacity(triangles.len()),
+        };
+        let mut used: Vec<u32> = Vec::new();
+        for triangle in triangles {
+            if triangle
+                .iter()
+                .any(|index| *index as usize >= vertices.len())
+            {
+                continue;
+            }
+            mesh.triangles.push(triangle.map(|old| {
+                let new = &mut self.index_of[old as usize];
+                if *new == UNSEEN {
+                    // Fewer than `vertices`, whose indices fit.
+                    *new = u32::try_from(used.len()).unwrap_or(UNSEEN);
+                    used.push(old);
+                }
+                *new
+            }));
+        }
+        mesh.vertices
+            .extend(used.iter().map(|old| vertices[*old as usize]));
+        for old in used {
+            self.index_of[old as usize] = UNSEEN;
+        }
+        let left_out = triangles.len() - mesh.triangles.len();
+        (mesh, left_out)
+    }
+}

@@ -1,0 +1,269 @@
+//! COLLADA geometries: faces and their triangles.
+
+use roxmltree::Node;
+
+use super::super::assembly::Picker;
+use super::super::error::{Failure, Fault, NoteCode, Notes};
+use super::super::number::Words;
+use super::document::{Document, child, children, text};
+use super::source::{Positions, Read};
+use crate::mesh::Mesh;
+use crate::polygon::Splitter;
+
+/// The triangles of one material symbol, in the axes and lengths of the document.
+pub(super) struct Primitive<'a> {
+    pub(super) symbol: Option<&'a str>,
+    pub(super) mesh: Mesh,
+}
+
+/// What geometries share while they are read.
+#[derive(Default)]
+pub(super) struct Tools {
+    picker: Picker,
+    splitter: Option<Splitter>,
+    read: Read,
+}
+
+/// Reads a `geometry` element.
+pub(super) fn read<'a>(
+    document: &Document<'a>,
+    geometry: Node<'a, 'a>,
+    tools: &mut Tools,
+    notes: &mut Notes,
+) -> Result<Vec<Primitive<'a>>, Failure> {
+    let Some(mesh) = child(geometry, "mesh") else {
+        notes.add(
+            NoteCode::LeftOut,
+            format!(
+                "the geometry '{}' is no mesh and was left out",
+                geometry.attribute("id").unwrap_or("")
+            ),
+        );
+        return Ok(Vec::new());
+    };
+    let Tools {
+        picker,
+        splitter,
+        read,
+    } = tools;
+    let mut positions = Positions::new(document, mesh, read);
+    let mut primitives = Vec::new();
+    for element in mesh.children().filter(Node::is_element) {
+        let shape = match element.tag_name().name() {
+            "triangles" => Shape::Triangles,
+            "polylist" => Shape::PolyList,
+            "polygons" => Shape::Polygons,
+            "trifans" => Shape::Fans,
+            "tristrips" => Shape::Strips,
+            _ => continue,
+        };
+        let Some(layout) = Layout::of(element)? else {
+            continue;
+        };
+        let vertices = positions.of(layout.source)?;
+        let mut faces = Faces {
+            shape,
+            layout,
+            triangles: Vec::new(),
+            corners: Vec::new(),
+            bad: 0,
+        };
+        faces.read(
+            element,
+            vertices,
+            splitter.get_or_insert_with(Splitter::new),
+            notes,
+        );
+        let (mesh, left_out) = picker.pick(vertices, &faces.triangles);
+        let text = "a triangle was dropped: it names a vertex that is not there, or holds something that is not an index";
+        notes.add_many(NoteCode::IndexOutOfRange, text, left_out + faces.bad);
+        primitives.push(Primitive {
+            symbol: element.attribute("material"),
+            mesh,
+        });
+    }
+    Ok(primitives)
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Shape {
+    Triangles,
+    PolyList,
+    Polygons,
+    Fans,
+    Strips,
+}
+
+/// How the indices of a primitive lie: `stride` for each corner, the vertex at `offset`.
+#[derive(Clone, Copy)]
+struct Layout<'a> {
+    source: &'a str,
+    offset: usize,
+    stride: usize,
+}
+
+/// A corner has at most so many indices; real files have up to 6.
+const MOST_INPUTS: usize = 1024;
+
+impl<'a> Layout<'a> {
+    /// `None` for a primitive without faces, which needs no inputs.
+    fn of(element: Node<'a, 'a>) -> Result<Option<Self>, Failure> {
+        let mut vertex = None;
+        let mut stride = 0;
+        for input in children(element, "input") {
+            let offset = input
+                .attribute("offset")
+                .or_else(|| input.attribute("idx"))
+                .unwrap_or("0");
+            let offset = offset
+                .trim()
+                .parse::<usize>()
+                .ok()
+                .filter(|offset| *offset < MOST_INPUTS);
+            let offset = offset
+                .ok_or_else(|| Fault::malformed("an `input` whose offset is no small number"))?;
+            stride = stride.max(offset + 1);
+            if matches!(input.attribute("semantic"), Some("VERTEX" | "POSITION"))
+                && vertex.is_none()
+            {
+                vertex = Some((input.attribute("source").unwrap_or(""), offset));
+            }
+        }
+        match vertex {
+            Some((source, offset)) => Ok(Some(Self {
+                source,
+                offset,
+                stride,
+            })),
+            None if child(element, "p").is_none() => Ok(None),
+            None => Err(Fault::malformed(format!(
+                "a `{}` without an input VERTEX",
+                element.tag_name().name()
+            ))),
+        }
+    }
+}
+
+struct Faces<'a> {
+    shape: Shape,
+    layout: Layout<'a>,
+    triangles: Vec<[u32; 3]>,
+    corners: Vec<u32>,
+    bad: usize,
+}
+
+/// An index that no mesh has: what is no index, until the triangle is dropped.
+const NO_INDEX: u32 = u32::MAX;
+
+impl Faces<'_> {
+    fn read(
+        &mut self,
+        element: Node<'_, '_>,
+        vertices: &[[f64; 3]],
+        splitter: &mut Splitter,
+        notes: &mut Notes,
+    ) {
+        let counts = element
+            .children()
+            .find(|node| node.tag_name().name() == "vcount")
+            .map(|node| text(node));
+        let mut counts = counts.as_ref().map(|counts| Words::new(counts.as_bytes()));
+        for list in element.children() {
+            let list = match list.tag_name().name() {
+                "p" => list,
+                "ph" => {
+                    notes.add(NoteCode::LeftOut, "holes of a polygon were filled");
+                    let Some(outline) = list.children().find(|node| node.tag_name().name() == "p")
+                    else {
+                        continue;
+                    };
+                    outline
+                }
+                _ => continue,
+            };
+            let text = text(list);
+            let mut words = Words::new(text.as_bytes());
+            match (self.shape, counts.as_mut()) {
+                (Shape::Triangles, _) => self.read_triangles(&mut words),
+                (Shape::PolyList, Some(counts)) => {
+                    while let Some(count) = counts.index() {
+                        self.read_corners(&mut words, count.map_or(0, |count| count as usize));
+                        if self.corners.is_empty() && words.clone().next().is_none() {
+                            break;
+                        }
+                        splitter.split(vertices, &self.corners, &mut self.triangles);
+                    }
+                }
+                // A polylist without counts is one of triangles in real files.
+                (Shape::PolyList, None) => self.read_triangles(&mut words),
+                (Shape::Polygons, _) => {
+                    self.read_corners(&mut words, usize::MAX);
+                    splitter.split(vertices, &self.corners, &mut self.triangles);
+                }
+                (Shape::Fans, _) => {
+                    self.read_corners(&mut words, usize::MAX);
+                    let corners = &self.corners;
+                    self.triangles.extend(
+                        corners
+                            .get(1..)
+                            .unwrap_or_default()
+                            .windows(2)
+                            .map(|pair| [corners[0], pair[0], pair[1]]),
+                    );
+                }
+                (Shape::Strips, _) => {
+                    self.read_corners(&mut words, usize::MAX);
+                    self.triangles.extend(strip(&self.corners));
+                }
+            }
+        }
+    }
+
+    fn read_triangles(&mut self, words: &mut Words<'_>) {
+        loop {
+            let mut triangle = [0; 3];
+            for corner in &mut triangle {
+                match self.corner(words) {
+                    Some(index) => *corner = index,
+                    None => return,
+                }
+            }
+            self.triangles.push(triangle);
+        }
+    }
+
+    /// Up to `count` corners, fewer at the end of the text.
+    fn read_corners(&mut self, words: &mut Words<'_>, count: usize) {
+        self.corners.clear();
+        while self.corners.len() < count {
+            match self.corner(words) {
+                Some(index) => self.corners.push(index),
+                None => return,
+            }
+        }
+    }
+
+    /// The vertex of the next corner; `None` at the end.
+    #[inline]
+    fn corner(&self, words: &mut Words<'_>) -> Option<u32> {
+        for _ in 0..self.layout.offset {
+            words.next()?;
+        }
+        let index = words.index()?.unwrap_or(NO_INDEX);
+        for _ in self.layout.offset + 1..self.layout.stride {
+            words.next()?;
+        }
+        Some(index)
+    }
+}
+
+/// The triangles of a strip: every second one is turned round.
+pub(crate) fn strip(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
+    corners.windows(3).enumerate().map(|(at, three)| {
+        if at % 2 == 0 {
+            [three[0], three[1], three[2]]
+        } else {
+            [three[0], three[2], three[1]]
+        }
+    })
+}

@@ -1,0 +1,111 @@
+//! COLLADA 1.4 and 1.5 (.dae).
+
+mod document;
+mod geometry;
+mod material;
+mod scene;
+mod source;
+mod transform;
+
+use super::assembly::Assembly;
+use super::error::{Failure, Fault, NoteCode, Place};
+use super::sniff;
+pub(super) use document::path_of_url;
+use document::{Document, child, children};
+pub(super) use geometry::strip;
+
+/// Reads a document: the visual scene that it shows, every geometry where its nodes place it.
+pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
+    let text = decode(bytes, assembly)?;
+    let xml = urdd_xml::parse(&text, urdd_xml::Kind::Other).map_err(|error| {
+        let line = error.pos().row as usize;
+        let words = error.words(&text);
+        Fault::malformed(format!("not well-formed XML: {words}")).at(|| Place::Line(line))
+    })?;
+    let root = xml.root_element();
+    if root.tag_name().name() != "COLLADA" {
+        return Err(Fault::malformed(format!(
+            "the outermost element is `{}`, not `COLLADA`",
+            root.tag_name().name()
+        )));
+    }
+    let document = Document::new(root);
+    for image in document.images() {
+        assembly.add_side_file(&image);
+    }
+    let unit = unit(root, assembly);
+    note_up_axis(root, assembly);
+    scene::walk(&document, unit, assembly)
+}
+
+/// UTF-8 with or without a byte order mark, or UTF-16 with one; other bytes, as in an author's name in Latin-1, become
+/// replacement characters.
+fn decode<'a>(
+    bytes: &'a [u8],
+    assembly: &mut Assembly,
+) -> Result<std::borrow::Cow<'a, str>, Failure> {
+    if sniff::is_utf16(bytes) {
+        let little = bytes[0] == 0xff;
+        let units: Vec<u16> = bytes[2..]
+            .chunks_exact(2)
+            .map(|pair| {
+                if little {
+                    u16::from_le_bytes([pair[0], pair[1]])
+                } else {
+                    u16::from_be_bytes([pair[0], pair[1]])
+                }
+            })
+            .collect();
+        return String::from_utf16(&units)
+            .map(Into::into)
+            .map_err(|_| Fault::malformed("the text is not UTF-16"));
+    }
+    let bytes = sniff::skip_byte_order_mark(bytes);
+    let text = String::from_utf8_lossy(bytes);
+    if matches!(text, std::borrow::Cow::Owned(_)) {
+        assembly.notes.add(
+            NoteCode::Assumed,
+            "the text is not UTF-8; invalid bytes were replaced",
+        );
+    }
+    Ok(text)
+}
+
+/// Metres in one unit of the document.
+fn unit(root: roxmltree::Node<'_, '_>, assembly: &mut Assembly) -> f64 {
+    let meter = child(root, "asset")
+        .and_then(|asset| child(asset, "unit"))
+        .and_then(|unit| unit.attribute("meter"));
+    let Some(meter) = meter else { return 1.0 };
+    match meter.trim().parse::<f64>() {
+        Ok(unit) if unit.is_finite() && unit > 0.0 => {
+            #[allow(clippy::float_cmp)]
+            if unit != 1.0 {
+                assembly.notes.add(
+                    NoteCode::UnitApplied,
+                    format!("lengths were multiplied by the file's unit, {unit} m"),
+                );
+            }
+            unit
+        }
+        _ => {
+            assembly.notes.add(
+                NoteCode::Assumed,
+                format!("the unit '{meter}' is no positive number; metres were assumed"),
+            );
+            1.0
+        }
+    }
+}
+
+fn note_up_axis(root: roxmltree::Node<'_, '_>, assembly: &mut Assembly) {
+    let up = child(root, "asset")
+        .and_then(|asset| children(asset, "up_axis").next())
+        .and_then(|up| up.text());
+    if let Some(up) = up.map(str::trim).filter(|up| *up != "Z_UP") {
+        assembly.notes.add(
+            NoteCode::UpAxisIgnored,
+            format!("`up_axis` {up} was not applied; RViz and Pinocchio do not either"),
+        );
+    }
+}

@@ -1,0 +1,332 @@
+//! The nodes of a glTF, and the meshes that they place.
+
+use std::collections::{BTreeMap, HashMap};
+
+use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3};
+use serde_json::Value;
+
+use super::super::GltfUp;
+use super::super::assembly::{Assembly, Material, Picker};
+use super::super::collada::strip;
+use super::super::error::{Failure, Fault, NoteCode};
+use super::accessor;
+use super::buffer::Buffers;
+use super::json::{Node, Primitive, Root};
+use crate::mesh::Mesh;
+
+const DEEPEST: usize = 200;
+const MOST_NODES: usize = 100_000;
+
+const TRIANGLES: u32 = 4;
+const STRIP: u32 = 5;
+const FAN: u32 = 6;
+
+/// Adds every mesh of the default scene; without scenes, of every node that is no child.
+pub(super) fn walk<'r>(
+    root: &'r Root,
+    buffers: &mut Buffers<'r, '_>,
+    up: GltfUp,
+    assembly: &mut Assembly,
+) -> Result<(), Failure> {
+    let start = match up {
+        GltfUp::Keep => Matrix4::identity(),
+        GltfUp::Turn => {
+            assembly.notes.add(
+                NoteCode::TurnedToZUp,
+                "the y-up axes of glTF were turned to z-up, as RViz 2 does",
+            );
+            // Exact, where a rotation by 90 degrees would leave rounding errors.
+            Matrix4::new(
+                1.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0,
+            )
+        }
+    };
+    let nodes = if root.scenes.is_empty() {
+        assembly.notes.add(
+            NoteCode::Assumed,
+            "the file has no scene; all its nodes were taken",
+        );
+        let mut is_child = vec![false; root.nodes.len()];
+        for child in root.nodes.iter().flat_map(|node| &node.children) {
+            if let Some(flag) = is_child.get_mut(*child) {
+                *flag = true;
+            }
+        }
+        (0..root.nodes.len())
+            .filter(|node| !is_child[*node])
+            .collect()
+    } else {
+        if root.scene.is_none() && root.scenes.len() > 1 {
+            assembly.notes.add(
+                NoteCode::Assumed,
+                "the file names no scene to show; its first was taken",
+            );
+        }
+        let index = root.scene.unwrap_or(0);
+        let scene = root
+            .scenes
+            .get(index)
+            .ok_or_else(|| Fault::malformed(format!("there is no scene {index}")))?;
+        scene.nodes.clone()
+    };
+    let mut walker = Walker {
+        root,
+        buffers,
+        assembly,
+        picker: Picker::default(),
+        meshes: HashMap::new(),
+        positions: HashMap::new(),
+        used: BTreeMap::new(),
+        num_positions: 0,
+        num_triangles: 0,
+        path: Vec::new(),
+        visited: 0,
+    };
+    for node in nodes {
+        walker.node(node, &start)?;
+    }
+    let Walker {
+        positions,
+        used,
+        assembly,
+        ..
+    } = walker;
+    for (accessor, used) in used {
+        assembly.note_unused(&positions[&accessor], &used);
+    }
+    Ok(())
+}
+
+struct Walker<'r, 'b, 'f, 'a> {
+    root: &'r Root,
+    buffers: &'b mut Buffers<'r, 'f>,
+    assembly: &'a mut Assembly,
+    picker: Picker,
+    /// Each mesh is read once, however often it is placed.
+    meshes: HashMap<usize, Vec<(Mesh, Material)>>,
+    /// Each accessor of positions is read once, however many primitives share it.
+    positions: HashMap<usize, Vec<[f64; 3]>>,
+    /// For each of these, which positions a triangle uses.
+    used: BTreeMap<usize, Vec<bool>>,
+    /// Vertices and triangles that were read, placed or not: accessors may all name the same bytes.
+    num_positions: usize,
+    num_triangles: usize,
+    path: Vec<usize>,
+    visited: usize,
+}
+
+impl Walker<'_, '_, '_, '_> {
+    fn node(&mut self, index: usize, parent: &Matrix4<f64>) -> Result<(), Failure> {
+        let node = self
+            .root
+            .nodes
+            .get(index)
+            .ok_or_else(|| Fault::malformed(format!("there is no node {index}")))?;
+        self.visited += 1;
+        if self.visited > MOST_NODES {
+            return Err(Fault::TooLarge {
+                what: "nodes",
+                limit: MOST_NODES,
+            }
+            .into());
+        }
+        if self.path.contains(&index) {
+            return Err(Fault::malformed("the node contains itself").within("node", index));
+        }
+        if self.path.len() >= DEEPEST {
+            return Err(Fault::TooLarge {
+                what: "nodes inside one another",
+                limit: DEEPEST,
+            }
+            .into());
+        }
+        let own = local(node).map_err(|failure| failure.within("node", index))?;
+        if own != Matrix4::identity() {
+            let text = "a node has a transform of its own";
+            self.assembly.notes.add(NoteCode::NodeTransform, text);
+        }
+        if node.extensions.get("EXT_mesh_gpu_instancing").is_some() {
+            let text = "its instances (EXT_mesh_gpu_instancing) were left out";
+            self.assembly.notes.add(NoteCode::ShownOtherwise, text);
+        }
+        let matrix = parent * own;
+        if node.skin.is_some() {
+            self.assembly.notes.add(
+                NoteCode::SkinAsShape,
+                "a skinned mesh was read as it stands",
+            );
+        }
+        if let Some(mesh) = node.mesh {
+            self.mesh(mesh, &matrix)
+                .map_err(|failure| failure.within("mesh", mesh))?;
+        }
+        self.path.push(index);
+        for child in &node.children {
+            self.node(*child, &matrix)?;
+        }
+        self.path.pop();
+        Ok(())
+    }
+
+    fn mesh(&mut self, index: usize, matrix: &Matrix4<f64>) -> Result<(), Failure> {
+        if !self.meshes.contains_key(&index) {
+            let mesh = self
+                .root
+                .meshes
+                .get(index)
+                .ok_or_else(|| Fault::malformed("there is no such mesh"))?;
+            let mut parts = Vec::new();
+            for primitive in &mesh.primitives {
+                if let Some(mesh) = self.primitive(primitive)? {
+                    parts.push((mesh, material(self.root, primitive.material)));
+                }
+            }
+            self.meshes.insert(index, parts);
+        }
+        let parts = &self.meshes[&index];
+        self.visited += parts.len();
+        for (mesh, material) in parts {
+            self.assembly.add(mesh, matrix, material)?;
+        }
+        Ok(())
+    }
+
+    fn primitive(&mut self, primitive: &Primitive) -> Result<Option<Mesh>, Failure> {
+        let mode = primitive.mode.unwrap_or(TRIANGLES);
+        if !(TRIANGLES..=FAN).contains(&mode) {
+            self.assembly
+                .notes
+                .add(NoteCode::LeftOut, "points or lines were left out");
+            return Ok(None);
+        }
+        if primitive
+            .extensions
+            .get("KHR_draco_mesh_compression")
+            .is_some()
+        {
+            return Err(Fault::NotSupported(
+                "the mesh is compressed (KHR_draco_mesh_compression)".to_owned(),
+            )
+            .into());
+        }
+        let Some(position) = primitive.attributes.position else {
+            self.assembly
+                .notes
+                .add(NoteCode::LeftOut, "faces without positions were left out");
+            return Ok(None);
+        };
+        if !self.positions.contains_key(&position) {
+            let read = accessor::positions(self.root, position, self.buffers, self.assembly)
+                .map_err(|failure| failure.within("accessor", position))?;
+            self.num_positions += read.len();
+            self.assembly.check_vertices(self.num_positions)?;
+            self.positions.insert(position, read);
+        }
+        if !primitive.targets.is_empty() {
+            let text = "its morph targets were left out";
+            self.assembly.notes.add(NoteCode::ShownOtherwise, text);
+        }
+        let vertices = &self.positions[&position];
+        if let Some(normal) = primitive.attributes.normal {
+            let count = vertices.len();
+            // The surface does not hang on them.
+            if accessor::check_normals(self.root, normal, count, self.buffers, self.assembly)
+                .is_err()
+            {
+                let text = "its normals cannot be read";
+                self.assembly.notes.add(NoteCode::WrongNormals, text);
+            }
+        }
+        let corners = match primitive.indices {
+            Some(indices) => accessor::indices(self.root, indices, self.buffers, self.assembly)
+                .map_err(|failure| failure.within("accessor", indices))?,
+            None => (0..u32::try_from(vertices.len()).unwrap_or(u32::MAX)).collect(),
+        };
+        let triangles: Vec<[u32; 3]> = match mode {
+            STRIP => strip(&corners).collect(),
+            FAN => corners
+                .get(1..)
+                .unwrap_or_default()
+                .windows(2)
+                .map(|pair| [corners[0], pair[0], pair[1]])
+                .collect(),
+            _ => corners
+                .chunks_exact(3)
+                .map(|three| [three[0], three[1], three[2]])
+                .collect(),
+        };
+        self.num_triangles += triangles.len();
+        self.assembly.check_triangles(self.num_triangles)?;
+        let used = self.used.entry(position).or_default();
+        used.resize(vertices.len(), false);
+        for corner in triangles.as_flattened() {
+            if let Some(used) = used.get_mut(*corner as usize) {
+                *used = true;
+            }
+        }
+        let (mesh, left_out) = self.picker.pick(vertices, &triangles);
+        let text = "a triangle was dropped: it names a vertex that is not there";
+        self.assembly
+            .notes
+            .add_many(NoteCode::IndexOutOfRange, text, left_out);
+        Ok(Some(mesh))
+    }
+}
+
+/// The node's own transform.
+fn local(node: &Node) -> Result<Matrix4<f64>, Failure> {
+    let matrix = if let Some(matrix) = node.matrix {
+        let mut matrix = Matrix4::from_column_slice(&matrix);
+        matrix.set_row(3, &nalgebra::RowVector4::new(0.0, 0.0, 0.0, 1.0));
+        matrix
+    } else {
+        let [x, y, z, w] = node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
+        // A quaternion of length 0 turns nothing.
+        let rotation =
+            UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 0.0).unwrap_or_default();
+        let translation = node.translation.map_or(Vector3::zeros(), Vector3::from);
+        let scale = node.scale.map_or(Vector3::repeat(1.0), Vector3::from);
+        Matrix4::new_translation(&translation)
+            * rotation.to_homogeneous()
+            * Matrix4::new_nonuniform_scaling(&scale)
+    };
+    if matrix.iter().all(|value| value.is_finite()) {
+        Ok(matrix)
+    } else {
+        Err(Fault::malformed("its transform is not finite"))
+    }
+}
+
+/// Name and base colour. A texture gives none; without a material there is none either.
+fn material(root: &Root, index: Option<usize>) -> Material {
+    let Some(material) = index.and_then(|index| root.materials.get(index)) else {
+        return Material::default();
+    };
+    let pbr = &material.pbr_metallic_roughness;
+    let old = material
+        .extensions
+        .get("KHR_materials_pbrSpecularGlossiness");
+    let (values, factor, texture) = match old {
+        Some(old) if pbr.is_null() => (old, "diffuseFactor", "diffuseTexture"),
+        _ => (pbr, "baseColorFactor", "baseColorTexture"),
+    };
+    let color = values
+        .get(texture)
+        .is_none()
+        .then(|| rgba(values.get(factor)));
+    Material {
+        name: material.name.clone(),
+        color,
+    }
+}
+
+/// Four numbers brought into 0 to 1; white where there are none.
+fn rgba(factor: Option<&Value>) -> [f64; 4] {
+    std::array::from_fn(|at| {
+        factor
+            .and_then(|factor| factor.get(at))
+            .and_then(Value::as_f64)
+            .unwrap_or(1.0)
+            .clamp(0.0, 1.0)
+    })
+}

@@ -1,0 +1,283 @@
+//! Wavefront OBJ.
+
+use std::collections::HashMap;
+
+use nalgebra::Matrix4;
+
+use super::assembly::{Assembly, MOST_PARTS, Material, Picker, TOO_MANY_PARTS};
+use super::error::{Failure, Fault, NoteCode, Place};
+use super::mtl;
+use super::number::Words;
+use crate::polygon::Splitter;
+
+/// Reads OBJ. Faces are grouped by material: objects, groups and smoothing groups make no difference to a surface.
+pub(super) fn read(
+    bytes: &[u8],
+    fetch: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
+    assembly: &mut Assembly,
+) -> Result<(), Failure> {
+    let mut file = File {
+        libraries: Vec::new(),
+        vertices: Vec::new(),
+        groups: vec![Group::default()],
+        current: 0,
+        wanted: None,
+        too_many: false,
+        group_of: HashMap::new(),
+    };
+    let mut faces = Faces {
+        splitter: Splitter::new(),
+        corners: Vec::new(),
+        bad: 0,
+    };
+    let mut joined: Vec<u8> = Vec::new();
+    for (at, line) in bytes.split(|byte| *byte == b'\n').enumerate() {
+        // A backslash at the end continues the line.
+        let trimmed = line.trim_ascii_end();
+        if let Some(start) = trimmed.strip_suffix(b"\\") {
+            joined.extend_from_slice(start);
+            joined.push(b' ');
+            continue;
+        }
+        if joined.is_empty() {
+            file.line(trimmed, &mut faces)
+        } else {
+            joined.extend_from_slice(trimmed);
+            let result = file.line(&joined, &mut faces);
+            joined.clear();
+            result
+        }
+        .map_err(|failure| failure.at(|| Place::Line(at + 1)))?;
+    }
+    let text = "a face was dropped: it names a vertex that is not there, or holds something that is not an index";
+    assembly
+        .notes
+        .add_many(NoteCode::IndexOutOfRange, text, faces.bad);
+    if file.too_many {
+        assembly.notes.add(NoteCode::Assumed, TOO_MANY_PARTS);
+    }
+    let materials = read_libraries(&file.libraries, fetch, assembly);
+    let mut used = vec![false; file.vertices.len()];
+    for corner in file
+        .groups
+        .iter()
+        .flat_map(|group| group.triangles.as_flattened())
+    {
+        if let Some(used) = used.get_mut(*corner as usize) {
+            *used = true;
+        }
+    }
+    assembly.note_unused(&file.vertices, &used);
+    drop(used);
+    let mut picker = Picker::default();
+    for group in &file.groups {
+        let color = group
+            .material
+            .as_ref()
+            .and_then(|name| materials.get(name))
+            .and_then(mtl::Entry::color);
+        let (mesh, left_out) = picker.pick(&file.vertices, &group.triangles);
+        assembly.notes.add_many(
+            NoteCode::IndexOutOfRange,
+            "a triangle was dropped: it names a vertex that is not there",
+            left_out,
+        );
+        assembly.add(
+            &mesh,
+            &Matrix4::identity(),
+            &Material {
+                name: group.material.clone(),
+                color,
+            },
+        )?;
+    }
+    Ok(())
+}
+
+/// The faces of one material.
+#[derive(Default)]
+struct Group {
+    material: Option<String>,
+    triangles: Vec<[u32; 3]>,
+}
+
+struct File {
+    libraries: Vec<String>,
+    vertices: Vec<[f64; 3]>,
+    groups: Vec<Group>,
+    current: usize,
+    /// The material that was named since the last face.
+    wanted: Option<String>,
+    /// Whether there were more materials than are told apart.
+    too_many: bool,
+    group_of: HashMap<String, usize>,
+}
+
+struct Faces {
+    splitter: Splitter,
+    corners: Vec<u32>,
+    bad: usize,
+}
+
+impl File {
+    fn line(&mut self, line: &[u8], faces: &mut Faces) -> Result<(), Failure> {
+        let mut words = Words::new(line);
+        match words.next() {
+            Some(b"v") => {
+                let mut coordinate = || words.float().unwrap_or(f64::NAN);
+                let vertex = [coordinate(), coordinate(), coordinate()];
+                if self.vertices.len() >= u32::MAX as usize {
+                    return Err(Fault::TooLarge {
+                        what: "vertices",
+                        limit: u32::MAX as usize,
+                    }
+                    .into());
+                }
+                self.vertices.push(vertex);
+            }
+            // `fo` is an old spelling of `f`.
+            Some(b"f" | b"fo") => {
+                self.begin_group();
+                faces.face(
+                    words,
+                    &self.vertices,
+                    &mut self.groups[self.current].triangles,
+                );
+            }
+            Some(b"usemtl") => self.wanted = Some(rest_of(line, b"usemtl")),
+            Some(b"mtllib") => {
+                let library = rest_of(line, b"mtllib");
+                if self.libraries.len() < MOST_LIBRARIES && !self.libraries.contains(&library) {
+                    self.libraries.push(library);
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Turns to the group of the material that was last named; a face follows. A name without faces costs nothing.
+    fn begin_group(&mut self) {
+        let Some(name) = self.wanted.take() else {
+            return;
+        };
+        let next = self.groups.len();
+        self.current = match self.group_of.get(&name) {
+            Some(known) => *known,
+            None if next >= MOST_PARTS => {
+                self.too_many = true;
+                0
+            }
+            None => {
+                self.group_of.insert(name.clone(), next);
+                self.groups.push(Group {
+                    material: Some(name),
+                    triangles: Vec::new(),
+                });
+                next
+            }
+        };
+    }
+}
+
+impl Faces {
+    fn face(&mut self, words: Words<'_>, vertices: &[[f64; 3]], out: &mut Vec<[u32; 3]>) {
+        self.corners.clear();
+        for word in words {
+            if word.starts_with(b"#") {
+                break;
+            }
+            match corner(word, vertices.len()) {
+                Some(index) => self.corners.push(index),
+                None => {
+                    self.bad += 1;
+                    return;
+                }
+            }
+        }
+        self.splitter.split(vertices, &self.corners, out);
+    }
+}
+
+/// The vertex of a corner `v`, `v/t`, `v//n` or `v/t/n`: from 1, or back from the last so far if negative.
+///
+/// A positive index may name a vertex that comes later in the file; whether it does is seen at the end.
+fn corner(word: &[u8], count: usize) -> Option<u32> {
+    let end = word
+        .iter()
+        .position(|byte| *byte == b'/')
+        .unwrap_or(word.len());
+    let index = std::str::from_utf8(&word[..end])
+        .ok()?
+        .parse::<i64>()
+        .ok()?;
+    let index = if index < 0 {
+        index.checked_add(i64::try_from(count).ok()?)?
+    } else {
+        index - 1
+    };
+    u32::try_from(index).ok()
+}
+
+fn rest_of(line: &[u8], keyword: &[u8]) -> String {
+    let line = line.trim_ascii();
+    String::from_utf8_lossy(line.get(keyword.len()..).unwrap_or_default())
+        .trim()
+        .to_owned()
+}
+
+/// The materials of all libraries by name; of a name given twice, the first.
+fn read_libraries(
+    libraries: &[String],
+    fetch: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
+    assembly: &mut Assembly,
+) -> HashMap<String, mtl::Entry> {
+    let mut materials = HashMap::new();
+    let mut seen: Vec<&str> = Vec::new();
+    for library in libraries {
+        // A name may hold spaces; a line may also hold several names, each with the extension.
+        let mut whole = fetch(library);
+        let words: Vec<&str> = library.split_ascii_whitespace().collect();
+        let is_list = words.len() > 1
+            && words
+                .iter()
+                .all(|word| word.to_ascii_lowercase().ends_with(".mtl"));
+        let names = if whole.is_none() && is_list {
+            words
+        } else {
+            vec![library.as_str()]
+        };
+        for name in names {
+            if seen.len() >= MOST_LIBRARIES || seen.contains(&name) {
+                continue;
+            }
+            seen.push(name);
+            assembly.add_side_file(&name.replace('\\', "/"));
+            let Some(bytes) = whole.take().or_else(|| fetch(name)) else {
+                let text =
+                    format!("the material library '{name}' was not found; its colours are missing");
+                assembly.notes.add(NoteCode::SideFileMissing, text);
+                continue;
+            };
+            let (entries, textures) = mtl::read(&bytes);
+            for texture in textures {
+                assembly.add_side_file(&beside(name, &texture));
+            }
+            for entry in entries {
+                materials.entry(entry.name.clone()).or_insert(entry);
+            }
+        }
+    }
+    materials
+}
+
+/// A file may name so many material libraries; real ones name one.
+const MOST_LIBRARIES: usize = 1000;
+
+/// The name of a file that `library` names, relative to the mesh.
+fn beside(library: &str, texture: &str) -> String {
+    match library.replace('\\', "/").rsplit_once('/') {
+        Some((folder, _)) if !texture.starts_with('/') => format!("{folder}/{texture}"),
+        _ => texture.to_owned(),
+    }
+}

@@ -1,0 +1,123 @@
+//! STL, binary and as text.
+
+use nalgebra::Matrix4;
+
+use super::assembly::{Assembly, Material};
+use super::error::{Failure, Fault, NoteCode, Place};
+use super::number::Words;
+use super::sniff::skip_byte_order_mark;
+use crate::mesh::Mesh;
+
+const HEADER: usize = 84;
+const RECORD: usize = 50;
+
+/// Reads binary STL: 80 bytes of anything, a count, and 50 bytes a triangle.
+///
+/// The count is believed where there are bytes for it. A count of 0 before data is that of writers who never came
+/// back to fill it in: all whole records are read. A count beyond the end means a file cut off, or a placeholder.
+pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
+    let (Some(count), Some(data)) = (bytes.get(80..HEADER), bytes.get(HEADER..)) else {
+        return Err(Fault::Truncated(format!(
+            "a binary STL has {HEADER} bytes before its triangles, this file {}",
+            bytes.len()
+        ))
+        .into());
+    };
+    let count = count
+        .iter()
+        .rev()
+        .fold(0_u64, |value, byte| value << 8 | u64::from(*byte));
+    let whole = data.len() / RECORD;
+    let used = match usize::try_from(count) {
+        Ok(0) => whole,
+        Ok(count) => count.min(whole),
+        Err(_) => whole,
+    };
+    if used == 0 && count > 0 {
+        let text = format!("the header counts {count} triangles, and not one is whole");
+        return Err(Failure::from(Fault::Truncated(text)).at(|| Place::Byte(bytes.len())));
+    }
+    if count > whole as u64 {
+        let text = format!(
+            "the file is cut off: {whole} of the {count} triangles that its header counts are there"
+        );
+        assembly.notes.add(NoteCode::CutOff, text);
+    } else if used as u64 != count {
+        assembly.notes.add(
+            NoteCode::WrongCount,
+            format!("the header counts no triangles, but there are {used}"),
+        );
+    } else if data.len() != used * RECORD {
+        let text = format!(
+            "{} bytes after the last triangle were ignored",
+            data.len() - used * RECORD
+        );
+        assembly.notes.add(NoteCode::WrongCount, text);
+    }
+    let mut mesh = Mesh {
+        vertices: Vec::with_capacity(used * 3),
+        triangles: Vec::with_capacity(used),
+    };
+    for record in data.chunks_exact(RECORD).take(used) {
+        // The stored normal is skipped: it is often 0, and the corners say the same.
+        let corner =
+            |at: usize| std::array::from_fn(|axis| f64::from(binary32(&record[at + 4 * axis..])));
+        push_triangle(&mut mesh, [corner(12), corner(24), corner(36)])?;
+    }
+    assembly.add(&mesh, &Matrix4::identity(), &Material::default())
+}
+
+/// Reads STL as text. Words count, not lines; a loop of more than three vertices is a fan.
+pub(super) fn read_ascii(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
+    let mut words = Words::new(skip_byte_order_mark(bytes));
+    let mut mesh = Mesh::default();
+    let mut corners: Vec<[f64; 3]> = Vec::new();
+    let mut open = false;
+    while let Some(word) = words.next() {
+        if word.eq_ignore_ascii_case(b"vertex") {
+            let coordinates = [words.float(), words.float(), words.float()];
+            if coordinates.iter().any(Option::is_none) {
+                break;
+            }
+            corners.push(coordinates.map(|coordinate| coordinate.unwrap_or(f64::NAN)));
+        } else if word.eq_ignore_ascii_case(b"endloop") || word.eq_ignore_ascii_case(b"endfacet") {
+            for pair in corners.get(1..).unwrap_or_default().windows(2) {
+                push_triangle(&mut mesh, [corners[0], pair[0], pair[1]])?;
+            }
+            corners.clear();
+        } else if word.eq_ignore_ascii_case(b"solid") {
+            // The rest of the line is a name, which may hold any word.
+            open = true;
+            words.skip_line();
+        } else if word.eq_ignore_ascii_case(b"endsolid") {
+            open = false;
+            words.skip_line();
+        }
+    }
+    if open {
+        let text =
+            "the file is cut off: it has no `endsolid`, and what came before its end was read";
+        assembly.notes.add(NoteCode::CutOff, text);
+    }
+    assembly.add(&mesh, &Matrix4::identity(), &Material::default())
+}
+
+fn push_triangle(mesh: &mut Mesh, corners: [[f64; 3]; 3]) -> Result<(), Failure> {
+    let first = u32::try_from(mesh.vertices.len())
+        .ok()
+        .filter(|first| first.checked_add(3).is_some());
+    let Some(first) = first else {
+        return Err(Fault::TooLarge {
+            what: "vertices",
+            limit: u32::MAX as usize,
+        }
+        .into());
+    };
+    mesh.vertices.extend(corners);
+    mesh.triangles.push([first, first + 1, first + 2]);
+    Ok(())
+}
+
+fn binary32(bytes: &[u8]) -> f32 {
+    f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])
+}

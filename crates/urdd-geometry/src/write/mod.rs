@@ -1,0 +1,105 @@
+//! Writes meshes as binary STL, OBJ and GLB.
+//!
+//! Each holds the same triangles in the same order: parts one after the other, each in its own order. Coordinates are
+//! written as binary32, which changes nothing after [`round_to_f32`](crate::Mesh::round_to_f32).
+//! The text of OBJ is the shortest that means the same binary32: who reads it as binary64 must round, as `round_to_f32`
+//! does. What is written depends on the parts alone: no time, no name of a machine.
+
+mod glb;
+mod normals;
+mod obj;
+mod stl;
+
+pub use glb::{glb, smooth_glb};
+pub use obj::obj;
+pub use stl::stl;
+
+use super::mesh::Mesh;
+use super::read::Part;
+
+/// Why a mesh cannot be written.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// GLB has no way to say that there are no triangles, so none is written in any format.
+    #[error("the mesh has no triangles; do not write it")]
+    Empty,
+    /// A coordinate has no finite binary32.
+    #[error("vertex {vertex} of part {part} is not finite in binary32; call `round_to_f32` first")]
+    NotFinite {
+        /// Index of the part.
+        part: usize,
+        /// Index of the vertex in the part.
+        vertex: usize,
+    },
+    /// A triangle names a vertex that is not there.
+    #[error("triangle {triangle} of part {part} names a vertex that is not there")]
+    IndexOutOfRange {
+        /// Index of the part.
+        part: usize,
+        /// Index of the triangle in the part.
+        triangle: usize,
+    },
+    /// The format counts in 32 bits.
+    #[error("the mesh is too large for {0}; simplify it")]
+    TooLarge(&'static str),
+}
+
+impl From<Mesh> for Part {
+    /// A part without colour.
+    fn from(mesh: Mesh) -> Self {
+        Self {
+            mesh,
+            color: None,
+            material: None,
+        }
+    }
+}
+
+/// Parts that have triangles, once it is known that all of them can be written.
+fn checked<'a>(parts: &'a [Part], format: &'static str) -> Result<Vec<&'a Part>, WriteError> {
+    let used: Vec<&Part> = parts
+        .iter()
+        .filter(|part| !part.mesh.triangles.is_empty())
+        .collect();
+    if used.is_empty() {
+        return Err(WriteError::Empty);
+    }
+    for (index, part) in parts.iter().enumerate() {
+        if let Some(vertex) = part
+            .mesh
+            .vertices
+            .iter()
+            .position(|vertex| !single(*vertex).iter().all(|value| value.is_finite()))
+        {
+            return Err(WriteError::NotFinite {
+                part: index,
+                vertex,
+            });
+        }
+        let count = part.mesh.vertices.len();
+        let bad = |triangle: &[u32; 3]| triangle.iter().any(|corner| *corner as usize >= count);
+        if let Some(triangle) = part.mesh.triangles.iter().position(bad) {
+            return Err(WriteError::IndexOutOfRange {
+                part: index,
+                triangle,
+            });
+        }
+    }
+    let (vertices, triangles) = used.iter().fold((0, 0), |(vertices, triangles), part| {
+        (
+            vertices + part.mesh.vertices.len(),
+            triangles + part.mesh.triangles.len(),
+        )
+    });
+    if u32::try_from(vertices).is_err() || u32::try_from(triangles).is_err() {
+        return Err(WriteError::TooLarge(format));
+    }
+    Ok(used)
+}
+
+#[allow(clippy::cast_possible_truncation)]
+fn single(position: [f64; 3]) -> [f32; 3] {
+    // Adding 0 turns -0 into 0.
+    position.map(|coordinate| coordinate as f32 + 0.0)
+}

@@ -1,0 +1,193 @@
+//! The configurations that the specification defines: the same for every producer and every
+//! validator, in any language.
+
+use std::f64::consts::PI;
+
+use super::error::{Fault, KinematicsError};
+use super::joint::{check_lengths, joint_dofs};
+use super::rotation::{to_rotation_vector, uniform_rotation};
+use urdd_format::bounds::BoundsModule;
+use urdd_format::chain::ChainModule;
+use urdd_format::dof::DofModule;
+use urdd_format::urdf::JointType;
+
+/// Number `i` of sample `k`: in [0, 1), as good as random, and the same everywhere.
+///
+/// It is output `k * 2^32 + i` of the generator SplitMix64 with seed 0, of which the upper 53 bits
+/// are taken as a binary fraction. All integers are of 64 bits and wrap.
+pub fn unit(k: u64, i: u64) -> f64 {
+    (bits(k, i) >> 11) as f64 * (0.5_f64).powi(53)
+}
+
+/// Output `k * 2^32 + i` of SplitMix64 with seed 0, counted from 0.
+fn bits(k: u64, i: u64) -> u64 {
+    let count = (k << 32).wrapping_add(i).wrapping_add(1);
+    let mut z = count.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+/// The configurations of a robot that the specification defines.
+///
+/// The last three DOFs of a floating joint and the three of a spherical one are a rotation vector:
+/// all rotations are within its bounds, and it is treated as one thing. No value is negative zero.
+#[derive(Debug, Clone)]
+pub struct ConfigurationSpace {
+    bounds: Vec<[f64; 2]>,
+    rotation_vectors: Vec<[usize; 3]>,
+}
+
+impl ConfigurationSpace {
+    /// From the three modules.
+    pub fn new(
+        dof: &DofModule,
+        chain: &ChainModule,
+        bounds: &BoundsModule,
+    ) -> Result<Self, KinematicsError> {
+        Self::within(dof, chain, &bounds.bounds)
+    }
+
+    /// From two modules and `bounds` of `bounds_module`, in whatever order the two of a pair are; they must be finite.
+    pub fn within(
+        dof: &DofModule,
+        chain: &ChainModule,
+        bounds: &[[f64; 2]],
+    ) -> Result<Self, KinematicsError> {
+        check_lengths(chain, dof)?;
+        let (expected, found) = (dof.num_dofs.get(), bounds.len());
+        if found != expected {
+            let what = "DOF of dof_module";
+            let fault = Fault::Length {
+                what,
+                expected,
+                found,
+            };
+            return Err(KinematicsError::bounds("/bounds", fault));
+        }
+        for (i, pair) in bounds.iter().enumerate() {
+            if let Some(end) = pair.iter().position(|bound| !bound.is_finite()) {
+                let fault = Fault::NotFinite(pair[end]);
+                return Err(KinematicsError::bounds(format!("/bounds/{i}/{end}"), fault));
+            }
+        }
+        let mut rotation_vectors = Vec::new();
+        for (idx, joint) in chain.joints_in_chain.iter().enumerate() {
+            if matches!(joint.joint_type, JointType::Floating | JointType::Spherical) {
+                let dofs = joint_dofs(joint.joint_type, idx, dof)?;
+                rotation_vectors.extend(dofs.last_chunk().copied());
+            }
+        }
+        Ok(Self {
+            bounds: bounds.to_vec(),
+            rotation_vectors,
+        })
+    }
+
+    /// Number of DOFs: the length of each configuration.
+    pub fn num_dofs(&self) -> usize {
+        self.bounds.len()
+    }
+
+    /// The bounds of each DOF, in whatever order the two are.
+    pub fn bounds(&self) -> &[[f64; 2]] {
+        &self.bounds
+    }
+
+    /// The same robot's configurations within other bounds; `None` where these are not one finite pair for each DOF.
+    pub fn with_bounds(&self, bounds: &[[f64; 2]]) -> Option<Self> {
+        let finite = bounds.as_flattened().iter().all(|bound| bound.is_finite());
+        (finite && bounds.len() == self.bounds.len()).then(|| Self {
+            bounds: bounds.to_vec(),
+            rotation_vectors: self.rotation_vectors.clone(),
+        })
+    }
+
+    /// The DOFs of each rotation vector, three at a time: of floating joints the last three, of
+    /// spherical ones all.
+    pub fn rotation_vectors(&self) -> &[[usize; 3]] {
+        &self.rotation_vectors
+    }
+
+    /// Every DOF 0, even where 0 is out of bounds.
+    pub fn zero(&self) -> Vec<f64> {
+        vec![0.0; self.bounds.len()]
+    }
+
+    /// The default configuration: every DOF 0, or the bound nearest to 0 where 0 is out of bounds. A
+    /// rotation vector is (0, 0, 0).
+    pub fn default_configuration(&self) -> Vec<f64> {
+        let nearest_to_zero = |[a, b]: [f64; 2]| 0.0_f64.max(f64::min(a, b)).min(f64::max(a, b));
+        self.build(|_, pair| nearest_to_zero(pair), |_| [0.0; 3])
+    }
+
+    /// Every DOF half-way between its bounds: `lower/2 + upper/2`, which cannot overflow, is 0 for
+    /// symmetric bounds, and the bound itself where both are equal. A rotation vector is (0, 0, 0).
+    pub fn middle(&self) -> Vec<f64> {
+        self.build(|_, [lower, upper]| lower / 2.0 + upper / 2.0, |_| [0.0; 3])
+    }
+
+    /// Every DOF at its lower bound; a rotation vector is (-pi, 0, 0).
+    pub fn lower(&self) -> Vec<f64> {
+        self.build(|_, [lower, _]| lower, |_| [-PI, 0.0, 0.0])
+    }
+
+    /// Every DOF at its upper bound; a rotation vector is (pi, 0, 0).
+    pub fn upper(&self) -> Vec<f64> {
+        self.build(|_, [_, upper]| upper, |_| [PI, 0.0, 0.0])
+    }
+
+    /// Sampled configuration `k`, with `u(i)` = [`unit()`]`(k, i)` for DOF `i`:
+    /// `q = lower * (1 - u(i)) + upper * u(i)`, which cannot overflow. A rotation vector is that of the
+    /// [`uniform_rotation`] made of the `u(i)` of its three DOFs, in order.
+    pub fn sampled(&self, k: u64) -> Vec<f64> {
+        self.build(
+            |i, pair| between(pair, unit(k, i as u64)),
+            |dofs| to_rotation_vector(&uniform_rotation(dofs.map(|i| unit(k, i as u64)))),
+        )
+    }
+
+    fn build(
+        &self,
+        value: impl Fn(usize, [f64; 2]) -> f64,
+        rotation_vector: impl Fn([usize; 3]) -> [f64; 3],
+    ) -> Vec<f64> {
+        let pairs = self.bounds.iter().enumerate();
+        let mut configuration: Vec<f64> = pairs.map(|(i, pair)| value(i, *pair) + 0.0).collect();
+        for dofs in &self.rotation_vectors {
+            for (i, component) in dofs.iter().zip(rotation_vector(*dofs)) {
+                configuration[*i] = component;
+            }
+        }
+        configuration
+    }
+}
+
+fn between([lower, upper]: [f64; 2], u: f64) -> f64 {
+    lower * (1.0 - u) + upper * u
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The first outputs of SplitMix64 with seed 0, as published with the generator.
+    const PUBLISHED: [u64; 3] = [
+        0xE220_A839_7B1D_CDAF,
+        0x6E78_9E6A_A1B9_65F4,
+        0x06C4_5D18_8009_454F,
+    ];
+
+    #[test]
+    fn is_splitmix64() {
+        for (i, published) in (0..).zip(PUBLISHED) {
+            assert_eq!(bits(0, i), published);
+        }
+    }
+
+    #[test]
+    fn sample_k_goes_on_where_the_generator_is_after_k_times_2_to_the_32() {
+        assert_eq!(bits(3, 5), bits(0, (3 << 32) + 5));
+        assert_eq!(bits(1 << 32, 5), bits(0, 5), "wraps at 64 bits");
+    }
+}

@@ -1,0 +1,197 @@
+//! Damped least squares from one configuration on.
+
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+use super::path::{Kind, Path, within};
+use super::{Goal, InverseSettings};
+use crate::branch::Place;
+use crate::rotation::to_rotation_vector;
+
+/// Largest change of a DOF in one step, rad or m: beyond, the Jacobian says little.
+const STEP: f64 = 0.8;
+
+/// A descent has ended in a place that is no goal when this many steps in a row have taken less than [`LITTLE`] of the
+/// cost away.
+const PATIENCE: usize = 3;
+const LITTLE: f64 = 1e-2;
+
+/// Damping over cost, at first and at least.
+const DAMPING: [f64; 2] = [0.1, 1e-3];
+
+/// Steps that are refused in a row before a descent is given up.
+const REFUSED: usize = 8;
+
+/// Where a descent ended.
+pub(super) struct Found {
+    pub configuration: Vec<f64>,
+    pub cost: f64,
+    pub position_error: f64,
+    pub rotation_error: f64,
+    pub reached: bool,
+}
+
+/// What all descents to a goal share.
+pub(super) struct Descent<'a> {
+    path: &'a Path<'a>,
+    goal: &'a Goal,
+    settings: &'a InverseSettings,
+    /// Metres that weigh as much as a radian.
+    length: f64,
+    /// Steps so far.
+    pub iterations: usize,
+    place: Place,
+    jacobian: Vec<Vector6<f64>>,
+}
+
+/// What is left to the goal: metres, then radians times the length.
+struct Left {
+    vector: Vector6<f64>,
+    cost: f64,
+    position: f64,
+    rotation: f64,
+}
+
+impl<'a> Descent<'a> {
+    pub fn new(path: &'a Path<'a>, goal: &'a Goal, settings: &'a InverseSettings) -> Self {
+        let reach = path.reach();
+        Self {
+            path,
+            goal,
+            settings,
+            length: if reach > 1e-6 { 0.3 * reach } else { 1.0 },
+            iterations: 0,
+            place: Place::default(),
+            jacobian: Vec::new(),
+        }
+    }
+
+    /// Descends from a configuration that is within bounds.
+    pub fn from(&mut self, start: Vec<f64>) -> Found {
+        let mut q = start;
+        let mut left = self.left(&q);
+        let mut next = q.clone();
+        let [mut damping, least_damping] = DAMPING;
+        let (mut slow, mut refused) = (0, 0);
+        let mut fresh = false;
+        for _ in 0..self.settings.iterations {
+            if self.is_reached(&left) || slow >= PATIENCE || refused >= REFUSED {
+                break;
+            }
+            self.iterations += 1;
+            if !fresh {
+                self.path.jacobian(&q, &self.place, &mut self.jacobian);
+                for column in &mut self.jacobian {
+                    for row in 3..6 {
+                        column[row] *= if self.goal.rotation.is_some() {
+                            self.length
+                        } else {
+                            0.0
+                        };
+                    }
+                }
+                fresh = true;
+            }
+            self.step(&q, &left.vector, damping * left.cost, &mut next);
+            let after = self.left(&next);
+            if after.cost.is_nan() || after.cost >= left.cost {
+                damping = (damping * 10.0).max(1e-2);
+                refused += 1;
+                continue;
+            }
+            slow = if after.cost > (1.0 - LITTLE) * left.cost {
+                slow + 1
+            } else {
+                0
+            };
+            refused = 0;
+            damping = (damping * 0.3).max(least_damping);
+            fresh = false;
+            left = after;
+            q.copy_from_slice(&next);
+        }
+        Found {
+            reached: self.is_reached(&left),
+            configuration: q,
+            cost: left.cost,
+            position_error: left.position,
+            rotation_error: left.rotation,
+        }
+    }
+
+    fn is_reached(&self, left: &Left) -> bool {
+        left.position <= self.settings.position_tolerance
+            && left.rotation <= self.settings.rotation_tolerance
+    }
+
+    fn left(&mut self, q: &[f64]) -> Left {
+        let point = self.path.place(q, &mut self.place);
+        let shift = self.goal.position - point;
+        let turn = match &self.goal.rotation {
+            Some(rotation) => Vector3::from(to_rotation_vector(
+                &(rotation * self.place.pose.rotation.inverse()),
+            )),
+            None => Vector3::zeros(),
+        };
+        let scaled = turn * self.length;
+        let vector = Vector6::new(shift.x, shift.y, shift.z, scaled.x, scaled.y, scaled.z);
+        Left {
+            vector,
+            cost: vector.norm_squared(),
+            position: shift.norm(),
+            rotation: turn.norm(),
+        }
+    }
+
+    /// The configuration that damped least squares leads to, within bounds: a DOF that would leave them is put on its
+    /// bound, and the others make up for it.
+    fn step(&self, q: &[f64], left: &Vector6<f64>, damping: f64, next: &mut [f64]) {
+        let path = self.path;
+        let columns = &self.jacobian;
+        let mut left = *left;
+        let mut free = vec![true; columns.len()];
+        next.copy_from_slice(q);
+        let floor =
+            1e-12 * columns.iter().map(|c| c.norm_squared()).sum::<f64>() + f64::MIN_POSITIVE;
+        for _ in 0..=columns.len() {
+            let mut matrix = Matrix6::from_diagonal_element(damping + floor);
+            for (column, _) in columns.iter().zip(&free).filter(|(_, free)| **free) {
+                matrix.ger(1.0, column, column, 1.0);
+            }
+            let Some(factor) = matrix.cholesky() else {
+                return;
+            };
+            let weights = factor.solve(&left);
+            let largest = columns
+                .iter()
+                .zip(&free)
+                .filter(|(_, free)| **free)
+                .map(|(column, _)| column.dot(&weights).abs())
+                .fold(0.0, f64::max);
+            let shorter = if largest > STEP { STEP / largest } else { 1.0 };
+            let mut stopped = false;
+            for (k, column) in columns.iter().enumerate() {
+                if !free[k] {
+                    continue;
+                }
+                let dof = path.dofs[k];
+                let wanted = q[dof] + shorter * column.dot(&weights);
+                let kind = path.kinds[k];
+                next[dof] = match kind {
+                    Kind::Free => wanted,
+                    _ => within(wanted, path.bounds(k), kind == Kind::Turning),
+                };
+                let [lower, upper] = path.bounds(k);
+                let hit = kind != Kind::Free && (next[dof] == lower || next[dof] == upper);
+                if hit && next[dof] != wanted {
+                    free[k] = false;
+                    stopped = true;
+                    left -= column * (next[dof] - q[dof]);
+                }
+            }
+            if !stopped {
+                break;
+            }
+        }
+        path.wrap(next);
+    }
+}

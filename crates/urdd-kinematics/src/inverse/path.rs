@@ -1,0 +1,189 @@
+//! The joints that move one link.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{Point3, Vector3, Vector6};
+
+use super::Goal;
+use crate::branch::{Branch, Place};
+use crate::forward::ForwardKinematics;
+use crate::jacobian::{add_to, columns};
+use crate::joint::Motion;
+
+/// The joints from the root to a link, and the DOFs that move it.
+pub(super) struct Path<'a> {
+    branch: Branch<'a>,
+    /// A point of the link, in its frame.
+    point: Point3<f64>,
+    /// The DOFs that move the link and that bounds leave room, ascending.
+    pub dofs: Vec<usize>,
+    /// Of all DOFs, which of `dofs` each is.
+    place: Vec<Option<usize>>,
+    /// The bounds of all DOFs, the lower first.
+    bounds: Vec<[f64; 2]>,
+    /// What a DOF's value may be, for each of `dofs`.
+    pub kinds: Vec<Kind>,
+    /// The DOFs of rotation vectors.
+    vectors: Vec<[usize; 3]>,
+}
+
+/// What the value of a DOF may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// What is within the bounds.
+    Bounded,
+    /// What is within the bounds; whole turns are the same.
+    Turning,
+    /// Anything: a component of a rotation vector.
+    Free,
+}
+
+impl<'a> Path<'a> {
+    pub fn new(kinematics: &'a ForwardKinematics, goal: &Goal, bounds: &[[f64; 2]]) -> Self {
+        let branch = kinematics.branch(goal.link);
+        let bounds: Vec<[f64; 2]> = bounds.iter().map(|[a, b]| [a.min(*b), a.max(*b)]).collect();
+        let mut uses: Vec<Vec<Kind>> = vec![Vec::new(); kinematics.num_dofs()];
+        let mut vectors = Vec::new();
+        for step in &branch.steps {
+            match &step.motion {
+                Motion::Fixed => {}
+                Motion::Turn { position, .. } => {
+                    let whole = position.multiplier == 1.0;
+                    let kind = if whole { Kind::Turning } else { Kind::Bounded };
+                    uses_of(&mut uses, position.dof, kind);
+                }
+                Motion::Slide { position, .. } => uses_of(&mut uses, position.dof, Kind::Bounded),
+                Motion::Plane {
+                    dofs: [x, y, angle],
+                    ..
+                } => {
+                    uses_of(&mut uses, Some(*x), Kind::Bounded);
+                    uses_of(&mut uses, Some(*y), Kind::Bounded);
+                    uses_of(&mut uses, Some(*angle), Kind::Turning);
+                }
+                Motion::Float {
+                    dofs: [x, y, z, a, b, c],
+                } => {
+                    for dof in [x, y, z] {
+                        uses_of(&mut uses, Some(*dof), Kind::Bounded);
+                    }
+                    vectors.push([*a, *b, *c]);
+                }
+                Motion::Ball { dofs } => vectors.push(*dofs),
+            }
+        }
+        for dof in vectors.iter().flatten() {
+            uses_of(&mut uses, Some(*dof), Kind::Free);
+        }
+        let mut path = Self {
+            branch,
+            point: goal.point,
+            dofs: Vec::new(),
+            place: vec![None; uses.len()],
+            bounds,
+            kinds: Vec::new(),
+            vectors,
+        };
+        for (dof, uses) in uses.iter().enumerate() {
+            let kind = match uses.as_slice() {
+                [] => continue,
+                [kind] => *kind,
+                // What drives several joints does not repeat with whole turns.
+                _ => Kind::Bounded,
+            };
+            let [lower, upper] = path.bounds[dof];
+            if kind == Kind::Free || lower < upper {
+                path.place[dof] = Some(path.dofs.len());
+                path.dofs.push(dof);
+                path.kinds.push(kind);
+            }
+        }
+        path
+    }
+
+    /// Bounds of one of `dofs`.
+    pub fn bounds(&self, k: usize) -> [f64; 2] {
+        self.bounds[self.dofs[k]]
+    }
+
+    /// Moves each value to the nearest bound, where it is out of bounds, or by whole turns where that helps.
+    pub fn confine(&self, configuration: &mut [f64]) {
+        let free: Vec<usize> = self.vectors.iter().flatten().copied().collect();
+        for (dof, value) in configuration.iter_mut().enumerate() {
+            if !free.contains(&dof) {
+                let turning = self.place[dof].is_some_and(|k| self.kinds[k] == Kind::Turning);
+                *value = within(*value, self.bounds[dof], turning);
+            }
+        }
+        self.wrap(configuration);
+    }
+
+    /// Of each rotation vector the one that is the same rotation by at most half a turn.
+    pub fn wrap(&self, configuration: &mut [f64]) {
+        for dofs in &self.vectors {
+            let vector = Vector3::from(dofs.map(|dof| configuration[dof]));
+            let angle = vector.norm();
+            if angle > PI {
+                let less = angle - TAU * (angle / TAU).round();
+                for (dof, component) in dofs.iter().zip(vector.iter()) {
+                    configuration[*dof] = component * (less / angle);
+                }
+            }
+        }
+    }
+
+    /// Where the link is in a configuration, and the point in the root link's frame.
+    pub fn place(&self, configuration: &[f64], place: &mut Place) -> Point3<f64> {
+        self.branch.place(configuration, place);
+        place.pose * self.point
+    }
+
+    /// How the point and the link move with each of `dofs`: velocity, then angular velocity.
+    pub fn jacobian(&self, configuration: &[f64], place: &Place, jacobian: &mut Vec<Vector6<f64>>) {
+        jacobian.clear();
+        jacobian.resize(self.dofs.len(), Vector6::zeros());
+        let point = place.pose * self.point;
+        for (step, (frame, child)) in self.branch.steps.iter().zip(&place.joints) {
+            columns(
+                step,
+                frame,
+                child,
+                &point,
+                configuration,
+                |dof, linear, angular| {
+                    if let Some(k) = self.place[dof] {
+                        add_to(jacobian[k].as_mut_slice(), linear, angular);
+                    }
+                },
+            );
+        }
+    }
+
+    /// How far from the first joint the point can be, about, metres.
+    pub fn reach(&self) -> f64 {
+        let shifts = self
+            .branch
+            .steps
+            .iter()
+            .skip(1)
+            .map(|step| step.origin.translation.vector.norm());
+        shifts.sum::<f64>() + self.point.coords.norm()
+    }
+}
+
+fn uses_of(uses: &mut [Vec<Kind>], dof: Option<usize>, kind: Kind) {
+    if let Some(dof) = dof {
+        uses[dof].push(kind);
+    }
+}
+
+/// A value that is within bounds: by whole turns where these do not matter and help, or else the nearest bound.
+pub(super) fn within(value: f64, [lower, upper]: [f64; 2], turning: bool) -> f64 {
+    if turning && !(lower..=upper).contains(&value) {
+        let turned = value - TAU * ((value - 0.5 * (lower + upper)) / TAU).round();
+        if (lower..=upper).contains(&turned) {
+            return turned;
+        }
+    }
+    value.max(lower).min(upper)
+}

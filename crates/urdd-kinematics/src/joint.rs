@@ -1,0 +1,237 @@
+//! How a joint moves: its motion as a function of the configuration.
+
+use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
+
+use super::error::{Fault, KinematicsError};
+use super::pose::is_unit;
+use super::rotation::{from_rotation_vector, planar_basis};
+use urdd_format::chain::{ChainModule, JointInChain};
+use urdd_format::dof::DofModule;
+use urdd_format::index::DofIdx;
+use urdd_format::urdf::JointType;
+
+type Axis = Unit<Vector3<f64>>;
+
+const DOFS: &str = "joint_idx_to_dof_idxs_mapping";
+const MIMICS: &str = "joint_idx_to_mimic_mapping";
+
+/// A joint's position where it is one number: `multiplier * q[dof] + offset`.
+#[derive(Debug, Clone)]
+pub(super) struct Position {
+    pub dof: Option<usize>,
+    pub multiplier: f64,
+    offset: f64,
+}
+
+impl Position {
+    fn at(&self, q: &[f64]) -> f64 {
+        match self.dof {
+            Some(dof) => self.multiplier * q[dof] + self.offset,
+            None => self.offset,
+        }
+    }
+}
+
+/// The motion of a joint, with the indices of its DOFs: checked, so that [`Motion::at`] cannot fail
+/// on a configuration of the right length.
+#[derive(Debug, Clone)]
+pub(super) enum Motion {
+    Fixed,
+    Turn {
+        axis: Axis,
+        position: Position,
+    },
+    Slide {
+        axis: Axis,
+        position: Position,
+    },
+    Plane {
+        axis: Axis,
+        basis: [Vector3<f64>; 2],
+        dofs: [usize; 3],
+    },
+    Float {
+        dofs: [usize; 6],
+    },
+    Ball {
+        dofs: [usize; 3],
+    },
+}
+
+impl Motion {
+    /// Pose of the child link's frame in the joint's frame.
+    pub(super) fn at(&self, q: &[f64]) -> Isometry3<f64> {
+        match self {
+            Motion::Fixed => Isometry3::identity(),
+            Motion::Turn { axis, position } => Isometry3::from_parts(
+                Translation3::identity(),
+                UnitQuaternion::from_axis_angle(axis, position.at(q)),
+            ),
+            Motion::Slide { axis, position } => Isometry3::from_parts(
+                Translation3::from(axis.into_inner() * position.at(q)),
+                UnitQuaternion::identity(),
+            ),
+            Motion::Plane {
+                axis,
+                basis: [x, y],
+                dofs: [a, b, c],
+            } => Isometry3::from_parts(
+                Translation3::from(x * q[*a] + y * q[*b]),
+                UnitQuaternion::from_axis_angle(axis, q[*c]),
+            ),
+            Motion::Float {
+                dofs: [x, y, z, a, b, c],
+            } => Isometry3::from_parts(
+                Translation3::new(q[*x], q[*y], q[*z]),
+                from_rotation_vector([q[*a], q[*b], q[*c]]),
+            ),
+            Motion::Ball { dofs: [a, b, c] } => Isometry3::from_parts(
+                Translation3::identity(),
+                from_rotation_vector([q[*a], q[*b], q[*c]]),
+            ),
+        }
+    }
+}
+
+/// Number of DOFs of a joint that is no mimic joint.
+fn dof_count(joint_type: JointType) -> usize {
+    match joint_type {
+        JointType::Fixed => 0,
+        JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
+        JointType::Planar | JointType::Spherical => 3,
+        JointType::Floating => 6,
+    }
+}
+
+/// Checks that the lists per joint go with the chain.
+pub(super) fn check_lengths(chain: &ChainModule, dof: &DofModule) -> Result<(), KinematicsError> {
+    let expected = chain.joints_in_chain.len();
+    let dofs = dof.joint_idx_to_dof_idxs_mapping.len();
+    let mimics = dof.joint_idx_to_mimic_mapping.len();
+    for (list, found) in [(DOFS, dofs), (MIMICS, mimics)] {
+        if found != expected {
+            let what = "joint of chain_module";
+            let fault = Fault::Length {
+                what,
+                expected,
+                found,
+            };
+            return Err(KinematicsError::dof(format!("/{list}"), fault));
+        }
+    }
+    Ok(())
+}
+
+/// The DOFs of joint `idx`: as many as its type asks for (none for a mimic joint), each in range.
+/// [`check_lengths`] has found the lists long enough.
+pub(super) fn joint_dofs(
+    joint_type: JointType,
+    idx: usize,
+    dof: &DofModule,
+) -> Result<Vec<usize>, KinematicsError> {
+    let expected = dof_count(joint_type);
+    let listed = &dof.joint_idx_to_dof_idxs_mapping[idx];
+    let found = listed.len();
+    let fault = match &dof.joint_idx_to_mimic_mapping[idx] {
+        Some(_) if found > 0 => Some(Fault::MimicWithDofs { found }),
+        None if found != expected => Some(Fault::DofCount {
+            joint_type,
+            expected,
+            found,
+        }),
+        _ => None,
+    };
+    if let Some(fault) = fault {
+        return Err(KinematicsError::dof(format!("/{DOFS}/{idx}"), fault));
+    }
+    listed
+        .iter()
+        .enumerate()
+        .map(|(place, dof_idx)| {
+            in_range(*dof_idx, dof)
+                .map_err(|fault| KinematicsError::dof(format!("/{DOFS}/{idx}/{place}"), fault))
+        })
+        .collect()
+}
+
+fn in_range(dof_idx: DofIdx, dof: &DofModule) -> Result<usize, Fault> {
+    let (what, index, count) = ("DOF", dof_idx.0, dof.num_dofs.get());
+    if dof_idx.get() < count {
+        Ok(dof_idx.get())
+    } else {
+        Err(Fault::OutOfRange { what, index, count })
+    }
+}
+
+/// The motion of joint `idx`.
+pub(super) fn motion(
+    joint: &JointInChain,
+    idx: usize,
+    dof: &DofModule,
+) -> Result<Motion, KinematicsError> {
+    let joint_type = joint.joint_type;
+    let dofs = joint_dofs(joint_type, idx, dof)?;
+    Ok(match (joint_type, dofs.as_slice()) {
+        (JointType::Fixed, _) => Motion::Fixed,
+        (JointType::Revolute | JointType::Continuous, _) => Motion::Turn {
+            axis: axis(joint, idx)?,
+            position: position(idx, &dofs, dof)?,
+        },
+        (JointType::Prismatic, _) => Motion::Slide {
+            axis: axis(joint, idx)?,
+            position: position(idx, &dofs, dof)?,
+        },
+        (JointType::Planar, &[x, y, angle]) => {
+            let axis = axis(joint, idx)?;
+            Motion::Plane {
+                basis: planar_basis(&axis),
+                axis,
+                dofs: [x, y, angle],
+            }
+        }
+        (JointType::Spherical, &[a, b, c]) => Motion::Ball { dofs: [a, b, c] },
+        (JointType::Floating, &[x, y, z, a, b, c]) => Motion::Float {
+            dofs: [x, y, z, a, b, c],
+        },
+        // Their count is right, so this is a mimic joint, which has none.
+        (JointType::Planar | JointType::Spherical | JointType::Floating, _) => {
+            let fault = Fault::MimicType(joint_type);
+            return Err(KinematicsError::dof(format!("/{MIMICS}/{idx}"), fault));
+        }
+    })
+}
+
+fn position(idx: usize, dofs: &[usize], dof: &DofModule) -> Result<Position, KinematicsError> {
+    let Some(mimic) = &dof.joint_idx_to_mimic_mapping[idx] else {
+        return Ok(Position {
+            dof: dofs.first().copied(),
+            multiplier: 1.0,
+            offset: 0.0,
+        });
+    };
+    let fail = |key, fault| KinematicsError::dof(format!("/{MIMICS}/{idx}/{key}"), fault);
+    for (key, value) in [("multiplier", mimic.multiplier), ("offset", mimic.offset)] {
+        if !value.is_finite() {
+            return Err(fail(key, Fault::NotFinite(value)));
+        }
+    }
+    let driver = mimic.dof_idx.map(|driver| in_range(driver, dof));
+    Ok(Position {
+        dof: driver.transpose().map_err(|fault| fail("dof_idx", fault))?,
+        multiplier: mimic.multiplier,
+        offset: mimic.offset,
+    })
+}
+
+fn axis(joint: &JointInChain, idx: usize) -> Result<Axis, KinematicsError> {
+    let fail = |fault| KinematicsError::chain(format!("/joints_in_chain/{idx}/axis"), fault);
+    let Some(axis) = joint.axis else {
+        return Err(fail(Fault::NoAxis(joint.joint_type)));
+    };
+    let vector = Vector3::from(axis);
+    let norm = vector.norm();
+    if !is_unit(norm) {
+        return Err(fail(Fault::AxisNotUnit { norm }));
+    }
+    Ok(Unit::new_normalize(vector))
+}

@@ -1,0 +1,169 @@
+//! What the network is told of a configuration: SPEC 8.8.3.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::error::ModelError;
+use urdd_format::index::DofIdx;
+use urdd_format::self_collision_model::ModelInput;
+
+/// An input, with indices that are right.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Input {
+    Angle(usize),
+    Length {
+        dof: usize,
+        middle: f64,
+        half_range: f64,
+    },
+    RotationVector([usize; 3]),
+}
+
+/// Number of values that a rotation vector gives.
+const MATRIX: usize = 9;
+/// Number of values that an angle gives.
+const WAVES: usize = 4;
+
+/// Reads the inputs of a robot with so many DOFs.
+pub fn read(inputs: &[ModelInput], num_dofs: usize) -> Result<Vec<Input>, ModelError> {
+    let check = |place: usize, key: &str, dof: DofIdx| {
+        if dof.get() < num_dofs {
+            return Ok(dof.get());
+        }
+        Err(ModelError::Dof {
+            pointer: format!("/inputs/{place}/{key}"),
+            index: dof.get(),
+            count: num_dofs,
+        })
+    };
+    let read = |(place, input): (usize, &ModelInput)| {
+        Ok(match input {
+            ModelInput::Angle(of) => Input::Angle(check(place, "Angle/dof_idx", of.dof_idx)?),
+            ModelInput::Length(of) => {
+                let dof = check(place, "Length/dof_idx", of.dof_idx)?;
+                let (middle, half_range) = (of.middle, of.half_range);
+                let fits = middle.is_finite() && half_range.is_finite() && half_range > 0.0;
+                if !fits {
+                    let pointer = format!("/inputs/{place}/Length");
+                    return Err(ModelError::Number { pointer });
+                }
+                Input::Length {
+                    dof,
+                    middle,
+                    half_range,
+                }
+            }
+            ModelInput::RotationVector(of) => {
+                let mut dofs = [0; 3];
+                for (to, from) in dofs.iter_mut().zip(of.dof_idxs) {
+                    *to = check(place, "RotationVector/dof_idxs", from)?;
+                }
+                Input::RotationVector(dofs)
+            }
+        })
+    };
+    inputs.iter().enumerate().map(read).collect()
+}
+
+/// Writes the values of all inputs, one after the other.
+pub fn tell(inputs: &[Input], configuration: &[f64], mut row: &mut [f64]) {
+    for input in inputs {
+        let (own, rest) = row.split_at_mut(input.width());
+        input.put(configuration, own);
+        row = rest;
+    }
+}
+
+impl Input {
+    /// How many values it gives.
+    pub fn width(&self) -> usize {
+        match self {
+            Input::Angle(_) => WAVES,
+            Input::Length { .. } => 1,
+            Input::RotationVector(_) => MATRIX,
+        }
+    }
+
+    /// Writes its values, of which there are [`Input::width`].
+    pub fn put(&self, configuration: &[f64], values: &mut [f64]) {
+        match *self {
+            Input::Angle(dof) => {
+                let q = configuration[dof];
+                let waves = [
+                    libm::sin(q),
+                    libm::cos(q),
+                    libm::sin(2.0 * q),
+                    libm::cos(2.0 * q),
+                ];
+                values.copy_from_slice(&waves);
+            }
+            Input::Length {
+                dof,
+                middle,
+                half_range,
+            } => values[0] = (configuration[dof] - middle) / half_range,
+            Input::RotationVector(dofs) => {
+                let rotation = rotation(dofs.map(|dof| configuration[dof]));
+                for (value, element) in values.iter_mut().zip(rotation.transpose().iter()) {
+                    *value = *element;
+                }
+            }
+        }
+    }
+
+    /// Adds to the derivative by each DOF what comes of the derivatives by its values.
+    pub fn pull_back(&self, configuration: &[f64], by_values: &[f64], by_dofs: &mut [f64]) {
+        match *self {
+            Input::Angle(dof) => {
+                let q = configuration[dof];
+                let waves = [
+                    libm::cos(q),
+                    -libm::sin(q),
+                    2.0 * libm::cos(2.0 * q),
+                    -2.0 * libm::sin(2.0 * q),
+                ];
+                let products = waves.iter().zip(by_values).map(|(a, b)| a * b);
+                by_dofs[dof] += products.sum::<f64>();
+            }
+            Input::Length {
+                dof, half_range, ..
+            } => by_dofs[dof] += by_values[0] / half_range,
+            Input::RotationVector(dofs) => {
+                let v = dofs.map(|dof| configuration[dof]);
+                for (k, dof) in dofs.into_iter().enumerate() {
+                    let derivative = rotation_derivative(v, k).transpose();
+                    let products = derivative.iter().zip(by_values).map(|(a, b)| a * b);
+                    by_dofs[dof] += products.sum::<f64>();
+                }
+            }
+        }
+    }
+}
+
+/// The rotation by |v| about v / |v|.
+fn rotation(v: [f64; 3]) -> Matrix3<f64> {
+    let v = Vector3::from(v);
+    let angle = v.norm();
+    let cross = v.cross_matrix();
+    // sin x / x and (1 - cos x) / x^2, which near 0 are their series.
+    let (a, b) = match angle < 1e-4 {
+        true => (1.0 - angle * angle / 6.0, 0.5 - angle * angle / 24.0),
+        false => {
+            let half = libm::sin(0.5 * angle) / (0.5 * angle);
+            (libm::sin(angle) / angle, 0.5 * half * half)
+        }
+    };
+    Matrix3::identity() + cross * a + cross * cross * b
+}
+
+/// The derivative of [`rotation`] by component `k` of the rotation vector (Gallego and Yezzi, 2015).
+fn rotation_derivative(v: [f64; 3], k: usize) -> Matrix3<f64> {
+    let rotation = rotation(v);
+    let v = Vector3::from(v);
+    let unit = Vector3::ith(k, 1.0);
+    let squared = v.norm_squared();
+    if squared < 1e-16 {
+        return unit.cross_matrix();
+    }
+    let turned = v.cross(&(unit - rotation * unit));
+    (v.cross_matrix() * v[k] + turned.cross_matrix()) / squared * rotation
+}

@@ -1,0 +1,275 @@
+//! A model in use.
+
+use fearless_simd::Level;
+use rayon::prelude::*;
+
+use super::error::ModelError;
+use super::inputs::{self, Input};
+use super::kernel::LANES;
+use super::network::Network;
+use crate::ConfigurationError;
+use urdd_format::self_collision_model::{
+    LinkPair, ModelEvaluation, ModelPair, SelfCollisionModelModule,
+};
+
+/// An estimate of how near a robot's links are to each other.
+///
+/// The clearance of a pair is in metres; 0 or less means that the pair may be in contact. Far from contact it says no
+/// more than that: distances were clipped in training. It is an estimate, not a guarantee:
+/// [`CollisionModel::evaluation`] says how often it is wrong.
+#[derive(Debug, Clone)]
+pub struct CollisionModel {
+    num_dofs: usize,
+    inputs: Vec<Input>,
+    network: Network,
+    pairs: Vec<ModelPair>,
+    other_pairs: Vec<LinkPair>,
+    clip_distance: f64,
+    evaluation: ModelEvaluation,
+    level: Level,
+}
+
+/// The least clearance of a configuration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Clearance {
+    /// The place of its pair in [`CollisionModel::pairs`].
+    pub pair: usize,
+    /// The clearance, metres.
+    pub value: f64,
+    /// Its derivative by each DOF, m/rad or m/m. It is that of this pair: where two pairs have the least clearance,
+    /// there is no one derivative.
+    pub gradient: Vec<f64>,
+}
+
+impl CollisionModel {
+    /// Reads a model of a robot with so many DOFs.
+    ///
+    /// # Errors
+    /// Where lists do not fit to each other, or indices or numbers are of no use.
+    pub fn new(module: &SelfCollisionModelModule, num_dofs: usize) -> Result<Self, ModelError> {
+        let inputs = inputs::read(&module.inputs, num_dofs)?;
+        let width = inputs.iter().map(Input::width).sum();
+        let network = Network::read(&module.layers, width, module.pairs.len())?;
+        Ok(Self::of(module, num_dofs, inputs, network))
+    }
+
+    fn of(
+        module: &SelfCollisionModelModule,
+        num_dofs: usize,
+        inputs: Vec<Input>,
+        network: Network,
+    ) -> Self {
+        Self {
+            num_dofs,
+            inputs,
+            network,
+            pairs: module.pairs.clone(),
+            other_pairs: module.other_pairs.clone(),
+            clip_distance: module.clip_distance,
+            evaluation: module.evaluation.clone(),
+            level: Level::new(),
+        }
+    }
+
+    /// Number of values of a configuration.
+    pub fn num_dofs(&self) -> usize {
+        self.num_dofs
+    }
+
+    /// The pairs of links that it has an output for, with their margins.
+    pub fn pairs(&self) -> &[ModelPair] {
+        &self.pairs
+    }
+
+    /// The pairs of links that it takes to be apart always.
+    pub fn other_pairs(&self) -> &[LinkPair] {
+        &self.other_pairs
+    }
+
+    /// From here on distances were all the same to it, metres.
+    pub fn clip_distance(&self) -> f64 {
+        self.clip_distance
+    }
+
+    /// Number of weights and biases.
+    pub fn num_parameters(&self) -> usize {
+        let layers = self.network.layers.iter();
+        layers.map(|of| of.weights.len() + of.biases.len()).sum()
+    }
+
+    /// How often it is right on configurations that it was not made on, as its module says. The validator counts again.
+    pub fn evaluation(&self) -> &ModelEvaluation {
+        &self.evaluation
+    }
+
+    /// The clearance of each pair, in the order of [`CollisionModel::pairs`], metres. `configuration` has one value for
+    /// each DOF, rad or m.
+    ///
+    /// # Errors
+    /// For another length, or a value that is not finite.
+    pub fn clearances(&self, configuration: &[f64]) -> Result<Vec<f64>, ConfigurationError> {
+        self.check(configuration)?;
+        let values = self.network.values_of_one(self.told(configuration));
+        let last = values.last().map_or(&[][..], Vec::as_slice);
+        Ok(self.less_margins(last).collect())
+    }
+
+    /// Whether any pair may be in contact: whether a clearance is 0 or less, or none is known.
+    ///
+    /// # Errors
+    /// As [`CollisionModel::clearances`].
+    pub fn may_collide(&self, configuration: &[f64]) -> Result<bool, ConfigurationError> {
+        Ok(!is_clear(self.clearances(configuration)?))
+    }
+
+    /// The least clearance and its derivative by each DOF; `None` for a model without a pair.
+    ///
+    /// # Errors
+    /// As [`CollisionModel::clearances`].
+    pub fn least(&self, configuration: &[f64]) -> Result<Option<Clearance>, ConfigurationError> {
+        self.check(configuration)?;
+        let values = self.network.values_of_one(self.told(configuration));
+        let last = values.last().map_or(&[][..], Vec::as_slice);
+        let clearances = self.less_margins(last).enumerate();
+        let least = clearances.min_by(|a, b| a.1.total_cmp(&b.1));
+        Ok(least.map(|(pair, value)| {
+            let by_inputs = self.network.derivative(&values, pair);
+            Clearance {
+                pair,
+                value,
+                gradient: self.by_dofs(configuration, &by_inputs),
+            }
+        }))
+    }
+
+    /// The derivative of a pair's clearance by each DOF, m/rad or m/m; `None` for a pair that is not there.
+    ///
+    /// # Errors
+    /// As [`CollisionModel::clearances`].
+    pub fn gradient(
+        &self,
+        configuration: &[f64],
+        pair: usize,
+    ) -> Result<Option<Vec<f64>>, ConfigurationError> {
+        self.check(configuration)?;
+        if pair >= self.pairs.len() {
+            return Ok(None);
+        }
+        let values = self.network.values_of_one(self.told(configuration));
+        let by_inputs = self.network.derivative(&values, pair);
+        Ok(Some(self.by_dofs(configuration, &by_inputs)))
+    }
+
+    /// The clearances in each of many configurations, which follow each other: value `k * pairs + pair` is that of
+    /// `pair` in configuration `k`. The work is done by all threads of rayon's pool. What comes after the last whole
+    /// configuration is not looked at.
+    ///
+    /// # Errors
+    /// As [`CollisionModel::clearances`], for the first configuration that has none.
+    pub fn clearances_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, ConfigurationError> {
+        self.batch(configurations, |clearances, out: &mut Vec<f64>| {
+            out.extend(clearances);
+        })
+    }
+
+    /// Whether any pair may be in contact, in each of many configurations, as [`CollisionModel::may_collide`].
+    ///
+    /// # Errors
+    /// As [`CollisionModel::clearances_batch`].
+    pub fn may_collide_batch(
+        &self,
+        configurations: &[f64],
+    ) -> Result<Vec<bool>, ConfigurationError> {
+        self.batch(configurations, |clearances, out| {
+            out.push(!is_clear(clearances));
+        })
+    }
+
+    /// The least clearance in each of many configurations, metres; infinite for a model without a pair, NaN where a
+    /// clearance is not known.
+    ///
+    /// # Errors
+    /// As [`CollisionModel::clearances_batch`].
+    pub fn least_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, ConfigurationError> {
+        self.batch(configurations, |clearances, out| {
+            // `f64::min` would pass over NaN, and what is not known would be clear.
+            let least = |least: f64, clearance: f64| match least < clearance || least.is_nan() {
+                true => least,
+                false => clearance,
+            };
+            out.push(clearances.fold(f64::INFINITY, least));
+        })
+    }
+
+    /// Asks `take` for what is wanted of each configuration's clearances.
+    fn batch<T: Send>(
+        &self,
+        configurations: &[f64],
+        take: impl Fn(&mut dyn Iterator<Item = f64>, &mut Vec<T>) + Sync,
+    ) -> Result<Vec<T>, ConfigurationError> {
+        let blocks: Vec<Result<Vec<T>, ConfigurationError>> = configurations
+            .par_chunks(LANES * self.num_dofs.max(1))
+            .map_init(
+                || self.network.room(),
+                |room, block| {
+                    let mut told = vec![0.0; room[0].len()];
+                    let block = block.chunks_exact(self.num_dofs.max(1));
+                    let count = block.len();
+                    for (lane, configuration) in block.enumerate() {
+                        self.check(configuration)?;
+                        inputs::tell(&self.inputs, configuration, &mut told);
+                        for (value, told) in room[0].iter_mut().zip(&told) {
+                            value[lane] = *told;
+                        }
+                    }
+                    self.network.values(self.level, room);
+                    let mut taken = Vec::with_capacity(count);
+                    for lane in 0..count {
+                        let outputs = room.last().into_iter().flatten();
+                        let both = outputs.zip(&self.pairs);
+                        let mut clearances = both.map(|(value, pair)| value[lane] - pair.margin);
+                        take(&mut clearances, &mut taken);
+                    }
+                    Ok(taken)
+                },
+            )
+            .collect();
+        let mut all = Vec::new();
+        for block in blocks {
+            all.extend(block?);
+        }
+        Ok(all)
+    }
+
+    fn check(&self, configuration: &[f64]) -> Result<(), ConfigurationError> {
+        ConfigurationError::check(configuration, self.num_dofs)
+    }
+
+    /// What the network is told of a configuration.
+    fn told(&self, configuration: &[f64]) -> Vec<f64> {
+        let width = self.inputs.iter().map(Input::width).sum();
+        let mut told = vec![0.0; width];
+        inputs::tell(&self.inputs, configuration, &mut told);
+        told
+    }
+
+    fn by_dofs(&self, configuration: &[f64], mut by_inputs: &[f64]) -> Vec<f64> {
+        let mut by_dofs = vec![0.0; self.num_dofs];
+        for input in &self.inputs {
+            let (own, rest) = by_inputs.split_at(input.width());
+            input.pull_back(configuration, own, &mut by_dofs);
+            by_inputs = rest;
+        }
+        by_dofs
+    }
+
+    fn less_margins(&self, outputs: &[f64]) -> impl Iterator<Item = f64> {
+        let both = outputs.iter().zip(&self.pairs);
+        both.map(|(output, pair)| output - pair.margin)
+    }
+}
+
+/// Whether every clearance is above 0.
+fn is_clear(clearances: impl IntoIterator<Item = f64>) -> bool {
+    clearances.into_iter().all(|clearance| clearance > 0.0)
+}

@@ -1,0 +1,164 @@
+//! A network of layers: SPEC 8.8.4.
+
+use fearless_simd::{Level, Simd, dispatch};
+
+use super::error::ModelError;
+use super::kernel::{self, LANES, Lanes};
+use urdd_format::self_collision_model::ModelLayer;
+
+/// A layer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layer {
+    /// Row by row, one row an output.
+    pub weights: Vec<f64>,
+    pub biases: Vec<f64>,
+}
+
+impl Layer {
+    /// Number of values before it.
+    pub fn num_inputs(&self) -> usize {
+        self.weights.len() / self.biases.len().max(1)
+    }
+}
+
+/// Layers of which each takes what the one before gives; between two of them is a hyperbolic tangent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Network {
+    pub layers: Vec<Layer>,
+}
+
+impl Network {
+    /// Reads the layers of a network that takes `num_inputs` values and gives `num_outputs`.
+    pub fn read(
+        layers: &[ModelLayer],
+        num_inputs: usize,
+        num_outputs: usize,
+    ) -> Result<Self, ModelError> {
+        if num_inputs == 0 {
+            return Err(ModelError::NoValues {
+                pointer: "/inputs".to_owned(),
+            });
+        }
+        let mut width = num_inputs;
+        let mut read = Vec::with_capacity(layers.len());
+        for (place, layer) in layers.iter().enumerate() {
+            let at = |rest: String| format!("/layers/{place}/{rest}");
+            let fits = |found: usize, expected: usize, pointer: String, what: &'static str| {
+                if found == expected {
+                    return Ok(());
+                }
+                Err(ModelError::Length {
+                    pointer,
+                    found,
+                    expected,
+                    what,
+                })
+            };
+            let rows = layer.weights.len();
+            if rows == 0 {
+                let pointer = at("weights".to_owned());
+                return Err(ModelError::NoValues { pointer });
+            }
+            fits(layer.biases.len(), rows, at("biases".to_owned()), "weights")?;
+            for (row, weights) in layer.weights.iter().enumerate() {
+                let pointer = at(format!("weights/{row}"));
+                fits(weights.len(), width, pointer, "the layer before")?;
+            }
+            let is_last = place + 1 == layers.len();
+            if is_last {
+                fits(rows, num_outputs, at("weights".to_owned()), "pairs")?;
+            }
+            let numbers = layer.weights.iter().flatten().chain(&layer.biases);
+            if !numbers.clone().all(|number| number.is_finite()) {
+                return Err(ModelError::Number {
+                    pointer: format!("/layers/{place}"),
+                });
+            }
+            read.push(Layer {
+                weights: layer.weights.concat(),
+                biases: layer.biases.clone(),
+            });
+            width = rows;
+        }
+        match read.is_empty() {
+            true => Err(ModelError::NoLayer),
+            false => Ok(Self { layers: read }),
+        }
+    }
+
+    /// The values after each layer, of configurations side by side: those of layer k are at place k + 1, those at place 0
+    /// are what the network is told.
+    pub fn values(&self, level: Level, values: &mut [Vec<Lanes>]) {
+        dispatch!(level, simd => self.values_with(simd, values));
+    }
+
+    #[inline(always)]
+    fn values_with<S: Simd>(&self, _: S, values: &mut [Vec<Lanes>]) {
+        let last = self.layers.len().saturating_sub(1);
+        for (place, layer) in self.layers.iter().enumerate() {
+            let (before, after) = values.split_at_mut(place + 1);
+            let (inputs, outputs) = (&before[place], &mut after[0]);
+            kernel::dense(&layer.weights, &layer.biases, inputs, outputs);
+            if place != last {
+                kernel::tanh_all(outputs);
+            }
+        }
+    }
+
+    /// Room for [`Network::values`].
+    pub fn room(&self) -> Vec<Vec<Lanes>> {
+        let zeros = |count: usize| vec![[0.0; LANES]; count];
+        let first = self.layers.first().map_or(0, Layer::num_inputs);
+        let rest = self.layers.iter().map(|layer| zeros(layer.biases.len()));
+        std::iter::once(zeros(first)).chain(rest).collect()
+    }
+
+    /// The values after each layer, of one configuration: the same bits as [`Network::values`] gives.
+    pub fn values_of_one(&self, inputs: Vec<f64>) -> Vec<Vec<f64>> {
+        let last = self.layers.len().saturating_sub(1);
+        let mut values = vec![inputs];
+        for (place, layer) in self.layers.iter().enumerate() {
+            let inputs = &values[place];
+            let rows = layer.weights.chunks_exact(inputs.len().max(1));
+            let sum = |(row, bias): (&[f64], &f64)| {
+                let products = row.iter().zip(inputs).map(|(weight, x)| weight * x);
+                products.fold(*bias, |sum, product| sum + product)
+            };
+            let mut outputs: Vec<f64> = rows.zip(&layer.biases).map(sum).collect();
+            if place != last {
+                outputs
+                    .iter_mut()
+                    .for_each(|value| *value = kernel::tanh(*value));
+            }
+            values.push(outputs);
+        }
+        values
+    }
+
+    /// The derivative of an output by what the network is told, from the values after each layer.
+    pub fn derivative(&self, values: &[Vec<f64>], output: usize) -> Vec<f64> {
+        let last = self.layers.len().saturating_sub(1);
+        let mut by_values: Vec<f64> = Vec::new();
+        for (place, layer) in self.layers.iter().enumerate().rev() {
+            let rows = layer.weights.chunks_exact(layer.num_inputs().max(1));
+            by_values = match place == last {
+                true => rows.skip(output).take(1).flatten().copied().collect(),
+                false => {
+                    let outputs = values[place + 1].iter();
+                    let slopes = by_values
+                        .iter()
+                        .zip(outputs)
+                        .map(|(d, t)| d * (1.0 - t * t));
+                    let mut sums = vec![0.0; layer.num_inputs()];
+                    for (row, slope) in rows.zip(slopes) {
+                        for (sum, weight) in sums.iter_mut().zip(row) {
+                            *sum += weight * slope;
+                        }
+                    }
+                    sums
+                }
+            };
+        }
+        by_values
+    }
+}

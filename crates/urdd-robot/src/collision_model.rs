@@ -1,0 +1,47 @@
+//! The learned self-collision model, asked about a robot.
+
+use super::Robot;
+use super::error::RobotError;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_kinematics::learn::CollisionModel;
+
+impl Robot {
+    /// The learned self-collision model (SPEC 8.8): an estimate of how near links are, for passing over configurations
+    /// that are far from any contact before the others are checked exactly. It is an estimate, not a guarantee:
+    /// [`CollisionModel::evaluation`] says how often it is wrong.
+    ///
+    /// ```
+    /// # use urdd_robot::{Robot, RobotError, ShapeKind};
+    /// fn is_free(robot: &Robot, q: &[f64]) -> Result<bool, RobotError> {
+    ///     let model = robot.collision_model()?;
+    ///     if !model.may_collide(q)? {
+    ///         return Ok(true); // most free configurations, and some collisions: `evaluation` counts them
+    ///     }
+    ///     Ok(!robot.proximity(ShapeKind::Pieces)?.in_collision(q)?)
+    /// }
+    /// ```
+    ///
+    /// # Errors
+    /// Where `self_collision_model_module`, `chain_module` or `dof_module` is missing or of no use.
+    pub fn collision_model(&self) -> Result<CollisionModel, RobotError> {
+        let kind = ModuleKind::SelfCollisionModel;
+        let part = self.part(&[kind])?;
+        let Some(ModuleDocument::SelfCollisionModel(module)) = part.document(kind) else {
+            return Err(RobotError::Missing(kind));
+        };
+        let num_dofs = self.motion()?.kinematics.num_dofs();
+        let unusable = |reason: String| RobotError::Unusable {
+            module: kind,
+            reason,
+        };
+        let (pairs, others) = (module.pairs.iter(), module.other_pairs.iter());
+        let links = pairs.flat_map(|pair| [pair.link_a_idx, pair.link_b_idx]);
+        let links = links.chain(others.flat_map(|pair| [pair.link_a_idx, pair.link_b_idx]));
+        let num_links = self.links()?.len();
+        if let Some(link) = links.map(|link| link.get()).find(|link| *link >= num_links) {
+            let reason = format!("link {link} is not one of the robot's {num_links}");
+            return Err(unusable(reason));
+        }
+        CollisionModel::new(module, num_dofs).map_err(|error| unusable(error.to_string()))
+    }
+}

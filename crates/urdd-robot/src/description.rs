@@ -1,0 +1,48 @@
+//! What the source URDF says, as data.
+
+use super::Robot;
+use super::error::RobotError;
+use urdd_document::legacy_urdf::of_legacy;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::root_metadata::Source;
+use urdd_format::urdf::UrdfModule;
+
+/// What a URDD was made from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SourceFile {
+    /// The file's path in the URDD.
+    pub path: String,
+    /// The SHA-256 of its bytes, as 64 hexadecimal digits.
+    pub sha256: String,
+}
+
+impl Robot {
+    /// The robot's URDF as data: links with mass, visuals and collisions, joints with limits. Links and joints are in
+    /// the order of all indices. What a legacy URDD writes as zeros for lack of a value is absent here.
+    ///
+    /// # Errors
+    /// Where `urdf_module` is missing or of no use.
+    pub fn description(&self) -> Result<UrdfModule, RobotError> {
+        let part = self.part(&[ModuleKind::Urdf])?;
+        match part.document(ModuleKind::Urdf) {
+            Some(ModuleDocument::Urdf(module)) => Ok((**module).clone()),
+            Some(ModuleDocument::LegacyUrdf(module)) => Ok(of_legacy(module)),
+            _ => Err(RobotError::Missing(ModuleKind::Urdf)),
+        }
+    }
+
+    /// The source URDF that the URDD carries, by its metadata. `None` without one, or in a legacy URDD.
+    ///
+    /// # Errors
+    /// Where the files cannot be listed.
+    pub fn source(&self) -> Result<Option<SourceFile>, RobotError> {
+        let part = self.part_as_it_is(&[])?;
+        let source = part
+            .metadata()
+            .and_then(|metadata| metadata.source.as_ref());
+        Ok(source.map(|Source::Urdf(file)| SourceFile {
+            path: file.path.clone(),
+            sha256: file.sha256.to_string(),
+        }))
+    }
+}

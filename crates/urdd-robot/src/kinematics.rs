@@ -1,0 +1,211 @@
+//! Where links are, and how they move.
+
+use std::sync::Arc;
+
+use nalgebra::{Isometry3, Matrix6xX, Point3};
+
+use super::Robot;
+use super::batch::{check_room, fill, room};
+use super::error::RobotError;
+use urdd_directory::cancellation::Cancellation;
+use urdd_document::consumer;
+use urdd_document::urdd::Urdd;
+use urdd_format::dof::Quantity;
+use urdd_kinematics::{ForwardKinematics, Place};
+
+/// 6 rows, one column for each DOF: velocity, then angular velocity.
+pub type Jacobian = Matrix6xX<f64>;
+
+/// Configurations that one thread works on at once.
+const BLOCK: usize = 64;
+
+/// What moving a robot takes.
+#[derive(Debug)]
+pub(super) struct Motion {
+    pub links: Vec<String>,
+    pub joints: Vec<String>,
+    pub dofs: Vec<String>,
+    pub units: Vec<&'static str>,
+    pub kinematics: ForwardKinematics,
+}
+
+impl Motion {
+    fn new(part: &Urdd) -> Result<Self, RobotError> {
+        let modules = consumer::modules(part).ok_or(RobotError::MotionOpen)?;
+        let kinematics = ForwardKinematics::new(&modules.chain, &modules.dof)?;
+        let unit = |quantity: &Quantity| match quantity {
+            Quantity::Angle => "rad",
+            Quantity::Length => "m",
+        };
+        let (links, joints) = (modules.chain.links_in_chain, modules.chain.joints_in_chain);
+        Ok(Self {
+            links: links.into_iter().map(|link| link.name).collect(),
+            joints: joints.into_iter().map(|joint| joint.joint_name).collect(),
+            units: modules
+                .dof
+                .dofs
+                .iter()
+                .map(|dof| unit(&dof.quantity))
+                .collect(),
+            dofs: modules.dof.dofs.into_iter().map(|dof| dof.name).collect(),
+            kinematics,
+        })
+    }
+
+    /// How many configurations follow each other; of a robot without DOFs one, and no value.
+    pub(super) fn batch(&self, configurations: &[f64]) -> Result<usize, RobotError> {
+        let (found, dofs) = (configurations.len(), self.kinematics.num_dofs());
+        match dofs {
+            0 if found == 0 => Ok(1),
+            0 => Err(RobotError::Batch { found, dofs }),
+            _ if !found.is_multiple_of(dofs) => Err(RobotError::Batch { found, dofs }),
+            _ => Ok(found / dofs),
+        }
+    }
+}
+
+impl Robot {
+    pub(super) fn motion(&self) -> Result<&Motion, RobotError> {
+        Ok(self.shared_motion()?)
+    }
+
+    pub(super) fn shared_motion(&self) -> Result<&Arc<Motion>, RobotError> {
+        let read = || Ok(Arc::new(Motion::new(&self.moving_part(&[])?)?));
+        match self.motion.get_or_init(read) {
+            Ok(motion) => Ok(motion),
+            Err(error) => Err(error.clone()),
+        }
+    }
+
+    /// The pose of each link in the root link's frame, in link order.
+    ///
+    /// # Errors
+    /// [`RobotError::Configuration`] for another length than the number of DOFs, or a value that is not finite; and
+    /// where `chain_module` or `dof_module` is missing or of no use. Values beyond the bounds are allowed.
+    pub fn link_poses(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, RobotError> {
+        Ok(self.motion()?.kinematics.link_poses(configuration)?)
+    }
+
+    /// As [`Robot::link_poses`], into a vector that can be used again.
+    ///
+    /// # Errors
+    /// As [`Robot::link_poses`].
+    pub fn link_poses_into(
+        &self,
+        configuration: &[f64],
+        poses: &mut Vec<Isometry3<f64>>,
+    ) -> Result<(), RobotError> {
+        let kinematics = &self.motion()?.kinematics;
+        Ok(kinematics.link_poses_into(configuration, poses)?)
+    }
+
+    /// The poses of all links in each of many configurations, which follow each other in `configurations`: pose
+    /// `k * links + link` is that of `link` in configuration `k`. The work is done by all threads of rayon's pool, and
+    /// nothing is allocated for each configuration.
+    ///
+    /// # Errors
+    /// [`RobotError::Batch`] where the values are no whole number of configurations; [`RobotError::Memory`] where there is
+    /// not enough memory; and as [`Robot::link_poses`], for the first configuration that has none.
+    pub fn link_poses_batch(
+        &self,
+        configurations: &[f64],
+    ) -> Result<Vec<Isometry3<f64>>, RobotError> {
+        let motion = self.motion()?;
+        let kinematics = &motion.kinematics;
+        let (dofs, links) = (kinematics.num_dofs(), kinematics.num_links());
+        let count = motion.batch(configurations)?;
+        let mut poses = room(count, links)?;
+        let write = |scratch: &mut Vec<Isometry3<f64>>, k: usize, out: &mut [Isometry3<f64>]| {
+            kinematics.link_poses_into(&configurations[k * dofs..(k + 1) * dofs], scratch)?;
+            out.copy_from_slice(scratch);
+            Ok::<(), RobotError>(())
+        };
+        let scratch = || Vec::with_capacity(links);
+        fill(&mut poses, links, BLOCK, scratch, write)?;
+        Ok(poses)
+    }
+
+    /// The geometric Jacobian of a link's frame: 6 rows, one column for each DOF. Rows 0 to 2 are the velocity of the
+    /// frame's origin, rows 3 to 5 its angular velocity, along the axes of the root link's frame. Mimic joints count
+    /// into the column of the DOF that they follow; the columns of a rotation vector are derivatives by its
+    /// components.
+    ///
+    /// # Errors
+    /// [`RobotError::OutOfRange`] for a link that is not there; and as [`Robot::link_poses`].
+    pub fn jacobian(&self, configuration: &[f64], link: usize) -> Result<Jacobian, RobotError> {
+        self.jacobian_at(configuration, link, [0.0; 3])
+    }
+
+    /// As [`Robot::jacobian`], of a point given in the link's frame, metres.
+    ///
+    /// # Errors
+    /// As [`Robot::jacobian`].
+    pub fn jacobian_at(
+        &self,
+        configuration: &[f64],
+        link: usize,
+        point: [f64; 3],
+    ) -> Result<Jacobian, RobotError> {
+        let kinematics = &self.motion()?.kinematics;
+        let poses = kinematics.link_poses(configuration)?;
+        let count = poses.len();
+        let pose = poses.get(link).ok_or(RobotError::OutOfRange {
+            what: "link",
+            index: link,
+            count,
+        })?;
+        let point = pose * Point3::from(point);
+        Ok(kinematics.jacobian(configuration, &poses, link, &point))
+    }
+
+    /// The Jacobians of a link's frame in each of many configurations, which follow each other in `configurations`: as
+    /// [`Robot::jacobian`], column after column. Number `(k * dofs + dof) * 6 + row` is that of row `row` and DOF `dof`
+    /// in configuration `k`. Only the joints that move the link are looked at. The work is done by all threads of
+    /// rayon's pool, and nothing is allocated for each configuration.
+    ///
+    /// # Errors
+    /// [`RobotError::OutOfRange`] for a link that is not there; [`RobotError::Batch`] where the values are no whole
+    /// number of configurations; [`RobotError::Memory`] where there is not enough memory; and as
+    /// [`Robot::link_poses`], for the first configuration in which the link has no pose.
+    pub fn jacobian_batch(
+        &self,
+        configurations: &[f64],
+        link: usize,
+    ) -> Result<Vec<f64>, RobotError> {
+        let motion = self.motion()?;
+        let width = 6 * motion.kinematics.num_dofs();
+        let mut jacobians = room(motion.batch(configurations)?, width)?;
+        let on = Cancellation::default();
+        self.jacobian_batch_into(configurations, link, [0.0; 3], &on, &mut jacobians)?;
+        Ok(jacobians)
+    }
+
+    /// As [`Robot::jacobian_batch`], of a point given in the link's frame, metres, into `out`.
+    ///
+    /// # Errors
+    /// As there; [`RobotError::Room`] where `out` has another number of values than there are answers, and
+    /// [`RobotError::Cancelled`].
+    pub fn jacobian_batch_into(
+        &self,
+        configurations: &[f64],
+        link: usize,
+        point: [f64; 3],
+        cancellation: &Cancellation,
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
+        let motion = self.motion()?;
+        let kinematics = &motion.kinematics;
+        let (dofs, count) = (kinematics.num_dofs(), kinematics.num_links());
+        if link >= count {
+            let (what, index) = ("link", link);
+            return Err(RobotError::OutOfRange { what, index, count });
+        }
+        check_room(out.len(), motion.batch(configurations)?, 6 * dofs)?;
+        let (branch, point) = (kinematics.branch(link), Point3::from(point));
+        fill(out, 6 * dofs, BLOCK, Place::default, |place, k, out| {
+            cancellation.check()?;
+            let q = &configurations[k * dofs..(k + 1) * dofs];
+            Ok(branch.jacobian_into(q, &point, place, out)?)
+        })
+    }
+}

@@ -1,0 +1,113 @@
+//! A robot to ask about itself: what a URDD holds, with names, units and nothing derived.
+//!
+//! [`Robot::open`] takes a folder or a zip archive, of version 1 or legacy; [`Robot::of`] any
+//! [`Source`], as one in memory. Each module is read when it is first asked for: a
+//! robot that is only moved reads `chain_module`, `dof_module` and `bounds_module`, and no mesh. A URDD that fails
+//! validation is a robot too, as far as the modules asked for can be read; what cannot be read is an error that names
+//! the module and says how to make it.
+//!
+//! ```
+//! use urdd_robot::{Robot, ShapeKind};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance/robots/gripper.urdf");
+//! # let path = folder.path().join("gripper");
+//! # urdd_generate::generate(urdf.as_ref(), &path, &Default::default(), &())?;
+//! let robot = Robot::open(&path)?;
+//! let q = robot.configurations()?.middle();
+//! let poses = robot.link_poses(&q)?;
+//! let last = robot.links()?.len() - 1;
+//! println!("{} is at {}", robot.links()?[last], poses[last].translation);
+//!
+//! let proximity = robot.proximity(ShapeKind::Pieces)?;
+//! if let Some(pair) = proximity.nearest(&q, 1)?.first() {
+//!     println!("{} and {}: {:.3} m", pair.links[0], pair.links[1], pair.distance);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Lengths are metres, angles radians. Poses are in the frame of the root link. A configuration has one value for
+//! each DOF, in the order of [`Robot::dofs`]; values beyond the bounds are allowed. Links are in the order of
+//! `urdf_module`.
+
+mod batch;
+mod collision_model;
+mod description;
+mod error;
+mod inverse;
+mod kinematics;
+mod mesh;
+mod names;
+mod parts;
+pub mod proximity;
+mod shapes;
+mod skip_edits;
+mod skips;
+mod space;
+mod statistics;
+pub mod world;
+
+use std::path::Path;
+use std::sync::{Arc, OnceLock};
+
+use urdd_directory::root::Root;
+use urdd_directory::source::Source;
+
+pub use batch::fill;
+pub use description::SourceFile;
+pub use error::RobotError;
+pub use inverse::Target;
+pub use kinematics::Jacobian;
+pub use mesh::LinkVisual;
+pub use proximity::{PairDistance, Proximity, Until};
+pub use shapes::{LinkShape, ShapeKind, Solid};
+pub use skip_edits::EditedSkips;
+pub use skips::Skips;
+pub use space::Configurations;
+pub use statistics::PairStatistics;
+pub use urdd_kinematics::inverse::{Inverse, InverseSettings, InverseSolution};
+pub use urdd_kinematics::learn::{Clearance, CollisionModel};
+pub use world::{Among, Obstacle, ObstacleDistance, World};
+
+/// A robot, as its URDD describes it.
+///
+/// It can be shared between threads.
+#[derive(Debug)]
+pub struct Robot {
+    root: Root,
+    motion: OnceLock<Result<Arc<kinematics::Motion>, RobotError>>,
+    configurations: OnceLock<Result<Arc<Configurations>, RobotError>>,
+}
+
+impl Robot {
+    /// The robot in a folder or a zip archive. Nothing of it is read yet.
+    ///
+    /// # Errors
+    /// [`RobotError::Open`] where there is none.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, RobotError> {
+        let path = path.as_ref();
+        let opened = Root::open(path).map_err(|error| RobotError::Open {
+            path: path.display().to_string(),
+            error,
+        })?;
+        Ok(Self::at(opened))
+    }
+
+    /// The robot whose files a source holds.
+    pub fn of(source: impl Source + 'static) -> Self {
+        Self::at(Root::of(source))
+    }
+
+    fn at(root: Root) -> Self {
+        Self {
+            root,
+            motion: OnceLock::new(),
+            configurations: OnceLock::new(),
+        }
+    }
+
+    /// The name of the folder or archive.
+    pub fn folder_name(&self) -> String {
+        self.root.folder_name()
+    }
+}

@@ -1,0 +1,172 @@
+//! The files of hulls and pieces.
+
+use std::io::Read;
+
+use rayon::prelude::*;
+
+use super::Robot;
+use super::error::RobotError;
+use super::shapes::{LinkShape, Solid};
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_document::mesh_files::{Absence, MeshFiles};
+use urdd_document::meshes::{self, Format, MeshPath};
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::{ModuleKind, Profile};
+use urdd_geometry::Mesh;
+use urdd_geometry::read::{GltfUp, Options, Part, Scene, read_with};
+
+/// The meshes of one module.
+pub(super) struct Meshes<'a> {
+    part: &'a Urdd,
+    meshes: meshes::Meshes<'a>,
+    /// The format that is read: the one that holds vertices most briefly, of those that have any file. A page in one
+    /// file leaves out formats as a whole.
+    format: Option<Format>,
+}
+
+impl<'a> Meshes<'a> {
+    pub fn new(part: &'a Urdd, kind: ModuleKind) -> Result<Self, RobotError> {
+        let meshes = part.meshes(kind).ok_or(RobotError::Missing(kind))?;
+        let files = MeshFiles::new(part);
+        let has_files = |format: &Format| {
+            let links = meshes.lists.iter().flat_map(|list| &list.links);
+            let mut paths = links.flatten().flat_map(|mesh| &mesh.paths);
+            paths.any(|path| {
+                let own = files.own(meshes.profile, path.path);
+                path.format == Some(*format) && own.is_none_or(|own| part.listing().has_file(own))
+            })
+        };
+        let format = [Format::Stl, Format::Obj, Format::Glb]
+            .into_iter()
+            .find(has_files);
+        Ok(Self {
+            part,
+            meshes,
+            format,
+        })
+    }
+
+    /// Reads all of them, by link and piece.
+    pub fn all(&self) -> Result<Vec<LinkShape>, RobotError> {
+        let places: Vec<(usize, usize)> = (0..self.meshes.num_links())
+            .flat_map(|link| (0..self.meshes.count(link)).map(move |piece| (link, piece)))
+            .collect();
+        let read = |(link, piece): (usize, usize)| {
+            Ok(LinkShape {
+                link,
+                piece,
+                solid: Solid::Mesh(self.read(link, piece)?),
+            })
+        };
+        places.into_par_iter().map(read).collect()
+    }
+
+    /// Reads one.
+    fn read(&self, link: usize, piece: usize) -> Result<Mesh, RobotError> {
+        let lists = self.meshes.lists.iter();
+        let meshes = lists.filter_map(|list| list.links.get(link)?.get(piece));
+        let paths: Vec<&MeshPath> = meshes.flat_map(|mesh| &mesh.paths).collect();
+        let of_format = paths.iter().find(|path| path.format == self.format);
+        let path = of_format.or(paths.first());
+        match path {
+            Some(path) => {
+                let mut mesh = read(self.part, self.meshes.profile, path.path)?.merged();
+                // STL says a vertex again for each of its triangles.
+                mesh.weld();
+                match mesh.vertices.is_empty() {
+                    true => Err(fault(path.path, "it has no vertex".to_owned())),
+                    false => Ok(mesh),
+                }
+            }
+            None => Err(RobotError::Missing(self.meshes.kind)),
+        }
+    }
+
+    /// The coloured parts of each link's mesh: only GLB has colours.
+    fn visuals(&self) -> Result<Vec<LinkVisual>, RobotError> {
+        let links = (0..self.meshes.num_links()).filter(|link| self.meshes.count(*link) > 0);
+        let visual = |link: usize| {
+            let lists = self.meshes.lists.iter();
+            let meshes = lists.filter_map(|list| list.links.get(link)?.first());
+            let mut paths = meshes.flat_map(|mesh| &mesh.paths);
+            let glb = paths.clone().find(|path| path.format == Some(Format::Glb));
+            let path = glb.or_else(|| paths.next());
+            let path = path.ok_or(RobotError::Missing(self.meshes.kind))?;
+            let scene = read(self.part, self.meshes.profile, path.path)?;
+            Ok(LinkVisual {
+                link,
+                parts: scene.parts,
+            })
+        };
+        links
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(visual)
+            .collect()
+    }
+}
+
+/// What a link looks like, in its frame, in metres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinkVisual {
+    /// The link.
+    pub link: usize,
+    /// Triangles by colour.
+    pub parts: Vec<Part>,
+}
+
+impl Robot {
+    /// The plain mesh of each link that has one, with its colours. Textures are not read. Files are read each time.
+    ///
+    /// # Errors
+    /// Where `plain_meshes_module` is missing or of no use, or a mesh cannot be read.
+    pub fn visuals(&self) -> Result<Vec<LinkVisual>, RobotError> {
+        let part = self.part(&[ModuleKind::PlainMeshes])?;
+        Meshes::new(&part, ModuleKind::PlainMeshes)?.visuals()
+    }
+}
+
+fn fault(path: &str, reason: String) -> RobotError {
+    RobotError::Mesh {
+        path: path.to_owned(),
+        reason,
+    }
+}
+
+fn read(part: &Urdd, profile: Profile, path: &str) -> Result<Scene, RobotError> {
+    let fail = |reason: String| fault(path, reason);
+    let (file, size) = MeshFiles::new(part)
+        .open(profile, path)
+        .map_err(|absence| fail(why_absent(absence)))?;
+    if size > MAX_DOCUMENT_BYTES {
+        let limit = MAX_DOCUMENT_BYTES;
+        return Err(fail(format!("it has {size} bytes, more than {limit}")));
+    }
+    let mut bytes = Vec::new();
+    file.take(MAX_DOCUMENT_BYTES)
+        .read_to_end(&mut bytes)
+        .map_err(|error| fail(format!("it cannot be read: {error}")))?;
+    let options = Options {
+        gltf_up: GltfUp::Keep,
+        ..Options::default()
+    };
+    read_with(&bytes, path, &mut |_| None, &options).map_err(|error| {
+        fail(match &error.place {
+            Some(place) => format!("{place}: {}", error.fault),
+            None => error.fault.to_string(),
+        })
+    })
+}
+
+fn why_absent(absence: Absence) -> String {
+    match absence {
+        Absence::Missing => "there is no such file".to_owned(),
+        Absence::NoSibling(name) => {
+            format!(
+                "it lies in the URDD `{}`, which is not beside this one",
+                name.escape_debug()
+            )
+        }
+        Absence::Other(error) => error.to_string(),
+    }
+}

@@ -1,0 +1,66 @@
+//! Names of links, joints and DOFs, and their indices.
+
+use super::Robot;
+use super::error::RobotError;
+use urdd_format::nearest::nearest;
+
+impl Robot {
+    /// The name of each link.
+    ///
+    /// # Errors
+    /// Where `chain_module` or `dof_module` is missing or of no use.
+    pub fn links(&self) -> Result<&[String], RobotError> {
+        Ok(&self.motion()?.links)
+    }
+
+    /// The index of a link.
+    ///
+    /// # Errors
+    /// [`RobotError::Unknown`], with the nearest name; and as [`Robot::links`].
+    pub fn link(&self, name: &str) -> Result<usize, RobotError> {
+        index("link", self.links()?, name)
+    }
+
+    /// The name of each joint.
+    ///
+    /// # Errors
+    /// As [`Robot::links`].
+    pub fn joints(&self) -> Result<&[String], RobotError> {
+        Ok(&self.motion()?.joints)
+    }
+
+    /// The name of each DOF: that of its joint, with the coordinate where the joint has several.
+    ///
+    /// # Errors
+    /// As [`Robot::links`].
+    pub fn dofs(&self) -> Result<&[String], RobotError> {
+        Ok(&self.motion()?.dofs)
+    }
+
+    /// The index of a DOF.
+    ///
+    /// # Errors
+    /// [`RobotError::Unknown`], with the nearest name; and as [`Robot::links`].
+    pub fn dof(&self, name: &str) -> Result<usize, RobotError> {
+        index("DOF", self.dofs()?, name)
+    }
+
+    /// The unit of each DOF: `rad` or `m`.
+    ///
+    /// # Errors
+    /// As [`Robot::links`].
+    pub fn units(&self) -> Result<&[&'static str], RobotError> {
+        Ok(&self.motion()?.units)
+    }
+}
+
+pub(super) fn index(what: &'static str, names: &[String], name: &str) -> Result<usize, RobotError> {
+    names
+        .iter()
+        .position(|known| known == name)
+        .ok_or_else(|| RobotError::Unknown {
+            what,
+            name: name.to_owned(),
+            nearest: nearest(names.iter().map(String::as_str), name),
+        })
+}

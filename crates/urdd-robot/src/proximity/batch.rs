@@ -1,0 +1,205 @@
+//! Questions about many configurations, which follow each other in one list.
+
+use rayon::prelude::*;
+
+use super::{Group, Placed, Proximity};
+use crate::batch::{check_room, fill, room};
+use crate::error::RobotError;
+use urdd_directory::cancellation::Cancellation;
+
+/// Configurations that one thread works on at once.
+const BLOCK: usize = 32;
+
+/// Questions about many configurations that end where they are asked to stop: [`Proximity::until`].
+#[derive(Debug, Clone, Copy)]
+pub struct Until<'a> {
+    proximity: &'a Proximity,
+    cancellation: &'a Cancellation,
+}
+
+impl Proximity {
+    /// Questions about many configurations that can be stopped: each then ends soon, within some configurations, with
+    /// [`RobotError::Cancelled`].
+    ///
+    /// ```
+    /// use urdd_directory::cancellation::Cancellation;
+    /// # use urdd_robot::{Robot, RobotError, ShapeKind};
+    /// # let folder = tempfile::tempdir()?;
+    /// # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance/robots/gripper.urdf");
+    /// # let path = folder.path().join("gripper");
+    /// # urdd_generate::generate(urdf.as_ref(), &path, &Default::default(), &())?;
+    /// # let robot = Robot::open(&path)?;
+    /// let cancellation = Cancellation::default();
+    /// let elsewhere = cancellation.clone();   // for another thread, a handler of signals, a button
+    /// # elsewhere.cancel();
+    /// let proximity = robot.proximity(ShapeKind::Hulls)?;
+    /// let batch = robot.configurations()?.random(1);
+    /// match proximity.until(&cancellation).distances_batch(&batch) {
+    ///     Ok(distances) => println!("{distances:?}"),
+    ///     Err(RobotError::Cancelled(_)) => println!("stopped"),
+    ///     Err(error) => return Err(error.into()),
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn until<'a>(&'a self, cancellation: &'a Cancellation) -> Until<'a> {
+        Until {
+            proximity: self,
+            cancellation,
+        }
+    }
+
+    /// Whether the robot collides with itself in each configuration, as [`Proximity::in_collision`].
+    ///
+    /// # Errors
+    /// [`RobotError::Batch`] where the values are no whole number of configurations; [`RobotError::Memory`] where there is
+    /// not enough memory; and as [`Proximity::distances`], for the first configuration that has none.
+    pub fn in_collision_batch(&self, configurations: &[f64]) -> Result<Vec<bool>, RobotError> {
+        self.until(&Cancellation::default())
+            .in_collision_batch(configurations)
+    }
+
+    /// For each two links with pairs of shapes, by index: in how many of the configurations shapes of theirs touch.
+    ///
+    /// # Errors
+    /// As [`Proximity::in_collision_batch`].
+    pub fn contacts_of_links(
+        &self,
+        configurations: &[f64],
+    ) -> Result<Vec<([usize; 2], usize)>, RobotError> {
+        let count = self.motion.batch(configurations)?;
+        let dofs = self.num_dofs();
+        let found = (0..count).into_par_iter().map(|k| {
+            let mut placed = Placed::default();
+            self.place(&configurations[k * dofs..(k + 1) * dofs], &mut placed)?;
+            self.place_centres(&mut placed);
+            let touches = |group: &Group| self.any_touches(&placed, std::slice::from_ref(group));
+            Ok(self.groups.iter().map(touches).collect())
+        });
+        let found: Vec<Vec<bool>> = found.collect::<Result<_, RobotError>>()?;
+        let groups = self.groups.iter().enumerate();
+        Ok(groups
+            .map(|(at, group)| (group.links, found.iter().filter(|one| one[at]).count()))
+            .collect())
+    }
+
+    /// The least distance in each configuration, metres, as [`Proximity::self_distance`]: infinite where there is no
+    /// pair.
+    ///
+    /// # Errors
+    /// As [`Proximity::in_collision_batch`].
+    pub fn self_distance_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
+        self.until(&Cancellation::default())
+            .self_distance_batch(configurations)
+    }
+
+    /// The distances of all pairs in each configuration, metres: value `k * pairs + pair` is that of `pair`, in the
+    /// order of [`Proximity::pairs`], in configuration `k`.
+    ///
+    /// # Errors
+    /// As [`Proximity::in_collision_batch`].
+    pub fn distances_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
+        self.until(&Cancellation::default())
+            .distances_batch(configurations)
+    }
+}
+
+impl Until<'_> {
+    /// As [`Proximity::in_collision_batch`].
+    ///
+    /// # Errors
+    /// As there, and [`RobotError::Cancelled`].
+    pub fn in_collision_batch(&self, configurations: &[f64]) -> Result<Vec<bool>, RobotError> {
+        let mut answers = room(self.count(configurations)?, 1)?;
+        self.in_collision_batch_into(configurations, &mut answers)?;
+        Ok(answers)
+    }
+
+    /// As [`Proximity::in_collision_batch`], into `out`.
+    ///
+    /// # Errors
+    /// As there, [`RobotError::Room`] where `out` has another number of values than there are answers, and
+    /// [`RobotError::Cancelled`].
+    pub fn in_collision_batch_into(
+        &self,
+        configurations: &[f64],
+        out: &mut [bool],
+    ) -> Result<(), RobotError> {
+        self.fill(configurations, 1, out, |q, placed, out| {
+            out[0] = self.proximity.collides(q, placed)?;
+            Ok(())
+        })
+    }
+
+    /// As [`Proximity::self_distance_batch`].
+    ///
+    /// # Errors
+    /// As there, and [`RobotError::Cancelled`].
+    pub fn self_distance_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
+        let mut distances = room(self.count(configurations)?, 1)?;
+        self.self_distance_batch_into(configurations, &mut distances)?;
+        Ok(distances)
+    }
+
+    /// As [`Proximity::self_distance_batch`], into `out`.
+    ///
+    /// # Errors
+    /// As [`Until::in_collision_batch_into`].
+    pub fn self_distance_batch_into(
+        &self,
+        configurations: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
+        self.fill(configurations, 1, out, |q, placed, out| {
+            let least = self.proximity.least(q, 1, placed)?;
+            out[0] = least
+                .first()
+                .map_or(f64::INFINITY, |(distance, _)| *distance);
+            Ok(())
+        })
+    }
+
+    /// As [`Proximity::distances_batch`].
+    ///
+    /// # Errors
+    /// As there, and [`RobotError::Cancelled`].
+    pub fn distances_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
+        let mut distances = room(self.count(configurations)?, self.proximity.pairs.len())?;
+        self.distances_batch_into(configurations, &mut distances)?;
+        Ok(distances)
+    }
+
+    /// As [`Proximity::distances_batch`], into `out`.
+    ///
+    /// # Errors
+    /// As [`Until::in_collision_batch_into`].
+    pub fn distances_batch_into(
+        &self,
+        configurations: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
+        let pairs = self.proximity.pairs.len();
+        self.fill(configurations, pairs, out, |q, placed, out| {
+            self.proximity.values_into(q, placed, out)
+        })
+    }
+
+    fn fill<T: Send>(
+        &self,
+        configurations: &[f64],
+        width: usize,
+        out: &mut [T],
+        ask: impl Fn(&[f64], &mut Placed, &mut [T]) -> Result<(), RobotError> + Sync,
+    ) -> Result<(), RobotError> {
+        check_room(out.len(), self.count(configurations)?, width)?;
+        let dofs = self.proximity.num_dofs();
+        fill(out, width, BLOCK, Placed::default, |placed, k, out| {
+            self.cancellation.check()?;
+            ask(&configurations[k * dofs..(k + 1) * dofs], placed, out)
+        })
+    }
+
+    /// How many configurations follow each other; of a robot without DOFs one, and no value.
+    fn count(&self, configurations: &[f64]) -> Result<usize, RobotError> {
+        self.proximity.motion.batch(configurations)
+    }
+}

@@ -1,0 +1,265 @@
+//! Questions about one configuration.
+
+use super::body::Body;
+use super::{Group, PairDistance, Placed, Proximity, dot, to_root};
+use crate::error::RobotError;
+use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
+
+impl Proximity {
+    /// Every pair that is not skipped, in the order of [`Proximity::pairs`]. `configuration` has one value for each
+    /// DOF, rad or m; values beyond the bounds are allowed.
+    ///
+    /// # Errors
+    /// [`RobotError::Configuration`]: another length, or a value that is not finite.
+    pub fn distances(&self, configuration: &[f64]) -> Result<Vec<PairDistance>, RobotError> {
+        let mut placed = Placed::default();
+        self.place(configuration, &mut placed)?;
+        self.place_centres(&mut placed);
+        let all: Vec<usize> = (0..self.pairs.len()).collect();
+        Ok(self.witnesses(&placed, &all))
+    }
+
+    /// The distances alone, metres, in the order of [`Proximity::pairs`].
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn distance_values(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
+        let mut values = vec![0.0; self.pairs.len()];
+        self.values_into(configuration, &mut Placed::default(), &mut values)?;
+        Ok(values)
+    }
+
+    /// The `k` pairs that are nearest, nearest first; of pairs that are as near the first by [`Proximity::pairs`].
+    /// Fewer where there are fewer pairs.
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn nearest(
+        &self,
+        configuration: &[f64],
+        k: usize,
+    ) -> Result<Vec<PairDistance>, RobotError> {
+        let mut placed = Placed::default();
+        let nearest = self.least(configuration, k, &mut placed)?;
+        let pairs: Vec<usize> = nearest.into_iter().map(|(_, pair)| pair).collect();
+        Ok(self.witnesses(&placed, &pairs))
+    }
+
+    /// The least distance of all pairs, metres; `None` where there is no pair.
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn self_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
+        let least = self.least(configuration, 1, &mut Placed::default())?;
+        Ok(least.first().map(|(distance, _)| *distance))
+    }
+
+    /// Whether any pair touches or overlaps: is at distance 0. It ends with the first that does.
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn in_collision(&self, configuration: &[f64]) -> Result<bool, RobotError> {
+        self.collides(configuration, &mut Placed::default())
+    }
+
+    /// The pairs that touch or overlap, in the order of [`Proximity::pairs`].
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn collisions(&self, configuration: &[f64]) -> Result<Vec<PairDistance>, RobotError> {
+        let mut placed = Placed::default();
+        self.place(configuration, &mut placed)?;
+        self.place_centres(&mut placed);
+        let near = (0..self.pairs.len()).filter(|pair| self.bound(&placed, *pair) <= 0.0);
+        let near: Vec<usize> = near.collect();
+        let mut touching = Vec::new();
+        for pairs in near.chunks(AT_ONCE) {
+            let mut values = [0.0; AT_ONCE];
+            self.values(&placed, pairs, &mut values[..pairs.len()]);
+            let both = pairs.iter().zip(values);
+            touching.extend(
+                both.filter(|(_, value)| *value == 0.0)
+                    .map(|(pair, _)| *pair),
+            );
+        }
+        Ok(self.witnesses(&placed, &touching))
+    }
+
+    pub(super) fn collides(
+        &self,
+        configuration: &[f64],
+        placed: &mut Placed,
+    ) -> Result<bool, RobotError> {
+        self.place(configuration, placed)?;
+        self.place_centres(placed);
+        Ok(self.any_touches(placed, &self.groups))
+    }
+
+    /// Whether shapes of one of these groups touch, in the pose in which the robot is placed.
+    pub(super) fn any_touches(&self, placed: &Placed, groups: &[Group]) -> bool {
+        let mut near: Vec<PlacedPair> = Vec::with_capacity(AT_ONCE);
+        for group in groups {
+            if self.are_apart(placed, group.links) {
+                continue;
+            }
+            let pose = Self::relative(placed, group.links[0], group.links[1]);
+            for pair in group.first..group.end {
+                if self.bound(placed, pair) > 0.0 {
+                    continue;
+                }
+                let Some(pair) = self.convex(pair, pose) else {
+                    return true;
+                };
+                near.push(pair);
+                if near.len() == AT_ONCE {
+                    if across::any_touches(self.level, &near) {
+                        return true;
+                    }
+                    near.clear();
+                }
+            }
+        }
+        !near.is_empty() && across::any_touches(self.level, &near)
+    }
+
+    /// The distances and pairs of the `k` nearest, nearest first.
+    pub(super) fn least(
+        &self,
+        configuration: &[f64],
+        k: usize,
+        placed: &mut Placed,
+    ) -> Result<Vec<(f64, usize)>, RobotError> {
+        self.place(configuration, placed)?;
+        self.place_centres(placed);
+        let by = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        let bound = |pair: usize| (self.bound(placed, pair).max(0.0), pair);
+        let mut bounds: Vec<(f64, usize)> = (0..self.pairs.len()).map(bound).collect();
+        bounds.sort_unstable_by(by);
+        let mut best: Vec<(f64, usize)> = Vec::new();
+        for bounds in bounds.chunks(AT_ONCE) {
+            // None of those that follow can be nearer, or as near and come first, than the last of enough.
+            let enough = best.len() >= k;
+            if enough && best.last().is_none_or(|worst| bounds[0].0 > worst.0) {
+                break;
+            }
+            let pairs: Vec<usize> = bounds.iter().map(|(_, pair)| *pair).collect();
+            let mut values = [0.0; AT_ONCE];
+            self.values(placed, &pairs, &mut values[..pairs.len()]);
+            best.extend(values.into_iter().zip(pairs));
+            best.sort_unstable_by(by);
+            best.truncate(k);
+        }
+        Ok(best)
+    }
+
+    pub(super) fn values_into(
+        &self,
+        configuration: &[f64],
+        placed: &mut Placed,
+        values: &mut [f64],
+    ) -> Result<(), RobotError> {
+        self.place(configuration, placed)?;
+        self.place_centres(placed);
+        let mut pairs = [0; AT_ONCE];
+        for (chunk, out) in values.chunks_mut(AT_ONCE).enumerate() {
+            for (k, pair) in pairs.iter_mut().enumerate() {
+                *pair = chunk * AT_ONCE + k;
+            }
+            self.values(placed, &pairs[..out.len()], out);
+        }
+        Ok(())
+    }
+
+    /// The distances of some pairs, at most [`AT_ONCE`].
+    fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
+        let mut convex: Vec<PlacedPair> = Vec::with_capacity(AT_ONCE);
+        for pair in pairs {
+            convex.extend(self.convex(*pair, self.pose(placed, *pair)));
+        }
+        if convex.len() == pairs.len() {
+            across::distances(self.level, &convex, values);
+        } else {
+            // Spheres: the bound is the distance.
+            for (value, pair) in values.iter_mut().zip(pairs) {
+                *value = self.bound(placed, *pair).max(0.0);
+            }
+        }
+    }
+
+    fn pose(&self, placed: &Placed, pair: usize) -> [[f64; 3]; 4] {
+        let [a, b] = self.pairs[pair].shapes.map(|shape| self.shapes[shape].link);
+        Self::relative(placed, a, b)
+    }
+
+    /// The two shapes of a pair, where they are no spheres.
+    fn convex(&self, pair: usize, b_in_a: [[f64; 3]; 4]) -> Option<PlacedPair<'_>> {
+        let [a, b] = self.pairs[pair]
+            .shapes
+            .map(|shape| &self.shapes[shape].body);
+        match (a, b) {
+            (Body::Convex(a), Body::Convex(b)) => Some(PlacedPair { a, b, b_in_a }),
+            _ => None,
+        }
+    }
+
+    fn witnesses(&self, placed: &Placed, pairs: &[usize]) -> Vec<PairDistance> {
+        let convex: Vec<PlacedPair> = pairs
+            .iter()
+            .filter_map(|pair| self.convex(*pair, self.pose(placed, *pair)))
+            .collect();
+        let found: Vec<(f64, [[f64; 3]; 2])> = if convex.len() == pairs.len() {
+            let witnesses = across::witnesses(self.level, &convex);
+            let both = pairs.iter().zip(witnesses);
+            both.map(|(pair, found)| {
+                let link = self.shapes[self.pairs[*pair].shapes[0]].link;
+                let root = |p| to_root(&placed.links[link], p);
+                (found.distance, found.points.map(root))
+            })
+            .collect()
+        } else {
+            pairs
+                .iter()
+                .map(|pair| self.of_spheres(placed, *pair))
+                .collect()
+        };
+        let both = pairs.iter().zip(found);
+        both.map(|(pair, (distance, points))| self.pair_distance(*pair, distance, points))
+            .collect()
+    }
+
+    fn pair_distance(&self, pair: usize, distance: f64, points: [[f64; 3]; 2]) -> PairDistance {
+        let pair = &self.pairs[pair];
+        let shapes = pair.shapes.map(|shape| &self.shapes[shape]);
+        PairDistance {
+            links: shapes.map(|shape| self.names[shape.link].clone()),
+            link_idxs: shapes.map(|shape| shape.link),
+            pieces: shapes.map(|shape| shape.piece),
+            distance,
+            relative: pair.mean.map(|mean| distance / mean),
+            points,
+        }
+    }
+
+    /// The distance of two spheres, and where it is.
+    fn of_spheres(&self, placed: &Placed, pair: usize) -> (f64, [[f64; 3]; 2]) {
+        let [a, b] = self.pairs[pair].shapes;
+        let (p, q) = (placed.centres[a], placed.centres[b]);
+        let radii = [a, b].map(|shape| self.shapes[shape].sphere.radius);
+        let between = [0, 1, 2].map(|k| q[k] - p[k]);
+        let length = dot(between, between).sqrt();
+        let distance = (length - radii[0] - radii[1]).max(0.0);
+        let toward = match length > 0.0 {
+            true => between.map(|x| x / length),
+            false => [1.0, 0.0, 0.0],
+        };
+        // Of spheres that overlap: a point on the line of the centres that is in both.
+        let along = match distance > 0.0 {
+            true => [radii[0], length - radii[1]],
+            false => [radii[0].min(0.5 * (length + radii[0] - radii[1]).max(0.0)); 2],
+        };
+        (
+            distance,
+            along.map(|t| [0, 1, 2].map(|k| p[k] + t * toward[k])),
+        )
+    }
+}

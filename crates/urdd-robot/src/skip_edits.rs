@@ -1,0 +1,119 @@
+//! What a person's decisions on skips make of a URDD.
+
+use std::collections::BTreeMap;
+
+use sha2::{Digest, Sha256};
+
+use super::Robot;
+use super::error::RobotError;
+use super::parts::usable;
+use super::shapes::ShapeKind;
+use super::skips::Skips;
+use urdd_directory::canonical;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::file_entry;
+use urdd_directory::json;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_format::hexadecimal::hexadecimal;
+use urdd_format::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::skips::skips_module;
+
+const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
+const SIMPLE: ModuleKind = ModuleKind::LinkShapesSimpleSkips;
+
+/// A module with other edits, and the files of the URDD that change.
+#[derive(Debug)]
+pub struct EditedSkips {
+    /// `link_shapes_skips_module`.
+    pub module: LinkShapesSkipsModule,
+    /// By path, relative to the root: the module's JSON and YAML, and `urdd.json` with their sizes and hashes.
+    pub files: BTreeMap<String, Vec<u8>>,
+    /// Whether the URDD has a self-collision model. It was trained with the skips before, and has to be made again.
+    pub model_is_stale: bool,
+}
+
+impl EditedSkips {
+    /// The skips between shapes of a kind as they are with the edits; `before` are those of the robot.
+    pub fn skips(&self, kind: ShapeKind, before: &Skips) -> Skips {
+        before.of_module(kind, self.module.clone())
+    }
+}
+
+impl Robot {
+    /// The URDD with these edits of skips instead of those that it has, and, where they are given, these skipped reasons.
+    /// Nothing is written.
+    ///
+    /// # Errors
+    /// [`RobotError::Unknown`] for an edit that names no link; [`RobotError::Missing`] and [`RobotError::Unusable`] where
+    /// `urdf_module`, `link_shapes_simple_skips_module` or `link_shapes_skips_module` of version 1 is not there or of no
+    /// use; [`RobotError::Metadata`] where `urdd.json` is.
+    pub fn with_skip_edits(
+        &self,
+        edits: Vec<SkipEdit>,
+        skipped_reasons: Option<Vec<SkippedReason>>,
+    ) -> Result<EditedSkips, RobotError> {
+        let part = self.part(&[ModuleKind::Urdf, SIMPLE, SKIPS])?;
+        let documents = (part.document(SIMPLE), part.document(SKIPS));
+        let (
+            Some(ModuleDocument::LinkShapesSimpleSkips(simple)),
+            Some(ModuleDocument::LinkShapesSkips(now)),
+        ) = documents
+        else {
+            usable(&part, SIMPLE)?;
+            return Err(RobotError::Missing(SKIPS));
+        };
+        let described = part.robot().ok_or(RobotError::Missing(ModuleKind::Urdf))?;
+        let links = described.links.iter();
+        let names: Vec<String> = links.map(|link| link.name.clone()).collect();
+        for edit in &edits {
+            for link in [&edit.link_a, &edit.link_b] {
+                if described.link(link).is_none() {
+                    super::names::index("link", &names, link)?;
+                }
+            }
+        }
+        let reasons = skipped_reasons.unwrap_or_else(|| now.skipped_reasons.clone());
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let module = skips_module(simple, reasons, edits, &names);
+        let mut files = module_files(&module)?;
+        let metadata = self.metadata_with(&files)?;
+        files.insert(ROOT_METADATA.to_owned(), metadata);
+        let model = ModuleKind::SelfCollisionModel;
+        let model_is_stale = self.part_as_it_is(&[model])?.module(model).is_some();
+        Ok(EditedSkips {
+            module,
+            files,
+            model_is_stale,
+        })
+    }
+
+    /// `urdd.json` with the sizes and hashes of some files.
+    fn metadata_with(&self, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, RobotError> {
+        let text = self.root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES);
+        let text = text.map_err(|error| RobotError::Metadata(error.to_string()))?;
+        let document =
+            json::read(&text).map_err(|error| RobotError::Metadata(error.to_string()))?;
+        let mut metadata = document.value;
+        for entry in file_entry::of_modules(&mut metadata) {
+            if let Some(bytes) = file_entry::path(entry).and_then(|path| files.get(path)) {
+                let hash = hexadecimal(&Sha256::digest(bytes));
+                file_entry::update(entry, bytes.len() as u64, &hash);
+            }
+        }
+        Ok(canonical::json_string(&metadata).into_bytes())
+    }
+}
+
+fn module_files(module: &LinkShapesSkipsModule) -> Result<BTreeMap<String, Vec<u8>>, RobotError> {
+    let document = serde_json::to_value(module);
+    let document = document.map_err(|error| RobotError::Unusable {
+        module: SKIPS,
+        reason: error.to_string(),
+    })?;
+    let file = |name: &str, text: String| (format!("{}/{name}", SKIPS.folder()), text.into_bytes());
+    Ok(BTreeMap::from([
+        file("module.json", canonical::json_string(&document)),
+        file("module.yaml", canonical::yaml_string(&document)),
+    ]))
+}

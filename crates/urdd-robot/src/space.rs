@@ -1,0 +1,109 @@
+//! Configurations: values for all DOFs.
+
+use std::sync::Arc;
+
+use super::Robot;
+use super::error::RobotError;
+use urdd_document::consumer;
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::ModuleKind;
+use urdd_kinematics::ConfigurationSpace;
+
+/// The configurations of a robot. Each is a list with one value for each DOF, rad or m.
+#[derive(Debug, Clone)]
+pub struct Configurations {
+    space: ConfigurationSpace,
+    bounds: Vec<[f64; 2]>,
+}
+
+impl Robot {
+    /// The robot's configurations and their bounds.
+    ///
+    /// # Errors
+    /// Where `chain_module`, `dof_module` or `bounds_module` is missing or of no use.
+    pub fn configurations(&self) -> Result<&Configurations, RobotError> {
+        let read = || {
+            let part = self.moving_part(&[ModuleKind::Bounds])?;
+            Ok(Arc::new(Configurations::new(&part)?))
+        };
+        match self.configurations.get_or_init(read) {
+            Ok(configurations) => Ok(configurations),
+            Err(error) => Err(error.clone()),
+        }
+    }
+}
+
+impl Configurations {
+    fn new(part: &Urdd) -> Result<Self, RobotError> {
+        let modules = consumer::modules(part).ok_or(RobotError::MotionOpen)?;
+        let bounds = part
+            .bounds()
+            .ok_or(RobotError::Missing(ModuleKind::Bounds))?;
+        let space = ConfigurationSpace::within(&modules.dof, &modules.chain, bounds.bounds)?;
+        // A producer may write the two in either order.
+        let sorted = |[a, b]: [f64; 2]| [a.min(b), a.max(b)];
+        Ok(Self {
+            space,
+            bounds: bounds.bounds.iter().copied().map(sorted).collect(),
+        })
+    }
+
+    pub(super) fn space(&self) -> &ConfigurationSpace {
+        &self.space
+    }
+
+    /// Number of DOFs.
+    pub fn num_dofs(&self) -> usize {
+        self.bounds.len()
+    }
+
+    /// The lower and the upper bound of each DOF. All rotations are within those of a rotation vector.
+    pub fn bounds(&self) -> &[[f64; 2]] {
+        &self.bounds
+    }
+
+    /// Every DOF 0, or the bound nearest to 0 where 0 is out of bounds (SPEC 9.4).
+    pub fn zero(&self) -> Vec<f64> {
+        self.space.default_configuration()
+    }
+
+    /// Every DOF half-way between its bounds.
+    pub fn middle(&self) -> Vec<f64> {
+        self.space.middle()
+    }
+
+    /// Every DOF at its lower bound.
+    pub fn lower(&self) -> Vec<f64> {
+        self.space.lower()
+    }
+
+    /// Every DOF at its upper bound.
+    pub fn upper(&self) -> Vec<f64> {
+        self.space.upper()
+    }
+
+    /// Number `k` of the random configurations that the specification defines (SPEC 9.2): uniform within the bounds,
+    /// the same in every program and for every `k`.
+    pub fn random(&self, k: u64) -> Vec<f64> {
+        self.space.sampled(k)
+    }
+
+    /// A configuration with each value moved to the nearest bound where it is out of bounds. Rotation vectors, and
+    /// values that have no place in the bounds, stay.
+    pub fn clamp(&self, configuration: &mut [f64]) {
+        let rotations = self.space.rotation_vectors();
+        for (dof, (value, [lower, upper])) in configuration.iter_mut().zip(&self.bounds).enumerate()
+        {
+            if !rotations.iter().flatten().any(|other| *other == dof) {
+                *value = value.max(*lower).min(*upper);
+            }
+        }
+    }
+
+    /// Whether each value is within its bounds. Rotation vectors are.
+    pub fn is_within_bounds(&self, configuration: &[f64]) -> bool {
+        let mut clamped = configuration.to_vec();
+        self.clamp(&mut clamped);
+        clamped == configuration
+    }
+}

@@ -1,0 +1,81 @@
+//! Distances of pairs over the robot's configurations, as the URDD records them.
+
+use super::Robot;
+use super::error::RobotError;
+use super::shapes::ShapeKind;
+use urdd_document::shape_matrices::{Statistics, at, statistics};
+use urdd_document::shapes::KINDS;
+use urdd_format::registry::ModuleKind;
+
+/// The distances of a pair of shapes over the sampled configurations, metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairStatistics {
+    /// The mean.
+    pub mean: f64,
+    /// The smallest.
+    pub min: f64,
+    /// The largest.
+    pub max: f64,
+}
+
+/// The statistics of all pairs of shapes of one kind.
+#[derive(Debug, Clone)]
+pub(super) struct AllStatistics {
+    mean: Vec<Vec<f64>>,
+    min: Vec<Vec<f64>>,
+    max: Vec<Vec<f64>>,
+}
+
+impl AllStatistics {
+    fn of(one: Statistics<'_>) -> Self {
+        Self {
+            mean: one.mean.to_vec(),
+            min: one.min.to_vec(),
+            max: one.max.to_vec(),
+        }
+    }
+
+    pub fn pair(&self, i: usize, j: usize) -> Option<PairStatistics> {
+        Some(PairStatistics {
+            mean: at(&self.mean, i, j)?,
+            min: at(&self.min, i, j)?,
+            max: at(&self.max, i, j)?,
+        })
+    }
+}
+
+impl Robot {
+    /// The statistics of a kind; `None` where the module is not there, or has none of this kind.
+    pub(super) fn statistics(&self, kind: ShapeKind) -> Result<Option<AllStatistics>, RobotError> {
+        let module = ModuleKind::LinkShapesDistanceStatistics;
+        let part = self.part_as_it_is(&[module])?;
+        let six = part.document(module).and_then(statistics);
+        let place = KINDS.iter().position(|other| *other == kind.of_document());
+        let one = six.zip(place).and_then(|(six, place)| six[place]);
+        Ok(one.map(AllStatistics::of))
+    }
+
+    /// How many configurations the statistics were taken over; `None` where the URDD does not say.
+    ///
+    /// # Errors
+    /// Where the module cannot be listed.
+    pub fn num_samples(&self) -> Result<Option<u32>, RobotError> {
+        let module = ModuleKind::LinkShapesDistanceStatistics;
+        let part = self.part_as_it_is(&[module])?;
+        let six = part.document(module).and_then(statistics);
+        Ok(six.and_then(|six| six.into_iter().flatten().find_map(|one| one.num_samples)))
+    }
+
+    /// The statistics of a pair of shapes of a kind, by their indices (SPEC 8.1); `None` where the URDD has none.
+    ///
+    /// # Errors
+    /// Where the module cannot be listed.
+    pub fn pair_statistics(
+        &self,
+        kind: ShapeKind,
+        i: usize,
+        j: usize,
+    ) -> Result<Option<PairStatistics>, RobotError> {
+        Ok(self.statistics(kind)?.and_then(|all| all.pair(i, j)))
+    }
+}

@@ -1,0 +1,305 @@
+//! A robot among obstacles.
+
+use std::ops::Deref;
+use std::sync::Arc;
+
+use super::obstacle::{Obstacle, Part, World};
+use crate::error::RobotError;
+use crate::names::index;
+use crate::proximity::{Body, Placed, Proximity, dot, to_root};
+use urdd_geometry::convex::Witness;
+use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
+
+/// How near a shape of the robot is to an obstacle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObstacleDistance {
+    /// The name of the link.
+    pub link: Arc<str>,
+    /// The index of the link.
+    pub link_idx: usize,
+    /// Which piece of the link it is; 0 for a hull and what is about it.
+    pub piece: usize,
+    /// The name of the obstacle.
+    pub obstacle: Arc<str>,
+    /// The index of the obstacle in its world.
+    pub obstacle_idx: usize,
+    /// Metres; 0 where they touch or overlap.
+    pub distance: f64,
+    /// The point of the link's shape and that of the obstacle at which the distance is, in the root link's frame,
+    /// metres; where they overlap, both are one point of both.
+    pub points: [[f64; 3]; 2],
+}
+
+/// A pair of a shape and a part, and a distance.
+type Bounded = (f64, (usize, usize));
+
+/// A robot's shapes and a world, prepared for distances.
+#[derive(Debug)]
+pub struct Among<P> {
+    proximity: P,
+    names: Vec<Arc<str>>,
+    parts: Vec<(usize, Part)>,
+    /// Of each obstacle the links that are not tested against it.
+    ignored: Vec<Vec<usize>>,
+}
+
+impl Proximity {
+    /// Prepares the robot's shapes with a world.
+    ///
+    /// # Errors
+    /// [`RobotError::Unknown`] for a link that an obstacle is to ignore and that is not there.
+    pub fn among(&self, world: &World) -> Result<Among<&Proximity>, RobotError> {
+        Among::new(self, world)
+    }
+}
+
+impl<P: Deref<Target = Proximity>> Among<P> {
+    /// As [`Proximity::among`], with the shapes borrowed or shared.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn new(proximity: P, world: &World) -> Result<Self, RobotError> {
+        let names: Vec<String> = proximity.names.iter().map(ToString::to_string).collect();
+        let ignored = |obstacle: &Obstacle| {
+            let links = obstacle.ignored.iter();
+            links.map(|link| index("link", &names, link)).collect()
+        };
+        let ignored: Result<Vec<Vec<usize>>, RobotError> =
+            world.obstacles.iter().map(ignored).collect();
+        let obstacles = world.obstacles.iter().enumerate();
+        let parts = obstacles
+            .flat_map(|(k, obstacle)| obstacle.parts.iter().map(move |part| (k, part.clone())));
+        Ok(Among {
+            proximity,
+            names: world.obstacles.iter().map(|one| one.name.clone()).collect(),
+            parts: parts.collect(),
+            ignored: ignored?,
+        })
+    }
+
+    /// The pairs that are told apart: each shape of the robot, as the indices of its link and piece, with each obstacle
+    /// that does not ignore it, as its index; by the shapes, then by the obstacles.
+    pub fn pairs(&self) -> impl Iterator<Item = ([usize; 2], usize)> {
+        let shapes = self.proximity.shapes.iter();
+        shapes.flat_map(|shape| {
+            let tested = (0..self.names.len()).filter(|k| !self.ignored[*k].contains(&shape.link));
+            tested.map(|obstacle| ([shape.link, shape.piece], obstacle))
+        })
+    }
+
+    /// The distance of each of the [pairs](Among::pairs), metres: as [`Among::distances`], without the points.
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn distance_values(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
+        let placed = self.place(configuration)?;
+        let tested: Vec<(usize, usize)> = self.tested().collect();
+        let values = self.values(&placed, &tested).into_iter().zip(&tested);
+        let mut found: Vec<f64> = Vec::new();
+        let mut last = None;
+        // The parts of an obstacle are one after the other.
+        for (value, (shape, part)) in values {
+            let pair = Some((*shape, self.parts[*part].0));
+            match found.last_mut() {
+                Some(least) if pair == last => *least = least.min(value),
+                _ => found.push(value),
+            }
+            last = pair;
+        }
+        Ok(found)
+    }
+
+    /// The least distance of all pairs, metres; `None` without pairs.
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn least_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
+        let placed = self.place(configuration)?;
+        let nearest = self.least_pairs(&placed, self.tested().collect(), 1);
+        Ok(nearest.first().map(|(distance, _)| *distance))
+    }
+
+    /// The nearest part of each obstacle to each shape of the robot: by the shapes, in the order of their links and
+    /// pieces, then by the obstacles.
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn distances(&self, configuration: &[f64]) -> Result<Vec<ObstacleDistance>, RobotError> {
+        let placed = self.place(configuration)?;
+        let mut all = Vec::new();
+        for shape in 0..self.proximity.shapes.len() {
+            for obstacle in 0..self.names.len() {
+                let own = |(_, part): &(usize, usize)| self.parts[*part].0 == obstacle;
+                let pairs = self.pairs_of(shape).filter(own);
+                all.extend(self.least(&placed, pairs.collect(), 1));
+            }
+        }
+        Ok(all)
+    }
+
+    /// The `k` nearest pairs of a shape of the robot and a part of an obstacle, nearest first.
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn nearest(
+        &self,
+        configuration: &[f64],
+        k: usize,
+    ) -> Result<Vec<ObstacleDistance>, RobotError> {
+        let placed = self.place(configuration)?;
+        Ok(self.least(&placed, self.tested().collect(), k))
+    }
+
+    /// Whether any shape of the robot touches or overlaps an obstacle.
+    ///
+    /// # Errors
+    /// As [`Proximity::distances`].
+    pub fn in_collision(&self, configuration: &[f64]) -> Result<bool, RobotError> {
+        let placed = self.place(configuration)?;
+        let near = self
+            .tested()
+            .filter(|pair| self.bound(&placed, *pair) <= 0.0);
+        let near: Vec<(usize, usize)> = near.collect();
+        let touches = |pairs: &[(usize, usize)]| self.values(&placed, pairs).contains(&0.0);
+        Ok(near.chunks(AT_ONCE).any(touches))
+    }
+
+    fn tested(&self) -> impl Iterator<Item = (usize, usize)> {
+        let shapes = 0..self.proximity.shapes.len();
+        shapes.flat_map(|shape| self.pairs_of(shape))
+    }
+
+    fn pairs_of(&self, shape: usize) -> impl Iterator<Item = (usize, usize)> {
+        let link = self.proximity.shapes[shape].link;
+        let parts = self.parts.iter().enumerate();
+        let tested =
+            parts.filter(move |(_, (obstacle, _))| !self.ignored[*obstacle].contains(&link));
+        tested.map(move |(part, _)| (shape, part))
+    }
+
+    fn place(&self, configuration: &[f64]) -> Result<Placed, RobotError> {
+        let mut placed = Placed::default();
+        self.proximity.place(configuration, &mut placed)?;
+        self.proximity.place_centres(&mut placed);
+        Ok(placed)
+    }
+
+    /// No less than this is a pair apart, metres; not positive where it may touch.
+    fn bound(&self, placed: &Placed, (shape, part): (usize, usize)) -> f64 {
+        let part = &self.parts[part].1;
+        let (p, q) = (placed.centres[shape], part.shape.centre());
+        let between = [0, 1, 2].map(|k| q[k] - p[k]);
+        let reach = self.proximity.shapes[shape].sphere.radius + part.reach + part.radius;
+        // Less by what rounding can hide.
+        dot(between, between).sqrt() * (1.0 - 1e-12) - reach
+    }
+
+    fn least(
+        &self,
+        placed: &Placed,
+        pairs: Vec<(usize, usize)>,
+        k: usize,
+    ) -> Vec<ObstacleDistance> {
+        let best = self.least_pairs(placed, pairs, k).into_iter();
+        let pairs: Vec<(usize, usize)> = best.map(|(_, pair)| pair).collect();
+        self.witnesses(placed, &pairs)
+    }
+
+    /// The `k` nearest of some pairs, with their distances.
+    fn least_pairs(&self, placed: &Placed, pairs: Vec<(usize, usize)>, k: usize) -> Vec<Bounded> {
+        let by = |a: &Bounded, b: &Bounded| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        let bound = |pair| (self.bound(placed, pair).max(0.0), pair);
+        let mut bounds: Vec<Bounded> = pairs.into_iter().map(bound).collect();
+        bounds.sort_unstable_by(by);
+        let mut best: Vec<Bounded> = Vec::new();
+        for bounds in bounds.chunks(AT_ONCE) {
+            let enough = best.len() >= k;
+            if enough && best.last().is_none_or(|worst| bounds[0].0 > worst.0) {
+                break;
+            }
+            let pairs: Vec<(usize, usize)> = bounds.iter().map(|(_, pair)| *pair).collect();
+            best.extend(self.values(placed, &pairs).into_iter().zip(pairs));
+            best.sort_unstable_by(by);
+            best.truncate(k);
+        }
+        best
+    }
+
+    /// A shape of the robot and a part of an obstacle, the second in the frame of the first's link.
+    fn placed_pair(&self, placed: &Placed, (shape, part): (usize, usize)) -> PlacedPair<'_> {
+        let own = &self.proximity.shapes[shape];
+        let link = &placed.links[own.link];
+        let back = |v: [f64; 3]| [0, 1, 2].map(|k| dot(link[k], v));
+        let axis = |k: usize| back([0, 1, 2].map(|i| if i == k { 1.0 } else { 0.0 }));
+        let part = &self.parts[part].1.shape;
+        PlacedPair {
+            a: match &own.body {
+                Body::Convex(shape) | Body::Round(shape) => shape,
+            },
+            b: part,
+            b_in_a: [axis(0), axis(1), axis(2), back(link[3].map(|x| -x))],
+        }
+    }
+
+    /// The radii of a pair, by which its shapes reach beyond what is convex by itself.
+    fn radii(&self, (shape, part): (usize, usize)) -> [f64; 2] {
+        let own = &self.proximity.shapes[shape];
+        let own = match own.body {
+            Body::Convex(_) => 0.0,
+            Body::Round(_) => own.sphere.radius,
+        };
+        [own, self.parts[part].1.radius]
+    }
+
+    /// The distances of some pairs.
+    fn values(&self, placed: &Placed, pairs: &[(usize, usize)]) -> Vec<f64> {
+        let both = pairs.iter().map(|pair| self.placed_pair(placed, *pair));
+        let both: Vec<PlacedPair> = both.collect();
+        let mut values = vec![0.0; both.len()];
+        across::distances(self.proximity.level, &both, &mut values);
+        for (value, pair) in values.iter_mut().zip(pairs) {
+            let radii = self.radii(*pair);
+            *value = (*value - radii[0] - radii[1]).max(0.0);
+        }
+        values
+    }
+
+    fn witnesses(&self, placed: &Placed, pairs: &[(usize, usize)]) -> Vec<ObstacleDistance> {
+        let both = pairs.iter().map(|pair| self.placed_pair(placed, *pair));
+        let both: Vec<PlacedPair> = both.collect();
+        let found = across::witnesses(self.proximity.level, &both);
+        let all = pairs.iter().zip(found).map(|(&(shape, part), witness)| {
+            let own = &self.proximity.shapes[shape];
+            let obstacle = self.parts[part].0;
+            let (distance, points) = rounded(&witness, self.radii((shape, part)));
+            ObstacleDistance {
+                link: self.proximity.names[own.link].clone(),
+                link_idx: own.link,
+                piece: own.piece,
+                obstacle: self.names[obstacle].clone(),
+                obstacle_idx: obstacle,
+                distance,
+                points: points.map(|p| to_root(&placed.links[own.link], p)),
+            }
+        });
+        all.collect()
+    }
+}
+
+/// The distance of all that is within radii of two shapes, and where it is.
+fn rounded(witness: &Witness, [a, b]: [f64; 2]) -> (f64, [[f64; 3]; 2]) {
+    let [p, q] = witness.points;
+    let between = [0, 1, 2].map(|k| q[k] - p[k]);
+    let length = dot(between, between).sqrt();
+    let distance = (witness.distance - a - b).max(0.0);
+    if length == 0.0 {
+        return (distance, [p, q]);
+    }
+    // Along the line from p to q; of bodies that overlap, the middle of what is in both.
+    let along = match distance > 0.0 {
+        true => [a, length - b],
+        false => [0.5 * ((length - b).max(0.0) + a.min(length)); 2],
+    };
+    let points = along.map(|t| [0, 1, 2].map(|k| p[k] + between[k] * (t / length)));
+    (distance, points)
+}

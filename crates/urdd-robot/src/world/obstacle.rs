@@ -1,0 +1,207 @@
+//! Obstacles.
+
+use std::sync::Arc;
+
+use nalgebra::{Isometry3, Point3, Vector3};
+
+use crate::error::RobotError;
+use urdd_geometry::Mesh;
+use urdd_geometry::convex::{ConvexShape, ShapeError};
+use urdd_geometry::decompose::{self, decompose};
+
+/// Sides of the prism that stands for a cylinder.
+const SIDES: u32 = 64;
+
+/// A body that a robot should keep away from.
+#[derive(Debug, Clone)]
+pub struct Obstacle {
+    pub(super) name: Arc<str>,
+    pub(super) parts: Vec<Part>,
+    /// Names of links that may touch it.
+    pub(super) ignored: Vec<String>,
+}
+
+/// All points within a radius of a convex shape, in the root link's frame.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    pub shape: ConvexShape,
+    pub radius: f64,
+    /// From the centre of the shape to its farthest point, metres; the radius is not in it.
+    pub reach: f64,
+}
+
+/// The obstacles around a robot.
+#[derive(Debug, Clone, Default)]
+pub struct World {
+    pub(super) obstacles: Vec<Obstacle>,
+}
+
+impl World {
+    /// A world of some obstacles.
+    pub fn new(obstacles: impl IntoIterator<Item = Obstacle>) -> Self {
+        Self {
+            obstacles: obstacles.into_iter().collect(),
+        }
+    }
+
+    /// The obstacles.
+    pub fn obstacles(&self) -> &[Obstacle] {
+        &self.obstacles
+    }
+}
+
+impl Obstacle {
+    /// A box: the pose of its centre and axes, and half of each side, metres.
+    ///
+    /// # Errors
+    /// [`RobotError::Obstacle`] for numbers that are not finite, below 0, or larger than 1e9 m; as all of these.
+    pub fn cuboid(
+        name: &str,
+        pose: Isometry3<f64>,
+        half_extents: [f64; 3],
+    ) -> Result<Self, RobotError> {
+        for size in half_extents {
+            check_size(name, size)?;
+        }
+        let corner = |i: usize| {
+            let sign = |bit: usize| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            [0, 1, 2].map(|k| sign(k) * half_extents[k])
+        };
+        let corners: [[f64; 3]; 8] = std::array::from_fn(corner);
+        Self::swept(name, &pose, &corners, 0.0)
+    }
+
+    /// A ball.
+    ///
+    /// # Errors
+    /// As [`Obstacle::cuboid`].
+    pub fn sphere(name: &str, centre: [f64; 3], radius: f64) -> Result<Self, RobotError> {
+        Self::swept(name, &Isometry3::identity(), &[centre], radius)
+    }
+
+    /// All points within a radius of a line, which lies along the z axis of its frame and reaches `half_length` both
+    /// ways from its origin.
+    ///
+    /// # Errors
+    /// As [`Obstacle::cuboid`].
+    pub fn capsule(
+        name: &str,
+        pose: Isometry3<f64>,
+        radius: f64,
+        half_length: f64,
+    ) -> Result<Self, RobotError> {
+        check_size(name, half_length)?;
+        let ends = [-half_length, half_length].map(|z| [0.0, 0.0, z]);
+        Self::swept(name, &pose, &ends, radius)
+    }
+
+    /// A cylinder about the z axis of its frame, which reaches `half_length` both ways from its origin. A prism of 64
+    /// sides about it stands for it, which is larger by up to 0.13 % of the radius.
+    ///
+    /// # Errors
+    /// As [`Obstacle::cuboid`].
+    pub fn cylinder(
+        name: &str,
+        pose: Isometry3<f64>,
+        radius: f64,
+        half_length: f64,
+    ) -> Result<Self, RobotError> {
+        check_size(name, radius)?;
+        check_size(name, half_length)?;
+        let outer = radius / (std::f64::consts::PI / f64::from(SIDES)).cos();
+        let corner = |k: u32| {
+            let angle = std::f64::consts::TAU * f64::from(k % SIDES) / f64::from(SIDES);
+            let z = if k < SIDES { -half_length } else { half_length };
+            [outer * angle.cos(), outer * angle.sin(), z]
+        };
+        let corners: Vec<[f64; 3]> = (0..2 * SIDES).map(corner).collect();
+        Self::swept(name, &pose, &corners, 0.0)
+    }
+
+    /// The convex hull of points, metres.
+    ///
+    /// # Errors
+    /// As [`Obstacle::cuboid`], and where there is no point.
+    pub fn hull(name: &str, pose: Isometry3<f64>, points: &[[f64; 3]]) -> Result<Self, RobotError> {
+        Self::swept(name, &pose, points, 0.0)
+    }
+
+    /// A mesh, of which convex pieces are made as `urdd generate` makes them of links: its cavities are kept as far as
+    /// the pieces do. It takes as long as there. [`Obstacle::hull`] is soon done, and fills cavities.
+    ///
+    /// # Errors
+    /// As [`Obstacle::hull`].
+    pub fn mesh(name: &str, pose: Isometry3<f64>, mesh: &Mesh) -> Result<Self, RobotError> {
+        // The limits of points hold before anything is computed of them.
+        let mut whole = Self::hull(name, pose, &mesh.vertices)?;
+        let pieces = decompose(mesh, &decompose::Settings::default()).pieces;
+        if pieces.is_empty() {
+            return Ok(whole);
+        }
+        let parts = pieces.iter().map(|piece| part(&pose, &piece.vertices, 0.0));
+        let parts: Result<Vec<Part>, ShapeError> = parts.collect();
+        whole.parts = parts.map_err(|error| fault(name, &error.to_string()))?;
+        Ok(whole)
+    }
+
+    /// The same for all but one link, which is then not tested against it: the base that stands on it, the gripper that
+    /// holds it. [`Proximity::among`](crate::Proximity::among) refuses a link that is not there.
+    pub fn ignoring(mut self, link: &str) -> Self {
+        self.ignored.push(link.to_owned());
+        self
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Number of convex shapes that stand for it.
+    pub fn num_parts(&self) -> usize {
+        self.parts.len()
+    }
+
+    fn swept(
+        name: &str,
+        pose: &Isometry3<f64>,
+        points: &[[f64; 3]],
+        radius: f64,
+    ) -> Result<Self, RobotError> {
+        check_size(name, radius)?;
+        let part = part(pose, points, radius).map_err(|error| fault(name, &error.to_string()))?;
+        Ok(Self {
+            name: Arc::from(name),
+            parts: vec![part],
+            ignored: Vec::new(),
+        })
+    }
+}
+
+fn part(pose: &Isometry3<f64>, points: &[[f64; 3]], radius: f64) -> Result<Part, ShapeError> {
+    let placed = points
+        .iter()
+        .map(|p| (pose * Point3::from(*p)).coords.into());
+    let placed: Vec<[f64; 3]> = placed.collect();
+    let shape = ConvexShape::of_points(&placed)?;
+    let centre = Vector3::from(shape.centre());
+    let away = placed.iter().map(|p| (Vector3::from(*p) - centre).norm());
+    Ok(Part {
+        reach: away.fold(0.0, f64::max) * (1.0 + 1e-12),
+        shape,
+        radius,
+    })
+}
+
+fn check_size(name: &str, size: f64) -> Result<(), RobotError> {
+    match (0.0..=1e9).contains(&size) {
+        true => Ok(()),
+        false => Err(fault(name, &ShapeError::Size { size }.to_string())),
+    }
+}
+
+fn fault(name: &str, reason: &str) -> RobotError {
+    RobotError::Obstacle {
+        name: name.to_owned(),
+        reason: reason.to_owned(),
+    }
+}

@@ -1,0 +1,101 @@
+//! A URDF by itself: judged by the rules that need nothing but the source. What makes it a robot
+//! (one tree, names that lead somewhere), and what is odd about it.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::context::Context;
+use super::engine::{Check, Outcomes, run_all};
+use super::rule::{Judges, Need, Rule};
+use super::{Examined, RobotSize};
+use urdd_directory::discover::Found;
+use urdd_directory::root::{Listing, ReadError, Root};
+use urdd_document::carried_urdf::{self, CarriedUrdf};
+use urdd_document::load::Loaded;
+use urdd_document::module::{JsonFile, MetadataFile};
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::Profile;
+
+/// Whether a path is a URDF, by its name.
+pub fn is_urdf(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    extension.eq_ignore_ascii_case("urdf") && path.is_file()
+}
+
+/// The URDF at a path, as what is to be examined: found in its folder, by its own name.
+pub(super) fn found(path: &Path) -> Found {
+    // What a link leads to lies in another folder.
+    let target = match path.is_symlink() {
+        true => path.canonicalize().unwrap_or_default(),
+        false => path.to_owned(),
+    };
+    let path = &target;
+    let name = path.file_name().unwrap_or_default();
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    Found {
+        path: folder.to_owned(),
+        name: name.to_string_lossy().into_owned(),
+        closed: None,
+    }
+}
+
+/// Examines a URDF with the rules that are for it.
+pub(super) fn examine(found: &Found, rules: &[&'static Rule]) -> Result<Examined, ReadError> {
+    let root = Root::open(&found.path)?;
+    let urdf = carried_urdf::read_file(&root, &found.name)?;
+    let context = Context::new(alone(root, urdf), None);
+    let rules = rules.iter().copied().filter(|rule| is_for_urdf(rule));
+    let mut outcomes = Outcomes::new();
+    let by_urdf = context.by_urdf();
+    let judged = by_urdf.as_ref().unwrap_or(&context);
+    let mut checks: Vec<Check> = run_all(judged, rules.collect(), &mut outcomes);
+    checks.sort_by_key(|check| check.rule.code);
+    let robot = judged.robot();
+    Ok(Examined {
+        name: found.name.clone(),
+        crashed: None,
+        robot_name: robot.map(|robot| robot.name.clone()),
+        size: RobotSize {
+            links: robot.map(|robot| robot.links.len()),
+            joints: robot.map(|robot| robot.joints.len()),
+            dofs: None,
+        },
+        modules: Vec::new(),
+        checks,
+    })
+}
+
+/// Whether a rule needs nothing but the source.
+fn is_for_urdf(rule: &Rule) -> bool {
+    let module = |need: &Need| {
+        matches!(
+            need,
+            Need::Module(_) | Need::AnyModule(_) | Need::RootMetadata | Need::Legacy
+        )
+    };
+    match rule.judges {
+        Judges::Robot | Judges::Source => true,
+        Judges::AsItStands | Judges::Derived => {
+            rule.needs.contains(&Need::CarriedUrdf) && !rule.needs.iter().any(module)
+        }
+    }
+}
+
+/// A URDD that holds a URDF and nothing else.
+fn alone(root: Root, urdf: CarriedUrdf) -> Urdd {
+    Urdd::new(Arc::new(Loaded {
+        root,
+        listing: Listing::default(),
+        metadata: MetadataFile {
+            json: JsonFile::Missing,
+            metadata: None,
+            violations: Vec::new(),
+        },
+        modules: Vec::new(),
+        urdf: Ok(urdf),
+        profile: Profile::V1,
+    }))
+}

@@ -1,0 +1,220 @@
+//! Distances between shapes in the sampled configurations (SPEC 9.3), computed again from the modules:
+//! the mesh files, the boxes and spheres, the kinematics.
+//!
+//! How many configurations are looked at is a matter of work, counted and not timed, so that results
+//! repeat: see [`plan`].
+
+pub mod other_reasons;
+pub mod plan;
+pub mod poses;
+pub mod shape_set;
+pub mod tolerances;
+
+use self::plan::Work;
+use self::poses::Poses;
+use self::shape_set::ShapeSet;
+use super::skip::{NoStatistics, SkipReason};
+use super::solids::Solids;
+use urdd_document::shape_matrices::statistics;
+use urdd_document::shapes::KINDS;
+use urdd_document::shapes::Shapes;
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::ModuleKind;
+use urdd_geometry::convex::{Motion, PairStatistics};
+
+/// As many configurations are held in memory at once.
+const AT_ONCE: u32 = 4096;
+
+/// The distances of all kinds of shapes.
+pub struct Distances {
+    /// In the order of [`KINDS`]; `None` for a kind without statistics.
+    kinds: [Option<KindDistances>; 6],
+    /// Where links are in the first configurations.
+    first: Motion,
+    /// Where links are in the default configuration.
+    default: Motion,
+}
+
+/// The distances of one kind of shapes.
+pub struct KindDistances {
+    shapes: ShapeSet,
+    /// How many configurations were looked at, from the first.
+    pub configurations: u32,
+    /// Whether these are all that the statistics are over.
+    pub complete: bool,
+    found: PairStatistics,
+}
+
+/// What was found of a pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    /// Mean distance, m.
+    pub mean: f64,
+    /// Smallest distance, m.
+    pub min: f64,
+    /// Largest distance, m.
+    pub max: f64,
+}
+
+impl Distances {
+    /// Computes what the statistics of a URDD of version 1 say, as far as the work for it goes.
+    ///
+    /// # Errors
+    /// Why there is nothing to compare with.
+    pub fn new(urdd: &Urdd, solids: &Solids, deep: bool) -> Result<Self, SkipReason> {
+        let recorded = urdd
+            .document(ModuleKind::LinkShapesDistanceStatistics)
+            .and_then(statistics)
+            .ok_or(SkipReason::NoStatistics(NoStatistics::Unusable))?;
+        let num_samples = recorded.iter().flatten().find_map(|one| one.num_samples);
+        let num_samples =
+            num_samples.ok_or(SkipReason::NoStatistics(NoStatistics::SamplesUnknown))?;
+        if num_samples == 0 {
+            return Err(SkipReason::NoStatistics(NoStatistics::NoSamples));
+        }
+        let poses = Poses::new(urdd)?;
+        let shapes = Shapes::new(urdd).ok_or(SkipReason::NoStatistics(NoStatistics::NoShapes))?;
+        let mut sets: Vec<Option<ShapeSet>> = Vec::with_capacity(KINDS.len());
+        for (kind, recorded) in KINDS.into_iter().zip(&recorded) {
+            let set = recorded.map(|_| ShapeSet::new(urdd, solids, &shapes, kind, true));
+            sets.push(set);
+        }
+        let work: Vec<Option<Work>> = sets
+            .iter()
+            .map(|set| set.as_ref().map(|set| set.work(&poses)))
+            .collect();
+        let budget = plan::budget(deep);
+        let configurations = plan::configurations(&work, num_samples, budget);
+
+        let default = poses.default_motion()?;
+        let first = poses.motion(0..num_samples.min(AT_ONCE))?;
+        let mut kinds: [Option<KindDistances>; 6] = Default::default();
+        for ((kind, set), n) in kinds.iter_mut().zip(sets).zip(configurations) {
+            let Some(shapes) = set else {
+                continue;
+            };
+            let found = over(&shapes, &poses, &first, n)?;
+            *kind = Some(KindDistances {
+                shapes,
+                configurations: n,
+                complete: n == num_samples,
+                found,
+            });
+        }
+        Ok(Distances {
+            kinds,
+            first,
+            default,
+        })
+    }
+
+    /// The kinds in the order of [`KINDS`]; `None` for one without statistics.
+    pub fn kinds(&self) -> &[Option<KindDistances>; 6] {
+        &self.kinds
+    }
+
+    /// The distances of all pairs in the default configuration, by the places of the shapes
+    /// ([`ShapeSet::place`]).
+    pub fn at_default_configuration(&self, kind: &KindDistances) -> Vec<Vec<f64>> {
+        kind.shapes.statistics(&self.default).min
+    }
+
+    /// The configuration among the first ones in which a pair is at a distance that `outside` is true
+    /// of, and that distance.
+    pub fn find(
+        &self,
+        kind: &KindDistances,
+        (i, j): (usize, usize),
+        outside: impl Fn(f64) -> bool,
+    ) -> Option<(usize, f64)> {
+        let each = kind.shapes.pair(i, j, &self.first)?;
+        let mut each = each.into_iter().enumerate();
+        each.find(|(_, distance)| outside(*distance))
+    }
+}
+
+impl KindDistances {
+    /// The shapes.
+    pub fn shapes(&self) -> &ShapeSet {
+        &self.shapes
+    }
+
+    /// What was found of a pair; `None` where one of the two shapes is not sound, which other rules tell.
+    pub fn pair(&self, i: usize, j: usize) -> Option<Found> {
+        let (i, j) = (self.shapes.place(i)?, self.shapes.place(j)?);
+        let at = |rows: &[Vec<f64>]| rows.get(i)?.get(j).copied();
+        Some(Found {
+            mean: at(&self.found.mean)?,
+            min: at(&self.found.min)?,
+            max: at(&self.found.max)?,
+        })
+    }
+}
+
+/// The statistics over the first `n` configurations, of which `first` has some.
+fn over(
+    shapes: &ShapeSet,
+    poses: &Poses,
+    first: &Motion,
+    n: u32,
+) -> Result<PairStatistics, SkipReason> {
+    if n as usize == first.num_samples() {
+        return Ok(shapes.statistics(first));
+    }
+    let mut all = PairStatistics::default();
+    let mut start = 0;
+    while start < n {
+        let end = n.min(start + AT_ONCE);
+        let part = shapes.statistics(&poses.motion(start..end)?);
+        match start {
+            0 => all = part,
+            _ => join(&mut all, &part, start, end),
+        }
+        start = end;
+    }
+    Ok(all)
+}
+
+/// Takes the statistics of configurations `start..end` to those of the ones before.
+fn join(all: &mut PairStatistics, part: &PairStatistics, start: u32, end: u32) {
+    let weight = f64::from(end - start) / f64::from(end);
+    let each = |into: &mut [Vec<f64>], from: &[Vec<f64>], put: &dyn Fn(&mut f64, f64)| {
+        let pairs = into.iter_mut().flatten().zip(from.iter().flatten());
+        pairs.for_each(|(into, from)| put(into, *from));
+    };
+    each(&mut all.mean, &part.mean, &|into, from| {
+        *into += (from - *into) * weight;
+    });
+    each(&mut all.min, &part.min, &|into, from| {
+        *into = into.min(from)
+    });
+    each(&mut all.max, &part.max, &|into, from| {
+        *into = into.max(from)
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_joined_by_their_sizes() {
+        let of = |distances: &[f64]| {
+            let rows = |x: f64| vec![vec![0.0, x], vec![x, 0.0]];
+            let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
+            let most = distances.iter().copied().fold(0.0, f64::max);
+            let mean = distances.iter().sum::<f64>() / distances.len() as f64;
+            PairStatistics {
+                mean: rows(mean),
+                min: rows(least),
+                max: rows(most),
+            }
+        };
+        let mut all = of(&[1.0, 2.0, 6.0]);
+        join(&mut all, &of(&[0.5]), 3, 4);
+        let expected = of(&[1.0, 2.0, 6.0, 0.5]);
+        assert_eq!(all.min, expected.min);
+        assert_eq!(all.max, expected.max);
+        assert!((all.mean[0][1] - 2.375).abs() < 1e-15);
+    }
+}

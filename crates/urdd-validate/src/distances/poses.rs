@@ -1,0 +1,110 @@
+//! Where links are in the sampled configurations.
+
+use std::ops::Range;
+
+use nalgebra::Isometry3;
+use rayon::prelude::*;
+
+use crate::code::Code;
+use crate::skip::SkipReason;
+use urdd_document::consumer;
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::Profile;
+use urdd_format::urdf::JointType;
+use urdd_geometry::convex::Motion;
+use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
+
+/// The poses of a robot's links, as a consumer computes them.
+pub struct Poses {
+    space: ConfigurationSpace,
+    kinematics: ForwardKinematics,
+    /// For each link, its rigid group.
+    groups: Vec<usize>,
+}
+
+impl Poses {
+    /// From the modules, whatever their versions.
+    ///
+    /// # Errors
+    /// Why there are none.
+    pub fn new(urdd: &Urdd) -> Result<Self, SkipReason> {
+        let open = SkipReason::KinematicsOpen;
+        let modules = consumer::modules(urdd).ok_or(open.clone())?;
+        let groups = urdd.rigid_groups().ok_or(open.clone())?;
+        let bounds = urdd.bounds().ok_or(open)?;
+        let unlike = |joint: JointType| matches!(joint, JointType::Planar | JointType::Floating);
+        let mut joints = modules.chain.joints_in_chain.iter();
+        if urdd.profile() == Profile::Legacy && joints.any(|joint| unlike(joint.joint_type)) {
+            return Err(SkipReason::LegacyCoordinates);
+        }
+        let space = ConfigurationSpace::within(&modules.dof, &modules.chain, bounds.bounds)
+            .map_err(|error| SkipReason::Kinematics(error.to_string()))?;
+        let kinematics = ForwardKinematics::new(&modules.chain, &modules.dof)
+            .map_err(|error| SkipReason::Kinematics(error.to_string()))?;
+        if groups.of_link.len() != kinematics.num_links() {
+            return Err(SkipReason::Failed(Code::CHN001));
+        }
+        Ok(Poses {
+            space,
+            kinematics,
+            groups: groups.of_link.clone(),
+        })
+    }
+
+    /// Number of links.
+    pub fn num_links(&self) -> usize {
+        self.groups.len()
+    }
+
+    /// Whether only fixed joints are between two links.
+    pub fn is_rigid(&self, a: usize, b: usize) -> bool {
+        self.groups.get(a) == self.groups.get(b)
+    }
+
+    /// The poses in the default configuration (SPEC 9.4).
+    ///
+    /// # Errors
+    /// Where numbers go beyond 64 bits.
+    pub fn default_motion(&self) -> Result<Motion, SkipReason> {
+        let configuration = self.space.default_configuration();
+        let poses = self.kinematics.link_poses(&configuration);
+        let poses = poses
+            .map_err(|error| SkipReason::Kinematics(format!("default configuration: {error}")))?;
+        Motion::new(&[poses], &self.groups)
+            .map_err(|error| SkipReason::Kinematics(error.to_string()))
+    }
+
+    /// A sampled configuration, and the poses in it.
+    ///
+    /// # Errors
+    /// Where numbers go beyond 64 bits.
+    pub fn sampled(&self, sample: u32) -> Result<(Vec<f64>, Vec<Isometry3<f64>>), SkipReason> {
+        let configuration = self.space.sampled(u64::from(sample));
+        let poses = self.kinematics.link_poses(&configuration);
+        let poses = poses.map_err(|error| {
+            SkipReason::Kinematics(format!("sampled configuration {sample}: {error}"))
+        })?;
+        Ok((configuration, poses))
+    }
+
+    /// The poses in any configuration.
+    ///
+    /// # Errors
+    /// Where numbers go beyond 64 bits.
+    pub fn of(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, SkipReason> {
+        let poses = self.kinematics.link_poses(configuration);
+        poses.map_err(|error| SkipReason::Kinematics(error.to_string()))
+    }
+
+    /// The poses in some of the sampled configurations.
+    ///
+    /// # Errors
+    /// Where numbers go beyond 64 bits.
+    pub fn motion(&self, samples: Range<u32>) -> Result<Motion, SkipReason> {
+        let poses: Vec<Vec<Isometry3<f64>>> = samples
+            .into_par_iter()
+            .map(|sample| Ok(self.sampled(sample)?.1))
+            .collect::<Result<_, _>>()?;
+        Motion::new(&poses, &self.groups).map_err(|error| SkipReason::Kinematics(error.to_string()))
+    }
+}

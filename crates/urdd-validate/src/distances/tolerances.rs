@@ -1,0 +1,53 @@
+//! How far distances may be from what they should be (SPEC 8.5).
+
+use crate::solids::Solids;
+use crate::tolerance::{distance_tolerance, reach};
+use urdd_document::shapes::{ShapeKind, Shapes, approximations};
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::ModuleKind;
+use urdd_geometry::farthest;
+
+/// The tolerances of one kind of shapes.
+pub struct Tolerances {
+    /// The robot's reach, m.
+    reach: f64,
+    /// How far each shape reaches from its link's origin, m.
+    shapes: Vec<f64>,
+}
+
+impl Tolerances {
+    /// For the shapes of a kind. One that is not there, which other rules tell, adds nothing.
+    pub fn new(urdd: &Urdd, solids: &Solids, shapes: &Shapes, kind: ShapeKind) -> Self {
+        let volumes = urdd
+            .document(ModuleKind::LinkShapesApproximations)
+            .and_then(approximations)
+            .and_then(|lists| lists.into_iter().find(|list| list.kind == kind));
+        let meshes = match kind.full {
+            true => ModuleKind::ConvexHullMeshes,
+            false => ModuleKind::ConvexDecompositionMeshes,
+        };
+        let of_shape = |shape: usize| -> Option<f64> {
+            let (link, piece) = shapes.place(kind, shape)?;
+            match kind.hulls {
+                true => {
+                    let mesh = solids.sound(meshes, link, piece)?;
+                    Some(farthest::of_mesh(mesh))
+                }
+                false => Some(volumes.as_ref()?.links.get(link)?.get(piece)?.reach()),
+            }
+        };
+        let robot = urdd.robot().zip(urdd.tree());
+        Tolerances {
+            reach: robot.map_or(0.0, |(robot, tree)| reach(robot, tree)),
+            shapes: (0..shapes.count(kind))
+                .map(|shape| of_shape(shape).unwrap_or(0.0))
+                .collect(),
+        }
+    }
+
+    /// How far the distances of two shapes may be from what they should be, m.
+    pub fn pair(&self, i: usize, j: usize) -> f64 {
+        let of = |shape: usize| self.shapes.get(shape).copied().unwrap_or(0.0);
+        distance_tolerance(self.reach, of(i) + of(j))
+    }
+}

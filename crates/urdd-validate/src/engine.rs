@@ -1,0 +1,269 @@
+//! Runs the rules over a URDD: phase by phase, each rule only when what it needs is sound, a rule
+//! that crashes caught.
+
+use std::any::Any;
+use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use super::code::Code;
+use super::context::Context;
+use super::finding::{Finding, Findings};
+use super::locate::locate;
+use super::part::{NotVerified, Part, Parts};
+use super::rule::{Need, Rule, Severity};
+use super::scope::{Faulted, Scope};
+use super::skip::SkipReason;
+use super::worst::worst_first;
+use urdd_format::registry::{ModuleKind, Profile};
+
+/// What became of a rule on one URDD.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// It ran and found nothing.
+    Passed,
+    /// It ran and found something.
+    Failed,
+    /// It did not run, for this reason.
+    Skipped(SkipReason),
+    /// It ran into a fault of its own, with this message.
+    Crashed(String),
+}
+
+/// A rule and what became of it.
+pub struct Check {
+    /// The rule.
+    pub rule: &'static Rule,
+    /// How bad its findings are: the rule's word, unless settings have another.
+    pub severity: Severity,
+    /// What became of it.
+    pub outcome: Outcome,
+    /// What it found.
+    pub findings: Vec<Finding>,
+    /// The parts of the robot that it did not verify.
+    pub not_verified: Vec<NotVerified>,
+    /// The parts in which it found a fault.
+    pub(super) faulted: Faulted,
+    /// The parts that it was to judge.
+    pub(super) scope: Scope,
+}
+
+impl Check {
+    pub(super) fn new(rule: &'static Rule, outcome: Outcome, findings: Vec<Finding>) -> Self {
+        Check {
+            rule,
+            severity: rule.severity,
+            outcome,
+            findings,
+            not_verified: Vec::new(),
+            faulted: Faulted::default(),
+            scope: Scope::default(),
+        }
+    }
+}
+
+/// What became of a rule, and where it found a fault.
+#[derive(Debug, Clone)]
+pub(super) struct Ran {
+    pub outcome: Outcome,
+    pub faulted: Faulted,
+}
+
+/// What became of rules, by code.
+pub(super) type Outcomes = HashMap<Code, Ran>;
+
+/// Runs rules by one description of the robot. `outcomes` says what became of rules that ran
+/// before, and takes what becomes of these.
+pub(super) fn run_all(
+    context: &Context,
+    mut rules: Vec<&'static Rule>,
+    outcomes: &mut Outcomes,
+) -> Vec<Check> {
+    rules.sort_by_key(|rule| (rule.phase, rule.code));
+    let mut checks = Vec::with_capacity(rules.len());
+    // A rule may need one of the same phase with a higher code: those that wait go round again.
+    let mut waiting = rules;
+    while !waiting.is_empty() {
+        let codes: Vec<Code> = waiting.iter().map(|rule| rule.code).collect();
+        let before = waiting.len();
+        let mut later = Vec::new();
+        for rule in waiting {
+            // Whoever runs the rules sees it too, and takes no notice of what there is.
+            if context.is_cancelled() {
+                return checks;
+            }
+            let is_open = |code: &Code| !outcomes.contains_key(code) && codes.contains(code);
+            if rule
+                .needs
+                .iter()
+                .any(|need| need.codes().iter().any(is_open))
+            {
+                later.push(rule);
+                continue;
+            }
+            let check = run_rule(context, rule, outcomes);
+            let ran = Ran {
+                outcome: check.outcome.clone(),
+                faulted: check.faulted.clone(),
+            };
+            outcomes.insert(rule.code, ran);
+            checks.push(check);
+        }
+        if later.len() == before {
+            // Rules that wait for each other: a fault of the rules, not of the URDD.
+            for rule in later.drain(..) {
+                let outcome = Outcome::Crashed("its needs go in a circle".to_owned());
+                checks.push(Check::new(rule, outcome, Vec::new()));
+            }
+        }
+        waiting = later;
+    }
+    checks
+}
+
+fn run_rule(context: &Context, rule: &'static Rule, outcomes: &Outcomes) -> Check {
+    let unmet = rule
+        .needs
+        .iter()
+        .find_map(|need| unmet(context, *need, outcomes));
+    if let Some(reason) = unmet {
+        return Check::new(rule, Outcome::Skipped(reason), Vec::new());
+    }
+    let mut unsound = HashMap::new();
+    for need in rule.needs {
+        unsound_parts(context, *need, outcomes, &mut unsound);
+    }
+    judge(
+        context,
+        rule,
+        Findings::default().within(Scope::without(unsound)),
+    )
+}
+
+/// The parts that a need leaves out, and the rule that found each at fault.
+fn unsound_parts(
+    context: &Context,
+    need: Need,
+    outcomes: &Outcomes,
+    unsound: &mut HashMap<Part, Code>,
+) {
+    match need {
+        Need::All(needs) => {
+            for need in needs {
+                unsound_parts(context, *need, outcomes, unsound);
+            }
+        }
+        Need::Each(parts) if applies(context, parts) => {
+            for code in parts.codes {
+                let faulted = outcomes.get(code).map(|ran| ran.faulted.parts());
+                for part in faulted.into_iter().flatten() {
+                    unsound.entry(*part).or_insert(*code);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+fn applies(context: &Context, parts: Parts) -> bool {
+    !parts.in_version_1_only || context.profile() == Profile::V1
+}
+
+/// Lets a rule look, with findings to report to.
+pub(super) fn judge(context: &Context, rule: &'static Rule, findings: Findings) -> Check {
+    judge_into(context, rule, &mut { findings })
+}
+
+/// The same; the findings are left to the caller, without those that are in the check.
+pub(super) fn judge_into(context: &Context, rule: &'static Rule, findings: &mut Findings) -> Check {
+    let ran = catch_unwind(AssertUnwindSafe(|| (rule.check)(context, findings)));
+    if let Err(panic) = ran {
+        let message = panic_message(&*panic);
+        return Check::new(rule, Outcome::Crashed(message), Vec::new());
+    }
+    let nothing_left = || findings.scope().nothing_left().map(SkipReason::Failed);
+    let skipped = findings.skipped().cloned().or_else(nothing_left);
+    let not_verified = findings.scope().not_verified();
+    let (scope, faulted) = (findings.scope().afresh(), findings.faulted().clone());
+    let mut found = findings.take();
+    found.iter_mut().for_each(worst_first);
+    let outcome = match (found.is_empty(), skipped) {
+        (false, _) => Outcome::Failed,
+        (true, Some(reason)) => Outcome::Skipped(reason),
+        (true, None) => Outcome::Passed,
+    };
+    locate(context, &mut found);
+    Check {
+        not_verified,
+        scope,
+        faulted,
+        ..Check::new(rule, outcome, found)
+    }
+}
+
+/// What a panic said.
+pub(super) fn panic_message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "unknown".to_owned())
+}
+
+/// Why a need is not met, if it is not.
+fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReason> {
+    match need {
+        // What the module should say, the carried URDF says.
+        Need::Module(ModuleKind::Urdf) | Need::SourceRobot if context.is_by_urdf() => None,
+        Need::SourceRobot => unmet(context, Need::Module(ModuleKind::Urdf), outcomes),
+        Need::Module(kind) => match context.module(kind) {
+            None => Some(SkipReason::Absent(kind)),
+            Some(module) => module.unusable().map(SkipReason::Unusable),
+        },
+        Need::AnyModule(kinds) => {
+            let usable = |kind: &ModuleKind| context.document(*kind).is_some();
+            (!kinds.iter().any(usable)).then_some(SkipReason::NoneUsable(kinds))
+        }
+        Need::RootMetadata => match context.metadata() {
+            Some(_) => None,
+            None => Some(SkipReason::NoRootMetadata),
+        },
+        Need::CarriedUrdf => context.urdf().err().cloned().map(SkipReason::NoCarriedUrdf),
+        Need::All(needs) => needs
+            .iter()
+            .find_map(|need| unmet(context, *need, outcomes)),
+        Need::Each(parts) if !applies(context, parts) => None,
+        Need::Each(parts) => parts.codes.iter().find_map(|code| {
+            let elsewhere = |ran: &&Ran| ran.faulted.elsewhere();
+            obstacle(outcomes.get(code).filter(elsewhere), *code)
+                .or_else(|| crashed(outcomes.get(code), *code))
+        }),
+        Need::NotFailedInV1(_) | Need::NoPartInV1(..) if context.profile() != Profile::V1 => None,
+        Need::NoPartInV1(code, kind) => {
+            let any = |ran: &&Ran| ran.faulted.any(kind);
+            obstacle(outcomes.get(&code).filter(any), code)
+                .or_else(|| crashed(outcomes.get(&code), code))
+        }
+        Need::Passed(code) => match outcomes.get(&code).map(|ran| &ran.outcome) {
+            Some(Outcome::Passed) => None,
+            Some(Outcome::Failed) => Some(SkipReason::Failed(code)),
+            Some(Outcome::Skipped(reason)) => Some(reason.clone()),
+            Some(Outcome::Crashed(_)) => Some(SkipReason::Crashed(code)),
+            None => Some(SkipReason::DidNotRun(code)),
+        },
+        Need::NotFailed(code) | Need::NotFailedInV1(code) => obstacle(outcomes.get(&code), code),
+        Need::Version1 => (context.profile() != Profile::V1).then_some(SkipReason::NotVersion1),
+        Need::Legacy => (context.profile() != Profile::Legacy).then_some(SkipReason::NotLegacy),
+    }
+}
+
+/// Why another rule stands in the way, where it failed or crashed.
+fn obstacle(ran: Option<&Ran>, code: Code) -> Option<SkipReason> {
+    match ran?.outcome {
+        Outcome::Failed => Some(SkipReason::Failed(code)),
+        Outcome::Crashed(_) => Some(SkipReason::Crashed(code)),
+        Outcome::Passed | Outcome::Skipped(_) => None,
+    }
+}
+
+/// Why another rule stands in the way, where it crashed.
+fn crashed(ran: Option<&Ran>, code: Code) -> Option<SkipReason> {
+    matches!(ran?.outcome, Outcome::Crashed(_)).then_some(SkipReason::Crashed(code))
+}

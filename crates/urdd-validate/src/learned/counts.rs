@@ -1,0 +1,148 @@
+//! Counting how often a model is right: SPEC 8.8.9 and 8.8.10.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rayon::prelude::*;
+
+use super::network::Network;
+use super::pairs;
+use crate::distances::poses::Poses;
+use crate::skip::SkipReason;
+use crate::solids::Solids;
+use urdd_document::urdd::Urdd;
+use urdd_format::index::Count;
+use urdd_format::self_collision_model::{
+    EVALUATION_FIRST, ModelEvaluation, NEAR_CONTACT_STEP, SelfCollisionModelModule,
+};
+use urdd_geometry::convex::BodyPairs;
+
+/// The work that a configuration may take on average, so that counting takes some 20 seconds of one core at most. The
+/// unit is about a nanosecond.
+const DEFAULT: u64 = 200_000;
+/// The same with `--deep`: some 7 minutes.
+const DEEP: u64 = 4_000_000;
+/// The work of comparing two pieces whose spheres meet.
+const COMPARISON: u64 = 150;
+
+/// Compares a model with exact geometry.
+pub struct Judge {
+    network: Network,
+    poses: Poses,
+    pieces: BodyPairs,
+    /// The work of a configuration, besides comparing pieces.
+    cost: u64,
+    /// The work that a configuration may take on average.
+    budget: u64,
+    deep: bool,
+}
+
+impl Judge {
+    /// Of a model in which the rules before found no fault. `deep` allows more work.
+    ///
+    /// # Errors
+    /// Why it cannot be compared.
+    pub fn new(
+        urdd: &Urdd,
+        solids: &Solids,
+        model: &SelfCollisionModelModule,
+        deep: bool,
+    ) -> Result<Self, SkipReason> {
+        let poses = Poses::new(urdd)?;
+        let pieces = pairs::pieces(urdd, solids)?;
+        let numbers: usize = model.layers.iter().map(|of| of.biases.len()).sum();
+        let weights = model.layers.iter().flat_map(|of| &of.weights);
+        let weights: usize = weights.map(Vec::len).sum();
+        let work = 50 * poses.num_links() + 4 * pieces.num_shape_pairs() + 20 * numbers + weights;
+        Ok(Self {
+            network: Network::new(model),
+            poses,
+            pieces,
+            cost: 2_000 + work as u64,
+            budget: if deep { DEEP } else { DEFAULT },
+            deep,
+        })
+    }
+
+    /// What comes of so many sampled configurations from the first on. Which collisions are near contact is found out of
+    /// those of the evaluation alone.
+    ///
+    /// # Errors
+    /// Where one has no poses, and where it takes too much work. Whether it does depends neither on the machine nor on
+    /// the number of threads: the sum of all work decides.
+    pub fn count(&self, first: u32, count: u32) -> Result<ModelEvaluation, SkipReason> {
+        let budget = self.budget.saturating_mul(u64::from(count));
+        let done = AtomicU64::new(0);
+        let one = |k: u32| {
+            let (found, work) = self.judge(first.wrapping_add(k), first == EVALUATION_FIRST)?;
+            match done.fetch_add(work, Ordering::Relaxed) + work > budget {
+                true => Err(SkipReason::TooMuchWork { deep: self.deep }),
+                false => Ok(found),
+            }
+        };
+        let all = (0..count).into_par_iter().map(one);
+        all.try_reduce(|| ModelEvaluation::NOTHING, |a, b| Ok(sum(a, b)))
+    }
+
+    /// What comes of one configuration, and the work that it took.
+    fn judge(&self, sample: u32, near_contact: bool) -> Result<(ModelEvaluation, u64), SkipReason> {
+        let (configuration, poses) = self.poses.sampled(sample)?;
+        let (collides, compared) = self.pieces.any_touches_and_work(&poses);
+        let mut work = self.cost + COMPARISON * compared as u64;
+        let cleared = u32::from(self.network.clears(&configuration));
+        let mut found = ModelEvaluation::NOTHING;
+        if !collides {
+            found.num_free.0 = 1;
+            found.num_cleared.0 = cleared;
+            return Ok((found, work));
+        }
+        found.num_colliding.0 = 1;
+        found.num_missed.0 = cleared;
+        if near_contact {
+            let (next, _) = self.poses.sampled(sample.wrapping_add(1))?;
+            let poses = self.poses.of(&stepped(&configuration, &next))?;
+            let (collides, compared) = self.pieces.any_touches_and_work(&poses);
+            work += self.cost + COMPARISON * compared as u64;
+            if !collides {
+                found.num_near_contact.0 = 1;
+                found.num_near_contact_missed.0 = cleared;
+            }
+        }
+        Ok((found, work))
+    }
+}
+
+/// SPEC 8.8.10: towards the next configuration, until a DOF has changed by 0.05, or the next is reached.
+fn stepped(from: &[f64], next: &[f64]) -> Vec<f64> {
+    let differences: Vec<f64> = next.iter().zip(from).map(|(b, a)| b - a).collect();
+    let largest = differences
+        .iter()
+        .fold(0.0, |most: f64, d| most.max(d.abs()));
+    let scale = (NEAR_CONTACT_STEP / largest).min(1.0);
+    let moved = from.iter().zip(&differences).map(|(a, d)| a + scale * d);
+    moved.collect()
+}
+
+fn sum(a: ModelEvaluation, b: ModelEvaluation) -> ModelEvaluation {
+    let add = |a: Count, b: Count| Count(a.0 + b.0);
+    ModelEvaluation {
+        num_colliding: add(a.num_colliding, b.num_colliding),
+        num_missed: add(a.num_missed, b.num_missed),
+        num_near_contact: add(a.num_near_contact, b.num_near_contact),
+        num_near_contact_missed: add(a.num_near_contact_missed, b.num_near_contact_missed),
+        num_free: add(a.num_free, b.num_free),
+        num_cleared: add(a.num_cleared, b.num_cleared),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_ends_after_0_05_or_at_the_next_configuration() {
+        assert_eq!(stepped(&[0.0, 1.0], &[0.02, 0.99]), [0.02, 0.99]);
+        let moved = stepped(&[0.0, 1.0], &[-0.5, 2.0]);
+        assert!((moved[0] + 0.025).abs() < 1e-15 && (moved[1] - 1.05).abs() < 1e-15);
+        assert_eq!(stepped(&[0.5], &[0.5]), [0.5]);
+    }
+}

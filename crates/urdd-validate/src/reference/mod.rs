@@ -1,0 +1,258 @@
+//! The kinematic reference: link poses computed from the text of the carried URDF
+//! (`crate::urdf_text` reads, nalgebra multiplies). It shares nothing with the modules or
+//! with `urdd_kinematics`, which it is there to check. Nothing in it recurses: a chain may be as long
+//! as the file.
+
+mod motion;
+#[cfg(test)]
+mod tests;
+
+use std::collections::HashMap;
+
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+
+use urdd_document::pose::has_quaternions;
+use urdd_format::urdf::{self as v1, JointType, UrdfModule};
+
+/// Largest angle of a limit that is gone to: beyond it, binary64 is coarser than 1e-10 rad.
+const MOST_RADIANS: f64 = 1e6;
+
+/// A robot as its URDF has it.
+pub struct Reference {
+    links: usize,
+    joints: Vec<Joint>,
+    /// Joints from the root outwards.
+    order: Vec<usize>,
+    dofs: usize,
+}
+
+struct Joint {
+    parent: usize,
+    child: usize,
+    kind: JointType,
+    origin: Isometry3<f64>,
+    axis: [f64; 3],
+    limits: Option<[f64; 2]>,
+    source: Source,
+}
+
+/// Where a joint's position comes from.
+enum Source {
+    /// Its own DOFs, from this one on.
+    Own(usize),
+    /// Another joint.
+    Mimic {
+        joint: usize,
+        multiplier: f64,
+        offset: f64,
+    },
+    /// Nothing: it does not move.
+    None,
+}
+
+/// What to do with mimic joints.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MimicDofs {
+    /// They follow (SPEC 5.8).
+    Follow,
+    /// They have DOFs of their own, as in `dof_module` 0.0.1.
+    Own,
+}
+
+impl Reference {
+    /// The kinematics of a URDF that was read.
+    ///
+    /// # Errors
+    /// Why the URDF cannot be used.
+    pub fn new(robot: &UrdfModule, mimics: MimicDofs) -> Result<Reference, String> {
+        let names = |names: &mut dyn Iterator<Item = &str>| -> HashMap<String, usize> {
+            let mut places = HashMap::new();
+            for (index, name) in names.enumerate() {
+                places.entry(name.to_owned()).or_insert(index);
+            }
+            places
+        };
+        let links = names(&mut robot.links.iter().map(|link| link.name.as_str()));
+        let drivers = names(&mut robot.joints.iter().map(|joint| joint.name.as_str()));
+        let link = |name: &str| {
+            let found = links.get(name).copied();
+            found.ok_or_else(|| format!("no link is called {name}"))
+        };
+        let quaternions = has_quaternions(robot.version.as_deref());
+        let mut dofs = 0;
+        let mut joints = Vec::with_capacity(robot.joints.len());
+        for joint in &robot.joints {
+            let freedom = motion::freedom(joint.joint_type);
+            let source = match &joint.mimic {
+                _ if freedom == 0 => Source::None,
+                Some(mimic) if mimics == MimicDofs::Follow => Source::Mimic {
+                    joint: (drivers.get(&mimic.joint).copied())
+                        .ok_or_else(|| format!("no joint is called {}", mimic.joint))?,
+                    multiplier: mimic.multiplier.unwrap_or(1.0),
+                    offset: mimic.offset.unwrap_or(0.0),
+                },
+                _ => {
+                    dofs += freedom;
+                    Source::Own(dofs - freedom)
+                }
+            };
+            let axis = joint.axis.as_ref().and_then(|axis| axis.xyz);
+            joints.push(Joint {
+                parent: link(&joint.parent.link)?,
+                child: link(&joint.child.link)?,
+                kind: joint.joint_type,
+                origin: origin(joint.origin.as_ref(), quaternions),
+                axis: axis.unwrap_or([1.0, 0.0, 0.0]),
+                limits: limits(joint),
+                source,
+            });
+        }
+        let order = order(robot.links.len(), &joints)?;
+        Ok(Reference {
+            links: robot.links.len(),
+            joints,
+            order,
+            dofs,
+        })
+    }
+
+    /// Number of links.
+    pub fn num_links(&self) -> usize {
+        self.links
+    }
+
+    /// Number of DOFs.
+    pub fn num_dofs(&self) -> usize {
+        self.dofs
+    }
+
+    /// Whether a joint is of a kind.
+    pub fn has(&self, kind: JointType) -> bool {
+        self.joints.iter().any(|joint| joint.kind == kind)
+    }
+
+    /// For each DOF, an interval to take configurations from: the URDF's limits, or [-pi, pi]
+    /// where there are none, or an angle is beyond 1e6 rad.
+    pub fn intervals(&self) -> Vec<[f64; 2]> {
+        let free = [-std::f64::consts::PI, std::f64::consts::PI];
+        let mut intervals = vec![free; self.dofs];
+        for joint in &self.joints {
+            let Some(limits) = joint.limits else { continue };
+            // An angle of so many turns has no digits left that would say where the joint stands.
+            let is_turns = joint.kind == JointType::Revolute
+                && limits.iter().any(|limit| limit.abs() > MOST_RADIANS);
+            if let (Source::Own(first), false) = (&joint.source, is_turns) {
+                intervals[*first] = limits;
+            }
+        }
+        intervals
+    }
+
+    /// The pose of every link in the root link's frame; `None` where the configuration is of
+    /// another length.
+    pub fn link_poses(&self, configuration: &[f64]) -> Option<Vec<Isometry3<f64>>> {
+        if configuration.len() != self.dofs {
+            return None;
+        }
+        let positions = self.positions(configuration);
+        let mut poses = vec![Isometry3::identity(); self.links];
+        for &index in &self.order {
+            let joint = &self.joints[index];
+            let motion = motion::motion(joint.kind, joint.axis, &positions[index]);
+            poses[joint.child] = poses[joint.parent] * joint.origin * motion;
+        }
+        Some(poses)
+    }
+
+    /// The position of every joint. A circle of mimics is another rule's finding; here its joints
+    /// stand at their offsets.
+    fn positions(&self, configuration: &[f64]) -> Vec<[f64; 6]> {
+        let mut known: Vec<Option<[f64; 6]>> = vec![None; self.joints.len()];
+        for start in 0..self.joints.len() {
+            let mut chain = Vec::new();
+            let mut at = start;
+            while known[at].is_none() {
+                let mut position = [0.0; 6];
+                if let Source::Own(first) = self.joints[at].source {
+                    let freedom = motion::freedom(self.joints[at].kind);
+                    position[..freedom].copy_from_slice(&configuration[first..first + freedom]);
+                }
+                known[at] = Some(position);
+                if let Source::Mimic { joint, .. } = self.joints[at].source {
+                    chain.push(at);
+                    at = joint;
+                }
+            }
+            for follower in chain.into_iter().rev() {
+                if let Source::Mimic {
+                    joint,
+                    multiplier,
+                    offset,
+                } = self.joints[follower].source
+                {
+                    let driver = known[joint].unwrap_or_default()[0];
+                    let position = multiplier * driver + offset;
+                    known[follower] = Some([position, 0.0, 0.0, 0.0, 0.0, 0.0]);
+                }
+            }
+        }
+        known.into_iter().map(Option::unwrap_or_default).collect()
+    }
+}
+
+/// SPEC 5.4 and 6.1.9; what is absent is zero.
+fn origin(origin: Option<&v1::Origin>, quaternions: bool) -> Isometry3<f64> {
+    let Some(origin) = origin else {
+        return Isometry3::identity();
+    };
+    let rotation = match origin.quat_xyzw.filter(|_| quaternions) {
+        Some(xyzw) => {
+            // Divided by the largest number first, so that the squares of tiny or huge ones are
+            // neither lost nor infinite.
+            let largest = xyzw.iter().fold(0.0_f64, |most, n| most.max(n.abs()));
+            let [x, y, z, w] = xyzw.map(|n| n / largest);
+            UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 0.0).unwrap_or_default()
+        }
+        None => {
+            let [roll, pitch, yaw] = origin.rpy.unwrap_or_default();
+            UnitQuaternion::from_euler_angles(roll, pitch, yaw)
+        }
+    };
+    Isometry3::from_parts(Translation3::from(origin.xyz.unwrap_or_default()), rotation)
+}
+
+/// SPEC 6.5.2.
+fn limits(joint: &v1::Joint) -> Option<[f64; 2]> {
+    let limit = joint.limit.as_ref()?;
+    let has_limits = matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic)
+        && (limit.lower.is_some() || limit.upper.is_some());
+    has_limits.then(|| [limit.lower, limit.upper].map(Option::unwrap_or_default))
+}
+
+/// The joints from the root outwards.
+fn order(links: usize, joints: &[Joint]) -> Result<Vec<usize>, String> {
+    let mut moved = vec![false; links];
+    let mut on_link: Vec<Vec<usize>> = vec![Vec::new(); links];
+    for (index, joint) in joints.iter().enumerate() {
+        on_link[joint.parent].push(index);
+        if std::mem::replace(&mut moved[joint.child], true) {
+            return Err("a link is the child of two joints".to_owned());
+        }
+    }
+    let mut stack: Vec<usize> = (0..links).filter(|link| !moved[*link]).collect();
+    if stack.len() != 1 {
+        return Err(format!("there are {} root links", stack.len()));
+    }
+    let mut order = Vec::with_capacity(joints.len());
+    while let Some(link) = stack.pop() {
+        for &joint in &on_link[link] {
+            order.push(joint);
+            stack.push(joints[joint].child);
+        }
+    }
+    if order.len() == joints.len() {
+        Ok(order)
+    } else {
+        Err("the joints go in a circle".to_owned())
+    }
+}

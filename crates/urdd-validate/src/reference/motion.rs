@@ -1,0 +1,93 @@
+//! How each type of joint moves (SPEC 9.1), written with nalgebra alone.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+use urdd_format::urdf::JointType;
+
+/// Number of numbers that say a joint's position.
+pub fn freedom(kind: JointType) -> usize {
+    match kind {
+        JointType::Fixed => 0,
+        JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
+        JointType::Planar | JointType::Spherical => 3,
+        JointType::Floating => 6,
+    }
+}
+
+/// The motion of a joint at a position, of which the first [`freedom`] numbers count.
+pub fn motion(kind: JointType, axis: [f64; 3], q: &[f64; 6]) -> Isometry3<f64> {
+    let axis = Vector3::from(axis);
+    // Divided first, so that the squares of huge numbers are not infinite.
+    let largest = axis.amax();
+    let unit = match largest > 0.0 {
+        true => (axis / largest).normalize(),
+        false => Vector3::x(),
+    };
+    let turn = |v: Vector3<f64>| UnitQuaternion::from_scaled_axis(v);
+    let (shift, rotation) = match kind {
+        JointType::Fixed => (Vector3::zeros(), UnitQuaternion::identity()),
+        JointType::Revolute | JointType::Continuous => (Vector3::zeros(), turn(unit * q[0])),
+        JointType::Prismatic => (unit * q[0], UnitQuaternion::identity()),
+        JointType::Planar => {
+            let basis = turn(arc_from_z(unit));
+            (basis * Vector3::new(q[0], q[1], 0.0), turn(unit * q[2]))
+        }
+        JointType::Floating => (
+            Vector3::new(q[0], q[1], q[2]),
+            turn(Vector3::new(q[3], q[4], q[5])),
+        ),
+        JointType::Spherical => (Vector3::zeros(), turn(Vector3::new(q[0], q[1], q[2]))),
+    };
+    Isometry3::from_parts(Translation3::from(shift), rotation)
+}
+
+/// The shortest arc from z to a unit axis, as a rotation vector (SPEC 5.9). `rotation_between` would
+/// take the angle from its cosine, and loses the arc near -z.
+fn arc_from_z(axis: Vector3<f64>) -> Vector3<f64> {
+    let sine = axis.x.hypot(axis.y);
+    let angle = sine.atan2(axis.z);
+    if sine >= 1e-10 {
+        Vector3::new(-axis.y, axis.x, 0.0) * (angle / sine)
+    } else if axis.z < 0.0 {
+        Vector3::x() * PI
+    } else {
+        Vector3::zeros()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where the motion of a planar joint at (x, y) puts the origin.
+    fn planar(axis: [f64; 3], [x, y]: [f64; 2]) -> Vector3<f64> {
+        let q = [x, y, 0.0, 0.0, 0.0, 0.0];
+        motion(JointType::Planar, axis, &q).translation.vector
+    }
+
+    #[test]
+    fn a_planar_axis_too_near_to_z_counts_as_z() {
+        for (axis, expected) in [
+            ([0.0, 0.0, -2.0], [3.0, -5.0, 0.0]),
+            ([4e-11, -4e-11, -1.0], [3.0, -5.0, 0.0]),
+            ([4e-11, -4e-11, 1.0], [3.0, 5.0, 0.0]),
+        ] {
+            let shift = planar(axis, [3.0, 5.0]);
+            assert!((shift - Vector3::from(expected)).norm() < 1e-14, "{shift}");
+        }
+    }
+
+    #[test]
+    fn the_arc_keeps_its_direction_near_the_opposite_of_z() {
+        // Half a turn, but for 5e-9, about (-0.8, 0.6, 0): R = 2 v v' - I, so R ex = (0.28, -0.96, 0)
+        // and R ey = (-0.96, -0.28, 0).
+        let axis = [3e-9, 4e-9, -1.0];
+        for (q, expected) in [([1.0, 0.0], [0.28, -0.96]), ([0.0, 1.0], [-0.96, -0.28])] {
+            let shift = planar(axis, q);
+            let expected = Vector3::new(expected[0], expected[1], 0.0);
+            assert!((shift - expected).norm() < 1e-8, "{shift}");
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The report as workflow commands of GitHub Actions: a line for each finding, which Actions shows at
+//! the file in the pull request. It needs no upload and no permissions.
+
+use std::fmt::{self, Write};
+
+use super::model::{Report, Severity, Status};
+use super::place::file_in;
+use urdd_format::escape;
+
+/// Writes the report. `places` says where its URDDs lie (see [`super::place::places`]).
+///
+/// # Errors
+/// Where writing fails.
+pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::Result {
+    for (urdd, place) in report.urdds.iter().zip(places) {
+        if let Some(reason) = &urdd.reason {
+            let file = property(&file_in(place, None));
+            let verdict = urdd.verdict.as_str();
+            writeln!(out, "::error file={file},title={verdict}::{}", data(reason))?;
+        }
+        for check in urdd
+            .checks
+            .iter()
+            .filter(|check| check.status == Status::Crashed)
+        {
+            let reason = data(check.reason.as_deref().unwrap_or_default());
+            writeln!(out, "::error title={} crashed::{reason}", check.code)?;
+        }
+        for finding in &urdd.findings {
+            let command = match finding.severity {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+                Severity::Info => "notice",
+            };
+            let file = property(&file_in(place, finding.file.as_deref()));
+            write!(out, "::{command} file={file}")?;
+            if let Some(line) = finding.line {
+                write!(out, ",line={line}")?;
+            }
+            if let Some(column) = finding.column {
+                write!(out, ",col={column}")?;
+            }
+            let mut text = finding.message.clone();
+            let parts = [
+                ("of", &finding.subject),
+                ("expected", &finding.expected),
+                ("found", &finding.actual),
+            ];
+            for (label, part) in parts {
+                if let Some(part) = part {
+                    text += &format!("; {label}: {part}");
+                }
+            }
+            if finding.count.get() > 1 {
+                text += &format!(" ({} times)", finding.count);
+            }
+            let title = property(&format!("{} {}", finding.code, finding.name));
+            writeln!(out, ",title={title}::{}", data(&text))?;
+        }
+    }
+    Ok(())
+}
+
+/// The text of a command.
+fn data(text: &str) -> String {
+    // Line breaks are escaped already; a percent sign begins an escape of Actions.
+    escape::line(text).replace('%', "%25")
+}
+
+/// A property of a command.
+fn property(text: &str) -> String {
+    data(text).replace(':', "%3A").replace(',', "%2C")
+}

@@ -1,0 +1,332 @@
+//! What a URDD holds, told without judging it.
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Write};
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::info_parts::{self, PartInfo};
+use crate::{ModelVerdict, verify_model};
+use urdd_directory::root::ReadError;
+use urdd_document::urdd::Urdd;
+use urdd_format::dof::Quantity;
+use urdd_format::escape;
+use urdd_format::rate::Rate;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::self_collision_model::ModelEvaluation;
+
+/// What a URDD holds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Info {
+    /// How the URDD is called.
+    pub path: String,
+    /// Name of the robot.
+    pub robot_name: Option<String>,
+    /// Version of the specification that it states.
+    pub urdd_version: Option<String>,
+    /// The conformance class that it claims.
+    pub conformance_class: Option<String>,
+    /// The carried source URDF.
+    pub urdf: Option<String>,
+    /// Number of links.
+    pub links: Option<usize>,
+    /// Number of joints of each type.
+    pub joints: BTreeMap<String, usize>,
+    /// The degrees of freedom.
+    pub dofs: Vec<DofInfo>,
+    /// The link that carries the parts of a robot that was put together, and is of none.
+    pub base: Option<String>,
+    /// The parts of a robot that was put together, as a tree.
+    pub parts: Vec<PartInfo>,
+    /// How often the self-collision model is right.
+    pub collision_model: Option<ModelInfo>,
+    /// The modules.
+    pub modules: Vec<ModuleInfo>,
+}
+
+/// A degree of freedom.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DofInfo {
+    /// Its name; for legacy modules that of its joint.
+    pub name: String,
+    /// `rad` or `m`, where the module says it.
+    pub unit: Option<&'static str>,
+    /// Lower and upper bound.
+    pub bounds: Option<[f64; 2]>,
+}
+
+/// How often a self-collision model is right, as its module states.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModelInfo {
+    /// The share of collisions that it misses.
+    pub miss_rate: Rate,
+    /// The share of collisions near contact that it misses.
+    pub near_contact_miss_rate: Rate,
+    /// The share of free configurations that it clears.
+    pub clear_rate: Rate,
+    /// Whether counting again gives these rates; null where that was not found out.
+    pub verified: Option<bool>,
+    /// Why they are wrong, or were not verified.
+    pub reasons: Vec<String>,
+}
+
+impl ModelInfo {
+    /// Counts again.
+    fn new(evaluation: &ModelEvaluation, path: &Path) -> Self {
+        let (verified, reasons) = match verify_model(path) {
+            ModelVerdict::Verified => (Some(true), Vec::new()),
+            ModelVerdict::Refuted(codes) => {
+                let reasons = codes.iter().map(|code| format!("{code} found a fault"));
+                (Some(false), reasons.collect())
+            }
+            ModelVerdict::NotVerified(reasons) => (None, reasons),
+        };
+        Self {
+            miss_rate: evaluation.miss_rate(),
+            near_contact_miss_rate: evaluation.near_contact_miss_rate(),
+            clear_rate: evaluation.clear_rate(),
+            verified,
+            reasons,
+        }
+    }
+
+    fn write(&self, out: &mut impl Write) -> fmt::Result {
+        let verdict = match self.verified {
+            Some(true) => "verified",
+            Some(false) => "NOT TRUE",
+            None => "not verified",
+        };
+        let reasons = match self.reasons.is_empty() {
+            true => String::new(),
+            false => format!(": {}", safe(&self.reasons.join(", "))),
+        };
+        writeln!(
+            out,
+            "  model     rates {verdict}{reasons} (95 % intervals in brackets)"
+        )?;
+        writeln!(out, "            misses {} collisions", self.miss_rate)?;
+        let near = &self.near_contact_miss_rate;
+        writeln!(
+            out,
+            "            misses {near} collisions within a step of 0.05 rad or m of contact"
+        )?;
+        writeln!(
+            out,
+            "            clears {} free configurations",
+            self.clear_rate
+        )
+    }
+}
+
+/// A module.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModuleInfo {
+    /// Its folder.
+    pub path: String,
+    /// Its version.
+    pub version: Option<String>,
+    /// Number of its files.
+    pub files: usize,
+    /// Their size, bytes.
+    pub bytes: u64,
+    /// Why its document cannot be used, where it cannot.
+    pub unusable: Option<String>,
+}
+
+impl Info {
+    /// What the URDD at `path` holds; `name` is how it is called.
+    ///
+    /// # Errors
+    /// Where its folder cannot be read.
+    pub fn read(path: &Path, name: &str) -> Result<Info, ReadError> {
+        let urdd = Urdd::read(path)?;
+        let robot = urdd.robot();
+        let mut joints = BTreeMap::new();
+        for joint in robot.iter().flat_map(|robot| &robot.joints) {
+            *joints.entry(joint.joint_type.to_string()).or_insert(0) += 1;
+        }
+        let metadata = urdd.metadata();
+        let composition = match urdd.document(ModuleKind::Composition) {
+            Some(ModuleDocument::Composition(composition)) => Some(composition),
+            _ => None,
+        };
+        let model = match urdd.document(ModuleKind::SelfCollisionModel) {
+            Some(ModuleDocument::SelfCollisionModel(model)) => {
+                Some(ModelInfo::new(&model.evaluation, path))
+            }
+            _ => None,
+        };
+        Ok(Info {
+            path: name.to_owned(),
+            robot_name: robot
+                .map(|robot| robot.name.clone())
+                .or_else(|| metadata.map(|m| m.robot_name.clone())),
+            urdd_version: metadata.map(|metadata| metadata.urdd_version.to_string()),
+            conformance_class: metadata.map(|metadata| metadata.conformance_class.to_string()),
+            urdf: urdd.urdf().ok().map(|urdf| urdf.path.clone()),
+            links: robot.map(|robot| robot.links.len()),
+            joints,
+            dofs: dofs(&urdd),
+            base: composition.and_then(|of| info_parts::base(of.base.as_ref(), robot)),
+            parts: composition.map_or_else(Vec::new, |of| info_parts::tree(&of.parts, robot)),
+            collision_model: model,
+            modules: urdd
+                .modules()
+                .iter()
+                .map(|module| {
+                    let sizes: Vec<u64> = urdd
+                        .listing()
+                        .below(&module.folder)
+                        .map(|entry| entry.size)
+                        .collect();
+                    ModuleInfo {
+                        path: module.folder.clone(),
+                        version: module.version.clone(),
+                        files: urdd
+                            .listing()
+                            .below(&module.folder)
+                            .filter(|entry| urdd.listing().has_file(&entry.path))
+                            .count(),
+                        bytes: sizes.iter().sum(),
+                        unusable: module.unusable().map(|why| why.to_string()),
+                    }
+                })
+                .collect(),
+        })
+    }
+}
+
+fn dofs(urdd: &Urdd) -> Vec<DofInfo> {
+    let Some(dofs) = urdd.dofs() else {
+        return Vec::new();
+    };
+    let bounds = urdd.bounds();
+    let described = match urdd.document(ModuleKind::Dof) {
+        Some(ModuleDocument::Dof(module)) => Some(&module.dofs),
+        _ => None,
+    };
+    let name_of_joint = |dof: usize| {
+        let joint = dofs.joint_of_dof.get(dof)?;
+        Some(urdd.robot()?.joints.get(joint.get())?.name.clone())
+    };
+    (0..dofs.joint_of_dof.len())
+        .map(|dof| {
+            let description = described.and_then(|list| list.get(dof));
+            DofInfo {
+                name: description
+                    .map(|description| description.name.clone())
+                    .or_else(|| name_of_joint(dof))
+                    .unwrap_or_else(|| format!("DOF {dof}")),
+                unit: description.map(|description| match description.quantity {
+                    Quantity::Angle => "rad",
+                    Quantity::Length => "m",
+                }),
+                bounds: bounds.and_then(|bounds| bounds.bounds.get(dof).copied()),
+            }
+        })
+        .collect()
+}
+
+fn safe(text: &str) -> String {
+    escape::line(text).into_owned()
+}
+
+/// Writes what a URDD holds, for a person.
+///
+/// # Errors
+/// Where writing fails.
+pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
+    let unknown = || "not known".to_owned();
+    writeln!(out, "{}", escape::line(&info.path))?;
+    writeln!(
+        out,
+        "  robot     {}",
+        info.robot_name.as_deref().map_or_else(unknown, safe)
+    )?;
+    match (&info.urdd_version, &info.conformance_class) {
+        (Some(version), Some(class)) => {
+            writeln!(out, "  format    URDD {}, class {class}", safe(version))?
+        }
+        _ => writeln!(out, "  format    no root metadata")?,
+    }
+    writeln!(
+        out,
+        "  source    {}",
+        info.urdf
+            .as_deref()
+            .map_or_else(|| "no URDF is carried".to_owned(), safe)
+    )?;
+    writeln!(
+        out,
+        "  links     {}",
+        info.links.map_or_else(unknown, |links| links.to_string())
+    )?;
+    let joints: Vec<String> = info
+        .joints
+        .iter()
+        .map(|(kind, count)| format!("{count} {}", safe(kind)))
+        .collect();
+    writeln!(
+        out,
+        "  joints    {}",
+        if joints.is_empty() {
+            "none".to_owned()
+        } else {
+            joints.join(", ")
+        }
+    )?;
+    writeln!(out, "  DOFs      {}", info.dofs.len())?;
+    let width = info
+        .dofs
+        .iter()
+        .map(|dof| safe(&dof.name).chars().count())
+        .max()
+        .unwrap_or(0);
+    for (index, dof) in info.dofs.iter().enumerate() {
+        let unit = dof.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+        let bounds = dof
+            .bounds
+            .map(|[lower, upper]| format!("  [{lower}, {upper}]{unit}"))
+            .unwrap_or_default();
+        writeln!(out, "    {index:>3}  {:width$}{bounds}", safe(&dof.name))?;
+    }
+    if let Some(model) = &info.collision_model {
+        model.write(out)?;
+    }
+    if !info.parts.is_empty() {
+        let base = info
+            .base
+            .as_deref()
+            .map(|base| format!("on {}", safe(base)));
+        writeln!(
+            out,
+            "{}",
+            format!("  parts     {}", base.unwrap_or_default()).trim_end()
+        )?;
+        info_parts::write(&info.parts, "    ", out)?;
+    }
+    writeln!(out, "  modules   {}", info.modules.len())?;
+    let width = info
+        .modules
+        .iter()
+        .map(|module| safe(&module.path).chars().count())
+        .max()
+        .unwrap_or(0);
+    for module in &info.modules {
+        let version = safe(module.version.as_deref().unwrap_or("-"));
+        let unusable = module
+            .unusable
+            .as_ref()
+            .map(|reason| format!("  ({})", safe(reason)))
+            .unwrap_or_default();
+        writeln!(
+            out,
+            "    {:width$}  {version:6}  {:>4} files  {:>9} kB{unusable}",
+            safe(&module.path),
+            module.files,
+            module.bytes.div_ceil(1000)
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,130 @@
+//! The parts of a robot that was put together, as a tree.
+
+use std::fmt::{self, Write};
+
+use serde::Serialize;
+
+use urdd_document::robot::Robot;
+use urdd_format::composition::{CompositionBase, CompositionPart};
+use urdd_format::escape;
+
+/// A part of a robot that was put together.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PartInfo {
+    /// By what name the recipe knows it.
+    pub id: String,
+    /// Name of the robot that the part was.
+    pub robot: String,
+    /// What stands before its names.
+    pub prefix: String,
+    /// Number of its links.
+    pub links: usize,
+    /// Number of its links that were left out.
+    pub dropped_links: usize,
+    /// Number of its joints that were made fixed.
+    pub frozen_joints: usize,
+    /// The part that carries it; null for the base, or for nothing.
+    pub on_part: Option<String>,
+    /// The link that carries it, where its name is known.
+    pub on_link: Option<String>,
+    /// The joint between the two, where its name is known.
+    pub by_joint: Option<String>,
+    /// How that moves, where it is known.
+    pub joint_type: Option<String>,
+    /// The parts that hang on it.
+    pub carries: Vec<PartInfo>,
+    /// The parts that it was put together from itself.
+    pub parts: Vec<PartInfo>,
+}
+
+/// The parts of a composition: those that hang on nothing or on the base, with what hangs on them. `robot` is the robot that
+/// its indices are of, where that is at hand.
+pub(super) fn tree(parts: &[CompositionPart], robot: Option<&Robot>) -> Vec<PartInfo> {
+    let on = |part: &CompositionPart| Some(part.attachment.as_ref()?.part_idx?.get());
+    let tops = (0..parts.len()).filter(|idx| on(&parts[*idx]).is_none());
+    tops.map(|idx| part(parts, idx, robot, parts.len()))
+        .collect()
+}
+
+/// `depth` ends what hangs on itself, in a document that is wrong.
+fn part(parts: &[CompositionPart], idx: usize, robot: Option<&Robot>, depth: usize) -> PartInfo {
+    let of = &parts[idx];
+    let attachment = of.attachment.as_ref();
+    let carrier = attachment.and_then(|attachment| parts.get(attachment.part_idx?.get()));
+    let link = attachment.and_then(|attachment| {
+        let idx = attachment.link_idx;
+        let known = || robot?.links.get(idx.get()).map(|link| link.name.clone());
+        let of_part = || {
+            let carrier = carrier?;
+            let link = carrier.links.iter().find(|link| link.link_idx == idx)?;
+            Some(format!("{}{}", carrier.prefix, link.name))
+        };
+        known().or_else(of_part)
+    });
+    let joint = attachment.and_then(|of| robot?.joints.get(of.joint_idx.get()));
+    let hangs_here = |other: &usize| {
+        let attachment = parts[*other].attachment.as_ref();
+        let on = attachment.and_then(|attachment| attachment.part_idx);
+        depth > 0 && on.is_some_and(|on| on.get() == idx)
+    };
+    PartInfo {
+        id: of.id.clone(),
+        robot: of.name.clone(),
+        prefix: of.prefix.clone(),
+        links: of.links.len(),
+        dropped_links: of.dropped_links.len(),
+        frozen_joints: of.frozen_joints.len(),
+        on_part: carrier.map(|carrier| carrier.id.clone()),
+        on_link: link,
+        by_joint: joint.map(|joint| joint.name.clone()),
+        joint_type: joint.map(|joint| joint.joint_type.to_string()),
+        carries: (0..parts.len())
+            .filter(hangs_here)
+            .map(|other| part(parts, other, robot, depth.saturating_sub(1)))
+            .collect(),
+        parts: (of.composition.as_ref()).map_or_else(Vec::new, |nested| tree(&nested.parts, None)),
+    }
+}
+
+/// The name of the base's link.
+pub(super) fn base(base: Option<&CompositionBase>, robot: Option<&Robot>) -> Option<String> {
+    let link = robot?.links.get(base?.link_idx.get())?;
+    Some(link.name.clone())
+}
+
+/// Writes the tree, for a person.
+///
+/// # Errors
+/// Where writing fails.
+pub(super) fn write(parts: &[PartInfo], margin: &str, out: &mut impl Write) -> fmt::Result {
+    for part in parts {
+        write!(out, "{margin}{}", escape::line(&part.id))?;
+        write!(
+            out,
+            "  (robot {}, {} links",
+            escape::line(&part.robot),
+            part.links
+        )?;
+        let counts = [
+            (part.dropped_links, "dropped"),
+            (part.frozen_joints, "joints frozen"),
+        ];
+        for (count, what) in counts.into_iter().filter(|(count, _)| *count > 0) {
+            write!(out, ", {count} {what}")?;
+        }
+        out.write_str(")")?;
+        if let Some(link) = &part.on_link {
+            write!(out, "  on {}", escape::line(link))?;
+        }
+        if let (Some(joint), Some(kind)) = (&part.by_joint, &part.joint_type) {
+            write!(out, "  by {} ({})", escape::line(joint), escape::line(kind))?;
+        }
+        out.write_char('\n')?;
+        if !part.parts.is_empty() {
+            writeln!(out, "{margin}  is put together of")?;
+            write(&part.parts, &format!("{margin}    "), out)?;
+        }
+        write(&part.carries, &format!("{margin}  "), out)?;
+    }
+    Ok(())
+}

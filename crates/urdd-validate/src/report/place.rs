@@ -1,0 +1,103 @@
+//! Where a URDD lies, seen from the folder in which the program runs: what tools that show a report
+//! beside the files need. Reports hold no absolute path.
+
+use std::path::{Component, Path, PathBuf};
+
+use crate::{Run, Subject};
+
+/// The folder of every URDD of a run, relative to `current`, with forward slashes: empty where it is
+/// that folder. A URDD outside of `current` goes by its name.
+pub fn places(run: &Run, current: &Path) -> Vec<String> {
+    let place = |subject: &Subject| {
+        let found = &subject.found;
+        relative(&found.path, current).unwrap_or_else(|| found.name.clone())
+    };
+    run.subjects.iter().map(place).collect()
+}
+
+/// A file of a URDD, seen from where its place is seen; the URDD's folder where there is no file, or
+/// the file is out of what can be seen.
+pub fn file_in(place: &str, file: Option<&str>) -> String {
+    let folder = |place: &str| match place {
+        "" => "./".to_owned(),
+        place => format!("{place}/"),
+    };
+    let Some(file) = file else {
+        return folder(place);
+    };
+    let mut parts: Vec<&str> = place.split('/').filter(|part| !part.is_empty()).collect();
+    for part in file.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => {
+                if parts.pop().is_none() {
+                    return folder(place);
+                }
+            }
+            part => parts.push(part),
+        }
+    }
+    match parts.is_empty() {
+        true => folder(place),
+        false => parts.join("/"),
+    }
+}
+
+fn relative(path: &Path, current: &Path) -> Option<String> {
+    let whole = plain(&current.join(path));
+    let inside = whole.strip_prefix(plain(current)).ok()?;
+    let parts: Vec<_> = inside
+        .components()
+        .map(|part| part.as_os_str().to_string_lossy())
+        .collect();
+    Some(parts.join("/"))
+}
+
+/// A path without `.` and `..`.
+fn plain(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                plain.pop();
+            }
+            part => plain.push(part),
+        }
+    }
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_seen_from_the_current_folder() {
+        let seen = |path: &str| relative(Path::new(path), Path::new("/work/robots_repository"));
+        let some = |text: &str| Some(text.to_owned());
+        assert_eq!(seen("robots/ur5"), some("robots/ur5"));
+        assert_eq!(seen("./robots/../robots/ur5/"), some("robots/ur5"));
+        assert_eq!(seen("."), some(""));
+        assert_eq!(seen("/work/robots_repository/ur5"), some("ur5"));
+        assert_eq!(seen("../robots_repository/ur5"), some("ur5"));
+        assert_eq!(seen("../ur5"), None);
+        assert_eq!(seen("/work/robots_repository_2"), None);
+    }
+
+    #[test]
+    fn files_are_seen_from_there_too() {
+        assert_eq!(
+            file_in("robots/ur5", Some("a/b.json")),
+            "robots/ur5/a/b.json"
+        );
+        assert_eq!(file_in("", Some("urdd.json")), "urdd.json");
+        assert_eq!(
+            file_in("robots/ur5", Some("../panda/a.stl")),
+            "robots/panda/a.stl"
+        );
+        assert_eq!(file_in("ur5", Some("../../a.stl")), "ur5/");
+        assert_eq!(file_in("ur5", None), "ur5/");
+        assert_eq!(file_in("", None), "./");
+    }
+}

@@ -1,0 +1,318 @@
+//! The report as SARIF 2.1.0, for GitHub code scanning, editors and other readers of that format.
+//!
+//! Only the rules that a result or a notification names are written. Of GitHub's limits, 25,000
+//! results in a run is the one that can be met: findings alike are one result with a count, and
+//! results come in the order of the URDDs.
+
+use std::collections::{BTreeMap, HashMap};
+
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
+use serde_json::{Map, Value, json};
+use sha2::{Digest, Sha256};
+
+use super::model::{Finding, Place, Report, Severity, Status, Urdd, Verdict};
+use super::place::file_in;
+use super::unverified;
+use crate::Run;
+use crate::code::Code;
+use crate::rule::Rule;
+use urdd_format::escape;
+use urdd_format::hexadecimal::hexadecimal;
+use urdd_format::index::Count;
+use urdd_format::readable::number;
+
+/// What paths are relative to: the folder in which the program ran, by the name that readers of
+/// SARIF have for the root of a repository.
+const BASE: &str = "%SRCROOT%";
+
+/// Most further places of a result: GitHub takes 1,000 locations a result.
+const MOST_LOCATIONS: usize = 999;
+
+/// What may stand in a URI reference as it is.
+const KEPT: &AsciiSet = &NON_ALPHANUMERIC
+    .remove(b'/')
+    .remove(b'-')
+    .remove(b'.')
+    .remove(b'_')
+    .remove(b'~');
+
+/// Writes the report of a run. `places` says where its URDDs lie (see [`super::place::places`]), and
+/// `exit_code` the status with which the program ends.
+///
+/// # Errors
+/// Never for a report that [`Report::new`] made.
+pub fn sarif(
+    run: &Run,
+    report: &Report,
+    places: &[String],
+    exit_code: u8,
+) -> serde_json::Result<String> {
+    let rules = Rules::used(run, report);
+    let placed = || report.urdds.iter().zip(places);
+    let results: Vec<Value> = placed()
+        .flat_map(|(urdd, place)| results(urdd, place, &rules))
+        .collect();
+    let notifications: Vec<Value> = placed()
+        .flat_map(|(urdd, place)| notifications(urdd, place, &rules))
+        .collect();
+    let stale: Vec<Value> = report
+        .stale_ignores
+        .iter()
+        .map(|ignore| {
+            let text = format!(
+                "the ignore of {} at `{}` in the settings matches nothing: remove it, or correct its path",
+                ignore.code.as_deref().unwrap_or("all rules"),
+                ignore.path
+            );
+            json!({"level": "warning", "message": message(&text)})
+        })
+        .collect();
+    // What was not verified is no failure of the run.
+    let failed = !notifications.is_empty();
+    let unverified = placed().flat_map(|(urdd, place)| {
+        unverified::describe(urdd).into_iter().map(move |text| {
+            let locations =
+                json!([{"physicalLocation": {"artifactLocation": artifact(place, None)}}]);
+            json!({"level": "note", "message": message(&text), "locations": locations})
+        })
+    });
+    let notifications: Vec<Value> = notifications.into_iter().chain(unverified).collect();
+    let mut driver = json!({
+        "name": report.tool.name,
+        "version": report.tool.version,
+        "semanticVersion": report.tool.version,
+    });
+    let homepage = env!("CARGO_PKG_REPOSITORY");
+    if !homepage.is_empty() {
+        driver["informationUri"] = json!(homepage);
+    }
+    driver["rules"] = rules.describe();
+    let log = json!({
+        "$schema": "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [{
+            "tool": {"driver": driver},
+            "invocations": [{
+                "executionSuccessful": !failed,
+                "exitCode": exit_code,
+                "toolExecutionNotifications": notifications,
+                "toolConfigurationNotifications": stale,
+            }],
+            "originalUriBaseIds": {
+                BASE: {"description": {"text": "The folder in which urdd ran: the root of the repository."}},
+            },
+            "columnKind": "unicodeCodePoints",
+            "properties": {"specVersion": report.spec_version},
+            "results": results,
+        }],
+    });
+    let text = serde_json::to_string_pretty(&log)?;
+    Ok(escape::json(&text).into_owned() + "\n")
+}
+
+/// The rules that the report names, in order of code.
+struct Rules(BTreeMap<Code, &'static Rule>);
+
+impl Rules {
+    fn used(run: &Run, report: &Report) -> Rules {
+        let mut rules = BTreeMap::new();
+        for (subject, urdd) in run.subjects.iter().zip(&report.urdds) {
+            let Ok(examined) = &subject.result else {
+                continue;
+            };
+            for (check, status) in examined.checks.iter().zip(&urdd.checks) {
+                if matches!(status.status, Status::Failed | Status::Crashed) {
+                    rules.insert(check.rule.code, check.rule);
+                }
+            }
+        }
+        Rules(rules)
+    }
+
+    fn index(&self, code: &str) -> Option<usize> {
+        self.0.keys().position(|known| known.as_str() == code)
+    }
+
+    fn describe(&self) -> Value {
+        self.0.values().map(|rule| describe(rule)).collect()
+    }
+}
+
+fn describe(rule: &Rule) -> Value {
+    let help = format!(
+        "{}\n\nSPEC.md, clause {}. `urdd explain {}` says the same.",
+        rule.explanation(),
+        rule.clause,
+        rule.code
+    );
+    json!({
+        "id": rule.code.as_str(),
+        "name": rule.name,
+        "shortDescription": {"text": rule.name.replace('-', " ")},
+        "fullDescription": {"text": rule.summary()},
+        "help": {"text": help, "markdown": help},
+        "defaultConfiguration": {"level": level(rule.severity)},
+        "properties": {
+            "clause": rule.clause,
+            "since": rule.since,
+            "phase": format!("{:?}", rule.phase).to_lowercase(),
+        },
+    })
+}
+
+fn level(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Info => "note",
+    }
+}
+
+fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
+    let mut alike = HashMap::new();
+    let result = |finding: &Finding| {
+        let mut result = json!({
+            "ruleId": finding.code,
+            "ruleIndex": rules.index(&finding.code),
+            "level": level(finding.severity),
+            "message": message(&text(finding)),
+            "locations": finding.places.iter().take(1).map(|first| location(place, first)).collect::<Vec<_>>(),
+        });
+        let others = finding.places.iter().skip(1).take(MOST_LOCATIONS);
+        let related: Vec<Value> = others.map(|other| related(place, other)).collect();
+        let cut = finding.count.get().saturating_sub(1 + related.len());
+        if !related.is_empty() {
+            result["relatedLocations"] = json!(related);
+        }
+        result["properties"] = json!({
+            "consequence": finding.consequence.as_str(),
+            "placesCut": cut,
+        });
+        result["occurrenceCount"] = json!(finding.count.get());
+        let kind = kind(finding, place);
+        let nth = alike.entry(kind.clone()).or_insert(0);
+        *nth += 1;
+        result["partialFingerprints"] = json!({"urddFinding/v1": fingerprint(&kind, *nth)});
+        result
+    };
+    urdd.findings.iter().map(result).collect()
+}
+
+/// All that a stranger needs in one text: few readers show more of a result.
+fn text(finding: &Finding) -> String {
+    let mut text = escape::line(&finding.message).into_owned();
+    let mut line = |label: &str, value: &str| {
+        text.push_str(&format!("\n{label}: {}", escape::line(value)));
+    };
+    if let Some(expected) = &finding.expected {
+        line("Expected", expected);
+    }
+    if let Some(actual) = &finding.actual {
+        line("Found", actual);
+    }
+    if let Some(tolerance) = finding.tolerance {
+        line("Tolerance", &number(tolerance, 2));
+    }
+    if let Some(subject) = &finding.subject {
+        line("Of", subject);
+    }
+    if finding.count.get() > 1 {
+        line("Times", &finding.count.to_string());
+    }
+    text
+}
+
+/// A message. What looks like a link in it is no link: names in a URDD are anybody's words.
+fn message(text: &str) -> Value {
+    json!({"text": escape::lines(text).replace("](", "] (")})
+}
+
+/// What tells a finding from others: nothing that changes when lines move, when an element is put
+/// before the one that is meant, or when a message is worded otherwise.
+fn kind(finding: &Finding, place: &str) -> [String; 3] {
+    let what = match &finding.pointer {
+        Some(pointer) => {
+            let is_index = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+            let parts = pointer.split('/');
+            let parts = parts.map(|part| if is_index(part) { "" } else { part });
+            parts.collect::<Vec<_>>().join("/")
+        }
+        None => finding.subject.clone().unwrap_or_default(),
+    };
+    let file = file_in(place, finding.file.as_deref());
+    [finding.code.clone(), file, what]
+}
+
+fn fingerprint(kind: &[String; 3], nth: u32) -> String {
+    let digest = Sha256::digest(format!("{}\n{nth}", kind.join("\n")));
+    hexadecimal(&digest[..16])
+}
+
+/// A further place of a result, with what is there.
+fn related(urdd: &str, other: &Place) -> Value {
+    let mut location = location(urdd, other);
+    let parts = [
+        other.subject.clone(),
+        other.actual.clone(),
+        other
+            .magnitude
+            .as_ref()
+            .map(|magnitude| format!("off by {}", super::human::off_by(magnitude))),
+    ];
+    let text: Vec<String> = parts.into_iter().flatten().collect();
+    if !text.is_empty() {
+        location["message"] = message(&escape::line(&format!("Here too: {}", text.join("; "))));
+    }
+    location
+}
+
+fn location(urdd: &str, place: &Place) -> Value {
+    let mut physical = json!({"artifactLocation": artifact(urdd, place.file.as_deref())});
+    if let Some(line) = place.line {
+        let mut region = Map::new();
+        region.insert("startLine".to_owned(), json!(line.get()));
+        if let Some(column) = place.column.map(Count::get) {
+            region.insert("startColumn".to_owned(), json!(column));
+        }
+        physical["region"] = Value::Object(region);
+    }
+    let mut location = json!({"physicalLocation": physical});
+    if let Some(pointer) = place.pointer.as_deref().filter(|text| !text.is_empty()) {
+        location["logicalLocations"] = json!([{"fullyQualifiedName": pointer}]);
+    }
+    location
+}
+
+fn artifact(urdd: &str, file: Option<&str>) -> Value {
+    let path = file_in(urdd, file);
+    json!({"uri": utf8_percent_encode(&path, KEPT).to_string(), "uriBaseId": BASE})
+}
+
+/// What kept the program from examining a URDD, or all of it.
+fn notifications(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
+    let locations = json!([{"physicalLocation": {"artifactLocation": artifact(place, None)}}]);
+    let mut notifications = Vec::new();
+    if let Some(reason) = &urdd.reason {
+        let text = match urdd.verdict {
+            Verdict::Unreadable => format!("the folder cannot be read: {reason}"),
+            _ => reason.clone(),
+        };
+        notifications
+            .push(json!({"level": "error", "message": message(&text), "locations": locations}));
+    }
+    let crashed = |check: &&super::model::CheckStatus| check.status == Status::Crashed;
+    for check in urdd.checks.iter().filter(crashed) {
+        let text = format!(
+            "{} ran into a fault of its own and checked nothing: {}. Please report this.",
+            check.code,
+            check.reason.as_deref().unwrap_or_default()
+        );
+        notifications.push(json!({
+            "level": "error",
+            "message": message(&text),
+            "locations": locations,
+            "associatedRule": {"id": check.code, "index": rules.index(&check.code)},
+        }));
+    }
+    notifications
+}

@@ -1,0 +1,308 @@
+//! The report on many URDDs, for whoever looks after them: a table of URDDs by family of rules, and
+//! what is behind the findings, in the order in which to mend it.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::{self, Write};
+
+use super::causes::{Cause, causes};
+use super::model::{Consequence, Report, Severity, Status, Urdd, Verdict};
+use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
+use super::unverified::{self, not_verified};
+use super::words::plural;
+use urdd_format::escape::line as safe;
+
+/// Families of rules, as columns: a title, and the families.
+const COLUMNS: &[(&str, &[&str])] = &[
+    ("DIR", &["DIR"]),
+    ("TXT", &["JSN", "YML", "SCH", "EXT"]),
+    ("URD", &["URD", "CMP"]),
+    ("SRC", &["SRC"]),
+    ("DOF", &["DOF"]),
+    ("CHN", &["CHN"]),
+    ("CON", &["CON"]),
+    ("BND", &["BND"]),
+    ("MSH", &["MSH"]),
+    ("SHP", &["SHP"]),
+    ("KIN", &["KIN"]),
+    ("LEG", &["LEG"]),
+];
+
+/// Most rows of the table, and most causes of errors and of what is less, unless all are asked for.
+const ROWS: usize = 60;
+const CAUSES: usize = 10;
+const LESSER: usize = 5;
+/// Longest name of a URDD in the table, characters.
+const NAME: usize = 28;
+
+/// Writes the table and the causes.
+pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
+    write_table(report, style, out)?;
+    let all = causes(report);
+    let (errors, lesser): (Vec<_>, Vec<_>) = all
+        .into_iter()
+        .partition(|cause| cause.severity == Severity::Error);
+    if !errors.is_empty() {
+        let title = format!(
+            "What to fix first ({} of errors)",
+            plural(errors.len(), "cause")
+        );
+        writeln!(out, "{}", style.paint(BOLD, title))?;
+        let most = if style.full { errors.len() } else { CAUSES };
+        let mut above = None;
+        for cause in errors.iter().take(most) {
+            if above != Some(cause.consequence()) {
+                above = Some(cause.consequence());
+                writeln!(out, "  {}", words(cause.consequence()))?;
+            }
+            write_cause(cause, style, out)?;
+        }
+        write_more(errors.len(), most, style, out)?;
+        writeln!(out)?;
+    }
+    if !lesser.is_empty() {
+        writeln!(out, "{}", style.paint(BOLD, "Warnings, and worth knowing"))?;
+        let most = if style.full { lesser.len() } else { LESSER };
+        for cause in lesser.iter().take(most) {
+            write_cause(cause, style, out)?;
+        }
+        write_more(lesser.len(), most, style, out)?;
+        writeln!(out)?;
+    }
+    write_not_checked(report, style, out)?;
+    if !style.full {
+        let hint = "In full: `urdd validate` with one URDD, or --full; every place: --format json.";
+        writeln!(out, "{}", style.paint(DIM, hint))?;
+    }
+    Ok(())
+}
+
+fn write_more(of: usize, shown: usize, style: Style, out: &mut impl Write) -> fmt::Result {
+    match of > shown {
+        true => writeln!(
+            out,
+            "    {}",
+            style.paint(DIM, format!("and {} more; --full lists them", of - shown))
+        ),
+        false => Ok(()),
+    }
+}
+
+/// A consequence in words.
+fn words(consequence: Consequence) -> &'static str {
+    match consequence {
+        Consequence::WrongMotion => "wrong motion",
+        Consequence::WrongPlace => "wrong place",
+        Consequence::MissingGeometry => "missing geometry",
+        Consequence::Collisions => "missed or false collisions",
+        Consequence::Format => "format",
+        Consequence::Appearance => "appearance",
+        Consequence::Looseness => "looseness",
+    }
+}
+
+fn write_cause(cause: &Cause<'_>, style: Style, out: &mut impl Write) -> fmt::Result {
+    let code = style.paint(BOLD, &cause.first.code);
+    let word = severity(cause.severity, style);
+    let times = match cause.times {
+        1 => "once".to_owned(),
+        times => format!("{times} times"),
+    };
+    let mut text = format!("{times} in {}", plural(cause.urdds.len(), "URDD"));
+    if cause.subjects > 1 && cause.subjects < cause.times {
+        text += &format!(", at {} {}", cause.subjects, kinds(cause));
+    }
+    if cause.borrowed > 0 {
+        let text_of = |count| plural(count, "URDD");
+        text += &format!(
+            ", {} only by the parts that it names",
+            text_of(cause.borrowed)
+        );
+    }
+    writeln!(out, "    {word} {code} {}: {text}", cause.first.name)?;
+    let urdd = cause.urdds.first().map(|path| shorten(&safe(path), NAME));
+    let urdd = urdd.unwrap_or_default();
+    let example = format!("      {urdd}: {}", safe(&cause.first.message));
+    writeln!(out, "{}", style.paint(DIM, shorten(&example, style.width)))
+}
+
+/// What a cause was found at, more than one of them.
+fn kinds(cause: &Cause<'_>) -> &'static str {
+    let subject = cause.first.subject.as_deref().unwrap_or_default();
+    if subject.contains(", ") {
+        "pairs of links"
+    } else if subject.starts_with("joint") {
+        "joints"
+    } else if subject.starts_with("DOF") {
+        "DOFs"
+    } else {
+        "links"
+    }
+}
+
+/// What could not be checked, by reason.
+fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
+    let mut by_reason: BTreeMap<&str, (usize, BTreeSet<&str>)> = BTreeMap::new();
+    for open in report.urdds.iter().flat_map(|urdd| &urdd.not_checked) {
+        let (urdds, codes) = by_reason.entry(&open.reason).or_default();
+        *urdds += 1;
+        codes.extend(open.codes.iter().map(String::as_str));
+    }
+    let unverified: Vec<usize> = report
+        .urdds
+        .iter()
+        .map(|urdd| urdd.geometry_not_verified.len())
+        .filter(|links| *links > 0)
+        .collect();
+    let models = report.urdds.iter();
+    let models = models
+        .filter(|urdd| urdd.model_not_verified.is_some())
+        .count();
+    if by_reason.is_empty() && unverified.is_empty() && models == 0 {
+        return Ok(());
+    }
+    writeln!(out, "{}", style.paint(BOLD, "Not checked"))?;
+    if !unverified.is_empty() {
+        let urdds = plural(unverified.len(), "URDD");
+        let text = not_verified(unverified.iter().sum());
+        writeln!(out, "    {text}, in {urdds}")?;
+    }
+    if models > 0 {
+        let urdds = plural(models, "URDD");
+        writeln!(out, "    {}, in {urdds}", unverified::MODEL)?;
+    }
+    let mut reasons: Vec<_> = by_reason.into_iter().collect();
+    reasons.sort_by_key(|(_, (urdds, _))| Reverse(*urdds));
+    let most = if style.full { reasons.len() } else { LESSER };
+    for (reason, (urdds, codes)) in reasons.iter().take(most) {
+        let rules = plural(codes.len(), "rule");
+        let text = format!(
+            "    {rules} in {}: {}",
+            plural(*urdds, "URDD"),
+            safe(reason)
+        );
+        writeln!(out, "{}", shorten(&text, style.width))?;
+    }
+    write_more(reasons.len(), most, style, out)?;
+    writeln!(out)
+}
+
+fn shorten(text: &str, longest: usize) -> String {
+    match text.char_indices().nth(longest) {
+        Some(_) => {
+            let kept: String = text.chars().take(longest.saturating_sub(1)).collect();
+            kept + "…"
+        }
+        None => text.to_owned(),
+    }
+}
+
+fn write_table(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
+    let worth = |urdd: &&Urdd| {
+        !urdd.findings.is_empty()
+            || urdd.verdict != Verdict::Pass
+            || COLUMNS
+                .iter()
+                .any(|(_, f)| cell(urdd, f).0 == Cell::Unknown)
+    };
+    let rows: Vec<&Urdd> = report.urdds.iter().filter(worth).collect();
+    let clean = report.urdds.len() - rows.len();
+    let most = if style.full { rows.len() } else { ROWS };
+    let columns: Vec<_> = COLUMNS
+        .iter()
+        .filter(|(_, families)| {
+            let absent = |urdd: &&Urdd| cell(urdd, families).0 != Cell::Absent;
+            rows.iter().any(absent)
+        })
+        .collect();
+    if !rows.is_empty() {
+        let shown = rows.iter().take(most);
+        let names: Vec<String> = shown.map(|urdd| shorten(&safe(&urdd.path), NAME)).collect();
+        let lengths = names.iter().map(|name| name.chars().count());
+        let width = lengths.max().unwrap_or(0).max(4);
+        let titles: String = columns
+            .iter()
+            .map(|(title, _)| format!(" {title:>4}"))
+            .collect();
+        let heading = format!("{:width$}{titles}", "URDD");
+        writeln!(out, "{}", style.paint(BOLD, heading))?;
+        for (name, urdd) in names.iter().zip(&rows) {
+            write!(out, "{name:width$}")?;
+            for (_, families) in &columns {
+                let (cell, text) = cell(urdd, families);
+                let text = format!("{text:>4}");
+                let text = match cell {
+                    Cell::Error => style.paint(RED, text),
+                    Cell::Lesser | Cell::Unknown => style.paint(YELLOW, text),
+                    Cell::Sound => style.paint(GREEN, text),
+                    Cell::Absent => style.paint(DIM, text),
+                };
+                write!(out, " {text}")?;
+            }
+            writeln!(out)?;
+        }
+        write_more(rows.len(), most, style, out)?;
+        let key =
+            "errors; 3w: warnings only; 3i: infos only; ok; ?: not checked; -: nothing to check";
+        writeln!(out, "{}", style.paint(DIM, key))?;
+    }
+    if clean > 0 {
+        let others = if rows.is_empty() { "" } else { " more" };
+        let text = format!("{}{others} without findings", plural(clean, "URDD"));
+        writeln!(out, "{}", style.paint(GREEN, text))?;
+    }
+    writeln!(out)
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Cell {
+    Error,
+    Lesser,
+    Unknown,
+    Sound,
+    Absent,
+}
+
+/// What families of rules say of a URDD.
+fn cell(urdd: &Urdd, families: &[&str]) -> (Cell, String) {
+    let of_family = |code: &str| families.iter().any(|family| code.starts_with(family));
+    let times = |severity: Severity| -> usize {
+        let findings = urdd.findings.iter();
+        let alike = findings.filter(|f| f.severity == severity && of_family(&f.code));
+        alike.map(|finding| finding.count.get()).sum()
+    };
+    let open = || {
+        let rules = urdd.not_checked.iter().flat_map(|open| &open.codes);
+        let links = urdd.geometry_not_verified.iter();
+        let model = urdd.model_not_verified.iter();
+        let codes = rules.chain(links.flat_map(|link| &link.codes));
+        let mut codes = codes.chain(model.flat_map(|model| &model.codes));
+        codes.any(|code| of_family(code))
+    };
+    let statuses = || {
+        let checks = urdd.checks.iter().filter(|check| of_family(&check.code));
+        checks.map(|check| check.status)
+    };
+    let [errors, warnings, infos] = [Severity::Error, Severity::Warning, Severity::Info].map(times);
+    if errors > 0 {
+        (Cell::Error, short(errors))
+    } else if open() {
+        (Cell::Unknown, "?".to_owned())
+    } else if warnings > 0 {
+        (Cell::Lesser, short(warnings) + "w")
+    } else if infos > 0 {
+        (Cell::Lesser, short(infos) + "i")
+    } else if statuses().any(|status| status != Status::Skipped) {
+        (Cell::Sound, "ok".to_owned())
+    } else {
+        (Cell::Absent, "-".to_owned())
+    }
+}
+
+fn short(number: usize) -> String {
+    match number {
+        0..1_000 => number.to_string(),
+        1_000..1_000_000 => format!("{}k", number / 1_000),
+        _ => format!("{}M", number / 1_000_000),
+    }
+}

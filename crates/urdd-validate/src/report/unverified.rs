@@ -1,0 +1,57 @@
+//! What was not verified of a URDD's geometry, link by link, and of its self-collision model.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::model::{LinkNotVerified, Urdd};
+use super::words::{list, plural};
+use urdd_format::escape::line as safe;
+
+/// Most links that are named for a reason.
+const LINKS: usize = 8;
+
+/// How many links were not verified, in words.
+pub(super) fn not_verified(links: usize) -> String {
+    format!("the geometry of {} was not verified", plural(links, "link"))
+}
+
+/// A self-collision model that was not verified, in words.
+pub(super) const MODEL: &str = "the rates of the self-collision model were not verified";
+
+/// A line for each of what was not verified: links, and the self-collision model.
+pub(super) fn describe(urdd: &Urdd) -> Vec<String> {
+    let model = urdd.model_not_verified.as_ref().map(|model| {
+        let reasons = model.reasons.join(", ");
+        format!("{MODEL} (by {}: {})", list(&model.codes), safe(&reasons))
+    });
+    describe_links(urdd).into_iter().chain(model).collect()
+}
+
+/// One line that says how many links were not verified, and which, by reason; no line where all were.
+fn describe_links(urdd: &Urdd) -> Option<String> {
+    let links = &urdd.geometry_not_verified;
+    if links.is_empty() {
+        return None;
+    }
+    let mut by_reasons: BTreeMap<&[String], Vec<&LinkNotVerified>> = BTreeMap::new();
+    for link in links {
+        by_reasons.entry(&link.reasons).or_default().push(link);
+    }
+    let described = by_reasons.into_iter().map(|(reasons, links)| {
+        let named = links.iter().take(LINKS).map(|link| link.link.to_string());
+        let mut text = named.collect::<Vec<_>>().join(", ");
+        if links.len() > LINKS {
+            text += &format!(" and {} more", links.len() - LINKS);
+        }
+        let codes: BTreeSet<&String> = links.iter().flat_map(|link| &link.codes).collect();
+        let codes: Vec<String> = codes.into_iter().cloned().collect();
+        let word = if links.len() == 1 { "link" } else { "links" };
+        let reasons = reasons.join(", ");
+        format!("{word} {text} by {}: {}", list(&codes), safe(&reasons))
+    });
+    let described: Vec<String> = described.collect();
+    Some(format!(
+        "{} ({})",
+        not_verified(links.len()),
+        described.join("; ")
+    ))
+}

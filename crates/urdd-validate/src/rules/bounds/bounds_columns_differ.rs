@@ -1,0 +1,111 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use crate::tolerance::{number_tolerance, numbers_agree};
+use urdd_document::dof_layout::bounds_without_limits;
+use urdd_format::registry::ModuleKind;
+
+declare_rule! {
+    /// `dof_lower_bounds` or `dof_upper_bounds` is not the column of `bounds`.
+    ///
+    /// The module says the same twice, for programs that want pairs and for programs that want two
+    /// vectors. Where the two differ, programs disagree about the robot.
+    ///
+    /// Write all three lists from the limits of the joints (SPEC 6.5.2, and 6.5.3 for DOFs without limits):
+    /// these decide which of the two is right, and the finding is at the other.
+    BND002 "bounds-columns-differ", Error, clause "6.5.1", since "0.1.0",
+    phase References, judges AsItStands, needs [Module(Kind::Bounds), Passed(BND001)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(bounds), Some(module)) = (context.bounds(), context.module(ModuleKind::Bounds))
+    else {
+        return;
+    };
+    for (column, (name, values)) in [
+        ("dof_lower_bounds", bounds.lower),
+        ("dof_upper_bounds", bounds.upper),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        for (dof, (pair, value)) in bounds.bounds.iter().zip(values).enumerate() {
+            let paired = pair[column];
+            if numbers_agree(paired, *value) {
+                continue;
+            }
+            let (of_pairs, of_list) = (format!("/bounds/{dof}/{column}"), format!("/{name}/{dof}"));
+            let decided = decided(context, dof, column);
+            let is = |written: f64| {
+                let decided = decided.as_ref();
+                decided.is_some_and(|decided| numbers_agree(decided.bound, written))
+            };
+            let (wrong, written, right, other) = match is(*value) {
+                true => (of_pairs, paired, *value, of_list),
+                false => (of_list, *value, paired, of_pairs),
+            };
+            let (message, expected) = match &decided {
+                Some(decided) if is(*value) || is(paired) => (
+                    format!(
+                        "DOF {dof}: this is not the value of `{other}`, and {}",
+                        decided.why
+                    ),
+                    format!("{right:?}, as `{other}` has it"),
+                ),
+                Some(decided) => (
+                    format!(
+                        "DOF {dof}: this is not the value of `{other}`, and neither is right: {}",
+                        decided.why
+                    ),
+                    format!("{:?} in both places", decided.bound),
+                ),
+                None => (
+                    format!("DOF {dof}: this is not the value of `{other}`; one of them is wrong"),
+                    format!("{right:?}, as `{other}` has it"),
+                ),
+            };
+            findings.report(
+                Finding::at(module.file("module.json"), wrong, message)
+                    .expected(expected)
+                    .actual(format!("{written:?}"))
+                    .tolerance(number_tolerance(right, written))
+                    .off_by(right - written, ""),
+            );
+        }
+    }
+}
+
+/// What the robot makes of a bound.
+struct Decided {
+    bound: f64,
+    /// In words.
+    why: String,
+}
+
+/// What a bound has to be, where the robot and `dof_module` agree about whose DOF it is. Legacy modules have other bounds too.
+fn decided(context: &Context, dof: usize, end: usize) -> Option<Decided> {
+    context.bounds()?.v1?;
+    let (joint, place) = context.dof_layout()?.place(dof)?;
+    let stated = context.dofs()?.joint_of_dof.get(dof)?.get();
+    if stated != joint {
+        return None;
+    }
+    let joint = context.robot()?.joints.get(joint)?;
+    let side = ["lower", "upper"][end];
+    Some(match joint.position_limits() {
+        Some((lower, upper)) => {
+            let bound = [lower, upper][end];
+            let why = format!("the {side} limit of joint `{}` is {bound:?}", joint.name);
+            Decided { bound, why }
+        }
+        None => {
+            let bound = bounds_without_limits(joint.joint_type, place)?[end];
+            let why = format!(
+                "the {side} bound of joint `{}`, which has no limits, is {bound:?}",
+                joint.name
+            );
+            Decided { bound, why }
+        }
+    })
+}

@@ -1,0 +1,121 @@
+use super::{LEGACY_WIDENING, columns_agree};
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use crate::tolerance::{NUMBER_ABSOLUTE, number_tolerance, numbers_agree};
+use urdd_document::dof_layout::bounds_without_limits;
+use urdd_document::robot::Joint;
+use urdd_format::registry::ModuleKind;
+
+declare_rule! {
+    /// A DOF without limits does not have the bounds that SPEC 6.5.3 gives it.
+    ///
+    /// Bounds are always finite, so that any program can sample them. For a DOF without limits they are
+    /// [-pi, pi] for an angle and [-1, 1] for a length. In published URDDs such joints often have
+    /// [0, 1e-7], made from limits that are absent: to a planner these joints do not move at all.
+    ///
+    /// Write these intervals for every DOF that is not limited, those of continuous joints included. If
+    /// the joint should have limits, give it some in the URDF. (Legacy modules may repeat what limits the
+    /// joint has; only frozen DOFs, and bounds of no known origin, are reported.)
+    BND006 "unlimited-bounds-wrong", Error, clause "6.5.3", since "0.1.0",
+    phase References, needs [Passed(DOF005), Passed(BND001)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(layout), Some(bounds), Some(module)) = (
+        context.robot(),
+        context.dof_layout(),
+        context.bounds(),
+        context.module(ModuleKind::Bounds),
+    ) else {
+        return;
+    };
+    for (dof, pair) in bounds.bounds.iter().enumerate() {
+        let Some((joint, place)) = layout.place(dof) else {
+            continue;
+        };
+        let Some(joint) = robot.joints.get(joint) else {
+            continue;
+        };
+        if joint.position_limits().is_some() {
+            continue;
+        }
+        let Some(ends) = bounds_without_limits(joint.joint_type, place) else {
+            continue;
+        };
+        if agree(*pair, ends) {
+            continue;
+        }
+        let file = module.file("module.json");
+        let kind = joint.joint_type;
+        if bounds.v1.is_none() {
+            let is_one = columns_agree(bounds, dof, 0) && columns_agree(bounds, dof, 1);
+            if is_one && !legacy_copy(*pair, joint) {
+                let message = match is_frozen(*pair) {
+                    true => format!(
+                        "joint {:?} ({kind}, without limits) cannot move within these bounds: write {ends:?}, or give the joint limits in the URDF",
+                        joint.name
+                    ),
+                    false => format!(
+                        "joint {:?} ({kind}) has no limits in the URDF, and these are not the bounds of a DOF without limits",
+                        joint.name
+                    ),
+                };
+                findings.report(
+                    Finding::at(file, format!("/bounds/{dof}"), message)
+                        .expected(format!("{ends:?}"))
+                        .actual(format!("{pair:?}")),
+                );
+            }
+            continue;
+        }
+        for (end, (right, written)) in ends.into_iter().zip(*pair).enumerate() {
+            if !numbers_agree(right, written) && columns_agree(bounds, dof, end) {
+                findings.report(
+                    Finding::at(
+                        &file,
+                        format!("/bounds/{dof}/{end}"),
+                        format!(
+                            "DOF {dof} of joint {:?} ({kind}) has no limits, and this is not the bound of a DOF without limits",
+                            joint.name
+                        ),
+                    )
+                    .expected(format!("{right:?}"))
+                    .actual(format!("{written:?}"))
+                    .tolerance(number_tolerance(right, written))
+                    .off_by(right - written, ""),
+                );
+            }
+        }
+    }
+}
+
+fn agree(a: [f64; 2], b: [f64; 2]) -> bool {
+    numbers_agree(a[0], b[0]) && numbers_agree(a[1], b[1])
+}
+
+/// Whether a legacy module repeats the limits that the joint has, and leaves it some range.
+fn legacy_copy(pair: [f64; 2], joint: &Joint) -> bool {
+    let limit = joint.limit;
+    let end = |end: Option<f64>| end.unwrap_or(0.0);
+    let ends = limit.map_or([0.0; 2], |limit| [end(limit.lower), end(limit.upper)]);
+    agree(pair, ends) && !is_frozen(pair)
+}
+
+/// Whether bounds leave no range: none at all, or only what legacy modules put there.
+fn is_frozen([lower, upper]: [f64; 2]) -> bool {
+    (upper - lower).abs() <= LEGACY_WIDENING + NUMBER_ABSOLUTE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_frozen;
+
+    #[test]
+    fn what_legacy_modules_added_is_no_range() {
+        assert!(is_frozen([0.0, 1e-7]));
+        assert!(is_frozen([3.0, 3.0 + 1e-7]));
+        assert!(!is_frozen([0.0, 1e-6]));
+    }
+}

@@ -1,0 +1,101 @@
+use nalgebra::Vector3;
+
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use crate::skip::SkipReason;
+use crate::tolerance::{
+    POSITION_OF_REACH, ROTATION, UNIT_NORM, angle_of_distance, reach, rotation_distance,
+};
+use urdd_document::pose::rotation_of_quaternion;
+use urdd_format::readable::number;
+use urdd_format::registry::ModuleKind;
+
+declare_rule! {
+    /// `origin` of a joint is not the URDF's.
+    ///
+    /// The origin is where the joint sits on its parent link: a wrong one displaces or turns everything
+    /// that the joint carries, in every configuration.
+    ///
+    /// The position is `xyz`; the rotation is R = Rz(yaw) Ry(pitch) Rx(roll) of `rpy`, as a quaternion
+    /// with w first, or from URDF 1.1 on that of `quat_xyzw` (w last). Common mistakes: x, y, z, w instead of w, x, y, z; the inverse rotation; roll,
+    /// pitch and yaw taken about moving axes; numbers that went through 32-bit floats.
+    CHN008 "joint-origin-differs", Error, clause "6.3.4", since "0.1.0",
+    phase References, needs [Version1, Passed(CHN002)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(tree), Some(chain), Some(module)) = (
+        context.robot(),
+        context.tree(),
+        context.chain().and_then(|chain| chain.v1),
+        context.module(ModuleKind::Chain),
+    ) else {
+        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Chain));
+    };
+    let position_tolerance = POSITION_OF_REACH * reach(robot, tree);
+    for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
+        let origin = &joint.origin;
+        let offset = (Vector3::from(origin.position) - Vector3::from(right.origin.xyz)).norm();
+        if !within(offset, position_tolerance) {
+            findings.report(
+                Finding::at(
+                    module.file("module.json"),
+                    format!("/joints_in_chain/{index}/origin/position"),
+                    format!(
+                        "joint {index} ({:?}) is {} m from its position in urdf_module",
+                        right.name,
+                        number(offset, 4)
+                    ),
+                )
+                .expected(format!("{:?}", right.origin.xyz))
+                .actual(format!("{:?}", origin.position))
+                .tolerance(position_tolerance)
+                .off_by(offset, "m"),
+            );
+        }
+        // CHN010 reports a quaternion of another length.
+        let unit = origin.quaternion_wxyz;
+        let length = unit.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if !within((length - 1.0).abs(), UNIT_NORM) {
+            continue;
+        }
+        let turned = right.origin.rotation();
+        let distance = rotation_distance(&turned, &rotation_of_quaternion(unit));
+        if !within(distance, ROTATION) {
+            let [x, y, z, w] = unit;
+            let reordered = rotation_of_quaternion([w, x, y, z]);
+            let message = match within(rotation_distance(&turned, &reordered), ROTATION) {
+                true => format!(
+                    "the quaternion of joint {index} ({:?}) is written x, y, z, w; write w first",
+                    right.name
+                ),
+                false => format!(
+                    "joint {index} ({:?}) is turned by {} rad from its rotation in urdf_module",
+                    right.name,
+                    number(angle_of_distance(distance), 4)
+                ),
+            };
+            findings.report(
+                Finding::at(
+                    module.file("module.json"),
+                    format!("/joints_in_chain/{index}/origin/quaternion_wxyz"),
+                    message,
+                )
+                .expected(match right.origin.quat_xyzw {
+                    Some(xyzw) => format!("the rotation of quat_xyzw {xyzw:?}"),
+                    None => format!("the rotation of rpy {:?}", right.origin.rpy),
+                })
+                .actual(format!("{:?}", origin.quaternion_wxyz))
+                .tolerance(ROTATION)
+                .off_by(angle_of_distance(distance), "rad"),
+            );
+        }
+    }
+}
+
+/// Whether a distance is within a tolerance; what is not a number is not.
+fn within(distance: f64, tolerance: f64) -> bool {
+    distance <= tolerance
+}

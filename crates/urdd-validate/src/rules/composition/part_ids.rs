@@ -1,0 +1,37 @@
+use super::subject;
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+
+declare_rule! {
+    /// The ids of a composed robot's parts do not tell them apart.
+    ///
+    /// A link of a part is named `id/link`: with two parts of one id, or a slash in an id, nobody knows
+    /// which link is meant.
+    ///
+    /// Give each part an id of its own, without `/`.
+    CMP002 "composition-part-ids", Error, clause "6.6.2", since "0.2.0",
+    phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let Some((module, composition, _)) = subject(context) else {
+        return;
+    };
+    let parts = &composition.parts;
+    for (place, part) in parts.iter().enumerate() {
+        let is_taken = parts[..place].iter().any(|before| before.id == part.id);
+        let message = match () {
+            () if part.id.is_empty() => "the id is empty",
+            () if part.id.contains('/') => "the id holds a `/`",
+            () if is_taken => "another part has this id",
+            () => continue,
+        };
+        let pointer = format!("/parts/{place}/id");
+        findings.report(
+            Finding::at(module.file("module.json"), pointer, message)
+                .actual(format!("`{}`", part.id)),
+        );
+    }
+}

@@ -1,0 +1,99 @@
+use super::Tally;
+use super::walk::{Ancestors, show_path};
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use urdd_document::tree::Tree;
+use urdd_format::index::LinkIdx;
+use urdd_format::registry::ModuleKind;
+
+declare_rule! {
+    /// An entry of `link_connection_paths` is not the way down from one link to another.
+    ///
+    /// Programs read from this table whether link j is below link i in the tree, and through which
+    /// links. With a path that does not exist, a link that does not move seems to move; with a
+    /// missing path, the reverse.
+    ///
+    /// Element (i, j) is `[i]` where i is j. Where j is below i, it is the links from i (not included) to
+    /// j (included). Otherwise it is null.
+    CON005 "descendant-path-wrong", Error, clause "6.4.5", since "0.1.0",
+    phase References, needs [Passed(CON001)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(tree), Some(connections), Some(module)) = (
+        context.tree(),
+        context.connections(),
+        context.module(ModuleKind::Connections),
+    ) else {
+        return;
+    };
+    let mut tally = Tally::default();
+    let mut ancestors = Ancestors::new(tree);
+    let table = connections.descendant_paths.into_iter().flatten();
+    for (i, row) in table.enumerate() {
+        for (j, (path, top)) in row.iter().zip(ancestors.row(i)).enumerate() {
+            let below = *top == i;
+            let Some((place, right, written)) = fault(tree, i, j, below, path.as_deref()) else {
+                continue;
+            };
+            tally.wrong(|| {
+                let message = match below {
+                    true if i == j => "the path of a link to itself is that link alone".to_owned(),
+                    true => format!("this is not the path from link {i} down to link {j}"),
+                    false => format!("link {j} is not below link {i}; write null"),
+                };
+                let pointer = format!("/link_connection_paths/{i}/{j}{place}");
+                Finding::at(module.file("module.json"), pointer, message)
+                    .expected(right)
+                    .actual(written)
+            });
+        }
+    }
+    tally.report(findings);
+}
+
+/// Where the entry differs from the way down from link `i` to link `j`: the place below it, and what
+/// should be and is there.
+fn fault(
+    tree: &Tree,
+    i: usize,
+    j: usize,
+    below: bool,
+    path: Option<&[LinkIdx]>,
+) -> Option<(String, String, String)> {
+    let show =
+        |path: &[LinkIdx]| show_path(&path.iter().map(|link| link.get()).collect::<Vec<_>>());
+    let right = match (below, path) {
+        (false, None) => return None,
+        (false, Some(path)) => return Some((String::new(), "null".to_owned(), show(path))),
+        (true, _) => way_down(tree, i, j),
+    };
+    let path = match path {
+        Some(path) if path.len() == right.len() => path,
+        Some(path) => return Some((String::new(), show_path(&right), show(path))),
+        None => return Some((String::new(), show_path(&right), "null".to_owned())),
+    };
+    let differ = right.iter().zip(path).enumerate().rev();
+    let mut differ = differ.filter(|(_, (right, written))| **right != written.get());
+    differ.next().map(|(place, (right, written))| {
+        (
+            format!("/{place}"),
+            right.to_string(),
+            written.get().to_string(),
+        )
+    })
+}
+
+/// The links from link `i` (not included, unless it is `j`) down to link `j`.
+fn way_down(tree: &Tree, i: usize, j: usize) -> Vec<usize> {
+    let mut links = vec![j];
+    let mut link = j;
+    while let Some(parent) = tree.parent_link[link].filter(|parent| *parent != i && link != i) {
+        links.push(parent);
+        link = parent;
+    }
+    links.reverse();
+    links
+}

@@ -1,0 +1,115 @@
+use super::walk::Ancestors;
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use crate::skip::SkipReason;
+use urdd_document::tree::Tree;
+use urdd_format::registry::ModuleKind;
+
+/// Up to this many links the explicit tables must be there (SPEC 6.4.6): some 90,000 paths.
+const EXPLICIT_UP_TO: usize = 300;
+
+/// Unless the paths of all pairs hold more links than this together.
+const LINKS_IN_PATHS_UP_TO: usize = 2_000_000;
+
+declare_rule! {
+    /// `link_to_link_paths` or `link_connection_paths` is null, though the robot is not so large that it
+    /// may be.
+    ///
+    /// Consumers may count on these tables for robots of usual size, and need no way to make paths of
+    /// their own. They are left out only where they would be very large.
+    ///
+    /// Write both tables. They may be null above 300 links, and where the paths of all pairs hold more
+    /// than 2,000,000 links together, as those of a line of 181 links do.
+    CON006 "explicit-paths-missing", Error, clause "6.4.6", since "0.1.0",
+    phase References, needs [Version1, Module(Kind::Connections), ROBOT_SOUND],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(tree), Some(connections), Some(module)) = (
+        context.tree(),
+        context.connections().and_then(|connections| connections.v1),
+        context.module(ModuleKind::Connections),
+    ) else {
+        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Connections));
+    };
+    let links = tree.parent_link.len();
+    if links > EXPLICIT_UP_TO {
+        return;
+    }
+    let in_paths = links_in_paths(tree);
+    if in_paths > LINKS_IN_PATHS_UP_TO {
+        return;
+    }
+    for (name, missing) in [
+        (
+            "link_to_link_paths",
+            connections.link_to_link_paths.is_none(),
+        ),
+        (
+            "link_connection_paths",
+            connections.link_connection_paths.is_none(),
+        ),
+    ] {
+        if missing {
+            findings.report(
+                Finding::at(
+                    module.file("module.json"),
+                    format!("/{name}"),
+                    format!(
+                        "this table may be null only above {EXPLICIT_UP_TO} links, or where the paths of all pairs have more than {LINKS_IN_PATHS_UP_TO} links; this robot has {links}, and {in_paths} in the paths"
+                    ),
+                )
+                .expected(format!("{links} x {links} paths"))
+                .actual("null"),
+            );
+        }
+    }
+}
+
+/// How many links the paths of all pairs hold: each climbs to the common ancestor and goes down from it.
+fn links_in_paths(tree: &Tree) -> usize {
+    let depth = &tree.depth;
+    let mut ancestors = Ancestors::new(tree);
+    let of_link = |from: usize| {
+        let pairs = ancestors.row(from).iter().enumerate();
+        let lengths = pairs.map(|(to, top)| depth[from] + depth[to] - 2 * depth[*top] + 1);
+        lengths.sum::<usize>()
+    };
+    (0..depth.len()).map(of_link).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The tree of links of which each hangs on the one that `parent` says, all but the first.
+    fn tree(links: usize, parent: impl Fn(usize) -> usize) -> Tree {
+        let mut depth = vec![0; links];
+        for link in 1..links {
+            depth[link] = depth[parent(link)] + 1;
+        }
+        Tree {
+            root: 0,
+            parent_joint: (0..links).map(|link| link.checked_sub(1)).collect(),
+            parent_link: (0..links).map(|i| (i > 0).then(|| parent(i))).collect(),
+            child_joints: Vec::new(),
+            joint_links: (1..links).map(|link| (parent(link), link)).collect(),
+            depth,
+            order: (0..links).collect(),
+        }
+    }
+
+    #[test]
+    fn paths_of_a_line_and_a_star() {
+        let line = |links: usize| links_in_paths(&tree(links, |link| link - 1));
+        // The sum of 1 + |i - j|.
+        assert_eq!(line(1), 1);
+        assert_eq!(line(3), 3 + 4 * 2 + 2 * 3);
+        assert_eq!(line(180), 1_976_340);
+        assert_eq!(line(181), 2_009_281);
+        let star = links_in_paths(&tree(300, |_| 0));
+        assert_eq!(star, 300 + 2 * 299 * 2 + 299 * 298 * 3);
+    }
+}

@@ -1,0 +1,29 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use urdd_document::entries;
+use urdd_document::module::JsonFile;
+
+declare_rule! {
+    /// A module folder has no `module.json`.
+    ///
+    /// `module.json` is the module; `VERSION` and `module.yaml` say nothing without it. Such folders
+    /// are left behind by a program that stopped half-way, and look to a reader like a module that is
+    /// there.
+    ///
+    /// Write the module again, or delete the folder.
+    DIR004 "module-json-missing", Error, clause "2.4", since "0.1.0",
+    phase Files, needs [],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    for module in entries::known_modules(context) {
+        if matches!(module.json, JsonFile::Missing) {
+            findings.report(Finding::in_file(
+                module.file("module.json"),
+                "the module has no module.json: write the module again, or delete its folder",
+            ));
+        }
+    }
+}

@@ -1,0 +1,78 @@
+use std::collections::HashSet;
+
+use super::version_differs;
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use urdd_document::entries;
+use urdd_document::module::{Module, VersionFile};
+use urdd_format::registry::{self, ModuleKind, Profile};
+use urdd_format::root_metadata::Version;
+
+declare_rule! {
+    /// A module has a version that does not exist, or one from before the specification in a URDD of
+    /// version 1.
+    ///
+    /// What a module's fields mean goes by its version. No program can read a version that was
+    /// never published, and nothing of such a module can be checked.
+    ///
+    /// Write the module in a version that the specification lists, or correct `VERSION`. Modules of
+    /// your own are extensions (`x_<vendor>_<name>_module`) and have versions of their own.
+    DIR008 "module-version-unknown", Error, clause "4.2", since "0.1.0",
+    phase Files, needs [],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let differing: HashSet<&str> = entries::all(context)
+        .iter()
+        .filter_map(version_differs::differing)
+        .map(|(module, _)| module.folder.as_str())
+        .collect();
+    for module in entries::known_modules(context) {
+        let (Some(kind), Some(version)) = (module.kind, &module.version) else {
+            continue;
+        };
+        // DIR006 reports what is not a version.
+        let old = context.profile() == Profile::V1
+            && module
+                .spec
+                .is_some_and(|spec| spec.profile == Profile::Legacy);
+        let sound = module.spec.is_some() && !old;
+        if sound || is_malformed(module) || differing.contains(module.folder.as_str()) {
+            continue;
+        }
+        let message = if old {
+            format!(
+                "version {version} is from before the specification: in a URDD with urdd.json, write the module in a version that the specification lists"
+            )
+        } else {
+            format!("there is no version {version} of {}", kind.name())
+        };
+        findings.report(
+            Finding::in_file(module.file("VERSION"), message)
+                .expected(known_versions(kind, context.profile()))
+                .actual(version),
+        );
+    }
+}
+
+fn is_malformed(module: &Module) -> bool {
+    match &module.version_file {
+        VersionFile::Text(text) => Version::new(text.as_str()).is_none(),
+        _ => false,
+    }
+}
+
+fn known_versions(kind: ModuleKind, profile: Profile) -> String {
+    let versions: Vec<&str> = registry::MODULES
+        .iter()
+        .filter(|spec| spec.kind == kind && !spec.version.is_empty())
+        .filter(|spec| profile == Profile::Legacy || spec.profile == Profile::V1)
+        .map(|spec| spec.version)
+        .collect();
+    if versions.is_empty() {
+        return "no VERSION: the module has none".to_owned();
+    }
+    versions.join(" or ")
+}

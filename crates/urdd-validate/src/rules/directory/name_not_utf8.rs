@@ -1,0 +1,36 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use urdd_document::entries;
+
+declare_rule! {
+    /// A file in a module's folder has a name that is not UTF-8.
+    ///
+    /// No document can name it, archives garble it, and on other systems it cannot even be made.
+    /// Most often it was unpacked from an archive with names in an old encoding.
+    ///
+    /// Rename it; derived files are named by link index and ASCII letters.
+    DIR024 "name-not-utf8", Error, clause "2.9", since "0.1.0",
+    phase Files, needs [],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    for module in entries::known_modules(context) {
+        let bad: Vec<&str> = context
+            .listing()
+            .below(&module.folder)
+            .filter(|entry| !entry.utf8)
+            .map(|entry| entry.path.as_str())
+            .collect();
+        if let Some(first) = bad.first() {
+            findings.report(
+                Finding::in_file(
+                    *first,
+                    "the name is not UTF-8 (shown with replacement characters): rename it",
+                )
+                .count(bad.len()),
+            );
+        }
+    }
+}

@@ -1,0 +1,82 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use urdd_format::registry::ModuleKind;
+
+declare_rule! {
+    /// `num_dofs` and the lists that hold one entry per DOF do not agree on the number of DOFs.
+    ///
+    /// `num_dofs` is the length of a configuration. Programs allocate by it and index the lists with
+    /// it: where one of them has another length, they crash, or read the wrong joint.
+    ///
+    /// Make `num_dofs`, the length of `dof_idx_to_joint_idx_mapping` and (from version 1 on) the
+    /// length of `dofs` equal. Most often one of them was edited by hand, or was written before
+    /// mimic joints were left out.
+    DOF001 "dof-count-differs", Error, clause "6.2.1", since "0.1.0",
+    phase References, needs [Module(Kind::Dof)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(dofs), Some(module)) = (context.dofs(), context.module(ModuleKind::Dof)) else {
+        return;
+    };
+    let mut counts = vec![
+        ("num_dofs", dofs.num_dofs.get()),
+        ("dof_idx_to_joint_idx_mapping", dofs.joint_of_dof.len()),
+    ];
+    if let Some(v1) = dofs.v1 {
+        counts.push(("dofs", v1.dofs.len()));
+    }
+    let Some((name, count, others)) = odd_one(&counts) else {
+        return;
+    };
+    let all: Vec<String> = counts
+        .iter()
+        .map(|(name, count)| format!("`{name}` {count}"))
+        .collect();
+    findings.report(
+        Finding::at(
+            module.file("module.json"),
+            format!("/{name}"),
+            format!(
+                "the number of DOFs differs from place to place: {}; make them agree",
+                all.join(", ")
+            ),
+        )
+        .expected(format!("{others} DOFs"))
+        .actual(format!("{count} DOFs")),
+    );
+}
+
+/// The count that is unlike the others (where no two agree: the first), and what the others say.
+/// `None` where all agree.
+fn odd_one<'a>(counts: &[(&'a str, usize)]) -> Option<(&'a str, usize, usize)> {
+    let first = counts.first()?;
+    if counts.iter().all(|(_, count)| *count == first.1) {
+        return None;
+    }
+    let alone = |candidate: &(&str, usize)| {
+        let mut others = counts.iter().filter(|(name, _)| *name != candidate.0);
+        let count = others.next().map(|(_, count)| *count)?;
+        (count != candidate.1 && others.all(|(_, other)| *other == count)).then_some(count)
+    };
+    counts
+        .iter()
+        .find_map(|candidate| Some((candidate.0, candidate.1, alone(candidate)?)))
+        .or_else(|| Some((first.0, first.1, counts.get(1)?.1)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_odd_one_is_named() {
+        assert_eq!(odd_one(&[("a", 2), ("b", 2), ("c", 2)]), None);
+        assert_eq!(odd_one(&[("a", 2), ("b", 2), ("c", 3)]), Some(("c", 3, 2)));
+        assert_eq!(odd_one(&[("a", 3), ("b", 2), ("c", 2)]), Some(("a", 3, 2)));
+        assert_eq!(odd_one(&[("a", 1), ("b", 2), ("c", 3)]), Some(("a", 1, 2)));
+        assert_eq!(odd_one(&[("a", 1), ("b", 2)]), Some(("a", 1, 2)));
+    }
+}

@@ -1,0 +1,131 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use urdd_format::registry::ModuleKind;
+
+declare_rule! {
+    /// `dof_idx_to_joint_idx_mapping` and `joint_idx_to_dof_idxs_mapping` are not each other's inverse.
+    ///
+    /// One says which joint a DOF moves, the other which DOFs a joint has. Where they disagree, a
+    /// program that goes from joints to DOFs and one that goes from DOFs to joints move different
+    /// joints with the same configuration.
+    ///
+    /// Write one of the two from the other. The findings stand where a mapping differs from what
+    /// follows from `urdf_module`: DOFs in joint order.
+    DOF003 "dof-mappings-disagree", Error, clause "6.2.3", since "0.1.0",
+    phase References, needs [Passed(DOF001), Passed(DOF004)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(layout), Some(dofs), Some(module)) = (
+        context.robot(),
+        context.dof_layout(),
+        context.dofs(),
+        context.module(ModuleKind::Dof),
+    ) else {
+        return;
+    };
+    let joint_of_dof: Vec<usize> = dofs.joint_of_dof.iter().map(|joint| joint.get()).collect();
+    let dofs_of_joint = || {
+        dofs.dofs_of_joint
+            .iter()
+            .map(|list| list.iter().map(|dof| dof.get()))
+    };
+    if are_inverse(&joint_of_dof, dofs_of_joint()) {
+        return;
+    }
+    let file = module.file("module.json");
+    let name = |joint: usize| match robot.joints.get(joint) {
+        Some(joint) => format!("{:?}", joint.name),
+        None => "no joint".to_owned(),
+    };
+    for ((joint, list), right) in dofs_of_joint().enumerate().zip(&layout.dofs_of_joint) {
+        for ((place, dof), right) in list.enumerate().zip(right.clone()) {
+            if dof != right {
+                findings.report(
+                    Finding::at(
+                        &file,
+                        format!("/joint_idx_to_dof_idxs_mapping/{joint}/{place}"),
+                        format!(
+                            "the mappings disagree: joint {joint} ({}) is said to have DOF {dof}",
+                            name(joint)
+                        ),
+                    )
+                    .expected(right)
+                    .actual(dof),
+                );
+            }
+        }
+    }
+    for (dof, joint) in joint_of_dof.iter().copied().enumerate() {
+        let right = layout.joint_of_dof.get(dof).copied();
+        if right != Some(joint) {
+            let finding = Finding::at(
+                &file,
+                format!("/dof_idx_to_joint_idx_mapping/{dof}"),
+                format!(
+                    "the mappings disagree: DOF {dof} is said to move joint {joint} ({})",
+                    name(joint)
+                ),
+            );
+            findings.report(match right {
+                Some(right) => finding.expected(right).actual(joint),
+                None => finding
+                    .expected(format!("{} DOFs in all", layout.joint_of_dof.len()))
+                    .actual(joint),
+            });
+        }
+    }
+    if findings.is_empty() {
+        findings.report(
+            Finding::at(
+                &file,
+                "/dof_idx_to_joint_idx_mapping",
+                "joints have DOFs that are not listed here; list every DOF",
+            )
+            .expected(format!("{} entries", layout.joint_of_dof.len()))
+            .actual(format!("{} entries", joint_of_dof.len())),
+        );
+    }
+}
+
+/// Whether every DOF is listed once, by the joint that it moves, and no other.
+fn are_inverse(
+    joint_of_dof: &[usize],
+    dofs_of_joint: impl Iterator<Item = impl Iterator<Item = usize>>,
+) -> bool {
+    let mut listed = vec![false; joint_of_dof.len()];
+    for (joint, list) in dofs_of_joint.enumerate() {
+        for dof in list {
+            match (joint_of_dof.get(dof), listed.get_mut(dof)) {
+                (Some(moved), Some(listed)) if *moved == joint && !*listed => *listed = true,
+                _ => return false,
+            }
+        }
+    }
+    listed.into_iter().all(|listed| listed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn inverse(joint_of_dof: &[usize], dofs_of_joint: &[&[usize]]) -> bool {
+        are_inverse(
+            joint_of_dof,
+            dofs_of_joint.iter().map(|list| list.iter().copied()),
+        )
+    }
+
+    #[test]
+    fn inverse_means_in_both_directions() {
+        assert!(inverse(&[1, 1, 0], &[&[2], &[0, 1], &[]]));
+        assert!(inverse(&[], &[&[], &[]]));
+        assert!(!inverse(&[1, 1, 0], &[&[2], &[0], &[]]));
+        assert!(!inverse(&[1, 1, 0], &[&[2], &[0, 0], &[]]));
+        assert!(!inverse(&[1, 1, 0], &[&[2], &[0, 9], &[]]));
+        assert!(!inverse(&[1, 1, 2], &[&[2], &[0, 1], &[]]));
+        assert!(!inverse(&[1, 1, 7], &[&[], &[0, 1], &[]]));
+    }
+}

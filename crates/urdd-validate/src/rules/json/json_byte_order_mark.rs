@@ -1,0 +1,22 @@
+use crate::context::Context;
+use crate::finding::Findings;
+use crate::rule::declare_rule;
+use crate::views::text_faults;
+use urdd_directory::text_fault::TextFaultKind;
+
+declare_rule! {
+    /// A JSON file begins with a byte order mark.
+    ///
+    /// Many readers, Python's `json` among them, refuse such a file.
+    ///
+    /// Save it as UTF-8 without a byte order mark (in Python: `utf-8`, not `utf-8-sig`).
+    JSN004 "json-byte-order-mark", Error, clause "3.1.1", since "0.1.0",
+    phase Syntax, needs [],
+    check check,
+}
+
+const KINDS: &[TextFaultKind] = &[TextFaultKind::ByteOrderMark];
+
+fn check(context: &Context, findings: &mut Findings) {
+    text_faults::report_json(context, KINDS, findings);
+}

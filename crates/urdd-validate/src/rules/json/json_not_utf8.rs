@@ -1,0 +1,23 @@
+use crate::context::Context;
+use crate::finding::Findings;
+use crate::rule::declare_rule;
+use crate::views::text_faults;
+use urdd_directory::text_fault::TextFaultKind;
+
+declare_rule! {
+    /// A JSON file is not UTF-8.
+    ///
+    /// JSON between programs is UTF-8 and nothing else (RFC 8259). Most often the file was saved in an old
+    /// or in a two-byte encoding.
+    ///
+    /// Save it as UTF-8.
+    JSN003 "json-not-utf8", Error, clause "3.1.1", since "0.1.0",
+    phase Syntax, needs [],
+    check check,
+}
+
+const KINDS: &[TextFaultKind] = &[TextFaultKind::NotUtf8];
+
+fn check(context: &Context, findings: &mut Findings) {
+    text_faults::report_json(context, KINDS, findings);
+}

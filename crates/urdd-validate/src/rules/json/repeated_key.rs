@@ -1,0 +1,23 @@
+use crate::context::Context;
+use crate::finding::Findings;
+use crate::rule::declare_rule;
+use crate::views::text_faults;
+use urdd_directory::text_fault::TextFaultKind;
+
+declare_rule! {
+    /// A JSON object holds a key twice.
+    ///
+    /// Some readers keep the first value, some the last, and some refuse the file: each may see another
+    /// robot.
+    ///
+    /// Remove one of the two.
+    JSN002 "repeated-key", Error, clause "3.1.1", since "0.1.0",
+    phase Syntax, needs [],
+    check check,
+}
+
+const KINDS: &[TextFaultKind] = &[TextFaultKind::DuplicateKey];
+
+fn check(context: &Context, findings: &mut Findings) {
+    text_faults::report_json(context, KINDS, findings);
+}

@@ -1,0 +1,183 @@
+use nalgebra::Isometry3;
+
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::reference::{MimicDofs, Reference};
+use crate::rule::declare_rule;
+use crate::skip::SkipReason;
+use crate::tolerance::{POSITION_OF_REACH, ROTATION, angle_of_distance, reach, rotation_distance};
+use urdd_document::consumer;
+use urdd_format::readable::number;
+use urdd_format::registry::{ModuleKind, Profile};
+use urdd_format::urdf::JointType;
+use urdd_kinematics::rotation::canonical;
+use urdd_kinematics::unit;
+use urdd_kinematics::{ConfigurationError, ForwardKinematics};
+
+declare_rule! {
+    /// The poses that follow from the modules are not those that follow from the carried URDF.
+    ///
+    /// Forward kinematics is computed twice: as a consumer does it, from `chain_module` and
+    /// `dof_module` (for legacy URDDs `urdf_module` besides), and from the text of the URDF by an
+    /// independent path. Configurations are zero, the middle, lower and upper ends of the limits,
+    /// and a few of the specification's samples. A robot that is driven by such modules goes
+    /// somewhere else than its URDF says.
+    ///
+    /// The finding names the first joint, from the root outwards, at which the two part. Write the
+    /// modules again from the carried URDF, or carry the URDF from which they were written.
+    KIN001 "poses-disagree", Error, clause "9.1", since "0.1.0",
+    phase Kinematics, judges AsItStands,
+    needs [
+        CarriedUrdf, Module(Kind::Urdf), Module(Kind::Chain), Module(Kind::Dof),
+        Passed(URD001), ROBOT_SOUND, Passed(URD009), Passed(URD012), Passed(URD010), Passed(CHN002), Passed(CHN003), Passed(CHN006),
+        Passed(DOF003), Passed(DOF004), Passed(DOF005),
+        // What these find moves links, and they say where. Legacy modules have no such fields.
+        NotFailed(DOF007), NotFailed(CHN007), NotFailed(CHN008), NotFailed(CHN009), NotFailed(CHN010),
+    ],
+    check check,
+}
+
+/// How many of the specification's sampled configurations are compared.
+const SAMPLES: u64 = 8;
+
+fn check(context: &Context, findings: &mut Findings) {
+    let legacy = context.profile() == Profile::Legacy;
+    let (Some(source), Some(robot), Some(tree), Some(modules), Some(dofs)) = (
+        context
+            .urdf_text()
+            .and_then(|reading| reading.robot.as_ref()),
+        context.robot(),
+        context.tree(),
+        consumer::modules(context),
+        context.dofs(),
+    ) else {
+        return findings.skip(SkipReason::KinematicsOpen);
+    };
+    let mimics_have_dofs = robot
+        .joints
+        .iter()
+        .zip(dofs.dofs_of_joint)
+        .any(|(joint, dofs)| joint.active_mimic().is_some() && !dofs.is_empty());
+    let mimics = if mimics_have_dofs {
+        MimicDofs::Own
+    } else {
+        MimicDofs::Follow
+    };
+    let reference = match Reference::new(source, mimics) {
+        Ok(reference) => reference,
+        Err(reason) => return findings.skip(SkipReason::Reference(reason)),
+    };
+    if legacy && reference.has(JointType::Planar) {
+        return findings.skip(SkipReason::LegacyCoordinates);
+    }
+    let file = format!("{}/module.json", ModuleKind::Chain.folder());
+    let kinematics = match ForwardKinematics::new(&modules.chain, &modules.dof) {
+        Ok(kinematics) => kinematics,
+        Err(error) => {
+            let message =
+                format!("forward kinematics cannot be computed from the modules: {error}");
+            return findings.report(Finding::in_file(file, message));
+        }
+    };
+    let tolerance = POSITION_OF_REACH * reach(robot, tree);
+    for (name, configuration) in configurations(&reference) {
+        let found = match kinematics.link_poses(&configuration) {
+            Ok(found) => Some(found),
+            // Numbers that are beyond 64 bits.
+            Err(error @ ConfigurationError::Overflow { .. }) => {
+                let message = format!("the link poses cannot be computed ({name}): {error}");
+                return findings.report(Finding::in_file(file, message));
+            }
+            Err(_) => None,
+        };
+        let Some((found, expected)) = found.zip(reference.link_poses(&configuration)) else {
+            let message =
+                "the modules and the URDF have configurations of different lengths".to_owned();
+            return findings.report(
+                Finding::in_file(file, message)
+                    .expected(format!("{} DOFs", reference.num_dofs()))
+                    .actual(format!("{} DOFs", kinematics.num_dofs())),
+            );
+        };
+        let first = tree.order.iter().find(|link| {
+            let pair = found.get(**link).zip(expected.get(**link));
+            pair.is_none_or(|(found, expected)| !agree(found, expected, tolerance))
+        });
+        let Some(&link) = first else { continue };
+        let Some((found, expected)) = found.get(link).zip(expected.get(link)) else {
+            continue;
+        };
+        let joint = tree.parent_joint[link].unwrap_or(0);
+        let (shift, turn) = difference(found, expected);
+        let turn = angle_of_distance(turn);
+        findings.report(
+            Finding::at(
+                file.clone(),
+                format!("/joints_in_chain/{joint}"),
+                format!(
+                    "in configuration {name}, link {:?} (joint {:?}) is {} m and {} rad from where the URDF has it",
+                    robot.links[link].name,
+                    robot.joints[joint].name,
+                    number(shift, 4),
+                    number(turn, 4)
+                ),
+            )
+            .expected(describe(expected))
+            .actual(describe(found))
+            .tolerance(tolerance)
+            .off_by(shift, "m"),
+        );
+        // Other configurations would say the same of the same joint.
+        return;
+    }
+}
+
+fn configurations(reference: &Reference) -> Vec<(String, Vec<f64>)> {
+    let intervals = reference.intervals();
+    let each = |value: &dyn Fn(usize, [f64; 2]) -> f64| -> Vec<f64> {
+        intervals
+            .iter()
+            .enumerate()
+            .map(|(i, interval)| value(i, *interval))
+            .collect()
+    };
+    let mut configurations = vec![
+        ("zero".to_owned(), each(&|_, _| 0.0)),
+        (
+            "middle".to_owned(),
+            each(&|_, [lower, upper]| lower / 2.0 + upper / 2.0),
+        ),
+        ("lower".to_owned(), each(&|_, [lower, _]| lower)),
+        ("upper".to_owned(), each(&|_, [_, upper]| upper)),
+    ];
+    for k in 0..SAMPLES {
+        let sampled = each(&|i, [lower, upper]| lower + unit(k, i as u64) * (upper - lower));
+        configurations.push((format!("sample {k}"), sampled));
+    }
+    configurations.retain(|(_, configuration)| configuration.iter().all(|q| q.is_finite()));
+    configurations
+}
+
+fn agree(a: &Isometry3<f64>, b: &Isometry3<f64>, tolerance: f64) -> bool {
+    let (shift, turn) = difference(a, b);
+    shift <= tolerance && turn <= ROTATION
+}
+
+fn difference(a: &Isometry3<f64>, b: &Isometry3<f64>) -> (f64, f64) {
+    let shift = (a.translation.vector - b.translation.vector).norm();
+    let turn = rotation_distance(
+        a.rotation.to_rotation_matrix().matrix(),
+        b.rotation.to_rotation_matrix().matrix(),
+    );
+    (shift, turn)
+}
+
+fn describe(pose: &Isometry3<f64>) -> String {
+    let p = pose.translation;
+    let rotation = canonical(&pose.rotation);
+    let q = rotation.quaternion();
+    format!(
+        "position ({:.9}, {:.9}, {:.9}), quaternion ({:.9}, {:.9}, {:.9}, {:.9})",
+        p.x, p.y, p.z, q.w, q.i, q.j, q.k
+    )
+}

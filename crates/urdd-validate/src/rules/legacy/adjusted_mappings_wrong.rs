@@ -1,0 +1,168 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use urdd_format::legacy::adjusted_robot::AdjustedRobotModule;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+
+declare_rule! {
+    /// The index mappings of `adjusted_robot_module` do not fit each other, or the two robots.
+    ///
+    /// The mappings carry what was computed for the base robot (meshes, shapes, a person's edits) over to
+    /// the robot that was cut out of it. A wrong index gives a link the shape of another.
+    ///
+    /// `adjusted_…_to_base_…` has one entry for each link (joint) of this robot, `base_…_to_adjusted_…` one
+    /// for each of the base robot: those that are kept, and those that are listed as deleted, which have
+    /// null. Each is the inverse of the other.
+    LEG004 "adjusted-mappings-wrong", Error, clause "10.4", since "0.1.0",
+    phase References, needs [Legacy, Module(Kind::Urdf)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(ModuleDocument::LegacyAdjustedRobot(adjusted)), Some(module)) = (
+        context.robot(),
+        context.document(ModuleKind::AdjustedRobot),
+        context.module(ModuleKind::AdjustedRobot),
+    ) else {
+        return;
+    };
+    let file = module.file("module.json");
+    for mapping in mappings(adjusted, robot.links.len(), robot.joints.len()) {
+        mapping.check(&file, findings);
+    }
+}
+
+/// The mappings of links, or those of joints.
+struct Mapping {
+    what: &'static str,
+    to_base: Vec<usize>,
+    to_adjusted: Vec<Option<usize>>,
+    kept: usize,
+    deleted: usize,
+}
+
+fn mappings(adjusted: &AdjustedRobotModule, links: usize, joints: usize) -> [Mapping; 2] {
+    let to_base = &adjusted.adjusted_link_idx_to_base_link_idx_mapping;
+    let to_adjusted = &adjusted.base_link_idx_to_adjusted_link_idx_mapping;
+    let of_links = Mapping {
+        what: "link",
+        to_base: to_base.iter().map(|link| link.get()).collect(),
+        to_adjusted: to_adjusted.iter().map(|l| l.map(|l| l.get())).collect(),
+        kept: links,
+        deleted: adjusted.deleted_base_links.len(),
+    };
+    let to_base = &adjusted.adjusted_joint_idx_to_base_joint_idx_mapping;
+    let to_adjusted = &adjusted.base_joint_idx_to_adjusted_joint_idx_mapping;
+    let of_joints = Mapping {
+        what: "joint",
+        to_base: to_base.iter().map(|joint| joint.get()).collect(),
+        to_adjusted: to_adjusted.iter().map(|j| j.map(|j| j.get())).collect(),
+        kept: joints,
+        deleted: adjusted.deleted_base_joints.len(),
+    };
+    [of_links, of_joints]
+}
+
+impl Mapping {
+    fn check(&self, file: &str, findings: &mut Findings) {
+        let what = self.what;
+        let down = format!("adjusted_{what}_idx_to_base_{what}_idx_mapping");
+        let up = format!("base_{what}_idx_to_adjusted_{what}_idx_mapping");
+        let base = self.kept + self.deleted;
+        for (name, right, written, why) in [
+            (
+                &down,
+                self.kept,
+                self.to_base.len(),
+                "this robot has".to_owned(),
+            ),
+            (
+                &up,
+                base,
+                self.to_adjusted.len(),
+                format!(
+                    "the base robot has, counting those deleted ({})",
+                    self.deleted
+                ),
+            ),
+        ] {
+            if right != written {
+                let message = format!("one entry is needed for each {what} that {why}");
+                findings.report(
+                    Finding::at(file, format!("/{name}"), message)
+                        .expected(format!("{right} entries"))
+                        .actual(format!("{written} entries")),
+                );
+                return;
+            }
+        }
+        for (adjusted, base) in self.to_base.iter().copied().enumerate() {
+            let back = self.to_adjusted.get(base).copied();
+            if back != Some(Some(adjusted)) {
+                let there = match back {
+                    Some(Some(other)) => format!("{what} {other}"),
+                    Some(None) => "null".to_owned(),
+                    None => "no such entry".to_owned(),
+                };
+                let message =
+                    format!("`{up}` does not lead from {what} {base} back to {what} {adjusted}");
+                findings.report(
+                    Finding::at(file, format!("/{down}/{adjusted}"), message)
+                        .expected(format!("{what} {adjusted} at /{up}/{base}"))
+                        .actual(there),
+                );
+            }
+        }
+        if !findings.is_empty() {
+            return;
+        }
+        for (base, adjusted) in self.to_adjusted.iter().copied().enumerate() {
+            if let Some(adjusted) = adjusted
+                && self.to_base.get(adjusted) != Some(&base)
+            {
+                let message =
+                    format!("`{down}` does not lead from {what} {adjusted} back to {what} {base}");
+                findings.report(
+                    Finding::at(file, format!("/{up}/{base}"), message)
+                        .expected("null")
+                        .actual(format!("{what} {adjusted}")),
+                );
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pointers(to_base: &[usize], to_adjusted: &[Option<usize>], deleted: usize) -> Vec<String> {
+        let mapping = Mapping {
+            what: "link",
+            to_base: to_base.to_vec(),
+            to_adjusted: to_adjusted.to_vec(),
+            kept: 2,
+            deleted,
+        };
+        let mut findings = Findings::default();
+        mapping.check("f", &mut findings);
+        let pointers = findings.take().into_iter();
+        pointers
+            .filter_map(|finding| finding.place.pointer)
+            .collect()
+    }
+
+    #[test]
+    fn each_is_the_inverse_of_the_other() {
+        let down = "/adjusted_link_idx_to_base_link_idx_mapping";
+        let up = "/base_link_idx_to_adjusted_link_idx_mapping";
+        let right = [Some(0), None, Some(1)];
+        assert!(pointers(&[0, 2], &right, 1).is_empty());
+        assert_eq!(pointers(&[0, 1], &right, 1), [format!("{down}/1")]);
+        assert_eq!(pointers(&[0, 9], &right, 1), [format!("{down}/1")]);
+        assert_eq!(pointers(&[0], &right, 1), [down]);
+        assert_eq!(pointers(&[0, 2], &right, 2), [up]);
+        let twice = [Some(0), Some(0), Some(1)];
+        assert_eq!(pointers(&[0, 2], &twice, 1), [format!("{up}/1")]);
+    }
+}

@@ -1,0 +1,51 @@
+use std::collections::BTreeSet;
+
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use crate::views::shared_meshes;
+
+declare_rule! {
+    /// Links share one derived mesh file.
+    ///
+    /// The first producer named derived files after the mesh that they came from, so that links with
+    /// one mesh name had one file, and the last of them overwrote it. Here these links place the mesh
+    /// in the same way, and the file is right for all of them. Where they do not, MSH005 reports it.
+    ///
+    /// Nothing needs to be done now. When one of these links gets another visual origin or scale, the
+    /// meshes of the others become wrong without notice. In version 1 each link has its own file.
+    LEG007 "mesh-file-shared-alike", Info, clause "10.6", since "0.1.0",
+    phase References, needs [Legacy, Module(Kind::Urdf), NotFailed(MSH001), NotFailed(MSH003)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let shared: Vec<_> = shared_meshes::all(context)
+        .into_iter()
+        .filter(|shared| shared.alike)
+        .collect();
+    let Some(first) = shared.first() else {
+        return;
+    };
+    let links: BTreeSet<usize> = shared
+        .iter()
+        .flat_map(|shared| [shared.first.0, shared.other.0])
+        .collect();
+    let message = format!(
+        "{} links share derived mesh files with others that place the same mesh in the same way: right as it stands, and wrong once one of them is placed otherwise",
+        links.len()
+    );
+    findings.report(
+        Finding::at(
+            format!("{}/module.json", first.kind.folder()),
+            first.other.1.clone(),
+            message,
+        )
+        .actual(format!(
+            "`{}`, of {} and {}",
+            first.path,
+            context.link_label(first.first.0),
+            context.link_label(first.other.0)
+        )),
+    );
+}

@@ -1,0 +1,20 @@
+//! LEG: conventions of URDDs that were published before version 1.
+
+pub mod adjusted_mappings_wrong;
+pub mod folder_name_differs;
+pub mod locked_bound_widened;
+pub mod mesh_file_shared_alike;
+pub mod parent_relative_paths;
+pub mod without_root_metadata;
+
+use crate::rule::Rule;
+
+/// The rules of this family.
+pub const RULES: &[&Rule] = &[
+    &without_root_metadata::RULE,
+    &parent_relative_paths::RULE,
+    &folder_name_differs::RULE,
+    &adjusted_mappings_wrong::RULE,
+    &locked_bound_widened::RULE,
+    &mesh_file_shared_alike::RULE,
+];

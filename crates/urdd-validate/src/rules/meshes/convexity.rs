@@ -1,0 +1,89 @@
+//! Hulls and pieces that are no convex bodies.
+
+use rayon::prelude::*;
+
+use crate::context::Context;
+use crate::finding::{Finding, Findings, point};
+use crate::part::{Part, Why};
+use crate::solids::dents::{Dents, dents};
+use crate::solids::derived::{Derived, noun};
+use crate::solids::polytope::{NotConvex, not_convex};
+use crate::solids::surface::extent;
+use crate::tolerance::mesh_resolution;
+use urdd_format::registry::ModuleKind;
+
+/// Reports every mesh of a module that is not the closed surface of a convex body.
+pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) {
+    let Some(module) = context.module(kind) else {
+        return;
+    };
+    let judge = |mesh: &'_ Derived| {
+        let solid = mesh.sound()?;
+        Some((not_convex(solid)?, dents(solid)))
+    };
+    let meshes = context.solids().derived(kind);
+    let faults: Vec<Option<(NotConvex, Option<Dents>)>> = meshes.par_iter().map(judge).collect();
+    for (mesh, fault) in meshes.iter().zip(faults) {
+        let part = Part::of(kind, mesh.link, mesh.piece);
+        if let (None, Some(part)) = (mesh.sound(), part) {
+            findings.not_verified(part, Why::Unreadable);
+        }
+        let Some((fault, dents)) = fault else {
+            continue;
+        };
+        let resolution = mesh
+            .mesh
+            .as_ref()
+            .map_or(0.0, |mesh| mesh_resolution(extent(mesh)));
+        let depth = dents
+            .map(|dents| dents.depth)
+            .filter(|depth| *depth > resolution);
+        let what = match fault {
+            NotConvex::Nothing => "it has no face with an area".to_owned(),
+            NotConvex::Open(at) => format!(
+                "the edge at {} is not shared by two faces that are wound alike",
+                point(at)
+            ),
+            NotConvex::Inward => "its faces look inward".to_owned(),
+            NotConvex::Vertex(at, _) => match dents {
+                Some(dents) => in_words(&dents, depth),
+                None => format!("the vertex at {} is outside of a face", point(at)),
+            },
+        };
+        let label = context.link_label(mesh.link);
+        let which = match kind {
+            ModuleKind::ConvexDecompositionMeshes => format!("piece {} of {label}", mesh.piece),
+            _ => format!("the {} of {label}", noun(kind)),
+        };
+        let mut finding = Finding::at(
+            module.file("module.json"),
+            mesh.pointer(),
+            format!("{which} is not a convex body: {what}"),
+        )
+        .expected("a closed convex surface, faces counter-clockwise seen from outside")
+        .actual(what)
+        .tolerance(resolution)
+        .part(part);
+        if let Some(depth) = depth {
+            finding = finding.off_by(depth, "m");
+        }
+        findings.report(finding);
+    }
+}
+
+/// How many faces look inward, and the deepest dent.
+fn in_words(dents: &Dents, depth: Option<f64>) -> String {
+    let faces = match dents.inward {
+        0 => "vertices lie outside of its faces".to_owned(),
+        1 => format!("1 of {} faces looks inward", dents.faces),
+        inward => format!("{inward} of {} faces look inward", dents.faces),
+    };
+    match depth {
+        None => faces,
+        Some(depth) => format!(
+            "{faces}, the deepest dent is {:.3} mm, at {}",
+            1e3 * depth,
+            point(dents.place)
+        ),
+    }
+}

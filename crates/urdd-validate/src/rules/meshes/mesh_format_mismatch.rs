@@ -1,0 +1,143 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use urdd_document::meshes::{DERIVED, Format, Mesh, Meshes};
+use urdd_format::registry::ModuleKind;
+
+declare_rule! {
+    /// A mesh is not given in the same formats as the others of its module.
+    ///
+    /// `stl`, `obj` and `glb` are the same mesh for programs that read different formats. A module may
+    /// do without `stl`, or without `obj`, and then has null there for every mesh. Here a file has the
+    /// extension of another format, or one mesh has a format that another one of the module has not; in
+    /// legacy modules, which have one list per format, a link has more meshes in one format than in
+    /// another. Then two programs see two different robots.
+    ///
+    /// Name a file with the format's own extension in each place, and give every mesh of a module in the
+    /// same formats.
+    MSH003 "mesh-format-mismatch", Error, clause "7.1", since "0.1.0",
+    phase References, needs [
+        AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
+        NotFailed(DIR015),
+        NotFailed(MSH001),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    for kind in DERIVED {
+        let (Some(meshes), Some(module)) = (context.meshes(*kind), context.module(*kind)) else {
+            continue;
+        };
+        let file = module.file("module.json");
+        counts(context, &meshes, *kind, &file, findings);
+        formats(context, &meshes, &file, findings);
+        for (link, mesh) in meshes.paths() {
+            let Some(format) = mesh.format else {
+                continue;
+            };
+            let extension = mesh
+                .path
+                .rsplit('/')
+                .next()
+                .and_then(|name| name.rsplit_once('.'));
+            let extension = extension.map_or("", |(_, extension)| extension);
+            if !extension.eq_ignore_ascii_case(format.extension()) {
+                findings.report(
+                    Finding::at(
+                        &file,
+                        &mesh.pointer,
+                        format!(
+                            "for {} this should name a .{} file",
+                            context.link_label(link),
+                            format.extension()
+                        ),
+                    )
+                    .expected(format!("a path that ends in .{}", format.extension()))
+                    .actual(format!("`{}`", mesh.path)),
+                );
+            }
+        }
+    }
+}
+
+/// Whether the meshes of a module of version 1 are there in the same formats: those of most of them.
+fn formats(context: &Context, meshes: &Meshes, file: &str, findings: &mut Findings) {
+    let [list] = meshes.lists.as_slice() else {
+        return;
+    };
+    let links = list.links.iter().enumerate();
+    let all = links.flat_map(|(link, meshes)| meshes.iter().map(move |mesh| (link, mesh)));
+    for format in [Format::Stl, Format::Obj] {
+        let given = |mesh: &Mesh| mesh.paths.iter().any(|path| path.format == Some(format));
+        let with = all.clone().filter(|(_, mesh)| given(mesh)).count();
+        let expected = 2 * with >= all.clone().count();
+        for (link, mesh) in all.clone().filter(|(_, mesh)| given(mesh) != expected) {
+            let entry = mesh.paths.first().map_or("", |path| &path.pointer);
+            let entry = entry.rsplit_once('/').map_or("", |(entry, _)| entry);
+            let key = format.extension();
+            let word = |given: bool| if given { "a path" } else { "null" };
+            findings.report(
+                Finding::at(
+                    file,
+                    format!("{entry}/{key}"),
+                    format!(
+                        "{} does not have the formats of the other meshes: write all meshes of the module as {key}, or none",
+                        context.link_label(link)
+                    ),
+                )
+                .expected(word(expected))
+                .actual(word(!expected)),
+            );
+        }
+    }
+}
+
+/// Whether the lists of the formats have as many meshes for each link.
+fn counts(
+    context: &Context,
+    meshes: &Meshes,
+    kind: ModuleKind,
+    file: &str,
+    findings: &mut Findings,
+) {
+    for link in 0..meshes.num_links() {
+        let counts: Vec<(&str, usize)> = meshes
+            .lists
+            .iter()
+            .filter_map(|list| Some((list.key, list.links.get(link)?.len())))
+            .collect();
+        // The one that differs from the other two, or the second where all three differ.
+        let odd = match counts.as_slice() {
+            [(_, a), (key, b), (_, c)] if a == c && a != b => Some((key, b, a)),
+            [(key, a), (_, b), (_, c)] if b == c && a != b => Some((key, a, b)),
+            [(_, a), (_, b), (key, c)] if a == b && b != c => Some((key, c, a)),
+            [(_, a), (key, b), _] if a != b => Some((key, b, a)),
+            _ => None,
+        };
+        let Some((key, actual, expected)) = odd else {
+            continue;
+        };
+        let what = match kind {
+            ModuleKind::ConvexDecompositionMeshes => "pieces",
+            _ => "meshes",
+        };
+        let all: Vec<String> = counts
+            .iter()
+            .map(|(key, count)| format!("{count} in `{key}`"))
+            .collect();
+        findings.report(
+            Finding::at(
+                file,
+                format!("/{key}/{link}"),
+                format!(
+                    "the formats of {} differ in {what}: {}",
+                    context.link_label(link),
+                    all.join(", ")
+                ),
+            )
+            .expected(format!("{expected} {what}"))
+            .actual(format!("{actual} {what}")),
+        );
+    }
+}

@@ -1,0 +1,85 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use crate::solids::derived::DerivedFile;
+use crate::solids::file::MeshFault;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_document::meshes::{DERIVED, Format};
+use urdd_format::registry::Profile;
+use urdd_geometry::read::Format as Content;
+
+declare_rule! {
+    /// A mesh file is not a sound mesh in its format.
+    ///
+    /// A file of a mesh, hull or piece cannot be read, is cut off, has no triangle, a coordinate that is
+    /// not finite, or an index of a vertex that is not there; or it is of another format than its name
+    /// says. Some loaders refuse it, others show a part of it.
+    ///
+    /// Write it again: binary STL with as many triangles as its header counts, Wavefront OBJ,
+    /// binary glTF 2.0. (MSH010 reports a `.glb` that does not begin as one.)
+    MSH013 "mesh-unsound", Error, clause "7.6", since "0.1.0",
+    phase Geometry, needs [
+        AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
+        NotFailed(MSH003),
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    for kind in DERIVED {
+        let (Some(meshes), Some(module)) = (context.meshes(*kind), context.module(*kind)) else {
+            continue;
+        };
+        for mesh in context.solids().derived(*kind) {
+            for file in &mesh.files {
+                if let Some(fault) = fault(file, meshes.profile) {
+                    findings.report(
+                        Finding::at(
+                            module.file("module.json"),
+                            &file.pointer,
+                            format!("`{}`: {fault}", file.path),
+                        )
+                        .expected(expected(file.format))
+                        .actual(fault),
+                    );
+                }
+            }
+        }
+    }
+}
+
+fn fault(file: &DerivedFile, profile: Profile) -> Option<String> {
+    if file.not_glb {
+        return None;
+    }
+    match &file.fault {
+        Some(MeshFault::Absent(_)) => return None,
+        Some(MeshFault::TooLarge(size)) => {
+            return Some(format!(
+                "it is {size} bytes long, and at most {MAX_DOCUMENT_BYTES} are read"
+            ));
+        }
+        Some(MeshFault::Broken(why)) => return Some(why.clone()),
+        None => {}
+    }
+    let right = match (file.format, file.content?) {
+        (Format::Stl, Content::StlBinary)
+        | (Format::Obj, Content::Obj)
+        | (Format::Glb, Content::Glb) => true,
+        (Format::Stl, Content::StlAscii) => profile == Profile::Legacy,
+        _ => false,
+    };
+    (!right).then(|| match file.content {
+        Some(Content::StlAscii) => "it is STL as text; write binary STL".to_owned(),
+        Some(content) => format!("it holds what a .{} file holds", content.extension()),
+        None => "it is no mesh".to_owned(),
+    })
+}
+
+fn expected(format: Format) -> &'static str {
+    match format {
+        Format::Stl => "a binary STL file",
+        Format::Obj => "a Wavefront OBJ file",
+        Format::Glb => "a binary glTF 2.0 file",
+    }
+}

@@ -1,0 +1,137 @@
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+use crate::context::Context;
+use crate::finding::{Finding, Findings, point};
+use crate::part::Part;
+use crate::rule::declare_rule;
+use crate::solids::polytope::{Polytope, step};
+use crate::solids::surface::extent;
+use crate::tolerance::{COVER_WITHOUT_PROMISE, mesh_resolution};
+use crate::views::judged::judged;
+use urdd_format::readable::metres;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_geometry::Mesh;
+
+declare_rule! {
+    /// The convex pieces of a link leave out a part of its surface.
+    ///
+    /// Together the pieces cover the link: no point of the plain mesh is farther outside of all of them
+    /// than `surface_tolerance` promises, or, without a promise, than 5 % of the diagonal of the box
+    /// around the link. Here a part of it sticks out, which a program that checks collisions with the
+    /// pieces does not see. Often a piece was lost, or belongs to another link.
+    ///
+    /// Decompose the link's plain mesh again, or promise less.
+    MSH022 "pieces-leave-surface", Error, clause "7.10", since "0.1.0",
+    phase Geometry, consequence Collisions, needs [
+        Module(Kind::PlainMeshes), Module(Kind::ConvexDecompositionMeshes),
+        NotFailed(MSH003),
+        NotFailed(MSH004), NotFailed(MSH007), CONVEX_PIECE,
+    ],
+    check check,
+}
+
+/// A part of a link that no piece covers.
+struct Bare {
+    place: [f64; 3],
+    distance: f64,
+    tolerance: f64,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let kind = ModuleKind::ConvexDecompositionMeshes;
+    let (Some(module), Some(meshes)) = (context.module(kind), context.meshes(kind)) else {
+        return;
+    };
+    let promised = match context.document(kind) {
+        Some(ModuleDocument::ConvexDecompositionMeshes(module)) => module.method.surface_tolerance,
+        _ => None,
+    };
+    // Before threads ask for it: who works it out shares the work with them.
+    context.misplaced();
+    let pieces_of = |link: usize| -> Vec<Part> {
+        let pieces = 0..meshes.count(link);
+        pieces.map(|piece| Part::Piece { link, piece }).collect()
+    };
+    let mut links: Vec<usize> = (0..meshes.num_links()).collect();
+    links.retain(|link| {
+        let pieces = pieces_of(*link);
+        let mut by = pieces.clone();
+        by.push(Part::Plain(*link));
+        let judged = pieces
+            .iter()
+            .filter(|piece| judged(context, findings, **piece, &by));
+        judged.count() == pieces.len()
+    });
+    let bare: Vec<Option<Bare>> = links
+        .par_iter()
+        .map(|link| bare(context, *link, meshes.count(*link), promised))
+        .collect();
+    for (link, bare) in links.into_iter().zip(bare) {
+        let Some(bare) = bare else {
+            continue;
+        };
+        let mut finding = Finding::at(
+            module.file("module.json"),
+            meshes.pointer(link),
+            format!(
+                "the pieces of {} leave out its surface at {}, {} outside of all of them",
+                context.link_label(link),
+                point(bare.place),
+                metres(bare.distance)
+            ),
+        )
+        .expected("the whole surface of the plain mesh inside the pieces")
+        .actual(format!("{} outside", metres(bare.distance)))
+        .tolerance(bare.tolerance)
+        .off_by(bare.distance, "m");
+        finding.parts = pieces_of(link);
+        findings.report(finding);
+    }
+}
+
+/// Where a link's surface is farthest outside of its pieces, if it is so by more than it may be.
+fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) -> Option<Bare> {
+    let solids = context.solids();
+    let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
+    let kind = ModuleKind::ConvexDecompositionMeshes;
+    let pieces: Option<Vec<Polytope>> = (0..pieces)
+        .map(|piece| Polytope::new(solids.sound(kind, link, piece)?))
+        .collect();
+    let pieces = pieces.filter(|pieces| !pieces.is_empty())?;
+    let bounds = mesh.bounds()?;
+    let diagonal = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
+    let most = diagonal * COVER_WITHOUT_PROMISE;
+    let tolerance =
+        promised.map_or(most, |promised| promised.clamp(0.0, most)) + mesh_resolution(extent(mesh));
+    let faces: usize = pieces.iter().map(Polytope::num_faces).sum();
+    let points = mesh.vertices.len() + mesh.triangles.len();
+    let worst = points_of(mesh)
+        .step_by(step(points, faces))
+        .filter(|point| !pieces.iter().any(|piece| piece.holds(*point, tolerance)))
+        .map(|point| {
+            let outside = pieces.iter().map(|piece| piece.outside(point));
+            (point, outside.fold(f64::INFINITY, f64::min))
+        })
+        .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    (worst.1 > tolerance).then_some(Bare {
+        place: worst.0,
+        distance: worst.1,
+        tolerance,
+    })
+}
+
+/// Points of a surface: corners, and the middles of triangles.
+fn points_of(mesh: &Mesh) -> impl Iterator<Item = [f64; 3]> {
+    let mut used = vec![false; mesh.vertices.len()];
+    for corner in mesh.triangles.iter().flatten() {
+        used[*corner as usize] = true;
+    }
+    let vertices = mesh.vertices.iter().zip(used);
+    let corners = vertices.filter_map(|(vertex, used)| used.then_some(*vertex));
+    let middles = mesh.triangles.iter().map(|triangle| {
+        let [a, b, c] = mesh.corners(*triangle);
+        std::array::from_fn(|i| (a[i] + b[i] + c[i]) / 3.0)
+    });
+    corners.chain(middles)
+}

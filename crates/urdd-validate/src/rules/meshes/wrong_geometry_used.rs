@@ -1,0 +1,72 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use urdd_document::usable_geometry::UsableGeometry;
+use urdd_format::meshes::GeometryKind;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+
+declare_rule! {
+    /// `geometry` names the wrong source for a link's mesh.
+    ///
+    /// A mesh is made from the kind of geometry that `preferred_geometry` names, `Visual` or
+    /// `Collision`, and from the other kind only where a link has nothing usable of the first. A
+    /// program that shows or collides links must be able to tell which of the two it sees.
+    ///
+    /// Write `geometry` as the mesh was really made; where the mesh itself was made from the wrong
+    /// elements, write the mesh modules again.
+    MSH008 "wrong-geometry-used", Error, clause "7.4", since "0.1.0",
+    phase References, consequence WrongPlace, needs [
+        Version1,
+        Module(Kind::Urdf),
+        Module(Kind::PlainMeshes),
+        NotFailed(MSH001),
+        NotFailed(MSH009),
+        NotFailed(MSH012),
+        NotFailed(MSH011),
+        NotFailed(MSH016),
+        // The entry of another link has the geometry of another link.
+        NotFailed(MSH006),
+        NotFailed(MSH007),
+        LINKS_NAMED,
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let Some(ModuleDocument::PlainMeshes(plain)) = context.document(ModuleKind::PlainMeshes) else {
+        return;
+    };
+    let Some(module) = context.module(ModuleKind::PlainMeshes) else {
+        return;
+    };
+    let usable = UsableGeometry::new(context);
+    let preferred = plain.preferred_geometry;
+    let other = match preferred {
+        GeometryKind::Visual => GeometryKind::Collision,
+        GeometryKind::Collision => GeometryKind::Visual,
+    };
+    for (link, mesh) in plain.link_meshes.iter().enumerate() {
+        let Some(mesh) = mesh else {
+            continue;
+        };
+        let (expected, why) = if usable.has(link, preferred) {
+            (preferred, "it has geometry of the preferred kind")
+        } else {
+            (other, "it has none of the preferred kind")
+        };
+        if mesh.geometry != expected {
+            findings.report(
+                Finding::at(
+                    module.file("module.json"),
+                    format!("/link_meshes/{link}/geometry"),
+                    format!(
+                        "preferred_geometry is {preferred:?}, and for {} this must be {expected:?}: {why}",
+                        context.link_label(link)
+                    ),
+                )
+                .expected(format!("{expected:?}"))
+                .actual(format!("{:?}", mesh.geometry)),
+            );
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! SCH: documents against their schemas.
+
+pub mod breaks_schema;
+
+use crate::rule::Rule;
+
+/// The rules of this family.
+pub const RULES: &[&Rule] = &[&breaks_schema::RULE];

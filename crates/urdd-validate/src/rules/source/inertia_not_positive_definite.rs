@@ -1,0 +1,117 @@
+use super::moments;
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use crate::tolerance::INERTIA_DEFINITE;
+use urdd_document::robot::Link;
+use urdd_format::urdf::JointType;
+
+declare_rule! {
+    /// An inertia tensor is not positive definite.
+    ///
+    /// The principal moments of a body are positive. Where one is negative or 0, dynamics cannot be
+    /// solved about its axis: simulators refuse the link, or it spins without end. Most often a sign is
+    /// wrong, products of inertia are larger than the moments, or a number was rounded to `0`.
+    ///
+    /// A link without mass may have a zero tensor, and so may a link with mass (a point mass) that
+    /// is fixed to a link with inertia, or that no joint turns. A moment counts as positive when
+    /// it is more than 1e-9 of the largest.
+    ///
+    /// Compute the tensor again (about the centre of mass, in the axes of the inertial's origin),
+    /// correct the URDF, and write the URDD again.
+    SRC004 "inertia-not-positive-definite", Warning, clause "6.1.7", since "0.1.0",
+    phase References, judges Source, needs [
+        SourceRobot, ROBOT_SOUND,
+    ],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(bodies), Some(file)) = (
+        context.robot(),
+        context.rigid_groups(),
+        context.robot_file(),
+    ) else {
+        return;
+    };
+    for body in &bodies.groups {
+        let links = || {
+            body.links
+                .iter()
+                .filter_map(|index| Some((*index, robot.links.get(*index)?)))
+        };
+        for (index, link) in links() {
+            let Some(moments) = tensor(link).map(moments::principal) else {
+                continue;
+            };
+            if positive(moments) {
+                continue;
+            }
+            findings.report(
+                Finding::at(
+                    &file,
+                    format!("/links/{index}/inertial/inertia"),
+                    format!("link `{}`: the inertia is not positive definite", link.name),
+                )
+                .expected("three positive principal moments")
+                .actual(format!("link `{}`: {}", link.name, moments::show(moments)))
+                .tolerance(INERTIA_DEFINITE * moments[2].abs()),
+            );
+        }
+        let turned_by = body
+            .moved_by
+            .and_then(|joint| robot.joints.get(joint))
+            .filter(|joint| joint.joint_type != JointType::Prismatic);
+        let point = links().find(|(_, link)| is_point_mass(link));
+        let no_inertia = links().all(|(_, link)| tensor(link).is_none());
+        if let (Some(joint), Some((index, link)), true) = (turned_by, point, no_inertia) {
+            findings.report(
+                Finding::at(
+                    &file,
+                    format!("/links/{index}/inertial/inertia"),
+                    format!(
+                        "joint `{}` turns link `{}`, which has mass, but no inertia",
+                        joint.name, link.name
+                    ),
+                )
+                .expected("three positive principal moments")
+                .actual(format!(
+                    "link `{}`: every moment is 0 or missing",
+                    link.name
+                )),
+            );
+        }
+    }
+}
+
+/// A link's tensor, where it has one other than zero.
+fn tensor(link: &Link) -> Option<[f64; 6]> {
+    link.inertial?.inertia.filter(|tensor| *tensor != [0.0; 6])
+}
+
+/// Whether a link has mass and states that it has no inertia.
+fn is_point_mass(link: &Link) -> bool {
+    link.inertial.is_some_and(|inertial| {
+        inertial.mass.is_some_and(|mass| mass > 0.0) && inertial.inertia == Some([0.0; 6])
+    })
+}
+
+/// Whether principal moments, ascending, are those of a positive definite tensor.
+pub(super) fn positive(moments: [f64; 3]) -> bool {
+    moments[0] > INERTIA_DEFINITE * moments[2].abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::positive;
+    use crate::rules::source::moments::principal;
+
+    #[test]
+    fn thin_is_not_singular() {
+        // A steel rod of 1 m, 0.1 mm thick.
+        assert!(positive(principal([0.083, 0.0, 0.0, 0.083, 0.0, 1.25e-9])));
+        assert!(!positive(principal([0.083, 0.0, 0.0, 0.083, 0.0, 0.0])));
+        assert!(!positive(principal([1.0, 1.0, 0.0, 1.0, 0.0, 1.0])));
+        assert!(!positive(principal([-1.0, 0.0, 0.0, -1.0, 0.0, -1.0])));
+    }
+}

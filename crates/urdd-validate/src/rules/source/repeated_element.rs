@@ -1,0 +1,39 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use urdd_directory::position::LineIndex;
+
+declare_rule! {
+    /// The carried URDF repeats an element that URDF allows once.
+    ///
+    /// A URDD takes the first, as most readers do; others take the last, or refuse the file. So two
+    /// programs may see two robots: another axis, another mass. Two shapes in one `<geometry>` are
+    /// one shape and another that no program sees.
+    ///
+    /// Keep one of them in the URDF; write several shapes as several `<visual>` or `<collision>`
+    /// elements. Then write the URDD again.
+    SRC008 "repeated-element", Warning, clause "6.1.8", since "0.1.0",
+    phase References, judges AsItStands, needs [CarriedUrdf, Passed(URD011)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Ok(carried), Some(reading)) = (context.urdf(), context.urdf_text()) else {
+        return;
+    };
+    let lines = LineIndex::new(&carried.text);
+    for again in &reading.repeated {
+        let first = lines.position(again.first);
+        findings.report(
+            Finding::in_file(
+                &carried.path,
+                format!(
+                    "a second `<{}>` in a `<{}>`: only the first counts; remove one of them",
+                    again.element, again.parent
+                ),
+            )
+            .position(Some(lines.position(again.offset)))
+            .actual(format!("the first is in line {}", first.line)),
+        );
+    }
+}

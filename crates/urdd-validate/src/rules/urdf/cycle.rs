@@ -1,0 +1,122 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use crate::urdf_text::compare::first_names;
+use urdd_document::robot::Robot;
+
+declare_rule! {
+    /// Joints connect links in a circle.
+    ///
+    /// A URDF is a tree: from every link, going from parent to parent ends at the root. Links in a
+    /// circle, and the links below them, have no pose. A program that walks the tree may never end.
+    ///
+    /// Swap parent and child of one of the joints, or remove the joint, in the URDF. Then write the URDD
+    /// again.
+    URD006 "links-in-a-circle", Error, clause "6.1.4", since "0.1.0",
+    phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD005)],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
+        return;
+    };
+    for circle in circles(&parents(robot)) {
+        let names: Vec<&str> = circle
+            .iter()
+            .filter_map(|link| robot.links.get(*link))
+            .map(|link| link.name.as_str())
+            .collect();
+        let Some(first) = circle.first() else {
+            continue;
+        };
+        findings.report(
+            Finding::at(
+                file.clone(),
+                format!("/links/{first}"),
+                format!(
+                    "{} are in a circle, each the child of the next: remove one of their joints, or swap its parent and child",
+                    first_names(&names)
+                ),
+            )
+            .expected("a way from every link to the root")
+            .actual(format!("a circle of {} links", circle.len())),
+        );
+    }
+}
+
+/// For each link, the link that it hangs on.
+fn parents(robot: &Robot) -> Vec<Option<usize>> {
+    let mut parents = vec![None; robot.links.len()];
+    for joint in &robot.joints {
+        if let (Some(parent), Some(child)) = (robot.link(&joint.parent), robot.link(&joint.child))
+            && let Some(slot) = parents.get_mut(child)
+        {
+            *slot = Some(parent);
+        }
+    }
+    parents
+}
+
+/// The circles into which a map leads, each from its lowest member on.
+pub(super) fn circles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
+    // The walk on which each was first met.
+    let mut walk_of: Vec<Option<usize>> = vec![None; next.len()];
+    let mut circles = Vec::new();
+    for start in 0..next.len() {
+        let mut at = start;
+        let closes = loop {
+            match walk_of.get_mut(at) {
+                Some(walk @ None) => *walk = Some(start),
+                Some(Some(walk)) => break *walk == start,
+                None => break false,
+            }
+            match next.get(at).copied().flatten() {
+                Some(then) => at = then,
+                None => break false,
+            }
+        };
+        if closes {
+            // Starts are ascending, but a walk may enter a circle anywhere.
+            let mut circle = vec![at];
+            while let Some(then) = circle
+                .last()
+                .and_then(|last| next.get(*last).copied().flatten())
+                && then != at
+            {
+                circle.push(then);
+            }
+            let lowest = circle.iter().enumerate().min_by_key(|(_, member)| **member);
+            let place = lowest.map_or(0, |(place, _)| place);
+            circle.rotate_left(place);
+            circles.push(circle);
+        }
+    }
+    circles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::circles;
+
+    #[test]
+    fn finds_each_circle_once() {
+        let none: Vec<Vec<usize>> = Vec::new();
+        assert_eq!(circles(&[]), none);
+        assert_eq!(circles(&[None, Some(0), Some(1), Some(0)]), none);
+        assert_eq!(circles(&[Some(0)]), [[0]]);
+        assert_eq!(
+            circles(&[
+                Some(2),
+                None,
+                Some(3),
+                Some(2),
+                Some(6),
+                Some(4),
+                Some(5),
+                Some(9)
+            ]),
+            [vec![2, 3], vec![4, 6, 5]]
+        );
+    }
+}

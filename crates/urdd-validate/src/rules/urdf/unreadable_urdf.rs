@@ -1,0 +1,46 @@
+use crate::context::Context;
+use crate::finding::{Finding, Findings};
+use crate::rule::declare_rule;
+use urdd_directory::position::{self, LineIndex};
+use urdd_document::schema_check::excerpt;
+
+declare_rule! {
+    /// The carried URDF cannot be read as a URDF.
+    ///
+    /// The file must be well-formed XML in UTF-8 with a `<robot>` that has a name; every link a
+    /// name; every joint a name, a type that URDF defines, a parent and a child; every mimic a
+    /// joint; every shape its sizes or its file name. Numbers must be numbers: three to a vector, four to
+    /// a colour. Where that fails, readers differ: some refuse, some drop a word of `0 x 0 1`, some take
+    /// zeros. SPEC 6.1.8 lists every element and attribute.
+    ///
+    /// Correct the URDF at the places that are given, and write the URDD again. A `$(arg …)` or `${…}`
+    /// means that xacro was not run.
+    URD011 "unreadable-urdf", Error, clause "6.1.2", since "0.1.0",
+    phase Syntax, needs [CarriedUrdf],
+    check check,
+}
+
+fn check(context: &Context, findings: &mut Findings) {
+    let (Ok(carried), Some(reading)) = (context.urdf(), context.urdf_text()) else {
+        return;
+    };
+    if let Some(offset) = carried.not_utf8_at {
+        findings.report(
+            Finding::in_file(
+                &carried.path,
+                "the URDF is not in UTF-8; save it as UTF-8, and say so in its XML declaration",
+            )
+            .position(Some(position::position(&carried.text, offset))),
+        );
+        return;
+    }
+    let lines = LineIndex::new(&carried.text);
+    for problem in &reading.problems {
+        let mut finding = Finding::in_file(&carried.path, problem.fault.to_string())
+            .position(Some(lines.position(problem.offset)));
+        if let Some(actual) = &problem.actual {
+            finding = finding.actual(excerpt(&actual.as_str().into()));
+        }
+        findings.report(finding);
+    }
+}

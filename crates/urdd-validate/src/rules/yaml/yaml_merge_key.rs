@@ -1,0 +1,22 @@
+use crate::context::Context;
+use crate::finding::Findings;
+use crate::rule::declare_rule;
+use crate::views::text_faults;
+use urdd_directory::text_fault::TextFaultKind;
+
+declare_rule! {
+    /// A `module.yaml` holds a merge key (`<<`).
+    ///
+    /// It is a habit of YAML 1.1 and was never part of YAML 1.2: to some readers it is a key named `<<`.
+    ///
+    /// Write the keys out at each place.
+    YML004 "yaml-merge-key", Error, clause "3.2.2", since "0.1.0",
+    phase Syntax, needs [],
+    check check,
+}
+
+const KINDS: &[TextFaultKind] = &[TextFaultKind::YamlMergeKey];
+
+fn check(context: &Context, findings: &mut Findings) {
+    text_faults::report_yaml(context, KINDS, findings);
+}

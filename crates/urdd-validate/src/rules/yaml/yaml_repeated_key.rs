@@ -1,0 +1,22 @@
+use crate::context::Context;
+use crate::finding::Findings;
+use crate::rule::declare_rule;
+use crate::views::text_faults;
+use urdd_directory::text_fault::TextFaultKind;
+
+declare_rule! {
+    /// A `module.yaml` has a key twice in one mapping.
+    ///
+    /// Some readers keep the first value, some the last, and some refuse the file.
+    ///
+    /// Remove one of the two.
+    YML005 "yaml-repeated-key", Error, clause "3.2.2", since "0.1.0",
+    phase Syntax, needs [],
+    check check,
+}
+
+const KINDS: &[TextFaultKind] = &[TextFaultKind::YamlDuplicateKey];
+
+fn check(context: &Context, findings: &mut Findings) {
+    text_faults::report_yaml(context, KINDS, findings);
+}

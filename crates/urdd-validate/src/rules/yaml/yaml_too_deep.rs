@@ -1,0 +1,22 @@
+use crate::context::Context;
+use crate::finding::Findings;
+use crate::rule::declare_rule;
+use crate::views::text_faults;
+use urdd_directory::text_fault::TextFaultKind;
+
+declare_rule! {
+    /// A `module.yaml` is nested more than 100 deep.
+    ///
+    /// No document of this format comes near that, and readers that follow the nesting run out of stack.
+    ///
+    /// Write it again from `module.json`.
+    YML008 "yaml-too-deep", Error, clause "3.2.2", since "0.1.0",
+    phase Syntax, needs [],
+    check check,
+}
+
+const KINDS: &[TextFaultKind] = &[TextFaultKind::YamlTooDeep];
+
+fn check(context: &Context, findings: &mut Findings) {
+    text_faults::report_yaml(context, KINDS, findings);
+}

@@ -1,0 +1,174 @@
+//! The meshes that are made for links: plain meshes, hulls, convex pieces; each in three formats.
+
+use rayon::prelude::*;
+
+use super::file::{self, MeshFault};
+use super::glb_header::{HEADER, header_fault};
+use super::stl_records;
+use super::surface::{self, Difference, Likeness};
+use crate::tolerance::mesh_resolution;
+use urdd_document::mesh_files::MeshFiles;
+use urdd_document::meshes::Meshes;
+use urdd_document::meshes::{Format, MeshPath};
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::{ModuleKind, Profile};
+use urdd_geometry::Mesh;
+use urdd_geometry::read::Format as Content;
+
+/// A mesh of a link, or one of its pieces.
+#[derive(Debug)]
+pub struct Derived {
+    /// The link.
+    pub link: usize,
+    /// The piece; 0 in modules that have one mesh per link.
+    pub piece: usize,
+    /// Its files, each with what is wrong with it.
+    pub files: Vec<DerivedFile>,
+    /// What its first sound file holds, or else its first readable one. Metres, in the link's frame.
+    pub mesh: Option<Mesh>,
+    /// Which of the files that is.
+    pub mesh_of: usize,
+    /// How the other files differ from it: which file, how.
+    pub differences: Vec<(usize, Difference)>,
+}
+
+impl Derived {
+    /// The mesh, where all of its files are sound and hold the same.
+    pub fn sound(&self) -> Option<&Mesh> {
+        let sound = self.differences.is_empty() && self.files.iter().all(|f| f.fault.is_none());
+        self.mesh.as_ref().filter(|_| sound)
+    }
+
+    /// Where it stands in the document: in version 1 around its files, in legacy modules in the list
+    /// of the first format.
+    pub fn pointer(&self) -> &str {
+        let first = self.files.first().map_or("", |file| &file.pointer);
+        match first.rsplit_once('/') {
+            Some((entry, "stl" | "obj" | "glb")) => entry,
+            _ => first,
+        }
+    }
+}
+
+/// A file of a mesh.
+#[derive(Debug)]
+pub struct DerivedFile {
+    /// As the document has it.
+    pub path: String,
+    /// Where it stands in the document.
+    pub pointer: String,
+    /// Which format it should be of.
+    pub format: Format,
+    /// Whether the content is of that format: binary STL, OBJ, binary glTF. `None` where it is no
+    /// mesh at all.
+    pub content: Option<Content>,
+    /// What is wrong with it. Of a `.glb` that does not begin as one nothing is said here (MSH010).
+    pub fault: Option<MeshFault>,
+    /// Whether it is a `.glb` that does not begin as one.
+    pub not_glb: bool,
+}
+
+/// Reads the meshes of a module: links in order, pieces in order.
+pub fn read_all(urdd: &Urdd, meshes: &Meshes) -> Vec<Derived> {
+    let mut places: Vec<(usize, usize, Vec<&MeshPath>)> = Vec::new();
+    for link in 0..meshes.num_links() {
+        let pieces = meshes.lists.iter().filter_map(|list| list.links.get(link));
+        let most = pieces.clone().map(Vec::len).max().unwrap_or(0);
+        for piece in 0..most {
+            // One list in version 1, and in legacy modules one for each format.
+            let paths = pieces.clone().filter_map(|list| list.get(piece));
+            let paths: Vec<&MeshPath> = paths.flat_map(|mesh| &mesh.paths).collect();
+            places.push((link, piece, paths));
+        }
+    }
+    let profile = meshes.profile;
+    places
+        .into_par_iter()
+        .map_init(
+            || MeshFiles::new(urdd),
+            |files, (link, piece, paths)| read(files, profile, link, piece, &paths),
+        )
+        .collect()
+}
+
+fn read(
+    files: &mut MeshFiles,
+    profile: Profile,
+    link: usize,
+    piece: usize,
+    paths: &[&MeshPath],
+) -> Derived {
+    let mut derived = Derived {
+        link,
+        piece,
+        files: Vec::with_capacity(paths.len()),
+        mesh: None,
+        mesh_of: 0,
+        differences: Vec::new(),
+    };
+    let mut meshes: Vec<(usize, Mesh)> = Vec::new();
+    for path in paths {
+        let Some(format) = path.format else {
+            continue;
+        };
+        let mut file = DerivedFile {
+            path: path.path.to_owned(),
+            pointer: path.pointer.clone(),
+            format,
+            content: None,
+            fault: None,
+            not_glb: false,
+        };
+        let read = file::bytes(files, profile, path.path).and_then(|bytes| {
+            file.not_glb = format == Format::Glb
+                && header_fault(&bytes[..bytes.len().min(HEADER)], bytes.len() as u64).is_some();
+            let (scene, fault) = file::derived(&bytes, path.path, profile)?;
+            let of_stl = profile == Profile::V1 && scene.format == Content::StlBinary;
+            let fault = fault.or_else(|| stl_records::fault(&bytes).filter(|_| of_stl));
+            Ok((scene, fault))
+        });
+        match read {
+            Err(fault) => file.fault = Some(fault),
+            Ok((scene, fault)) => {
+                file.content = Some(scene.format);
+                file.fault = fault.map(MeshFault::Broken);
+                if scene.triangle_count() > 0 {
+                    meshes.push((derived.files.len(), scene.merged()));
+                }
+            }
+        }
+        derived.files.push(file);
+    }
+    let sound = |(at, _): &(usize, Mesh)| derived.files[*at].fault.is_none();
+    // Of sound ones the one with the fewest vertices, among those that hold binary32 as it is: an STL
+    // file has three for each triangle.
+    let exact = |(at, _): &(usize, Mesh)| derived.files[*at].format != Format::Obj;
+    let order = |(_, of): &(usize, &(usize, Mesh))| (!sound(of), !exact(of), of.1.vertices.len());
+    let Some((first, _)) = meshes.iter().enumerate().min_by_key(order) else {
+        return derived;
+    };
+    let (mesh_of, mesh) = meshes.swap_remove(first);
+    meshes.sort_by_key(|(at, _)| *at);
+    let tolerance = mesh_resolution(surface::extent(&mesh));
+    for (at, other) in &meshes {
+        // Of a file that is broken enough is said.
+        if derived.files[*at].fault.is_none()
+            && let Some(difference) =
+                surface::difference(&mesh, other, tolerance, Likeness::SameTriangles)
+        {
+            derived.differences.push((*at, difference));
+        }
+    }
+    derived.mesh_of = mesh_of;
+    derived.mesh = Some(mesh);
+    derived
+}
+
+/// What a module's meshes are called in messages.
+pub fn noun(kind: ModuleKind) -> &'static str {
+    match kind {
+        ModuleKind::ConvexHullMeshes => "hull",
+        ModuleKind::ConvexDecompositionMeshes => "piece",
+        _ => "mesh",
+    }
+}

@@ -1,0 +1,122 @@
+//! What a link's mesh must be by its source: the meshes and shapes of its elements, each under its
+//! origin and scale (SPEC 7.8).
+
+use nalgebra::Vector3;
+
+use super::Solids;
+use super::primitive::Primitive;
+use super::surface::extent;
+use urdd_document::robot::{Element, Link};
+use urdd_document::urdd::Urdd;
+use urdd_document::usable_geometry::UsableGeometry;
+use urdd_format::meshes::GeometryKind;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::urdf::Geometry;
+use urdd_geometry::Mesh;
+use urdd_geometry::mesh::placement;
+
+/// The surface that a link has by its source.
+#[derive(Debug, Default)]
+pub struct Expected {
+    /// The triangles of its meshes, placed; computed in binary64.
+    pub mesh: Mesh,
+    /// Its other shapes.
+    pub primitives: Vec<Primitive>,
+    /// The largest number that took part in placing, m: what rounding is measured by.
+    pub extent: f64,
+}
+
+/// The surface of a link by its elements of a kind; `None` where a mesh among them is not carried,
+/// or cannot be read.
+pub fn of_link(
+    urdd: &Urdd,
+    solids: &Solids,
+    usable: &UsableGeometry,
+    link: usize,
+    kind: GeometryKind,
+) -> Option<Expected> {
+    let named = urdd.robot()?.links.get(link)?;
+    let elements = match kind {
+        GeometryKind::Visual => &named.visual,
+        GeometryKind::Collision => &named.collision,
+    };
+    let mut expected = Expected::default();
+    for (at, element) in elements.iter().enumerate() {
+        if !usable.is_usable(link, kind, at) {
+            continue;
+        }
+        let Some(geometry) = &element.geometry else {
+            continue;
+        };
+        let rotation = element.origin.rotation();
+        match Primitive::new(geometry, rotation, element.origin.xyz) {
+            Some(primitive) => {
+                expected.extent = expected.extent.max(primitive.extent());
+                expected.primitives.push(primitive);
+            }
+            None => {
+                let path = carried(urdd, named, link, kind, at)?;
+                let mesh = solids.original(&path)?.mesh.as_ref().ok()?;
+                expected.add(mesh, element, geometry);
+            }
+        }
+    }
+    Some(expected)
+}
+
+impl Expected {
+    /// Whether the link shows nothing.
+    pub fn is_empty(&self) -> bool {
+        self.mesh.triangles.is_empty() && self.primitives.is_empty()
+    }
+
+    /// Adds a mesh, placed.
+    fn add(&mut self, mesh: &Mesh, element: &Element, geometry: &Geometry) {
+        let scale = match geometry {
+            Geometry::Mesh(mesh) => mesh.scale.unwrap_or([1.0; 3]),
+            _ => [1.0; 3],
+        };
+        let rotation = element.origin.rotation();
+        let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
+        let mut placed = mesh.clone();
+        placed.transform(&placement(scale, rows, element.origin.xyz));
+        let largest = scale
+            .into_iter()
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        self.extent = self
+            .extent
+            .max(extent(mesh) * largest)
+            .max(Vector3::from(element.origin.xyz).amax())
+            .max(extent(&placed));
+        self.mesh.append(&placed);
+    }
+}
+
+/// The path of the mesh that an element names.
+fn carried(
+    urdd: &Urdd,
+    named: &Link,
+    link: usize,
+    kind: GeometryKind,
+    element: usize,
+) -> Option<String> {
+    match urdd.document(ModuleKind::OriginalMeshes)? {
+        ModuleDocument::OriginalMeshes(module) => {
+            let here = |r: &&urdd_format::original_meshes::MeshReference| {
+                (r.link_idx.get(), r.geometry, r.element_idx.get()) == (link, kind, element)
+            };
+            module.references.iter().find(here)?.path.clone()
+        }
+        // Legacy modules list the files of a link's visual meshes, which keep their names.
+        _ => {
+            let Some(Geometry::Mesh(mesh)) = &named.visual.get(element)?.geometry else {
+                return None;
+            };
+            let name = |path: &str| path.rsplit('/').next().map(str::to_owned);
+            let meshes = urdd.meshes(ModuleKind::OriginalMeshes)?;
+            let mut paths = meshes.of_link(link).flat_map(|mesh| &mesh.paths);
+            let found = paths.find(|path| name(path.path) == name(&mesh.filename));
+            found.map(|path| path.path.to_owned())
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! One mesh file.
+
+use std::io::Read;
+
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_document::mesh_files::{Absence, MeshFiles};
+use urdd_format::registry::Profile;
+use urdd_geometry::read::{GltfUp, MeshError, NoteCode, Options, Scene, read_with};
+
+/// What is wrong with a mesh file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum MeshFault {
+    /// It cannot be had: what other rules report.
+    Absent(Absence),
+    /// It is larger than what is read, bytes.
+    TooLarge(u64),
+    /// It is no mesh, in words.
+    Broken(String),
+}
+
+/// The bytes of a mesh file.
+///
+/// # Errors
+/// Where there are none, or too many.
+pub fn bytes(files: &mut MeshFiles, profile: Profile, path: &str) -> Result<Vec<u8>, MeshFault> {
+    let (file, size) = files.open(profile, path).map_err(MeshFault::Absent)?;
+    if size > MAX_DOCUMENT_BYTES {
+        return Err(MeshFault::TooLarge(size));
+    }
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
+    // A file that grows while it is read is cut where it was to end.
+    match file.take(MAX_DOCUMENT_BYTES).read_to_end(&mut bytes) {
+        Ok(_) => Ok(bytes),
+        Err(error) => Err(MeshFault::Broken(format!("it cannot be read: {error}"))),
+    }
+}
+
+/// What a derived mesh file holds, in link axes; and why it is no sound mesh, where the reader had
+/// to repair it.
+///
+/// # Errors
+/// Where it is no mesh at all.
+pub fn derived(
+    bytes: &[u8],
+    path: &str,
+    profile: Profile,
+) -> Result<(Scene, Option<String>), MeshFault> {
+    let options = Options {
+        gltf_up: GltfUp::Keep,
+        ..Options::default()
+    };
+    // A derived mesh stands for itself: a material file beside it is no part of the surface.
+    let scene = read_with(bytes, path, &mut |_| None, &options)
+        .map_err(|error| MeshFault::Broken(without_name(&error)))?;
+    let named = scene.side_files.first().filter(|_| profile == Profile::V1);
+    let fault = match named {
+        Some(name) => Some(format!("it names another file, `{name}`")),
+        None => scene
+            .notes
+            .iter()
+            .find(|note| is_fault(note.code, profile))
+            .map(ToString::to_string),
+    };
+    Ok((scene, fault))
+}
+
+/// What is wrong, without the file's name, which a finding says by itself.
+pub fn without_name(error: &MeshError) -> String {
+    match &error.place {
+        Some(place) => format!("{place}: {}", error.fault),
+        None => error.fault.to_string(),
+    }
+}
+
+/// Whether what the reader noted makes a derived mesh unsound. Legacy modules say nothing of a node's
+/// transform, nor of what a file has besides its triangles.
+fn is_fault(code: NoteCode, profile: Profile) -> bool {
+    match code {
+        NoteCode::SideFileMissing
+        | NoteCode::TurnedToZUp
+        | NoteCode::Assumed
+        | NoteCode::WrongExtension => false,
+        NoteCode::NodeTransform
+        | NoteCode::UnusedVertices
+        | NoteCode::WrongBounds
+        | NoteCode::WrongNormals
+        | NoteCode::ShownOtherwise => profile == Profile::V1,
+        _ => true,
+    }
+}

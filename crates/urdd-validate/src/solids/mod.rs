@@ -1,0 +1,83 @@
+//! What the mesh files of a URDD hold, read once for all rules: the derived meshes (for each link its
+//! mesh and hull, for each piece its own) and those that the URDF names.
+//!
+//! The three files of a mesh are compared while they are read, and one of them is kept.
+
+pub mod dents;
+pub mod derived;
+pub mod expected;
+pub mod file;
+pub mod glb_header;
+mod half_spaces;
+pub mod original;
+pub mod placed;
+pub mod polytope;
+
+pub mod primitive;
+pub mod stl_records;
+pub mod surface;
+
+use std::collections::HashMap;
+
+use self::derived::Derived;
+use self::original::Original;
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::ModuleKind;
+use urdd_geometry::Mesh;
+
+/// What the mesh files of a URDD hold.
+#[derive(Debug, Default)]
+pub struct Solids {
+    derived: HashMap<ModuleKind, Vec<Derived>>,
+    by_place: HashMap<(ModuleKind, usize, usize), usize>,
+    originals: HashMap<String, Original>,
+}
+
+impl Solids {
+    /// Reads every mesh file that the modules name, in parallel.
+    pub fn read(urdd: &Urdd) -> Self {
+        let mut solids = Solids {
+            originals: original::read_all(urdd),
+            ..Solids::default()
+        };
+        for kind in urdd_document::meshes::DERIVED {
+            let Some(meshes) = urdd.meshes(*kind) else {
+                continue;
+            };
+            let read = derived::read_all(urdd, &meshes);
+            for (at, mesh) in read.iter().enumerate() {
+                solids.by_place.insert((*kind, mesh.link, mesh.piece), at);
+            }
+            solids.derived.insert(*kind, read);
+        }
+        solids
+    }
+
+    /// The meshes of a module of derived meshes: links in order, pieces in order.
+    pub fn derived(&self, kind: ModuleKind) -> &[Derived] {
+        self.derived.get(&kind).map_or(&[], Vec::as_slice)
+    }
+
+    /// The mesh of a link (piece 0), or one of its pieces; `None` where the module has none there,
+    /// or none of its files can be read.
+    pub fn mesh(&self, kind: ModuleKind, link: usize, piece: usize) -> Option<&Mesh> {
+        let at = *self.by_place.get(&(kind, link, piece))?;
+        self.derived(kind).get(at)?.mesh.as_ref()
+    }
+
+    /// The same, where all of its files are sound and hold the same.
+    pub fn sound(&self, kind: ModuleKind, link: usize, piece: usize) -> Option<&Mesh> {
+        let at = *self.by_place.get(&(kind, link, piece))?;
+        self.derived(kind).get(at)?.sound()
+    }
+
+    /// Whether a module names a mesh for a link (piece 0), or such a piece.
+    pub fn holds(&self, kind: ModuleKind, link: usize, piece: usize) -> bool {
+        self.by_place.contains_key(&(kind, link, piece))
+    }
+
+    /// A mesh that the URDF names, by its path in `original_meshes_module`.
+    pub fn original(&self, path: &str) -> Option<&Original> {
+        self.originals.get(path)
+    }
+}

@@ -1,0 +1,112 @@
+//! The meshes that the URDF names, as a URDD carries them.
+
+use std::collections::{BTreeSet, HashMap};
+
+use rayon::prelude::*;
+
+use super::file::{self, MeshFault};
+use urdd_directory::path::portable;
+use urdd_document::mesh_files::MeshFiles;
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
+use urdd_geometry::Mesh;
+use urdd_geometry::read::read;
+
+/// A mesh that the URDF names.
+#[derive(Debug)]
+pub struct Original {
+    /// What it holds, in the axes of the URDF's mesh element, metres; or why it cannot be read as a
+    /// mesh with a surface.
+    pub mesh: Result<Mesh, MeshFault>,
+    /// The files that it names and that are there, sorted; `None` where it cannot be read.
+    pub side_files: Option<Vec<String>>,
+}
+
+/// Reads every mesh of `original_meshes_module`, by its path as the document has it.
+pub fn read_all(urdd: &Urdd) -> HashMap<String, Original> {
+    let (profile, paths) = paths(urdd);
+    paths
+        .into_par_iter()
+        .map_init(
+            || MeshFiles::new(urdd),
+            |files, path| (path.to_owned(), read_one(files, profile, path)),
+        )
+        .collect()
+}
+
+fn paths(urdd: &Urdd) -> (Profile, BTreeSet<&str>) {
+    match urdd.document(ModuleKind::OriginalMeshes) {
+        Some(ModuleDocument::OriginalMeshes(module)) => {
+            let paths = module.files.iter().map(|file| file.path.as_str());
+            (Profile::V1, paths.collect())
+        }
+        _ => {
+            let meshes = urdd.meshes(ModuleKind::OriginalMeshes);
+            let paths = meshes.iter().flat_map(|meshes| meshes.paths());
+            (Profile::Legacy, paths.map(|(_, path)| path.path).collect())
+        }
+    }
+}
+
+fn read_one(files: &mut MeshFiles, profile: Profile, path: &str) -> Original {
+    let unreadable = |fault| Original {
+        mesh: Err(fault),
+        side_files: None,
+    };
+    let bytes = match file::bytes(files, profile, path) {
+        Ok(bytes) => bytes,
+        Err(fault) => return unreadable(fault),
+    };
+    let mut fetch = |side: &str| file::bytes(files, profile, &beside(path, side)?).ok();
+    let scene = match read(&bytes, path, &mut fetch) {
+        Ok(scene) => scene,
+        Err(error) => return unreadable(MeshFault::Broken(file::without_name(&error))),
+    };
+    let named: BTreeSet<String> = scene
+        .side_files
+        .iter()
+        .filter_map(|side| beside(path, side))
+        .filter(|side| side != path && files.find(profile, side).is_ok())
+        .collect();
+    let mesh = scene.merged();
+    Original {
+        mesh: match mesh.area() > 0.0 {
+            true => Ok(mesh),
+            false => {
+                let why = "it holds no triangle with an area".to_owned();
+                Err(MeshFault::Broken(why))
+            }
+        },
+        side_files: Some(named.into_iter().collect()),
+    }
+}
+
+/// Where a file is that a mesh names: from the mesh's own folder, in the names that SPEC 2.8 allows.
+/// `None` where that is outside of everything.
+fn beside(mesh: &str, side: &str) -> Option<String> {
+    let mut parts: Vec<String> = mesh.split('/').map(str::to_owned).collect();
+    parts.pop();
+    for part in side.replace('\\', "/").split('/') {
+        match part {
+            "" | "." => {}
+            ".." => {
+                parts.pop()?;
+            }
+            name => parts.push(portable(name)),
+        }
+    }
+    Some(parts.join("/"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::beside;
+
+    #[test]
+    fn side_files_are_found_from_the_meshes_folder() {
+        let of = |side| beside("m/meshes/arm/base.obj", side);
+        assert_eq!(of("base.mtl").as_deref(), Some("m/meshes/arm/base.mtl"));
+        assert_eq!(of("./../tex\\a.png").as_deref(), Some("m/meshes/tex/a.png"));
+        assert_eq!(of("../../../../a.png"), None);
+    }
+}

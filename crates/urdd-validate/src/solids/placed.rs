@@ -1,0 +1,398 @@
+//! Whether plain meshes are what the robot's elements show, in their places (SPEC 7.8).
+
+use rayon::prelude::*;
+
+use super::Solids;
+use super::derived::Derived;
+use super::expected::{self, Expected};
+use super::polytope::step;
+use super::surface::{self, Difference, Likeness};
+use crate::finding::point;
+use crate::part::Why;
+use crate::tolerance::{PRIMITIVE_AREA, PRIMITIVE_SAG, placing_resolution};
+use urdd_document::urdd::Urdd;
+use urdd_document::usable_geometry::UsableGeometry;
+use urdd_format::meshes::GeometryKind;
+use urdd_format::readable::metres;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_geometry::Mesh;
+
+/// A link whose mesh is not what it should be.
+#[derive(Debug)]
+pub struct Misplaced {
+    /// The link.
+    pub link: usize,
+    /// Where its mesh stands in the document.
+    pub pointer: String,
+    /// What is wrong with it.
+    pub what: String,
+    /// What it should be.
+    pub expected: String,
+    /// What it is.
+    pub actual: String,
+    /// How far corners may be apart, m.
+    pub tolerance: f64,
+}
+
+/// What came of looking at the meshes of all links, in link order.
+#[derive(Debug, Default)]
+pub struct Placed {
+    /// The links whose mesh is not what it should be.
+    pub wrong: Vec<Misplaced>,
+    /// The links of which it cannot be said: files differ or are broken, or a source is missing.
+    pub unknown: Vec<(usize, Why)>,
+}
+
+/// Looks at the mesh of every link.
+pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
+    let usable = UsableGeometry::new(urdd);
+    let look = |mesh: &Derived| -> Look {
+        let Some(found) = mesh.sound() else {
+            return Look::Unknown(Why::Unreadable);
+        };
+        let Some(kind) = kind_of(urdd, mesh.link) else {
+            return Look::Right;
+        };
+        let Some(expected) = expected::of_link(urdd, solids, &usable, mesh.link, kind) else {
+            return Look::Unknown(Why::SourceMissing);
+        };
+        // A mesh of nothing is what MSH011 tells.
+        let fault = fault(&expected, found).filter(|_| !expected.is_empty());
+        let (Some((what, tolerance)), Some(file)) = (fault, mesh.files.get(mesh.mesh_of)) else {
+            return Look::Right;
+        };
+        Look::Wrong(Misplaced {
+            link: mesh.link,
+            pointer: mesh.pointer().to_owned(),
+            expected: in_words(&expected),
+            actual: format!("`{}`: {what}", file.path),
+            what,
+            tolerance,
+        })
+    };
+    let meshes = solids.derived(ModuleKind::PlainMeshes);
+    let looks: Vec<(usize, Look)> = meshes
+        .par_iter()
+        .map(|mesh| (mesh.link, look(mesh)))
+        .collect();
+    let mut placed = Placed::default();
+    for (link, look) in looks {
+        match look {
+            Look::Right => {}
+            Look::Wrong(misplaced) => placed.wrong.push(misplaced),
+            Look::Unknown(why) => placed.unknown.push((link, why)),
+        }
+    }
+    placed
+}
+
+/// What came of looking at one mesh.
+enum Look {
+    Right,
+    Wrong(Misplaced),
+    Unknown(Why),
+}
+
+/// Which geometry a link's mesh was made from. Legacy modules used what is visual.
+fn kind_of(urdd: &Urdd, link: usize) -> Option<GeometryKind> {
+    match urdd.document(ModuleKind::PlainMeshes)? {
+        ModuleDocument::PlainMeshes(module) => {
+            Some(module.link_meshes.get(link)?.as_ref()?.geometry)
+        }
+        _ => Some(GeometryKind::Visual),
+    }
+}
+
+/// The other link whose geometry in its place a link's mesh is.
+pub fn owner(urdd: &Urdd, solids: &Solids, link: usize) -> Option<usize> {
+    let usable = UsableGeometry::new(urdd);
+    let mesh = solids.mesh(ModuleKind::PlainMeshes, link, 0)?;
+    let others = urdd.robot()?.links.len();
+    (0..others).filter(|other| *other != link).find(|other| {
+        let expected = kind_of(urdd, *other)
+            .and_then(|kind| expected::of_link(urdd, solids, &usable, *other, kind));
+        expected.is_some_and(|expected| !expected.is_empty() && fault(&expected, mesh).is_none())
+    })
+}
+
+/// What is wrong with a mesh, and the tolerance; `None` where it is what it should be.
+fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
+    let tolerance = placing_resolution(expected.extent.max(surface::extent(found)));
+    let difference = surface::difference(&expected.mesh, found, tolerance, Likeness::SameSurface)
+        .unwrap_or_default();
+    let told = |difference: &Difference| Some((difference.in_words(), tolerance));
+    if difference.missing > 0 || difference.turned > 0 {
+        return told(&difference);
+    }
+    if expected.primitives.is_empty() {
+        return match difference.extra.is_empty() {
+            true => None,
+            false => told(&difference),
+        };
+    }
+    primitives(expected, found, &difference.extra, tolerance).map(|what| (what, tolerance))
+}
+
+/// Whether triangles are those of the primitives: corners on a surface, faces not far inside of it, and
+/// the area of all.
+fn primitives(
+    expected: &Expected,
+    found: &Mesh,
+    triangles: &[usize],
+    tolerance: f64,
+) -> Option<String> {
+    let mut areas = vec![0.0; expected.primitives.len()];
+    let mut total = 0.0;
+    // Of many triangles and many shapes some triangles are held against all shapes; their area counts whole.
+    let every = step(triangles.len(), expected.primitives.len());
+    for (number, at) in triangles.iter().enumerate() {
+        let corners = found.corners(found.triangles[*at]);
+        let vectors = corners.map(nalgebra::Vector3::from);
+        let [a, b, c] = vectors;
+        let area = (b - a).cross(&(c - a)).norm() / 2.0;
+        let middle: [f64; 3] = ((a + b + c) / 3.0).into();
+        total += area;
+        if number % every != 0 {
+            continue;
+        }
+        let mut on_any = false;
+        for (primitive, sum) in expected.primitives.iter().zip(&mut areas) {
+            let on = corners
+                .iter()
+                .all(|p| primitive.distance(*p).abs() <= tolerance);
+            let inside = -primitive.distance(middle);
+            if on
+                && inside <= primitive.sag(PRIMITIVE_SAG) + tolerance
+                && primitive.faces_outward(vectors, tolerance)
+            {
+                on_any = true;
+                *sum += area;
+            }
+        }
+        if !on_any {
+            return Some(off_surface(expected, corners, middle));
+        }
+    }
+    let most: f64 = expected.primitives.iter().map(|p| p.area()).sum();
+    let rounding = |area: f64| tolerance * area.sqrt() * 8.0 + area * 1e-9;
+    for (primitive, area) in expected.primitives.iter().zip(areas) {
+        if every > 1 {
+            break;
+        }
+        let whole = primitive.area();
+        let least = match primitive.sag(PRIMITIVE_SAG) {
+            0.0 => whole,
+            _ => whole * PRIMITIVE_AREA,
+        };
+        if area < least - rounding(whole) {
+            return Some(format!(
+                "{area:.6} m² of the {whole:.6} m² of its {} are there",
+                primitive.name()
+            ));
+        }
+    }
+    (total > most + rounding(most))
+        .then(|| format!("{total:.6} m² of surface where its shapes have {most:.6} m²"))
+}
+
+/// A triangle that is on no primitive, in words.
+fn off_surface(expected: &Expected, corners: [[f64; 3]; 3], middle: [f64; 3]) -> String {
+    let nearest = |p: [f64; 3]| {
+        let distances = expected.primitives.iter().map(|one| one.distance(p).abs());
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let worst = corners
+        .into_iter()
+        .fold((middle, nearest(middle)), |worst, corner| {
+            let distance = nearest(corner);
+            if distance > worst.1 {
+                (corner, distance)
+            } else {
+                worst
+            }
+        });
+    format!(
+        "a triangle at {} is {} off the surface, or faces inward",
+        point(worst.0),
+        metres(worst.1)
+    )
+}
+
+/// What a link should look like, in words.
+fn in_words(expected: &Expected) -> String {
+    let mut parts = Vec::new();
+    if !expected.mesh.triangles.is_empty() {
+        parts.push(format!(
+            "{} triangles of its meshes",
+            expected.mesh.triangles.len()
+        ));
+    }
+    parts.extend(
+        expected
+            .primitives
+            .iter()
+            .map(|one| format!("a {}", one.name())),
+    );
+    match parts.is_empty() {
+        true => "nothing".to_owned(),
+        false => parts.join(", "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix3, Rotation3};
+
+    use super::super::primitive::Primitive;
+    use super::*;
+    use urdd_format::urdf::{Capsule, Cuboid, Cylinder, Geometry, Sphere};
+    use urdd_geometry::primitives;
+
+    /// A cylinder's triangles with this many corners a circle.
+    fn coarse(corners: usize, radius: f64, length: f64) -> Mesh {
+        let mut mesh = Mesh::default();
+        for end in [-0.5, 0.5] {
+            for i in 0..corners {
+                let angle = std::f64::consts::TAU * i as f64 / corners as f64;
+                mesh.vertices
+                    .push([radius * angle.cos(), radius * angle.sin(), end * length]);
+            }
+        }
+        let n = corners as u32;
+        for i in 0..n {
+            let next = (i + 1) % n;
+            mesh.triangles
+                .extend([[i, next, next + n], [i, next + n, i + n]]);
+            if i > 0 && next > 0 {
+                mesh.triangles.extend([[0, next, i], [n, i + n, next + n]]);
+            }
+        }
+        mesh
+    }
+
+    fn of(geometries: &[(Geometry, Mesh, [f64; 3])]) -> (Expected, Mesh) {
+        let turn = Rotation3::from_euler_angles(0.3, -1.1, 2.4).into_inner();
+        let rows = [0, 1, 2].map(|r| [0, 1, 2].map(|c| turn[(r, c)]));
+        let mut expected = Expected::default();
+        let mut found = Mesh::default();
+        for (geometry, mesh, at) in geometries {
+            let primitive = Primitive::new(geometry, turn, *at).expect("no mesh");
+            expected.extent = expected.extent.max(primitive.extent());
+            expected.primitives.push(primitive);
+            let mut placed = mesh.clone();
+            placed.transform(&urdd_geometry::mesh::placement([1.0; 3], rows, *at));
+            placed.round_to_f32();
+            found.append(&placed);
+        }
+        (expected, found)
+    }
+
+    fn shapes() -> Vec<(Geometry, Mesh, [f64; 3])> {
+        let cylinder = Cylinder {
+            radius: 0.1,
+            length: 0.4,
+        };
+        vec![
+            (
+                Geometry::Box(Cuboid {
+                    size: [0.1, 0.2, 0.3],
+                }),
+                primitives::cuboid([0.1, 0.2, 0.3]),
+                [0.0; 3],
+            ),
+            (
+                Geometry::Cylinder(cylinder.clone()),
+                primitives::cylinder(0.1, 0.4),
+                [0.3, 0.0, 0.0],
+            ),
+            (
+                Geometry::Cylinder(cylinder),
+                coarse(17, 0.1, 0.4),
+                [0.0, 0.9, 0.0],
+            ),
+            (
+                Geometry::Capsule(Capsule {
+                    radius: 0.1,
+                    length: 0.4,
+                }),
+                primitives::capsule(0.1, 0.4),
+                [0.0, 0.1, 0.2],
+            ),
+            (
+                Geometry::Sphere(Sphere { radius: 0.25 }),
+                primitives::sphere(0.25),
+                [-0.4, 0.0, 0.1],
+            ),
+        ]
+    }
+
+    #[test]
+    fn tessellated_shapes_pass_alone_and_together() {
+        let all = shapes();
+        for one in &all {
+            let (expected, found) = of(std::slice::from_ref(one));
+            assert_eq!(fault(&expected, &found), None, "{:?}", one.0);
+        }
+        let (expected, found) = of(&all);
+        assert_eq!(fault(&expected, &found), None);
+    }
+
+    /// The faces of a disk's rim are nearer to its flat sides than they are inside of the rim.
+    #[test]
+    fn thin_shapes_pass_and_their_turned_faces_do_not() {
+        for length in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+            let disk = Geometry::Cylinder(Cylinder {
+                radius: 1.5,
+                length,
+            });
+            let plate = Geometry::Box(Cuboid {
+                size: [3.0, length, 2.0],
+            });
+            for (shape, mesh) in [
+                (disk.clone(), primitives::cylinder(1.5, length)),
+                (disk, coarse(17, 1.5, length)),
+                (plate, primitives::cuboid([3.0, length, 2.0])),
+            ] {
+                let (expected, found) = of(&[(shape, mesh, [0.1, 0.0, -0.2])]);
+                assert_eq!(fault(&expected, &found), None, "{length}");
+                // Thinner than rounding allows to tell.
+                if length < 1e-3 {
+                    continue;
+                }
+                for at in [0, found.triangles.len() / 2, found.triangles.len() - 1] {
+                    let mut turned = found.clone();
+                    turned.triangles[at].swap(0, 1);
+                    assert!(fault(&expected, &turned).is_some(), "{length}: {at}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_missing_coarse_or_moved_does_not() {
+        let all = shapes();
+        let (expected, found) = of(&all);
+        for at in [0, 20, found.triangles.len() - 1] {
+            // A corner moved by a millimetre.
+            let mut moved = found.clone();
+            moved.vertices[found.triangles[at][0] as usize][1] += 1e-3;
+            assert!(fault(&expected, &moved).is_some(), "{at}");
+        }
+        for at in [0, 20, found.triangles.len() - 1] {
+            let mut turned = found.clone();
+            turned.triangles[at].swap(0, 1);
+            assert!(fault(&expected, &turned).is_some(), "{at}");
+        }
+        let (_, fewer) = of(&all[..4]);
+        assert!(fault(&expected, &fewer).is_some());
+        let (one, mut twice) = of(&all[..1]);
+        let again = twice.clone();
+        twice.append(&again);
+        assert!(fault(&one, &twice).is_some());
+        let rough = (all[2].0.clone(), coarse(12, 0.1, 0.4), [0.0; 3]);
+        let (expected, found) = of(&[rough]);
+        assert!(fault(&expected, &found).is_some());
+        let inside = Primitive::new(&all[4].0, Matrix3::identity(), [0.0; 3]).expect("a sphere");
+        assert!(inside.distance([0.0, 0.0, 0.2]) < 0.0);
+    }
+}

@@ -1,0 +1,199 @@
+//! A mesh as the half-spaces of its faces: whether it is the closed surface of a convex body, and
+//! what lies outside of it.
+
+use std::collections::HashMap;
+
+use nalgebra::Vector3;
+
+use super::half_spaces::{HalfSpace, HalfSpaces};
+use super::surface::{extent, is_thin};
+use crate::tolerance::mesh_resolution;
+use urdd_geometry::Mesh;
+use urdd_geometry::mesh::Bounds;
+
+/// The half-spaces of a mesh's faces.
+#[derive(Debug)]
+pub struct Polytope {
+    planes: HalfSpaces,
+    bounds: Bounds,
+    /// How exactly its vertices are known, m.
+    pub resolution: f64,
+}
+
+/// Why a mesh is not the surface of a convex body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NotConvex {
+    /// It has no face with an area.
+    Nothing,
+    /// An edge is not shared by two faces that are wound alike; its middle, m.
+    Open([f64; 3]),
+    /// Faces look inward.
+    Inward,
+    /// A vertex lies outside of a face: the vertex, and how far, m.
+    Vertex([f64; 3], f64),
+}
+
+/// So many products of planes and points are worked out for one body; of more, evenly spread ones.
+const MOST_PRODUCTS: usize = 400_000_000;
+
+impl Polytope {
+    /// Of a mesh; `None` where no face has an area.
+    pub fn new(mesh: &Mesh) -> Option<Self> {
+        let bounds = mesh.bounds()?;
+        let resolution = mesh_resolution(extent(mesh));
+        let size = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
+        let mut planes = Vec::with_capacity(mesh.triangles.len());
+        for triangle in &mesh.triangles {
+            let corners = mesh.corners(*triangle);
+            if is_thin(corners, resolution) {
+                continue;
+            }
+            let [a, b, c] = corners.map(Vector3::from);
+            let cross = (b - a).cross(&(c - a));
+            let sides = [(b - a).norm(), (c - b).norm(), (a - c).norm()];
+            let height = cross.norm() / sides.into_iter().fold(0.0, f64::max);
+            let normal = cross.normalize();
+            planes.push(HalfSpace {
+                normal: normal.into(),
+                offset: normal.dot(&a).max(normal.dot(&b)).max(normal.dot(&c)),
+                slack: resolution * (1.0 + size / height),
+            });
+        }
+        Some(Polytope {
+            planes: HalfSpaces::new(&planes)?,
+            bounds,
+            resolution,
+        })
+    }
+
+    /// How far outside a point is, m, by the plane that it is farthest beyond; not positive inside,
+    /// and where it may be inside for all that is known of the faces. The true distance is no less.
+    pub fn outside(&self, point: [f64; 3]) -> f64 {
+        self.planes.beyond(point).max(0.0)
+    }
+
+    /// How deep a point lies inside, m: its distance from the nearest face's plane; not positive outside.
+    pub fn depth(&self, point: [f64; 3]) -> f64 {
+        self.planes.depth(point)
+    }
+
+    /// Whether a point is within a distance of every face's inner side.
+    pub fn holds(&self, point: [f64; 3], distance: f64) -> bool {
+        let near = (0..3).all(|i| {
+            point[i] >= self.bounds.min[i] - distance && point[i] <= self.bounds.max[i] + distance
+        });
+        near && self.planes.hold(point, distance, self.resolution)
+    }
+
+    /// Number of faces.
+    pub fn num_faces(&self) -> usize {
+        self.planes.len()
+    }
+}
+
+/// Every `n`th of `points` things, so that work on them with `faces` planes is bounded.
+pub fn step(points: usize, faces: usize) -> usize {
+    points.saturating_mul(faces).div_ceil(MOST_PRODUCTS).max(1)
+}
+
+/// Why a mesh is not the closed surface of a convex body, wound outwards; `None` where it is.
+pub fn not_convex(mesh: &Mesh) -> Option<NotConvex> {
+    let Some(polytope) = Polytope::new(mesh) else {
+        return Some(NotConvex::Nothing);
+    };
+    if let Some(edge) = open_edge(mesh) {
+        return Some(NotConvex::Open(edge));
+    }
+    let inward = mesh.signed_volume() < 0.0;
+    let vertices = distinct(mesh);
+    let every = step(vertices.len(), polytope.planes.len());
+    let worst = vertices
+        .iter()
+        .step_by(every)
+        .map(|vertex| (*vertex, polytope.outside(*vertex)))
+        .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    match worst {
+        (_, distance) if distance <= 0.0 => None,
+        _ if inward => Some(NotConvex::Inward),
+        (vertex, distance) => Some(NotConvex::Vertex(vertex, distance)),
+    }
+}
+
+/// The vertices of a mesh's triangles, each place once, in order.
+pub fn distinct(mesh: &Mesh) -> Vec<[f64; 3]> {
+    let mut seen = std::collections::HashSet::with_capacity(mesh.vertices.len());
+    let corners = mesh.triangles.iter().flatten();
+    let places = corners.map(|vertex| mesh.vertices[*vertex as usize]);
+    places.filter(|place| seen.insert(bits(*place))).collect()
+}
+
+/// A place as something that can be looked up.
+pub fn bits(place: [f64; 3]) -> [u64; 3] {
+    // Adding 0 makes -0 the same place as 0.
+    place.map(|x| (x + 0.0).to_bits())
+}
+
+/// The middle of an edge that is not used as often in one direction as in the other.
+fn open_edge(mesh: &Mesh) -> Option<[f64; 3]> {
+    let mut places: HashMap<[u64; 3], usize> = HashMap::new();
+    let mut place = |vertex: u32| {
+        let next = places.len();
+        *places
+            .entry(bits(mesh.vertices[vertex as usize]))
+            .or_insert(next)
+    };
+    let triangles: Vec<[usize; 3]> = mesh
+        .triangles
+        .iter()
+        .map(|triangle| triangle.map(&mut place))
+        .filter(|[a, b, c]| a != b && b != c && c != a)
+        .collect();
+    let edges = |[a, b, c]: [usize; 3]| [[a, b], [b, c], [c, a]];
+    let mut balance: HashMap<[usize; 2], i32> = HashMap::new();
+    for [a, b] in triangles.iter().copied().flat_map(edges) {
+        match a < b {
+            true => *balance.entry([a, b]).or_default() += 1,
+            false => *balance.entry([b, a]).or_default() -= 1,
+        }
+    }
+    let open = |[a, b]: &[usize; 2]| balance.get(&[*a.min(b), *a.max(b)]) != Some(&0);
+    let [a, b] = triangles.iter().copied().flat_map(edges).find(open)?;
+    let mut of = vec![[0.0; 3]; places.len()];
+    for vertex in &mesh.vertices {
+        if let Some(at) = places.get(&bits(*vertex)) {
+            of[*at] = *vertex;
+        }
+    }
+    Some(std::array::from_fn(|i| (of[a][i] + of[b][i]) / 2.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use urdd_geometry::primitives::{cuboid, sphere};
+
+    #[test]
+    fn bodies_are_convex_and_dented_open_or_inverted_ones_are_not() {
+        let mesh = sphere(0.7);
+        assert_eq!(not_convex(&mesh), None);
+        let mut dented = mesh.clone();
+        dented.vertices[5] = dented.vertices[5].map(|x| 0.9 * x);
+        assert!(matches!(not_convex(&dented), Some(NotConvex::Vertex(_, d)) if d > 1e-3));
+        let mut open = mesh.clone();
+        open.triangles.pop();
+        assert!(matches!(not_convex(&open), Some(NotConvex::Open(_))));
+        let mut inverted = mesh.clone();
+        inverted.flip();
+        assert_eq!(not_convex(&inverted), Some(NotConvex::Inward));
+        assert_eq!(not_convex(&Mesh::default()), Some(NotConvex::Nothing));
+    }
+
+    #[test]
+    fn what_is_outside_is_measured_from_the_faces() {
+        let polytope = Polytope::new(&cuboid([2.0, 2.0, 2.0])).expect("faces");
+        assert_eq!(polytope.outside([0.0, 0.0, 3.0]), 2.0);
+        assert_eq!(polytope.outside([0.5, -1.0, 1.0]), 0.0);
+        assert!(polytope.holds([1.05, 0.0, 0.0], 0.1));
+        assert!(!polytope.holds([1.15, 0.0, 0.0], 0.1));
+    }
+}

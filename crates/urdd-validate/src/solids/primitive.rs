@@ -1,0 +1,195 @@
+//! The true surfaces of URDF's shapes, to hold tessellated ones to.
+
+use nalgebra::{Matrix3, Vector3};
+
+use urdd_format::urdf::Geometry;
+
+/// A box, cylinder, capsule or sphere somewhere in a link's frame.
+#[derive(Debug, Clone)]
+pub struct Primitive {
+    shape: Shape,
+    rotation: Matrix3<f64>,
+    position: Vector3<f64>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Shape {
+    Box(Vector3<f64>),
+    Cylinder { radius: f64, half: f64 },
+    Capsule { radius: f64, half: f64 },
+    Sphere { radius: f64 },
+}
+
+impl Primitive {
+    /// Of a geometry that is no mesh.
+    pub fn new(geometry: &Geometry, rotation: Matrix3<f64>, position: [f64; 3]) -> Option<Self> {
+        let shape = match geometry {
+            Geometry::Mesh(_) => return None,
+            Geometry::Box(of) => Shape::Box(Vector3::from(of.size) / 2.0),
+            Geometry::Cylinder(of) => Shape::Cylinder {
+                radius: of.radius,
+                half: of.length / 2.0,
+            },
+            Geometry::Capsule(of) => Shape::Capsule {
+                radius: of.radius,
+                half: of.length / 2.0,
+            },
+            Geometry::Sphere(of) => Shape::Sphere { radius: of.radius },
+        };
+        Some(Primitive {
+            shape,
+            rotation,
+            position: Vector3::from(position),
+        })
+    }
+
+    /// How far a point of the link's frame is from the surface, m: negative inside.
+    pub fn distance(&self, point: [f64; 3]) -> f64 {
+        let p = self.rotation.transpose() * (Vector3::from(point) - self.position);
+        // A box, and a cylinder in the half-plane of its axis, which is a box again.
+        let boxed = |q: &[f64]| {
+            let outside = q.iter().map(|x| x.max(0.0).powi(2)).sum::<f64>().sqrt();
+            outside + q.iter().copied().fold(f64::NEG_INFINITY, f64::max).min(0.0)
+        };
+        let radial = p.x.hypot(p.y);
+        match self.shape {
+            Shape::Box(half) => boxed((p.abs() - half).as_slice()),
+            Shape::Cylinder { radius, half } => boxed(&[radial - radius, p.z.abs() - half]),
+            Shape::Capsule { radius, half } => radial.hypot((p.z.abs() - half).max(0.0)) - radius,
+            Shape::Sphere { radius } => p.norm() - radius,
+        }
+    }
+
+    /// Whether a triangle whose corners are on the surface, but for `rounding` in m, faces outward. (Of a flat shape, and
+    /// of one without area, each does.)
+    pub fn faces_outward(&self, [a, b, c]: [Vector3<f64>; 3], rounding: f64) -> bool {
+        let normal = (b - a).cross(&(c - a));
+        let doubled = normal.norm();
+        if doubled == 0.0 {
+            return true;
+        }
+        // All shapes are convex, and have their middle inside: it is behind each face.
+        let lever = (a + b + c) / 3.0 - self.position;
+        let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
+        // Corners that are off by the rounding turn the normal by it over the least height.
+        let turn = rounding * longest / doubled;
+        normal.dot(&lever) / doubled >= -(rounding + turn * lever.norm())
+    }
+
+    /// The area of the true surface, m².
+    pub fn area(&self) -> f64 {
+        use std::f64::consts::PI;
+        match self.shape {
+            Shape::Box(h) => 8.0 * (h.x * h.y + h.y * h.z + h.z * h.x),
+            Shape::Cylinder { radius, half } => 2.0 * PI * radius * (radius + 2.0 * half),
+            Shape::Capsule { radius, half } => 4.0 * PI * radius * (radius + half),
+            Shape::Sphere { radius } => 4.0 * PI * radius * radius,
+        }
+    }
+
+    /// How far a flat face may lie inside the true surface, m, if it may by this part of the radius.
+    pub fn sag(&self, of_radius: f64) -> f64 {
+        match self.shape {
+            Shape::Box(_) => 0.0,
+            Shape::Cylinder { radius, .. }
+            | Shape::Capsule { radius, .. }
+            | Shape::Sphere { radius } => radius * of_radius,
+        }
+    }
+
+    /// The farthest that a point of it can be from the link's origin, m, and no less than its size.
+    pub fn extent(&self) -> f64 {
+        let size = match self.shape {
+            Shape::Box(half) => half.norm(),
+            Shape::Cylinder { radius, half } => radius.hypot(half),
+            Shape::Capsule { radius, half } => radius + half,
+            Shape::Sphere { radius } => radius,
+        };
+        self.position.norm() + size
+    }
+
+    /// What it is called.
+    pub fn name(&self) -> &'static str {
+        match self.shape {
+            Shape::Box(_) => "box",
+            Shape::Cylinder { .. } => "cylinder",
+            Shape::Capsule { .. } => "capsule",
+            Shape::Sphere { .. } => "sphere",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use urdd_format::urdf::{Capsule, Cuboid, Cylinder, Sphere};
+    use urdd_geometry::primitives;
+
+    fn at_origin(geometry: Geometry) -> Primitive {
+        Primitive::new(&geometry, Matrix3::identity(), [0.0; 3]).expect("no mesh")
+    }
+
+    #[test]
+    fn distances_have_closed_forms() {
+        let box_ = at_origin(Geometry::Box(Cuboid {
+            size: [2.0, 4.0, 6.0],
+        }));
+        assert_eq!(box_.distance([1.0, 0.5, -2.0]), 0.0);
+        assert_eq!(box_.distance([0.0, 0.0, 0.0]), -1.0);
+        assert_eq!(box_.distance([4.0, 6.0, 0.0]), 5.0);
+        let cylinder = at_origin(Geometry::Cylinder(Cylinder {
+            radius: 1.0,
+            length: 2.0,
+        }));
+        assert_eq!(cylinder.distance([1.0, 0.0, 0.3]), 0.0);
+        assert_eq!(cylinder.distance([0.2, 0.0, 1.0]), 0.0);
+        assert_eq!(cylinder.distance([0.0, 4.0, 5.0]), 5.0);
+        let capsule = at_origin(Geometry::Capsule(Capsule {
+            radius: 1.0,
+            length: 2.0,
+        }));
+        assert_eq!(capsule.distance([0.0, 0.0, 2.0]), 0.0);
+        assert_eq!(capsule.distance([0.0, 1.0, -1.0]), 0.0);
+        let turn = nalgebra::Rotation3::from_euler_angles(0.0, std::f64::consts::FRAC_PI_2, 0.0);
+        let turned = Geometry::Capsule(Capsule {
+            radius: 1.0,
+            length: 2.0,
+        });
+        let turned = Primitive::new(&turned, turn.into_inner(), [0.0, 0.0, 5.0]).expect("no mesh");
+        assert!(turned.distance([2.0, 0.0, 5.0]).abs() < 1e-15);
+    }
+
+    #[test]
+    fn areas_are_those_of_fine_tessellations() {
+        // Inscribed surfaces with 32 corners a circle are up to 2 % smaller.
+        for (geometry, mesh) in [
+            (
+                Geometry::Box(Cuboid {
+                    size: [1.0, 2.0, 3.0],
+                }),
+                primitives::cuboid([1.0, 2.0, 3.0]),
+            ),
+            (
+                Geometry::Cylinder(Cylinder {
+                    radius: 0.5,
+                    length: 2.0,
+                }),
+                primitives::cylinder(0.5, 2.0),
+            ),
+            (
+                Geometry::Capsule(Capsule {
+                    radius: 0.5,
+                    length: 2.0,
+                }),
+                primitives::capsule(0.5, 2.0),
+            ),
+            (
+                Geometry::Sphere(Sphere { radius: 0.5 }),
+                primitives::sphere(0.5),
+            ),
+        ] {
+            let ratio = mesh.area() / at_origin(geometry).area();
+            assert!((0.98..=1.0 + 1e-12).contains(&ratio), "{ratio}");
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! What binary STL says beside the corners: a normal for each triangle, and two bytes for nothing.
+
+use nalgebra::Vector3;
+
+use super::surface::is_thin;
+use crate::tolerance::{STL_NORMAL, mesh_resolution};
+
+const HEADER: usize = 84;
+const RECORD: usize = 50;
+
+/// What is wrong with the normals or the spare bytes of a binary STL, told of its first such triangle.
+/// The corners are taken to be sound.
+pub fn fault(stl: &[u8]) -> Option<String> {
+    let records = stl.get(HEADER..)?.chunks_exact(RECORD);
+    records.enumerate().find_map(|(at, record)| {
+        let vector = |from: usize| -> [f64; 3] {
+            std::array::from_fn(|axis| {
+                let bytes = &record[from + 4 * axis..];
+                f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
+            })
+        };
+        let corners = [vector(12), vector(24), vector(36)];
+        let normal = Vector3::from(vector(0));
+        let extent = corners
+            .as_flattened()
+            .iter()
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        if record[48..] != [0, 0] {
+            return Some(format!(
+                "triangle {at} has {:?} in the two bytes that are for nothing; write zeros",
+                &record[48..]
+            ));
+        }
+        // A normal of zeros says: work it out. Of a thin triangle nobody can.
+        if normal == Vector3::zeros() || is_thin(corners, mesh_resolution(extent) / STL_NORMAL) {
+            return None;
+        }
+        let [a, b, c] = corners.map(Vector3::from);
+        let right = (b - a).cross(&(c - a)).normalize();
+        let off = (right - normal).norm();
+        (off.is_nan() || off > STL_NORMAL).then(|| {
+            format!(
+                "the normal of triangle {at} is not the one of its corners; write that, or zeros"
+            )
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use urdd_geometry::primitives::sphere;
+    use urdd_geometry::read::Part;
+    use urdd_geometry::write::stl;
+
+    #[test]
+    fn normals_are_those_of_the_corners_or_zero() {
+        let sound = stl(&[Part::from(sphere(0.3))]).expect("a mesh");
+        assert_eq!(fault(&sound), None);
+        let mut zero = sound.clone();
+        zero[HEADER..HEADER + 12].fill(0);
+        assert_eq!(fault(&zero), None);
+        let mut turned = sound.clone();
+        turned[HEADER + 3 * RECORD + 3] ^= 0x80;
+        assert!(fault(&turned).is_some_and(|told| told.contains("triangle 3")));
+        let mut spare = sound;
+        spare[HEADER + 49] = 1;
+        assert!(fault(&spare).is_some());
+    }
+}

@@ -1,0 +1,409 @@
+//! Whether two meshes are the same surface, in whatever order their triangles stand.
+
+use std::collections::HashMap;
+
+use urdd_geometry::Mesh;
+
+/// How alike two meshes must be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Likeness {
+    /// The same triangles, each as often.
+    SameTriangles,
+    /// The same triangles, however often each.
+    SameSurface,
+}
+
+/// How a mesh differs from the one that it should be.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Difference {
+    /// Triangles that it should have and has not.
+    pub missing: usize,
+    /// Triangles that it should not have: their numbers.
+    pub extra: Vec<usize>,
+    /// Triangles that face the other way.
+    pub turned: usize,
+    /// Where: a corner, or the middle of a triangle, of the first that differs; metres.
+    pub place: [f64; 3],
+    /// How far the farthest corner that should not be there is from the nearest that should, or the
+    /// other way round; 0 where only triangles differ. Metres.
+    pub distance: f64,
+}
+
+impl Difference {
+    /// Whether there is none.
+    fn is_none(&self) -> bool {
+        self.missing == 0 && self.extra.is_empty() && self.turned == 0
+    }
+
+    /// It in words.
+    pub fn in_words(&self) -> String {
+        let mut parts = Vec::new();
+        let count = |n: usize, what: &str| match n {
+            1 => format!("1 triangle {what}"),
+            n => format!("{n} triangles {what}"),
+        };
+        if self.missing > 0 {
+            parts.push(count(self.missing, "missing"));
+        }
+        if !self.extra.is_empty() {
+            parts.push(count(self.extra.len(), "too many"));
+        }
+        if self.turned > 0 {
+            parts.push(count(self.turned, "turned round"));
+        }
+        let mut text = parts.join(", ");
+        if self.distance > 0.0 {
+            text.push_str(&format!(
+                ", corners {} apart",
+                urdd_format::readable::metres(self.distance)
+            ));
+        }
+        text.push_str(&format!(", first at {}", crate::finding::point(self.place)));
+        text
+    }
+}
+
+/// The largest absolute coordinate of a mesh's triangles.
+pub fn extent(mesh: &Mesh) -> f64 {
+    mesh.bounds().map_or(0.0, |bounds| {
+        let ends = bounds.min.into_iter().chain(bounds.max);
+        ends.fold(0.0, |most: f64, x| most.max(x.abs()))
+    })
+}
+
+/// How a mesh differs from the one that it should be; `None` where it does not. Corners within
+/// `tolerance` are one, and triangles that are thinner than that count for nothing.
+pub fn difference(
+    expected: &Mesh,
+    actual: &Mesh,
+    tolerance: f64,
+    likeness: Likeness,
+) -> Option<Difference> {
+    if same_in_order(expected, actual, tolerance) {
+        return None;
+    }
+    let difference = Matching::new(expected, actual, tolerance).difference(likeness);
+    (!difference.is_none()).then_some(difference)
+}
+
+/// Whether two meshes have the same triangles in the same order, but for thin ones.
+fn same_in_order(a: &Mesh, b: &Mesh, tolerance: f64) -> bool {
+    let near = |p: [f64; 3], q: [f64; 3]| (0..3).all(|i| (p[i] - q[i]).abs() <= tolerance);
+    let (mut i, mut j) = (0, 0);
+    loop {
+        match (a.triangles.get(i), b.triangles.get(j)) {
+            (None, None) => return true,
+            (Some(s), Some(t))
+                if a.corners(*s)
+                    .into_iter()
+                    .zip(b.corners(*t))
+                    .all(|(p, q)| near(p, q)) =>
+            {
+                (i, j) = (i + 1, j + 1);
+            }
+            (Some(s), _) if is_thin(a.corners(*s), tolerance) => i += 1,
+            (_, Some(t)) if is_thin(b.corners(*t), tolerance) => j += 1,
+            _ => return false,
+        }
+    }
+}
+
+/// Whether a triangle is thinner than `tolerance`: its smallest height.
+pub fn is_thin(corners: [[f64; 3]; 3], tolerance: f64) -> bool {
+    let [a, b, c] = corners.map(nalgebra::Vector3::from);
+    let sides = [(b - a), (c - b), (a - c)];
+    let longest = sides.iter().map(|s| s.norm()).fold(0.0, f64::max);
+    // Twice the area is the longest side times the smallest height.
+    sides[0].cross(&sides[2]).norm() <= tolerance * longest
+}
+
+/// The corners of two meshes, those within the tolerance made one.
+struct Matching<'a> {
+    meshes: [&'a Mesh; 2],
+    tolerance: f64,
+    /// For each vertex of each mesh the number of its place.
+    places: [Vec<u32>; 2],
+}
+
+/// Triangles on the same three places: how many of each mesh, facing each way.
+type Count = [[u32; 2]; 2];
+
+impl<'a> Matching<'a> {
+    fn new(expected: &'a Mesh, actual: &'a Mesh, tolerance: f64) -> Self {
+        let meshes = [expected, actual];
+        let points: Vec<[f64; 3]> = meshes
+            .iter()
+            .flat_map(|mesh| mesh.vertices.iter().copied())
+            .collect();
+        let mut joined = Joined::new(points.len());
+        let size = (2.0 * tolerance).max(f64::MIN_POSITIVE);
+        let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::with_capacity(points.len());
+        let mut exact: HashMap<[u64; 3], u32> = HashMap::with_capacity(points.len());
+        for (at, point) in points.iter().enumerate() {
+            let bits = point.map(|x| (x + 0.0).to_bits());
+            if let Some(same) = exact.get(&bits) {
+                joined.join(*same as usize, at);
+                continue;
+            }
+            exact.insert(bits, at as u32);
+            let scaled = point.map(|x| x / size);
+            let cell = scaled.map(|x| x.floor() as i64);
+            // What is within the tolerance, half a cell, is in this cell or in the next on the near side.
+            let side: [i64; 3] = std::array::from_fn(|i| {
+                if scaled[i].fract().rem_euclid(1.0) < 0.5 {
+                    -1
+                } else {
+                    1
+                }
+            });
+            for corner in 0..8 {
+                let neighbour: [i64; 3] = std::array::from_fn(|i| match corner >> i & 1 {
+                    0 => cell[i],
+                    _ => cell[i].saturating_add(side[i]),
+                });
+                for &other in cells.get(&neighbour).into_iter().flatten() {
+                    let q = points[other as usize];
+                    if (0..3).all(|i| (point[i] - q[i]).abs() <= tolerance) {
+                        joined.join(other as usize, at);
+                    }
+                }
+            }
+            cells.entry(cell).or_default().push(at as u32);
+        }
+        let (first, all) = (expected.vertices.len(), points.len());
+        let mut of =
+            |range: std::ops::Range<usize>| range.map(|at| joined.root(at) as u32).collect();
+        let places = [of(0..first), of(first..all)];
+        Matching {
+            meshes,
+            tolerance,
+            places,
+        }
+    }
+
+    /// The places of a triangle in ascending order, and which way it faces; `None` where it is thin.
+    fn key(&self, which: usize, triangle: [u32; 3]) -> Option<([u32; 3], usize)> {
+        if is_thin(self.meshes[which].corners(triangle), self.tolerance) {
+            return None;
+        }
+        let [a, b, c] = triangle.map(|vertex| self.places[which][vertex as usize]);
+        if a == b || b == c || c == a {
+            return None;
+        }
+        let mut sorted = [a, b, c];
+        sorted.sort_unstable();
+        let even = [[a, b, c], [b, c, a], [c, a, b]].contains(&sorted);
+        Some((sorted, usize::from(even)))
+    }
+
+    fn difference(&self, likeness: Likeness) -> Difference {
+        let mut counts: HashMap<[u32; 3], Count> = HashMap::new();
+        for which in 0..2 {
+            for triangle in &self.meshes[which].triangles {
+                if let Some((key, facing)) = self.key(which, *triangle) {
+                    counts.entry(key).or_default()[which][facing] += 1;
+                }
+            }
+        }
+        let mut difference = Difference::default();
+        let mut first: Option<[[f64; 3]; 3]> = None;
+        let mut lost = [Vec::new(), Vec::new()];
+        for which in 0..2 {
+            for (at, triangle) in self.meshes[which].triangles.iter().enumerate() {
+                let Some((key, facing)) = self.key(which, *triangle) else {
+                    continue;
+                };
+                let Some(count) = counts.get_mut(&key) else {
+                    continue;
+                };
+                let (here, there) = (count[which], count[1 - which]);
+                let (total_here, total_there) = (here[0] + here[1], there[0] + there[1]);
+                let differs = match likeness {
+                    Likeness::SameTriangles => total_here > total_there,
+                    Likeness::SameSurface => total_there == 0,
+                };
+                if differs {
+                    // Each that is too many is counted once.
+                    if likeness == Likeness::SameTriangles {
+                        let facing = if count[which][facing] > 0 {
+                            facing
+                        } else {
+                            1 - facing
+                        };
+                        count[which][facing] -= 1;
+                    }
+                    match which {
+                        0 => difference.missing += 1,
+                        _ => difference.extra.push(at),
+                    }
+                    lost[which].push(*triangle);
+                } else if which == 1 && self.is_turned(likeness, here, there, facing) {
+                    difference.turned += 1;
+                } else {
+                    continue;
+                }
+                first.get_or_insert(self.meshes[which].corners(*triangle));
+            }
+        }
+        if let Some([a, b, c]) = first {
+            difference.place = std::array::from_fn(|i| (a[i] + b[i] + c[i]) / 3.0);
+        }
+        if let Some((place, distance)) = self.farthest(&lost) {
+            (difference.place, difference.distance) = (place, distance);
+        }
+        difference
+    }
+
+    /// Whether a triangle that both meshes have faces the other way in the second.
+    fn is_turned(
+        &self,
+        likeness: Likeness,
+        here: [u32; 2],
+        there: [u32; 2],
+        facing: usize,
+    ) -> bool {
+        match likeness {
+            Likeness::SameTriangles => here[facing] > there[facing],
+            Likeness::SameSurface => there[facing] == 0 && here[1 - facing] == 0,
+        }
+    }
+
+    /// Of the corners of lost triangles that the other mesh has not: the one farthest from all of its
+    /// corners. Only some are measured, so that the work is bounded.
+    fn farthest(&self, lost: &[Vec<[u32; 3]>; 2]) -> Option<([f64; 3], f64)> {
+        const MOST_CORNERS: usize = 64;
+        let mut farthest: Option<([f64; 3], f64)> = None;
+        for (which, lost) in lost.iter().enumerate() {
+            let other = self.meshes[1 - which];
+            let known: std::collections::HashSet<u32> =
+                self.places[1 - which].iter().copied().collect();
+            let corners = lost.iter().flatten().copied();
+            let alone: Vec<u32> = corners
+                .filter(|vertex| !known.contains(&self.places[which][*vertex as usize]))
+                .collect();
+            let step = (alone.len() / MOST_CORNERS).max(1);
+            for vertex in alone.into_iter().step_by(step).take(MOST_CORNERS) {
+                let point = self.meshes[which].vertices[vertex as usize];
+                let nearest = nearest(other, point);
+                if farthest.is_none_or(|(_, most)| nearest > most) && nearest.is_finite() {
+                    farthest = Some((point, nearest));
+                }
+            }
+        }
+        farthest
+    }
+}
+
+/// Distance of a point from the nearest vertex of a mesh.
+pub fn nearest(mesh: &Mesh, point: [f64; 3]) -> f64 {
+    let square = |q: &[f64; 3]| (0..3).map(|i| (point[i] - q[i]).powi(2)).sum::<f64>();
+    let least = mesh
+        .vertices
+        .iter()
+        .map(square)
+        .fold(f64::INFINITY, f64::min);
+    least.sqrt()
+}
+
+/// Which of many things are one (union-find).
+struct Joined(Vec<u32>);
+
+impl Joined {
+    fn new(count: usize) -> Self {
+        Joined((0..count as u32).collect())
+    }
+
+    fn root(&mut self, mut at: usize) -> usize {
+        while self.0[at] as usize != at {
+            let up = self.0[self.0[at] as usize];
+            self.0[at] = up;
+            at = up as usize;
+        }
+        at
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        // The lower number stays, so that places do not depend on the order of joining.
+        self.0[a.max(b)] = a.min(b) as u32;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use urdd_geometry::primitives::cuboid;
+
+    const TOLERANCE: f64 = 1e-6;
+
+    fn compare(a: &Mesh, b: &Mesh) -> Option<Difference> {
+        difference(a, b, TOLERANCE, Likeness::SameTriangles)
+    }
+
+    /// The triangles in reverse, each with another first corner, no vertex shared.
+    fn shuffled(mesh: &Mesh) -> Mesh {
+        let mut other = Mesh::default();
+        for triangle in mesh.triangles.iter().rev() {
+            let [a, b, c] = mesh.corners(*triangle);
+            let first = other.vertices.len() as u32;
+            other.vertices.extend([b, c, a]);
+            other.triangles.push([first, first + 1, first + 2]);
+        }
+        other
+    }
+
+    #[test]
+    fn order_and_shared_vertices_do_not_matter() {
+        let mesh = cuboid([1.0, 2.0, 3.0]);
+        assert_eq!(compare(&mesh, &mesh), None);
+        assert_eq!(compare(&mesh, &shuffled(&mesh)), None);
+    }
+
+    #[test]
+    fn a_moved_corner_is_told_with_its_distance() {
+        let mesh = cuboid([1.0, 2.0, 3.0]);
+        let mut near = shuffled(&mesh);
+        near.vertices[4][1] += 0.9 * TOLERANCE;
+        assert_eq!(compare(&mesh, &near), None);
+        let mut far = mesh.clone();
+        far.vertices[7][2] += 0.25;
+        let found = compare(&mesh, &far).expect("a difference");
+        assert!(found.missing > 0 && found.missing == found.extra.len());
+        assert!((found.distance - 0.25).abs() < 1e-12, "{found:?}");
+    }
+
+    #[test]
+    fn a_triangle_too_many_too_few_or_turned_round_is_told() {
+        let mesh = cuboid([1.0, 2.0, 3.0]);
+        let mut fewer = mesh.clone();
+        fewer.triangles.pop();
+        let found = compare(&mesh, &fewer).expect("a difference");
+        assert_eq!((found.missing, found.extra.len(), found.turned), (1, 0, 0));
+        let mut more = shuffled(&mesh);
+        more.triangles.push(more.triangles[3]);
+        let found = compare(&mesh, &more).expect("a difference");
+        assert_eq!((found.missing, found.extra.len(), found.turned), (0, 1, 0));
+        assert_eq!(
+            difference(&mesh, &more, TOLERANCE, Likeness::SameSurface),
+            None
+        );
+        let mut turned = shuffled(&mesh);
+        turned.triangles[5].swap(0, 1);
+        let found = compare(&mesh, &turned).expect("a difference");
+        assert_eq!((found.missing, found.extra.len(), found.turned), (0, 0, 1));
+        let found = difference(&mesh, &turned, TOLERANCE, Likeness::SameSurface);
+        assert_eq!(found.expect("a difference").turned, 1);
+    }
+
+    #[test]
+    fn triangles_without_an_area_count_for_nothing() {
+        let mesh = cuboid([1.0, 2.0, 3.0]);
+        let mut more = shuffled(&mesh);
+        let first = more.vertices.len() as u32;
+        more.vertices
+            .extend([[5.0, 5.0, 5.0], [5.0, 5.0, 6.0], [5.0, 5.0, 7.0]]);
+        more.triangles.push([first, first + 1, first + 2]);
+        assert_eq!(compare(&mesh, &more), None);
+        assert_eq!(compare(&more, &mesh), None);
+    }
+}

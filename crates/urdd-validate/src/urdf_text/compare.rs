@@ -1,0 +1,261 @@
+//! What a document says against what the URDF says.
+
+use std::collections::HashMap;
+
+use serde_json::Value;
+
+use crate::tolerance::{number_tolerance, numbers_agree};
+
+/// A value that is not the URDF's.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// JSON Pointer in the document.
+    pub pointer: String,
+    /// The value's JSON Pointer in what the URDF says, which has other indices where elements are
+    /// missing or moved.
+    pub source: String,
+    /// What the URDF says.
+    pub expected: Value,
+    /// What the document says.
+    pub actual: Value,
+    /// Where both are numbers: how far they may be apart.
+    pub tolerance: Option<f64>,
+    /// Where whole lists differ: how.
+    pub list: Option<String>,
+}
+
+/// Every difference between what the URDF says and a document. Links and joints are compared by
+/// name, so that one that is missing is one difference.
+pub fn differences(expected: &Value, actual: &Value) -> Vec<Difference> {
+    let mut comparison = Comparison::default();
+    if let Some(keys) = expected.as_object() {
+        for (key, expected) in keys {
+            let actual = actual.get(key).unwrap_or(&Value::Null);
+            let pointer = format!("/{key}");
+            match (key.as_str(), expected, actual) {
+                ("links" | "joints", Value::Array(expected), Value::Array(actual)) => {
+                    comparison.by_name(&pointer, expected, actual);
+                }
+                _ => comparison.value(&pointer, &pointer, expected, actual),
+            }
+        }
+    }
+    comparison.found
+}
+
+#[derive(Default)]
+struct Comparison {
+    found: Vec<Difference>,
+}
+
+impl Comparison {
+    fn report(&mut self, pointer: &str, source: &str, expected: &Value, actual: &Value) {
+        self.found.push(Difference {
+            pointer: pointer.to_owned(),
+            source: source.to_owned(),
+            expected: expected.clone(),
+            actual: actual.clone(),
+            tolerance: None,
+            list: None,
+        });
+    }
+
+    fn list(&mut self, pointer: &str, source: &str, expected: Value, actual: Value, how: String) {
+        self.report(pointer, source, &expected, &actual);
+        if let Some(last) = self.found.last_mut() {
+            last.list = Some(how);
+        }
+    }
+
+    fn value(&mut self, pointer: &str, source: &str, expected: &Value, actual: &Value) {
+        match (expected, actual) {
+            (Value::Object(wanted), Value::Object(there)) => {
+                // A choice of one key: another key is another kind of thing.
+                if wanted.keys().any(|key| !there.contains_key(key)) {
+                    self.report(pointer, source, expected, actual);
+                    return;
+                }
+                for (key, expected) in wanted {
+                    let actual = there.get(key).unwrap_or(&Value::Null);
+                    let (pointer, source) = (format!("{pointer}/{key}"), format!("{source}/{key}"));
+                    self.value(&pointer, &source, expected, actual);
+                }
+            }
+            (Value::Array(wanted), Value::Array(there)) => {
+                if wanted.len() != there.len() {
+                    let how = format!("{} there, {} here", wanted.len(), there.len());
+                    let (wanted, there) = (wanted.len().into(), there.len().into());
+                    self.list(pointer, source, wanted, there, how);
+                    return;
+                }
+                for (index, (expected, actual)) in wanted.iter().zip(there).enumerate() {
+                    let (pointer, source) =
+                        (format!("{pointer}/{index}"), format!("{source}/{index}"));
+                    self.value(&pointer, &source, expected, actual);
+                }
+            }
+            (Value::Number(wanted), Value::Number(there)) => {
+                let (Some(a), Some(b)) = (wanted.as_f64(), there.as_f64()) else {
+                    return;
+                };
+                if !numbers_agree(a, b) {
+                    self.report(pointer, source, expected, actual);
+                    if let Some(last) = self.found.last_mut() {
+                        last.tolerance = Some(number_tolerance(a, b));
+                    }
+                }
+            }
+            (Value::String(wanted), Value::String(there)) => {
+                if wanted != there && unix_lines(wanted) != unix_lines(there) {
+                    self.report(pointer, source, expected, actual);
+                }
+            }
+            _ if expected == actual => {}
+            _ => self.report(pointer, source, expected, actual),
+        }
+    }
+
+    /// Lists of things with names: the same names in the same order, and each against its own.
+    fn by_name(&mut self, list: &str, expected: &[Value], actual: &[Value]) {
+        let name = |value: &Value| -> String {
+            let name = value.get("name").and_then(Value::as_str);
+            name.unwrap_or_default().to_owned()
+        };
+        let wanted: Vec<String> = expected.iter().map(name).collect();
+        let there: Vec<String> = actual.iter().map(name).collect();
+        let others: Vec<usize> = wanted
+            .iter()
+            .zip(&there)
+            .enumerate()
+            .filter(|(_, (wanted, there))| wanted != there)
+            .map(|(index, _)| index)
+            .collect();
+        // One that is called otherwise is compared all the same; its name shows as a difference.
+        if wanted.len() == there.len() && others.len() <= 1 {
+            for (index, (expected, actual)) in expected.iter().zip(actual).enumerate() {
+                let pointer = format!("{list}/{index}");
+                self.value(&pointer, &pointer, expected, actual);
+            }
+            return;
+        }
+        self.list(
+            list,
+            list,
+            wanted.len().into(),
+            there.len().into(),
+            how_names_differ(&wanted, &there),
+        );
+        let mut place: HashMap<&str, usize> = HashMap::new();
+        for (index, name) in there.iter().enumerate() {
+            place.entry(name).or_insert(index);
+        }
+        for (index, (name, expected)) in wanted.iter().zip(expected).enumerate() {
+            if let Some(&at) = place.get(name.as_str()) {
+                let (pointer, source) = (format!("{list}/{at}"), format!("{list}/{index}"));
+                self.value(&pointer, &source, expected, &actual[at]);
+            }
+        }
+    }
+}
+
+/// How one list of names differs from another, in words.
+fn how_names_differ(wanted: &[String], there: &[String]) -> String {
+    let only_in = |a: &[String], b: &[String]| {
+        let b: std::collections::HashSet<&String> = b.iter().collect();
+        let only: Vec<String> = a.iter().filter(|name| !b.contains(name)).cloned().collect();
+        only
+    };
+    let (missing, extra) = (only_in(wanted, there), only_in(there, wanted));
+    let mut words = Vec::new();
+    if !missing.is_empty() {
+        words.push(format!("missing: {}", first_names(&missing)));
+    }
+    if !extra.is_empty() {
+        words.push(format!("not in the URDF: {}", first_names(&extra)));
+    }
+    if words.is_empty() {
+        let first = wanted.iter().zip(there).find(|(a, b)| a != b);
+        words.push(match first {
+            Some((wanted, there)) => {
+                format!("the order differs: `{there}` is where the URDF has `{wanted}`")
+            }
+            None => format!("{} there, {} here", wanted.len(), there.len()),
+        });
+    }
+    words.join("; ")
+}
+
+/// The first few of a list of names.
+pub fn first_names<S: AsRef<str>>(names: &[S]) -> String {
+    const SHOWN: usize = 5;
+    let mut text: Vec<String> = names
+        .iter()
+        .take(SHOWN)
+        .map(|name| format!("`{}`", name.as_ref()))
+        .collect();
+    if names.len() > SHOWN {
+        text.push(format!("and {} more", names.len() - SHOWN));
+    }
+    text.join(", ")
+}
+
+/// A text with its line ends as XML readers give them: what moved files about may have changed
+/// these.
+fn unix_lines(text: &str) -> String {
+    text.replace("\r\n", "\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn pointers(expected: &Value, actual: &Value) -> Vec<String> {
+        let found = differences(expected, actual);
+        found.into_iter().map(|found| found.pointer).collect()
+    }
+
+    fn named(names: &[&str]) -> Value {
+        let links: Vec<Value> = names
+            .iter()
+            .map(|name| json!({"name": name, "mass": name.len()}))
+            .collect();
+        json!({ "links": links })
+    }
+
+    #[test]
+    fn one_thing_that_is_missing_is_one_difference() {
+        let all = named(&["a", "bb", "ccc", "dddd"]);
+        assert_eq!(pointers(&all, &all), Vec::<String>::new());
+        for other in [
+            named(&["bb", "ccc", "dddd"]),
+            named(&["a", "bb", "x", "ccc", "dddd"]),
+            named(&["dddd", "ccc", "bb", "a"]),
+            named(&[]),
+        ] {
+            assert_eq!(pointers(&all, &other), ["/links"]);
+        }
+        let renamed = json!({"links": [{"name": "a", "mass": 1}, {"name": "B", "mass": 2},
+            {"name": "ccc", "mass": 3}, {"name": "dddd", "mass": 4}]});
+        assert_eq!(pointers(&all, &renamed), ["/links/1/name"]);
+        let short_and_wrong = json!({"links": [{"name": "ccc", "mass": 9}]});
+        let found = differences(&all, &short_and_wrong);
+        assert_eq!(found[1].pointer, "/links/0/mass");
+        assert_eq!(found[1].source, "/links/2/mass");
+        assert_eq!(found[0].list.as_deref(), Some("missing: `a`, `bb`, `dddd`"));
+    }
+
+    #[test]
+    fn values_are_compared_as_what_they_are() {
+        let urdf =
+            json!({"a": {"Mesh": {"scale": null}}, "v": [1.0, 2.0], "s": "x\r\ny", "n": 0.1});
+        let same = json!({"a": {"Mesh": {"scale": null, "x_mine": 1}}, "v": [1, 2.000000001], "s": "x\ny",
+            "n": 0.1000000000001, "$schema": "s"});
+        assert_eq!(pointers(&urdf, &same), Vec::<String>::new());
+        let other = json!({"a": {"Box": {"size": 1}}, "v": [1.0], "s": "x y", "n": 0.10000001});
+        assert_eq!(pointers(&urdf, &other), ["/a", "/v", "/s", "/n"]);
+        let filled =
+            json!({"a": {"Mesh": {"scale": [1, 1, 1]}}, "v": [1, 2], "s": "x\ny", "n": null});
+        assert_eq!(pointers(&urdf, &filled), ["/a/Mesh/scale", "/n"]);
+    }
+}

@@ -1,0 +1,150 @@
+//! Links, their geometry and materials.
+
+use super::problem::Repeated;
+use super::reader::{Element, Reader};
+use super::xml;
+use urdd_format::urdf as v1;
+
+const LINK_ELEMENTS: &[&str] = &["inertial", "visual", "collision"];
+const SHAPES: &[&str] = &["mesh", "box", "cylinder", "capsule", "sphere"];
+
+impl Reader {
+    pub(super) fn link(&mut self, link: Element<'_>, at: &str) -> Option<v1::Link> {
+        let name = self.needed_text(link, "link", "name", at);
+        let inertial = self
+            .only(link, "link", "inertial", at)
+            .map(|(inertial, at)| self.inertial(inertial, &at));
+        let mut visual = Vec::new();
+        let mut collision = Vec::new();
+        for element in xml::elements(link) {
+            let offset = element.range().start;
+            match xml::name(element) {
+                "visual" => {
+                    let at = format!("{at}/visual/{}", visual.len());
+                    self.place(&at, offset);
+                    visual.push(v1::Visual {
+                        name: self.text(element, "name", &at),
+                        origin: self.origin(element, "visual", &at),
+                        geometry: self.geometry(element, "visual", &at),
+                        material: self
+                            .only(element, "visual", "material", &at)
+                            .map(|(material, at)| self.material(material, &at)),
+                    });
+                }
+                "collision" => {
+                    let at = format!("{at}/collision/{}", collision.len());
+                    self.place(&at, offset);
+                    collision.push(v1::Collision {
+                        name: self.text(element, "name", &at),
+                        origin: self.origin(element, "collision", &at),
+                        geometry: self.geometry(element, "collision", &at),
+                    });
+                }
+                _ => {}
+            }
+        }
+        let unknown_elements = self.unknown(link, LINK_ELEMENTS, at);
+        Some(v1::Link {
+            name: name?,
+            inertial,
+            visual,
+            collision,
+            unknown_elements,
+        })
+    }
+
+    fn inertial(&mut self, inertial: Element<'_>, at: &str) -> v1::Inertial {
+        let origin = self.origin(inertial, "inertial", at);
+        // A mass without a value says nothing, as no mass does.
+        let mass = self
+            .only(inertial, "inertial", "mass", at)
+            .and_then(|(mass, at)| self.number(mass, "mass", "value", &at))
+            .map(|value| v1::Mass { value });
+        let inertia = self
+            .only(inertial, "inertial", "inertia", at)
+            .map(|(inertia, at)| v1::Inertia {
+                ixx: self.number(inertia, "inertia", "ixx", &at),
+                ixy: self.number(inertia, "inertia", "ixy", &at),
+                ixz: self.number(inertia, "inertia", "ixz", &at),
+                iyy: self.number(inertia, "inertia", "iyy", &at),
+                iyz: self.number(inertia, "inertia", "iyz", &at),
+                izz: self.number(inertia, "inertia", "izz", &at),
+            });
+        v1::Inertial {
+            origin,
+            mass,
+            inertia,
+        }
+    }
+
+    fn geometry(
+        &mut self,
+        parent: Element<'_>,
+        parent_name: &'static str,
+        at: &str,
+    ) -> Option<v1::Geometry> {
+        let (geometry, at) = self.only(parent, parent_name, "geometry", at)?;
+        let mut shapes =
+            xml::elements(geometry).filter(|child| SHAPES.contains(&xml::name(*child)));
+        let shape = shapes.next()?;
+        for again in shapes {
+            self.reading.repeated.push(Repeated {
+                offset: again.range().start,
+                first: shape.range().start,
+                element: xml::name(again).to_owned(),
+                parent: "geometry",
+            });
+        }
+        match xml::name(shape) {
+            "mesh" => {
+                let at = format!("{at}/Mesh");
+                let filename = self.needed_text(shape, "mesh", "filename", &at);
+                let scale = self.vector(shape, "mesh", "scale", &at);
+                Some(v1::Geometry::Mesh(v1::Mesh {
+                    filename: filename?,
+                    scale,
+                }))
+            }
+            "box" => {
+                let size = self.size(shape, "box", "size", &format!("{at}/Box"))?;
+                Some(v1::Geometry::Box(v1::Cuboid { size }))
+            }
+            "cylinder" => {
+                let (radius, length) = self.round(shape, "cylinder", &format!("{at}/Cylinder"))?;
+                Some(v1::Geometry::Cylinder(v1::Cylinder { radius, length }))
+            }
+            "capsule" => {
+                let (radius, length) = self.round(shape, "capsule", &format!("{at}/Capsule"))?;
+                Some(v1::Geometry::Capsule(v1::Capsule { radius, length }))
+            }
+            "sphere" => {
+                let [radius] = self.size(shape, "sphere", "radius", &format!("{at}/Sphere"))?;
+                Some(v1::Geometry::Sphere(v1::Sphere { radius }))
+            }
+            _ => None,
+        }
+    }
+
+    /// Radius and length.
+    fn round(&mut self, shape: Element<'_>, name: &'static str, at: &str) -> Option<(f64, f64)> {
+        let radius = self.size(shape, name, "radius", at);
+        let length = self.size(shape, name, "length", at);
+        let ([radius], [length]) = (radius?, length?);
+        Some((radius, length))
+    }
+
+    pub(super) fn material(&mut self, material: Element<'_>, at: &str) -> v1::Material {
+        // A colour without numbers, or a texture without a file, says nothing (iCub has these).
+        v1::Material {
+            name: self.text(material, "name", at),
+            color: self
+                .only(material, "material", "color", at)
+                .and_then(|(color, at)| self.vector(color, "color", "rgba", &at))
+                .map(|rgba| v1::Color { rgba }),
+            texture: self
+                .only(material, "material", "texture", at)
+                .and_then(|(texture, at)| self.text(texture, "filename", &at))
+                .map(|filename| v1::Texture { filename }),
+        }
+    }
+}

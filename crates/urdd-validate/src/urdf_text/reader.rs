@@ -1,0 +1,248 @@
+//! From the XML tree to what `urdf_module` says.
+
+use roxmltree::{Document, Node};
+
+use super::numbers;
+use super::problem::{Fault, Problem, Repeated};
+use super::{Reading, xml};
+use urdd_document::pose::has_quaternions;
+use urdd_format::urdf as v1;
+
+pub(super) type Element<'a> = Node<'a, 'a>;
+
+/// Reads the robot of a document.
+pub(super) fn read(document: &Document<'_>) -> Reading {
+    let mut reader = Reader::default();
+    // The document borrows its own text: one lifetime for both makes the code below readable.
+    let robot = document.root_element();
+    reader.robot(robot);
+    let mut reading = reader.reading;
+    reading.problems.sort_by_key(|problem| problem.offset);
+    reading
+}
+
+#[derive(Default)]
+pub(super) struct Reader {
+    pub(super) reading: Reading,
+    /// Whether `quat_xyzw` counts.
+    quaternions: bool,
+}
+
+impl Reader {
+    pub(super) fn problem(&mut self, offset: usize, fault: Fault, actual: Option<&str>) {
+        self.reading.problems.push(Problem {
+            offset,
+            fault,
+            actual: actual.map(str::to_owned),
+        });
+    }
+
+    pub(super) fn place(&mut self, pointer: &str, offset: usize) {
+        self.reading.places.insert(pointer.to_owned(), offset);
+    }
+
+    /// The first element of a name; another of that name does not count, and is remembered.
+    pub(super) fn only<'a>(
+        &mut self,
+        parent: Element<'a>,
+        parent_name: &'static str,
+        name: &'static str,
+        at: &str,
+    ) -> Option<(Element<'a>, String)> {
+        let mut found = xml::elements(parent).filter(|child| xml::name(*child) == name);
+        let first = found.next()?;
+        for again in found {
+            self.reading.repeated.push(Repeated {
+                offset: again.range().start,
+                first: first.range().start,
+                element: name.to_owned(),
+                parent: parent_name,
+            });
+        }
+        let pointer = format!("{at}/{name}");
+        self.place(&pointer, first.range().start);
+        Some((first, pointer))
+    }
+
+    /// An attribute as text.
+    pub(super) fn text(
+        &mut self,
+        element: Element<'_>,
+        attribute: &str,
+        at: &str,
+    ) -> Option<String> {
+        let found = xml::attribute(element, attribute)?;
+        self.place(&format!("{at}/{attribute}"), found.range().start);
+        Some(found.value().to_owned())
+    }
+
+    /// An attribute as text, without which nothing can be read.
+    pub(super) fn needed_text(
+        &mut self,
+        element: Element<'_>,
+        name: &'static str,
+        attribute: &'static str,
+        at: &str,
+    ) -> Option<String> {
+        let text = self.text(element, attribute, at);
+        if text.is_none() {
+            let fault = Fault::MissingAttribute {
+                element: name,
+                attribute,
+            };
+            self.problem(element.range().start, fault, None);
+        }
+        text
+    }
+
+    /// An attribute of `N` numbers; null where it is absent or one of them is not finite.
+    pub(super) fn vector<const N: usize>(
+        &mut self,
+        element: Element<'_>,
+        name: &'static str,
+        attribute: &'static str,
+        at: &str,
+    ) -> Option<[f64; N]> {
+        let text = self.text(element, attribute, at)?;
+        match numbers::read(&text) {
+            Some(vector) => vector.iter().all(|x| x.is_finite()).then_some(vector),
+            None => {
+                let offset = xml::attribute(element, attribute)
+                    .map_or(element.range().start, |found| found.range().start);
+                let fault = Fault::NotNumbers {
+                    element: name,
+                    attribute,
+                    count: N,
+                };
+                self.problem(offset, fault, Some(&text));
+                None
+            }
+        }
+    }
+
+    pub(super) fn number(
+        &mut self,
+        element: Element<'_>,
+        name: &'static str,
+        attribute: &'static str,
+        at: &str,
+    ) -> Option<f64> {
+        self.vector::<1>(element, name, attribute, at)
+            .map(|[number]| number)
+    }
+
+    /// As [`Reader::vector`], where the shape is nothing without it.
+    pub(super) fn size<const N: usize>(
+        &mut self,
+        element: Element<'_>,
+        name: &'static str,
+        attribute: &'static str,
+        at: &str,
+    ) -> Option<[f64; N]> {
+        let problems = self.reading.problems.len();
+        let vector = self.vector(element, name, attribute, at);
+        if vector.is_none() && self.reading.problems.len() == problems {
+            let (fault, text) = match xml::attribute(element, attribute).map(|found| found.value())
+            {
+                Some(text) => (
+                    Fault::NotFinite {
+                        element: name,
+                        attribute,
+                    },
+                    Some(text),
+                ),
+                None => (
+                    Fault::MissingAttribute {
+                        element: name,
+                        attribute,
+                    },
+                    None,
+                ),
+            };
+            self.problem(element.range().start, fault, text);
+        }
+        vector
+    }
+
+    pub(super) fn unknown(&mut self, parent: Element<'_>, known: &[&str], at: &str) -> Vec<String> {
+        let unknown = xml::elements(parent).filter(|child| !known.contains(&xml::name(*child)));
+        let mut kept = Vec::new();
+        for (index, element) in unknown.enumerate() {
+            self.place(
+                &format!("{at}/unknown_elements/{index}"),
+                element.range().start,
+            );
+            kept.push(xml::verbatim(element));
+        }
+        kept
+    }
+
+    pub(super) fn robot(&mut self, robot: Element<'_>) {
+        self.place("", robot.range().start);
+        if xml::name(robot) != "robot" {
+            self.problem(
+                robot.range().start,
+                Fault::NotRobot,
+                Some(&format!("<{}>", xml::name(robot))),
+            );
+            return;
+        }
+        let mut module = v1::UrdfModule {
+            name: self
+                .needed_text(robot, "robot", "name", "")
+                .unwrap_or_default(),
+            version: self.text(robot, "version", ""),
+            links: Vec::new(),
+            joints: Vec::new(),
+            materials: Vec::new(),
+            unknown_elements: self.unknown(robot, &["link", "joint", "material"], ""),
+        };
+        self.quaternions = has_quaternions(module.version.as_deref());
+        for element in xml::elements(robot) {
+            let offset = element.range().start;
+            match xml::name(element) {
+                "link" => {
+                    let at = format!("/links/{}", module.links.len());
+                    self.place(&at, offset);
+                    let link = self.link(element, &at);
+                    module.links.extend(link);
+                }
+                "joint" => {
+                    let at = format!("/joints/{}", module.joints.len());
+                    self.place(&at, offset);
+                    let joint = self.joint(element, &at);
+                    module.joints.extend(joint);
+                }
+                "material" => {
+                    let at = format!("/materials/{}", module.materials.len());
+                    self.place(&at, offset);
+                    let material = self.material(element, &at);
+                    module.materials.push(material);
+                }
+                _ => {}
+            }
+        }
+        self.reading.robot = Some(module);
+    }
+
+    pub(super) fn origin(
+        &mut self,
+        parent: Element<'_>,
+        parent_name: &'static str,
+        at: &str,
+    ) -> Option<v1::Origin> {
+        let (origin, at) = self.only(parent, parent_name, "origin", at)?;
+        let quaternion = xml::attribute(origin, "quat_xyzw");
+        if let (Some(quaternion), Some(_), true) =
+            (quaternion, xml::attribute(origin, "rpy"), self.quaternions)
+        {
+            let place = quaternion.range().start;
+            self.problem(place, Fault::TwoRotations, Some(quaternion.value()));
+        }
+        Some(v1::Origin {
+            xyz: self.vector(origin, "origin", "xyz", &at),
+            rpy: self.vector(origin, "origin", "rpy", &at),
+            quat_xyzw: self.vector(origin, "origin", "quat_xyzw", &at),
+        })
+    }
+}

@@ -1,0 +1,245 @@
+//! How boxes and spheres sit about the hulls and pieces that they are there for.
+
+use nalgebra::{Point3, Rotation3, Vector3};
+
+use crate::part::Part;
+use crate::solids::Solids;
+use crate::tolerance::HULL_IN_VOLUME;
+use urdd_document::shapes::{ShapeKind, Volume, approximations};
+use urdd_document::urdd::Urdd;
+use urdd_format::registry::ModuleKind;
+use urdd_geometry::{Mesh, farthest};
+
+/// A box or sphere, with the hull or piece that it is there for.
+#[derive(Debug, Clone)]
+pub struct Enclosure<'a> {
+    /// Of which kind.
+    pub kind: ShapeKind,
+    /// Where it stands in the document.
+    pub pointer: String,
+    /// The link.
+    pub link: usize,
+    /// The piece; 0 for a hull.
+    pub piece: usize,
+    /// The box or sphere.
+    pub volume: Volume,
+    /// The hull or piece.
+    pub mesh: &'a Mesh,
+    /// How far vertices may stand outside, or sides off, m.
+    pub tolerance: f64,
+    /// How it sits.
+    pub fit: Fit,
+}
+
+/// How a box or sphere sits about a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// The vertex that is farthest outside, and how far, m: 0 where all are inside.
+    pub outside: (usize, f64),
+    /// The side that stands farthest off, and how far, m.
+    pub off: (Side, f64),
+}
+
+/// A part of the surface of a box or sphere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// All of a sphere.
+    Round,
+    /// The side of a box at the lower (false) or upper end of one of its own axes.
+    Of(usize, bool),
+}
+
+impl Fit {
+    /// Looks at every vertex.
+    pub fn new(volume: &Volume, mesh: &Mesh) -> Fit {
+        match *volume {
+            Volume::Sphere { radius, offset } => {
+                let away = |p: &[f64; 3]| (Vector3::from(*p) - Vector3::from(offset)).norm();
+                let (vertex, most) = most(mesh.vertices.iter().map(away));
+                Fit {
+                    outside: (vertex, (most - radius).max(0.0)),
+                    off: (Side::Round, (radius - most).max(0.0)),
+                }
+            }
+            Volume::Box {
+                half_extents,
+                offset,
+                rpy: [roll, pitch, yaw],
+            } => {
+                let to_box = Rotation3::from_euler_angles(roll, pitch, yaw).inverse();
+                let half = Vector3::from(half_extents);
+                let inside = |p: &[f64; 3]| to_box * (Point3::from(*p) - Point3::from(offset));
+                let beyond = |p: &[f64; 3]| (inside(p).abs() - half).sup(&Vector3::zeros()).norm();
+                let mut off = (Side::Round, 0.0);
+                for axis in 0..3 {
+                    let along = |p: &[f64; 3]| inside(p)[axis];
+                    let (_, upper) = most(mesh.vertices.iter().map(along));
+                    let (_, lower) = most(mesh.vertices.iter().map(|p| -along(p)));
+                    for (end, reach) in [(false, lower), (true, upper)] {
+                        if half[axis] - reach > off.1 {
+                            off = (Side::Of(axis, end), half[axis] - reach);
+                        }
+                    }
+                }
+                Fit {
+                    outside: most(mesh.vertices.iter().map(beyond)),
+                    off,
+                }
+            }
+        }
+    }
+
+    /// Whether the box or sphere holds the mesh, and touches it with all its sides.
+    pub fn is_tight(&self, mesh: &Mesh) -> bool {
+        self.outside.1.max(self.off.1) <= tolerance(mesh)
+    }
+}
+
+/// How far vertices of a mesh may stand outside, or sides off it, m.
+fn tolerance(mesh: &Mesh) -> f64 {
+    HULL_IN_VOLUME * farthest::of_mesh(mesh)
+}
+
+/// The largest number, and the first place where it stands.
+fn most(numbers: impl Iterator<Item = f64>) -> (usize, f64) {
+    let largest =
+        |best: (usize, f64), next: (usize, f64)| if next.1 > best.1 { next } else { best };
+    numbers.enumerate().reduce(largest).unwrap_or((0, 0.0))
+}
+
+impl Enclosure<'_> {
+    /// Whether every vertex is inside.
+    pub fn holds(&self) -> bool {
+        self.fit.outside.1 <= self.tolerance
+    }
+
+    /// Whether every side touches, or the sphere.
+    pub fn touches(&self) -> bool {
+        self.fit.off.1 <= self.tolerance
+    }
+
+    /// What it is.
+    pub fn noun(&self) -> &'static str {
+        match self.volume {
+            Volume::Box { .. } => "box",
+            Volume::Sphere { .. } => "sphere",
+        }
+    }
+
+    /// The hull or piece, as a part of the robot.
+    pub fn part(&self) -> Part {
+        Part::of_shape(self.kind, self.link, self.piece)
+    }
+
+    /// What it is there for.
+    pub fn of_what(&self, urdd: &Urdd) -> String {
+        let link = urdd.link_label(self.link);
+        match self.kind.full {
+            true => format!("the hull of {link}"),
+            false => format!("piece {} of {link}", self.piece),
+        }
+    }
+}
+
+/// Every box and sphere of which the hull or piece can be read.
+pub fn enclosures<'a>(urdd: &Urdd, solids: &'a Solids) -> Vec<Enclosure<'a>> {
+    let document = urdd.document(ModuleKind::LinkShapesApproximations);
+    let Some(lists) = document.and_then(approximations) else {
+        return Vec::new();
+    };
+    let mut enclosures = Vec::new();
+    for list in lists {
+        let meshes = match list.kind.full {
+            true => ModuleKind::ConvexHullMeshes,
+            false => ModuleKind::ConvexDecompositionMeshes,
+        };
+        for (link, entry) in list.links.iter().enumerate() {
+            for (piece, volume) in entry.iter().enumerate() {
+                let Some(mesh) = solids.sound(meshes, link, piece) else {
+                    continue;
+                };
+                enclosures.push(Enclosure {
+                    kind: list.kind,
+                    pointer: list.pointer(link, piece),
+                    link,
+                    piece,
+                    volume: *volume,
+                    mesh,
+                    tolerance: tolerance(mesh),
+                    fit: Fit::new(volume, mesh),
+                });
+            }
+        }
+    }
+    enclosures
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_4;
+
+    use super::*;
+
+    /// A square of half diagonal 1 in the plane z = 0, and a point above it.
+    fn pyramid() -> Mesh {
+        let vertices = vec![
+            [1.0, 0.0, 0.0],
+            [-1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, -1.0, 0.0],
+            [0.0, 0.0, 2.0],
+        ];
+        Mesh {
+            vertices,
+            ..Mesh::default()
+        }
+    }
+
+    fn turned_box(half_extents: [f64; 3]) -> Fit {
+        let volume = Volume::Box {
+            half_extents,
+            offset: [0.0, 0.0, 1.0],
+            rpy: [0.0, 0.0, FRAC_PI_4],
+        };
+        Fit::new(&volume, &pyramid())
+    }
+
+    #[test]
+    fn a_box_about_a_pyramid() {
+        // Turned by an eighth the square is sqrt(2) wide.
+        let half = 0.5_f64.sqrt();
+        let tight = turned_box([half, half, 1.0]);
+        assert!(tight.outside.1 < 1e-15 && tight.off.1 < 1e-15, "{tight:?}");
+
+        let low = turned_box([half, half, 0.75]);
+        assert!((low.outside.1 - 0.25).abs() < 1e-15, "{low:?}");
+
+        let wide = turned_box([half, half + 0.5, 1.25]);
+        assert!(
+            matches!(wide.off, (Side::Of(1, _), off) if (off - 0.5).abs() < 1e-15),
+            "{wide:?}"
+        );
+        assert_eq!(wide.outside.1, 0.0);
+    }
+
+    #[test]
+    fn a_vertex_past_an_edge_is_as_far_out_as_the_edge_is_away() {
+        // Axes of their own: (1, 0, 0) stands at (half, -half) of the turned box.
+        let half = 0.5_f64.sqrt();
+        let narrow = turned_box([half - 0.03, half - 0.04, 1.0]);
+        assert!((narrow.outside.1 - 0.05).abs() < 1e-15, "{narrow:?}");
+    }
+
+    #[test]
+    fn a_sphere_about_a_pyramid() {
+        let about = |radius| {
+            let offset = [0.0, 0.0, 0.75];
+            Fit::new(&Volume::Sphere { radius, offset }, &pyramid())
+        };
+        // The square's corners and the tip are 1.25 away.
+        assert_eq!(about(1.25).outside.1, 0.0);
+        assert_eq!(about(1.25).off.1, 0.0);
+        assert_eq!(about(1.5).off, (Side::Round, 0.25));
+        assert_eq!(about(1.0).outside, (0, 0.25));
+    }
+}

@@ -1,0 +1,337 @@
+//! The schema that an extension brings: used without opening anything, and only where that takes
+//! little work. It is as untrusted as all else.
+
+use serde_json::Value;
+
+use super::schema_work::{affordable_work, schemas_in};
+use urdd_directory::json;
+use urdd_directory::root::ReadError;
+use urdd_document::module::Module;
+use urdd_document::urdd::Urdd;
+
+/// Longest `schema.json` that is read, bytes.
+pub const MAX_SCHEMA_BYTES: u64 = 1 << 20;
+
+/// Largest automaton of a pattern, bytes. Patterns are matched in time linear in the text; what
+/// would need going back (lookaround, references to groups) is refused.
+const PATTERN_BYTES: usize = 1 << 18;
+
+/// Above this much work, only the first violation is looked for: lists of them take memory with the
+/// document.
+const WORK_FOR_ALL_VIOLATIONS: u64 = 100_000;
+
+/// Compiling and evaluating follow references by recursion.
+#[cfg(not(target_family = "wasm"))]
+const STACK_BYTES: usize = 256 << 20;
+
+/// A `schema.json`, as far as it can be used.
+pub enum SchemaFile {
+    /// There is none.
+    Missing,
+    /// It cannot be read, for a reason of which DIR016 or DIR023 would tell for other files.
+    Unreadable(ReadError),
+    /// It is not JSON.
+    NotJson(String),
+    /// It is JSON.
+    Read(Value),
+}
+
+/// Reads the schema of an extension.
+pub fn read(urdd: &Urdd, module: &Module) -> SchemaFile {
+    match urdd
+        .root()
+        .read(&module.file("schema.json"), MAX_SCHEMA_BYTES)
+    {
+        Err(ReadError::Missing) => SchemaFile::Missing,
+        Err(error) => SchemaFile::Unreadable(error),
+        Ok(bytes) => match json::read(&bytes) {
+            Err(error) => SchemaFile::NotJson(error.to_string()),
+            Ok(document) => SchemaFile::Read(document.value),
+        },
+    }
+}
+
+/// A fault of a schema.
+pub struct SchemaFault {
+    /// JSON Pointer into the schema.
+    pub pointer: String,
+    /// What is wrong.
+    pub message: String,
+}
+
+/// What keeps a value from being a schema that can be used for a document.
+pub fn faults(schema: &Value, document: Option<&Value>) -> Vec<SchemaFault> {
+    let mut faults = foreign_references(schema);
+    if faults.is_empty()
+        && let Err(fault) = on_a_large_stack(|| compile(schema).map(|_| ()))
+    {
+        faults.push(fault);
+    }
+    if let (true, Some(document)) = (faults.is_empty(), document)
+        && on_a_large_stack(|| affordable_work(schema, document)).is_none()
+    {
+        faults.push(SchemaFault {
+            pointer: String::new(),
+            message: "checking module.json against this schema takes too much work: its choices multiply; let one key decide each choice, or remove some".to_owned(),
+        });
+    }
+    faults
+}
+
+/// Where a document breaks a schema.
+#[derive(Debug, Default)]
+pub struct Violations {
+    /// Pointers and messages.
+    pub found: Vec<(String, String)>,
+    /// Whether no others were looked for.
+    pub is_first_only: bool,
+}
+
+/// Where a document breaks a schema that has no [`faults`]: at most `limit` places. In a large
+/// document only the first is looked for.
+pub fn violations(schema: &Value, document: &Value, limit: usize) -> Violations {
+    on_a_large_stack(|| {
+        let Ok(validator) = compile(schema) else {
+            return Violations::default();
+        };
+        let Err(first) = validator.validate(document) else {
+            return Violations::default();
+        };
+        let place = |error: jsonschema::ValidationError<'_>| {
+            let message: String = error.masked().to_string().chars().take(200).collect();
+            (error.instance_path().to_string(), message)
+        };
+        let is_first_only =
+            affordable_work(schema, document).is_none_or(|work| work > WORK_FOR_ALL_VIOLATIONS);
+        let found = match is_first_only {
+            true => vec![place(first)],
+            false => (validator.iter_errors(document).take(limit))
+                .map(place)
+                .collect(),
+        };
+        Violations {
+            found,
+            is_first_only,
+        }
+    })
+}
+
+fn compile(schema: &Value) -> Result<jsonschema::Validator, SchemaFault> {
+    // No retriever is compiled in, so that a reference to elsewhere fails and opens nothing.
+    jsonschema::draft202012::options()
+        .with_pattern_options(
+            jsonschema::PatternOptions::regex()
+                .size_limit(PATTERN_BYTES)
+                .dfa_size_limit(PATTERN_BYTES),
+        )
+        .build(schema)
+        .map_err(|error| SchemaFault {
+            pointer: error.instance_path().to_string(),
+            message: error.to_string().chars().take(300).collect(),
+        })
+}
+
+/// A browser has no thread to spare, and a stack that is chosen when the module is linked (`.cargo/config.toml`).
+#[cfg(target_family = "wasm")]
+fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    work()
+}
+
+#[cfg(not(target_family = "wasm"))]
+fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    std::thread::scope(|scope| {
+        let spawned = std::thread::Builder::new()
+            .stack_size(STACK_BYTES)
+            .spawn_scoped(scope, work);
+        match spawned.map(|thread| thread.join()) {
+            Ok(Ok(result)) => result,
+            // The engine reports a rule that panics as crashed.
+            Ok(Err(panic)) => std::panic::resume_unwind(panic),
+            Err(error) => std::panic::resume_unwind(Box::new(error.to_string())),
+        }
+    })
+}
+
+/// References that do not stay within the schema's own file, and what would make them ambiguous.
+fn foreign_references(schema: &Value) -> Vec<SchemaFault> {
+    let mut faults = Vec::new();
+    let mut open = vec![(String::new(), schema)];
+    while let Some((pointer, schema)) = open.pop() {
+        for key in ["$ref", "$dynamicRef"] {
+            if let Some(target) = schema.get(key).and_then(Value::as_str)
+                && !target.starts_with('#')
+            {
+                let shown: String = target.chars().take(80).collect();
+                faults.push(SchemaFault {
+                    pointer: format!("{pointer}/{key}"),
+                    message: format!(
+                        "`{shown}` leads out of this file, and nothing else is opened: put what it names into `$defs`, and refer to it by `#/$defs/...`"
+                    ),
+                });
+            }
+        }
+        if !pointer.is_empty() && schema.get("$id").is_some() {
+            faults.push(SchemaFault {
+                pointer: format!("{pointer}/$id"),
+                message: "only the schema itself may have an `$id`: take this one out, and refer to the part by `#/$defs/...`".to_owned(),
+            });
+        }
+        open.extend(
+            schemas_in(schema).map(|(inner, schema, _)| (pointer.clone() + &inner, schema)),
+        );
+        let definitions = schema.get("$defs").and_then(Value::as_object);
+        for (name, schema) in definitions.into_iter().flatten() {
+            let name = name.replace('~', "~0").replace('/', "~1");
+            open.push((format!("{pointer}/$defs/{name}"), schema));
+        }
+    }
+    faults.sort_by(|a, b| a.pointer.cmp(&b.pointer));
+    faults
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn message(schema: &Value, document: &Value) -> Option<String> {
+        faults(schema, Some(document))
+            .into_iter()
+            .next()
+            .map(|fault| fault.message)
+    }
+
+    #[test]
+    fn nothing_outside_is_referred_to() {
+        for target in [
+            "other.json",
+            "file:///etc/passwd",
+            "http://localhost/x",
+            "/a",
+        ] {
+            let schema = json!({"properties": {"a": {"$ref": target}}});
+            let faults = faults(&schema, None);
+            assert_eq!(faults.len(), 1);
+            assert_eq!(faults[0].pointer, "/properties/a/$ref");
+        }
+        // What only looks like a reference.
+        let schema = json!({"const": {"$ref": "other.json"}, "properties": {"$ref": true}});
+        assert_eq!(message(&schema, &json!({})), None);
+    }
+
+    #[test]
+    fn what_is_no_schema_is_refused() {
+        for schema in [
+            json!(3),
+            json!({"type": "strin"}),
+            json!({"pattern": "("}),
+            json!({"pattern": "((((a{100}){100}){100}){100})"}),
+            json!({"$ref": "#/$defs/nowhere"}),
+        ] {
+            assert!(message(&schema, &json!(1)).is_some(), "{schema}");
+        }
+    }
+
+    #[test]
+    fn recursion_is_fine_and_explosion_is_not() {
+        let tree = json!({"type": "array", "items": {"$ref": "#"}});
+        assert_eq!(message(&tree, &json!([[], [[]]])), None);
+        assert_eq!(message(&json!({"$ref": "#"}), &json!(1)), None);
+
+        let mut definitions = serde_json::Map::new();
+        for i in 0..60 {
+            let next = json!({"$ref": format!("#/$defs/a{}", i + 1)});
+            definitions.insert(format!("a{i}"), json!({"anyOf": [next, next]}));
+        }
+        definitions.insert("a60".to_owned(), json!(false));
+        let laughs = json!({"$defs": definitions, "$ref": "#/$defs/a0"});
+        assert!(message(&laughs, &json!(1)).is_some());
+
+        let twice = json!({"anyOf": [{"items": {"$ref": "#"}}, {"items": {"$ref": "#"}}]});
+        let mut deep = json!(1);
+        for _ in 0..60 {
+            deep = json!([deep]);
+        }
+        assert!(message(&twice, &deep).is_some());
+    }
+
+    #[test]
+    fn long_chains_of_references_do_not_overflow() {
+        let mut definitions = serde_json::Map::new();
+        for i in 0..20_000 {
+            definitions.insert(
+                format!("a{i}"),
+                json!({"$ref": format!("#/$defs/a{}", i + 1)}),
+            );
+        }
+        definitions.insert("a20000".to_owned(), json!(true));
+        let chain = json!({"$defs": definitions, "$ref": "#/$defs/a0"});
+        assert!(message(&chain, &json!(1)).is_some());
+    }
+
+    #[test]
+    fn large_documents_are_checked() {
+        let schema = json!({"items": {"type": "array", "items": {"type": "number"}}});
+        let mut document = json!(vec![vec![0.5; 100]; 3000]);
+        assert_eq!(message(&schema, &document), None);
+        assert!(violations(&schema, &document, 10).found.is_empty());
+        document[7][8] = json!("x");
+        let broken = violations(&schema, &document, 10);
+        assert_eq!(broken.found[0].0, "/7/8");
+        assert!(broken.is_first_only);
+        // Of a million violations one is kept; of a few, all.
+        let all = json!({"items": {"type": "string"}});
+        assert_eq!(
+            violations(&all, &json!(vec![1; 1_000_000]), 10).found.len(),
+            1
+        );
+        let few = violations(&all, &json!([1, 2, "a"]), 10);
+        assert_eq!((few.found.len(), few.is_first_only), (2, false));
+    }
+
+    #[test]
+    fn patterns_are_matched_in_linear_time() {
+        let nested = json!({"pattern": "^(a+)+$"});
+        let hostile = json!("a".repeat(100_000) + "!");
+        let start = std::time::Instant::now();
+        assert_eq!(message(&nested, &hostile), None);
+        assert_eq!(violations(&nested, &hostile, 10).found.len(), 1);
+        assert!(start.elapsed().as_secs() < 2);
+        for pattern in ["^(?=a)(a+)+$", "(?!a)b", "(?<=a)b", "(a)\\1"] {
+            for schema in [
+                json!({"pattern": pattern}),
+                json!({"patternProperties": {pattern: true}}),
+                json!({"propertyNames": {"pattern": pattern}}),
+            ] {
+                assert!(message(&schema, &json!({})).is_some(), "{schema}");
+            }
+        }
+    }
+
+    #[test]
+    fn long_texts_and_lists_of_values_count_as_work() {
+        // A pattern whose automaton has many states, on a long text and on long keys.
+        let states = "[ab]*a[ab]{200}";
+        let text = "ab".repeat(150_000);
+        for (schema, document) in [
+            (json!({"pattern": states}), json!(text)),
+            (
+                json!({"patternProperties": {states: true}}),
+                json!({&text: 1}),
+            ),
+            (
+                json!({"propertyNames": {"pattern": states}}),
+                json!({&text: 1}),
+            ),
+        ] {
+            assert!(message(&schema, &document).is_some());
+        }
+        // Each of many objects against each of many.
+        let object = |i: usize| json!({"a": [1, 2, 3, 4, 5, 6, 7, 8, 9, i]});
+        let objects: Vec<Value> = (0..2000).map(object).collect();
+        let schema = json!({"items": {"enum": objects}});
+        let document = json!((0..2000).map(|i| object(i + 2000)).collect::<Vec<_>>());
+        assert!(message(&schema, &document).is_some());
+        assert_eq!(message(&schema, &json!([object(3)])), None);
+    }
+}

@@ -1,0 +1,131 @@
+//! The statistics of one pair of shapes, judged (SPEC 8.5).
+
+use super::tangled::Tangled;
+use crate::tolerance::{LEGACY_SAMPLES, mean_tolerance, numbers_agree};
+use urdd_document::shape_matrices::{Elements, Statistics, at};
+
+/// Largest distance of shapes that are in contact, m (SPEC 8.6).
+pub const CONTACT: f64 = 0.001;
+
+/// The distances of a pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// Mean distance.
+    pub mean: f64,
+    /// Smallest distance.
+    pub min: f64,
+    /// Largest distance.
+    pub max: f64,
+    /// How far the mean may lie outside the other two.
+    pub tolerance: f64,
+}
+
+/// The statistics of one kind of shapes, to read pairs from.
+#[derive(Debug, Clone)]
+pub struct Pairs<'a> {
+    statistics: Statistics<'a>,
+    tangled: [Tangled; 3],
+}
+
+impl<'a> Pairs<'a> {
+    /// For these statistics.
+    pub fn new(statistics: &Statistics<'a>) -> Self {
+        let three = [statistics.mean, statistics.min, statistics.max];
+        Pairs {
+            statistics: *statistics,
+            tangled: three.map(|rows| Tangled::new(Elements::Distances(rows))),
+        }
+    }
+
+    /// The distances of shapes i and j; `None` where an element is missing, is not that of j and i,
+    /// is negative and may not be, or is in a row that is wrong as a whole: faults that have rules of
+    /// their own.
+    pub fn read(&self, i: usize, j: usize) -> Option<Pair> {
+        let statistics = &self.statistics;
+        let one = |rows| {
+            let (a, b) = (at(rows, i, j)?, at(rows, j, i)?);
+            let sound = numbers_agree(a, b) && (statistics.num_samples.is_none() || a >= 0.0);
+            sound.then_some(a)
+        };
+        let (mean, min, max) = (
+            one(statistics.mean)?,
+            one(statistics.min)?,
+            one(statistics.max)?,
+        );
+        if self.tangled.iter().any(|tangled| tangled.pair(i, j)) {
+            return None;
+        }
+        let samples = statistics.num_samples.unwrap_or(LEGACY_SAMPLES);
+        Some(Pair {
+            mean,
+            min,
+            max,
+            tolerance: mean_tolerance(samples, min.abs().max(max.abs())),
+        })
+    }
+}
+
+impl Pair {
+    /// Whether the mean lies between the smallest and the largest.
+    pub fn in_order(&self) -> bool {
+        self.min <= self.mean + self.tolerance && self.mean <= self.max + self.tolerance
+    }
+
+    /// Whether the three are one number, within a tolerance. Depths, which legacy modules have, count
+    /// as contact: libraries do not agree on them.
+    pub fn is_constant(&self, tolerance: f64) -> bool {
+        let [mean, min, max] = [self.mean, self.min, self.max].map(|d| d.max(0.0));
+        min.max(mean).max(max) - min.min(mean).min(max) <= tolerance
+    }
+
+    /// Whether the pair is always in contact; `None` where that hangs on the last digit.
+    pub fn always(&self) -> Option<bool> {
+        decided(self.max).then_some(self.max <= CONTACT)
+    }
+
+    /// Whether the pair is never in contact; `None` where that hangs on the last digit.
+    pub fn never(&self) -> Option<bool> {
+        decided(self.min).then_some(self.min > CONTACT)
+    }
+}
+
+fn decided(distance: f64) -> bool {
+    distance == CONTACT || !numbers_agree(distance, CONTACT)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pair(mean: f64, min: f64, max: f64, samples: u32) -> Pair {
+        let rows = |value: f64| vec![vec![0.0, value], vec![value, 0.0]];
+        let (mean, min, max) = (rows(mean), rows(min), rows(max));
+        let statistics = Statistics {
+            keys: ["", "", ""],
+            mean: &mean,
+            min: &min,
+            max: &max,
+            num_samples: Some(samples),
+        };
+        Pairs::new(&statistics).read(0, 1).expect("sound elements")
+    }
+
+    #[test]
+    fn a_mean_of_equal_numbers_may_round() {
+        let values = vec![0.1_f64; 1000];
+        let mean = values.iter().sum::<f64>() / 1000.0;
+        assert_ne!(mean, 0.1);
+        assert!(pair(mean, 0.1, 0.1, 1000).in_order());
+        assert!(!pair(0.1 + 1e-11, 0.1, 0.1, 1000).in_order());
+        assert!(!pair(0.2, 0.3, 0.4, 1000).in_order());
+    }
+
+    #[test]
+    fn contact_is_undecided_only_at_its_edge() {
+        let with_max = |max: f64| pair(0.0, 0.0, max, 10).always();
+        assert_eq!(with_max(0.001), Some(true));
+        assert_eq!(with_max(0.001 + 1e-15), None);
+        assert_eq!(with_max(0.00101), Some(false));
+        assert_eq!(with_max(0.0), Some(true));
+    }
+}

@@ -1,0 +1,117 @@
+//! Derived mesh files that several links name.
+
+use std::collections::{BTreeMap, HashMap};
+
+use crate::part::Part;
+use urdd_document::meshes::{DERIVED, MeshPath, Meshes};
+use urdd_document::urdd::Urdd;
+use urdd_format::legacy::urdf as legacy;
+use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
+
+/// A file that two entries of a mesh module name.
+pub struct SharedMesh {
+    /// The module.
+    pub kind: ModuleKind,
+    /// The link whose entry comes first, and the pointer of that entry.
+    pub first: (usize, String),
+    /// The other link, and the pointer of its entry.
+    pub other: (usize, String),
+    /// The path, as written.
+    pub path: String,
+    /// Every mesh of the two that shares a file with the other.
+    pub parts: Vec<Part>,
+    /// Whether the file is right for both: both place the very same mesh in the same way. Only
+    /// legacy URDDs may share so.
+    pub alike: bool,
+}
+
+/// Every pair of links of a module that share a file, once, however many formats and pieces they
+/// share.
+pub fn all(urdd: &Urdd) -> Vec<SharedMesh> {
+    let mut shared: Vec<SharedMesh> = Vec::new();
+    for kind in DERIVED {
+        let Some(meshes) = urdd.meshes(*kind) else {
+            continue;
+        };
+        let mut first_use: HashMap<&str, Use> = HashMap::new();
+        // By links, and by whether they share alike: the place in `shared`.
+        let mut by_links: BTreeMap<(usize, usize, bool), usize> = BTreeMap::new();
+        for (link, piece, path) in places(&meshes) {
+            let other = Use { link, piece, path };
+            let Some(first) = first_use.get(path.path) else {
+                first_use.insert(path.path, other);
+                continue;
+            };
+            let alike = meshes.profile == Profile::Legacy
+                && first.link != link
+                && first.piece == piece
+                && placed_alike(urdd, first.link, link);
+            let at = *by_links
+                .entry((first.link, link, alike))
+                .or_insert_with(|| {
+                    shared.push(SharedMesh {
+                        kind: *kind,
+                        first: (first.link, first.path.pointer.clone()),
+                        other: (link, path.pointer.clone()),
+                        path: path.path.to_owned(),
+                        parts: Vec::new(),
+                        alike,
+                    });
+                    shared.len() - 1
+                });
+            let both = [(first.link, first.piece), (link, piece)];
+            let parts = both.map(|(link, piece)| Part::of(*kind, link, piece));
+            shared[at].parts.extend(parts.into_iter().flatten());
+        }
+    }
+    shared
+}
+
+/// A mesh that names a file.
+#[derive(Clone, Copy)]
+struct Use<'a> {
+    link: usize,
+    piece: usize,
+    path: &'a MeshPath<'a>,
+}
+
+/// Every path of a module, with its link and piece.
+fn places<'a>(meshes: &'a Meshes<'a>) -> impl Iterator<Item = (usize, usize, &'a MeshPath<'a>)> {
+    let links = meshes
+        .lists
+        .iter()
+        .flat_map(|list| list.links.iter().enumerate());
+    let pieces = links.flat_map(|(link, pieces)| {
+        let pieces = pieces.iter().enumerate();
+        pieces.map(move |(piece, mesh)| (link, piece, mesh))
+    });
+    pieces.flat_map(|(link, piece, mesh)| mesh.paths.iter().map(move |path| (link, piece, path)))
+}
+
+/// Whether two links of a legacy URDD place the same meshes in the same way.
+fn placed_alike(urdd: &Urdd, a: usize, b: usize) -> bool {
+    let Some(ModuleDocument::LegacyUrdf(urdf)) = urdd.document(ModuleKind::Urdf) else {
+        return false;
+    };
+    let (Some(a), Some(b)) = (urdf.links.get(a), urdf.links.get(b)) else {
+        return false;
+    };
+    let (a, b) = (placements(a), placements(b));
+    !a.is_empty() && a == b
+}
+
+/// The meshes that a link shows: origin, file, scale.
+fn placements(link: &legacy::Link) -> Vec<(&legacy::Origin, &str, [f64; 3])> {
+    let meshes = link
+        .visual
+        .iter()
+        .filter_map(|visual| match &visual.geometry {
+            legacy::Geometry::Mesh(mesh) => Some((
+                &visual.origin,
+                mesh.filename.as_str(),
+                mesh.scale.unwrap_or([1.0; 3]),
+            )),
+            _ => None,
+        });
+    meshes.collect()
+}

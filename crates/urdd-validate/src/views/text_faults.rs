@@ -1,0 +1,75 @@
+//! Faults of the text of documents, as they were noted when the documents were read.
+
+use super::super::context::Context;
+use super::super::finding::{Finding, Findings, KEPT_PLACES, Occurrence, Place};
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::text_fault::{TextFault, TextFaultKind, TextFaults};
+use urdd_document::entries;
+use urdd_document::module::Mirror;
+
+/// Reports the faults of these kinds in `urdd.json` and every `module.json`: one finding for each
+/// file and kind, with the number of them.
+pub fn report_json(context: &Context, kinds: &[TextFaultKind], findings: &mut Findings) {
+    if let Some(faults) = context.metadata_file().json.faults() {
+        report(ROOT_METADATA, faults, kinds, findings);
+    }
+    for module in entries::known_modules(context) {
+        if let Some(faults) = module.json.faults() {
+            report(&module.file("module.json"), faults, kinds, findings);
+        }
+    }
+}
+
+/// As [`report_json`], of every `module.yaml`.
+pub fn report_yaml(context: &Context, kinds: &[TextFaultKind], findings: &mut Findings) {
+    report_yaml_unless(context, kinds, &[], findings);
+}
+
+/// As [`report_yaml`], but for files that have a fault of one of the other kinds.
+pub fn report_yaml_unless(
+    context: &Context,
+    kinds: &[TextFaultKind],
+    unless: &[TextFaultKind],
+    findings: &mut Findings,
+) {
+    for module in entries::known_modules(context) {
+        if let Mirror::Compared(faults) = &module.mirror
+            && unless.iter().all(|kind| faults.total(*kind) == 0)
+        {
+            report(&module.file("module.yaml"), faults, kinds, findings);
+        }
+    }
+}
+
+fn report(file: &str, faults: &TextFaults, kinds: &[TextFaultKind], findings: &mut Findings) {
+    for kind in kinds {
+        let mut kept = faults.iter().filter(|fault| fault.kind == *kind);
+        let Some(first) = kept.next() else {
+            continue;
+        };
+        let mut finding = Finding::in_file(file, first.message.clone());
+        finding.place = place(file, first);
+        finding.expected.clone_from(&first.expected);
+        finding.actual.clone_from(&first.found);
+        finding.count = faults.total(*kind);
+        finding.more = kept
+            .take(KEPT_PLACES - 1)
+            .map(|fault| Occurrence {
+                place: place(file, fault),
+                expected: fault.expected.clone(),
+                actual: fault.found.clone(),
+                ..Occurrence::default()
+            })
+            .collect();
+        findings.report(finding);
+    }
+}
+
+fn place(file: &str, fault: &TextFault) -> Place {
+    Place {
+        file: Some(file.to_owned()),
+        pointer: fault.pointer.clone(),
+        position: fault.position,
+        subject: None,
+    }
+}

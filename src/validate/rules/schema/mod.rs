@@ -1,8 +1,0 @@
-//! SCH: documents against their schemas.
-
-pub mod breaks_schema;
-
-use crate::validate::rule::Rule;
-
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[&breaks_schema::RULE];

@@ -1,0 +1,80 @@
+//! URDDs of our robots, and of URDFs that a test writes.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use urdd_generate::{Settings, generate};
+
+/// The URDFs of our robots.
+pub fn our_robots() -> Vec<(String, PathBuf)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../conformance/robots");
+    let entries = std::fs::read_dir(folder).expect("our robots");
+    let mut robots: Vec<(String, PathBuf)> = entries
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| {
+            path.extension()
+                .is_some_and(|extension| extension == "urdf")
+        })
+        .map(|path| {
+            (
+                path.file_stem()
+                    .expect("a name")
+                    .to_string_lossy()
+                    .into_owned(),
+                path,
+            )
+        })
+        .collect();
+    robots.sort();
+    assert_eq!(robots.len(), 9);
+    robots
+}
+
+/// The files of a URDD, by their paths in it.
+type Files = Vec<(PathBuf, Vec<u8>)>;
+
+/// A URDD of one of our robots, in a folder of its own that lasts as long as what is returned. It is generated once.
+pub fn made(urdf: &Path) -> (tempfile::TempDir, PathBuf) {
+    static MADE: Mutex<BTreeMap<PathBuf, Arc<OnceLock<Files>>>> = Mutex::new(BTreeMap::new());
+    let mut all = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let one = Arc::clone(all.entry(urdf.to_owned()).or_default());
+    drop(all);
+    let folder = tempfile::tempdir().expect("a folder");
+    let target = folder.path().join("robot");
+    let generated = || {
+        generate(urdf, &target, &Settings::default(), &()).expect("a URDD");
+        let files = files_below(&target, &target);
+        std::fs::remove_dir_all(&target).expect("a folder");
+        files
+    };
+    for (path, bytes) in one.get_or_init(generated) {
+        let path = target.join(path);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        std::fs::write(path, bytes).expect("a file");
+    }
+    (folder, target)
+}
+
+fn files_below(folder: &Path, root: &Path) -> Files {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let below = |entry: std::io::Result<std::fs::DirEntry>| {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            return files_below(&path, root);
+        }
+        let bytes = std::fs::read(&path).expect("a file");
+        vec![(path.strip_prefix(root).expect("below").to_owned(), bytes)]
+    };
+    entries.flat_map(below).collect()
+}
+
+/// A URDD of a URDF's text.
+pub fn made_of(urdf: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("robot.urdf");
+    std::fs::write(&file, urdf).expect("a file");
+    let target = folder.path().join("robot");
+    generate(&file, &target, &Settings::default(), &()).expect("a URDD");
+    (folder, target)
+}
