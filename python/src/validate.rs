@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde_json::{Value, from_value};
-use urdd_validate::report::{self, Report};
+use urdd_validate::report::{self};
 use urdd_validate::rule::Severity;
 use urdd_validate::selection::Codes;
 use urdd_validate::settings::{Exclude, Settings};

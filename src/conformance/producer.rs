@@ -20,7 +20,6 @@ use urdd_format::index::Count;
 use urdd_format::registry::{ModuleKind, SPEC_VERSION};
 use urdd_format::report::{Finding, Severity, Tool, Urdd, Verdict};
 use urdd_format::root_metadata::ConformanceClass;
-use urdd_validate::report::Report;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 

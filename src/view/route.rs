@@ -11,7 +11,7 @@ use super::revision;
 use urdd_directory::root::{EntryKind, ReadError, Root};
 use urdd_format::report::Severity;
 use urdd_robot::Robot;
-use urdd_validate::report::{self, model::Report};
+use urdd_validate::report::{self};
 use urdd_validate::settings::Settings;
 use urdd_validate::{Run, validate, validate_source};
 

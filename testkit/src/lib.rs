@@ -9,6 +9,7 @@
 //! - [`folder`]: a folder on disk, for many URDDs one after the other
 //! - [`dice`]: choices of a seeded test
 //! - [`emit`]: JSON and YAML text
+//! - [`documents`]: documents that fit a JSON Schema
 //! - [`difference`]: comparing two producers' documents
 //! - [`core_modules`], [`urdf_to_core`]: joints and robots as the core modules of a URDD
 //!
@@ -18,6 +19,7 @@ pub mod core;
 pub mod core_modules;
 pub mod dice;
 pub mod difference;
+pub mod documents;
 pub mod emit;
 pub mod fixture;
 pub mod folder;
@@ -27,3 +29,8 @@ pub mod robot;
 pub mod robots;
 pub mod shapes;
 pub mod urdf_to_core;
+
+/// The folder of the repository.
+pub fn repository() -> &'static std::path::Path {
+    std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}

@@ -6,7 +6,6 @@ use urdd_format::self_collision_model::SelfCollisionModelModule;
 use urdd_validate::code::Code;
 use urdd_validate::code::Code::*;
 use urdd_validate::learned::counts::Judge;
-use urdd_validate::report::Report;
 use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 use urdd_validate::skip::SkipReason;

@@ -35,7 +35,6 @@ use std::path::Path;
 use testkit::fixture::Fixture;
 use urdd_format::report;
 use urdd_validate::code::Code;
-use urdd_validate::report::Report;
 use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 use urdd_validate::{rules, validate};

@@ -1,7 +1,6 @@
 //! What a finding says: where, what is wrong, what was expected and found, in words that a reader can act on.
 
 use serde_json::json;
-use urdd_validate::report::Report;
 use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;

@@ -9,7 +9,6 @@ use std::path::Path;
 
 use urdd_format::report::Severity as Shown;
 use urdd_validate::finding::Finding;
-use urdd_validate::report::Report;
 use urdd_validate::rule::{Rule, Severity};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;

@@ -1,7 +1,7 @@
 //! The report of a URDD.
 
 use urdd_format::report::Severity;
-use urdd_validate::report::{self, model::Report};
+use urdd_validate::report::{self};
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_source;
 

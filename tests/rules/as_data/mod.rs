@@ -18,7 +18,6 @@ use urdd::conformance::judge;
 use urdd::conformance::seal::add_mirrors;
 use urdd::conformance::tree::{Node, Tree};
 use urdd_directory::canonical;
-use urdd_validate::report::Report;
 use urdd_validate::rule::Severity;
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;

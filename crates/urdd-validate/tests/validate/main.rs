@@ -1,0 +1,8 @@
+//! The validator as a library: sound robots, random faults, documents that only fit their schemas, figures by peers.
+
+mod core_rules_random;
+mod corpus;
+mod kinematics_figures;
+mod no_crash;
+mod shape_rules_random;
+mod soundness;

@@ -1,0 +1,243 @@
+//! No document crashes a rule, whatever it says, as long as it fits its schema: that is what rules
+//! may count on, and no more.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use serde_json::{Value, json};
+use testkit::documents::{Choices, instance};
+use urdd_format::registry::{self, ModuleKind, ModuleSpec};
+use urdd_format::root_metadata::RootMetadata;
+use urdd_format::schema::{Subject, Variant};
+use urdd_validate::engine::Outcome;
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
+
+use testkit::dice::Dice;
+use testkit::fixture::{Fixture, ROOT};
+use testkit::folder::Folder;
+
+/// How many URDDs of each kind are tried. `URDD_TRIALS` sets another number.
+const TRIALS: u64 = 120;
+
+/// In the toy a few values are replaced by others of the schema, among them absurd ones.
+#[test]
+fn absurd_values_crash_no_rule() {
+    let broken = try_all(Fixture::toy, |urdd, dice| {
+        for _ in 0..=dice.below(3) {
+            put_nonsense(urdd, dice);
+        }
+    });
+    assert!(
+        broken > TRIALS as usize * 3 / 4,
+        "only {broken} were judged wrong"
+    );
+}
+
+/// The same of a robot with a self-collision model, which the toy has not.
+#[test]
+fn absurd_values_in_a_model_crash_no_rule() {
+    let model = testkit::model::fixture();
+    let broken = try_all(
+        || model.clone(),
+        |urdd, dice| {
+            for _ in 0..=dice.below(3) {
+                put_nonsense(urdd, dice);
+            }
+        },
+    );
+    assert!(
+        broken > TRIALS as usize * 3 / 4,
+        "only {broken} were judged wrong"
+    );
+}
+
+/// In the toy a whole document is replaced by an arbitrary one of the schema.
+#[test]
+fn arbitrary_documents_crash_no_rule() {
+    let schemas: Vec<(&str, Value)> = ModuleKind::ALL
+        .iter()
+        .filter_map(|kind| Some((kind.name(), spec(kind.name())?)))
+        .map(|(name, spec)| (name, Subject::Module(spec).schema(Variant::Strict)))
+        .collect();
+    let broken = try_all(Fixture::toy, |urdd, dice| {
+        for _ in 0..=dice.below(2) {
+            let (name, schema) = &schemas[dice.below(schemas.len())];
+            let choices: Vec<u16> = (0..dice.below(400)).map(|_| dice.word()).collect();
+            let document = instance(schema, &mut Choices::new(&choices));
+            let is_there = urdd.documents.keys().any(|folder| folder.ends_with(name));
+            match is_there {
+                true => *urdd.doc_mut(name) = document,
+                // The toy was not put together from others.
+                false => urdd.add_module(name, document),
+            }
+        }
+    });
+    assert!(
+        broken > TRIALS as usize * 3 / 4,
+        "only {broken} were judged wrong"
+    );
+}
+
+/// Changes a URDD as often as wanted, each time otherwise, and has it examined. Returns how many of
+/// these URDDs were found wrong.
+fn try_all(
+    base: impl Fn() -> Fixture + Sync,
+    change: impl Fn(&mut Fixture, &mut Dice) + Sync,
+) -> usize {
+    let wanted = std::env::var("URDD_TRIALS").ok();
+    let trials = wanted.map_or(TRIALS, |number| number.parse().expect("a number"));
+    let broken = (0..trials)
+        .into_par_iter()
+        .map_init(Folder::new, |folder, trial| {
+            let mut urdd = base();
+            change(&mut urdd, &mut Dice(trial << 32));
+            urdd.seal();
+            examine(&urdd, folder, trial)
+        });
+    broken.filter(|broken| *broken).count()
+}
+
+/// Whether the URDD is found wrong.
+fn examine(urdd: &Fixture, folder: &mut Folder, trial: u64) -> bool {
+    let run = urdd_validate::validate(&[folder.put(urdd)], &Settings::default()).unwrap();
+    let examined = run.subjects[0].result.as_ref().unwrap();
+    for check in &examined.checks {
+        let changed = || {
+            let toy = Fixture::toy();
+            let documents = urdd.documents.iter();
+            let changed = documents
+                .filter(|(folder, document)| toy.documents.get(*folder) != Some(*document));
+            let text: BTreeMap<_, _> = changed.collect();
+            serde_json::to_string(&text).unwrap()
+        };
+        assert!(
+            !matches!(check.outcome, Outcome::Crashed(_)),
+            "trial {trial}: {} crashed: {:?} on {}",
+            check.rule.code,
+            check.outcome,
+            changed()
+        );
+    }
+    let report = run.report(Severity::Error);
+    report.urdds.iter().any(|urdd| !urdd.findings.is_empty())
+}
+
+/// Replaces a value of a document, such that it still fits its schema.
+fn put_nonsense(urdd: &mut Fixture, dice: &mut Dice) {
+    let names: Vec<String> = urdd.documents.keys().cloned().collect();
+    let name = &names[dice.below(names.len())];
+    let valid = urdd.doc(name).clone();
+    // Of a document that has lost nearly everything there may be nothing to replace.
+    for _ in 0..200 {
+        let place = descend(urdd.doc_mut(name), dice);
+        let before = place.clone();
+        nonsense(place, &valid, dice);
+        if *place != before && fits_schema(name, urdd.doc(name)) {
+            return;
+        }
+        *urdd.doc_mut(name) = valid.clone();
+    }
+}
+
+/// Any place: each kind as likely as any other, however large its table.
+fn descend<'a>(document: &'a mut Value, dice: &mut Dice) -> &'a mut Value {
+    let mut place = document;
+    loop {
+        let count = match &*place {
+            Value::Object(map) => map.len(),
+            Value::Array(list) if dice.below(4) > 0 => list.len(),
+            _ => 0,
+        };
+        if count == 0 {
+            return place;
+        }
+        let at = dice.below(count);
+        place = match place {
+            Value::Object(map) => map.values_mut().nth(at).expect("counted"),
+            Value::Array(list) => &mut list[at],
+            _ => unreachable!(),
+        };
+    }
+}
+
+fn nonsense(place: &mut Value, document: &Value, dice: &mut Dice) {
+    // What stands elsewhere in the document, or nothing.
+    if dice.below(8) == 0 {
+        *place = descend(&mut document.clone(), dice).take();
+        return;
+    }
+    let numbers = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        0.5,
+        1e308,
+        -1e308,
+        f64::MAX,
+        5e-324,
+        1e-300,
+        1e155,
+        -1e154,
+        1e16,
+    ];
+    let indices = [0, 1, 2, 14, 15, 1000, 1 << 31, u32::MAX - 1, u32::MAX];
+    let words = [
+        "",
+        "/",
+        "base",
+        "..",
+        "a/../../b",
+        "\u{feff}",
+        "1:30",
+        "tip",
+        "\u{1f916}\n",
+    ];
+    match place {
+        Value::Null | Value::Bool(_) => {
+            *place = [
+                json!(true),
+                json!(false),
+                Value::Null,
+                json!([]),
+                json!(0),
+                json!(1e308),
+            ][dice.below(6)]
+            .clone();
+        }
+        Value::Number(number) if number.is_f64() => {
+            *place = json!(numbers[dice.below(numbers.len())])
+        }
+        Value::Number(_) => *place = json!(indices[dice.below(indices.len())]),
+        Value::String(text) => match dice.below(3) {
+            0 => *text = text.repeat(1 << dice.below(12)),
+            _ => *text = words[dice.below(words.len())].to_owned(),
+        },
+        Value::Array(list) => match dice.below(5) {
+            0 => list.clear(),
+            1 => list.truncate(dice.below(list.len() + 1)),
+            2 => list.extend(list.clone()),
+            3 => list.reverse(),
+            _ => {
+                for element in list {
+                    nonsense(element, document, dice);
+                }
+            }
+        },
+        Value::Object(_) => *place = Value::Null,
+    }
+}
+
+fn spec(module: &str) -> Option<&'static ModuleSpec> {
+    let kind = ModuleKind::ALL.iter().find(|kind| kind.name() == module)?;
+    registry::find(*kind, registry::SPEC_VERSION)
+}
+
+fn fits_schema(folder: &str, document: &Value) -> bool {
+    if folder == ROOT {
+        return serde_json::from_value::<RootMetadata>(document.clone()).is_ok();
+    }
+    let name = folder.rsplit('/').next().unwrap_or_default();
+    spec(name).is_some_and(|spec| spec.read(document).is_ok())
+}

@@ -1,0 +1,356 @@
+//! Recipes and legacy URDDs that come from a stranger: what they may open, run and use up.
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use serde_json::json;
+use urdd_generate::combine::{CombineError, PartFault, Recipe, RecipeFault, check_parts};
+
+use crate::combine::support::{core, ours, put_together};
+use crate::program::urdd;
+
+const CORE: [&str; 2] = ["--modules", "core"];
+
+const LINK: &str = "<robot name=\"r\"><link name=\"a\"/></robot>";
+
+/// A robot with two links.
+const TWO: &str = "<robot name=\"two\"><link name=\"base\"/><link name=\"tip\"/><joint name=\"j\" type=\"fixed\"><parent link=\"base\"/><child link=\"tip\"/></joint></robot>";
+
+/// A recipe of one part.
+fn one(source: &str) -> String {
+    format!("name = \"cell\"\n[[part]]\nid = \"p\"\nsource = \"{source}\"\n")
+}
+
+/// Recipes whose folder is `repository` take no part from outside of it, by whatever name.
+#[test]
+#[cfg(unix)]
+fn a_recipe_takes_parts_from_its_own_folder() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path().canonicalize().expect("a folder");
+    let (repository, outside) = (folder.join("repository"), folder.join("outside"));
+    fs::create_dir_all(repository.join("sub")).expect("a folder");
+    fs::create_dir(&outside).expect("a folder");
+    fs::write(outside.join("robot.urdf"), LINK).expect("a file");
+    fs::write(repository.join("robot.urdf"), LINK).expect("a file");
+    symlink(outside.join("robot.urdf"), repository.join("linked.urdf")).expect("a link");
+    symlink(&outside, repository.join("linked")).expect("a link");
+    let absolute = outside.join("robot.urdf").display().to_string();
+    for source in [
+        "../outside/robot.urdf",
+        "sub/../../outside/robot.urdf",
+        "linked.urdf",
+        "linked/robot.urdf",
+        &absolute,
+    ] {
+        let made = put_together(&one(source), &repository, &core());
+        let error = made.expect_err("a part from outside");
+        let CombineError::Part {
+            fault: PartFault::Outside { allow, .. },
+            ..
+        } = &error
+        else {
+            panic!("{source}: {error:?}");
+        };
+        assert_eq!(Path::new(allow), outside);
+        // Nor does anybody look into it.
+        let recipe = Recipe::from_toml(&one(source), "cell.toml", &repository).expect("a recipe");
+        let look = |path: &Path| -> Result<Vec<String>, _> { panic!("{} is read", path.display()) };
+        assert!(check_parts(&recipe, &core(), look).is_err());
+        let mut settings = core();
+        settings.allowed_folders.push(outside.clone());
+        put_together(&one(source), &repository, &settings).expect("it is allowed");
+        fs::remove_dir_all(repository.join("cell")).expect("a folder");
+    }
+    for source in [
+        "robot.urdf",
+        "sub/../robot.urdf",
+        "../repository/robot.urdf",
+    ] {
+        put_together(&one(source), &repository, &core()).expect("it is inside");
+        fs::remove_dir_all(repository.join("cell")).expect("a folder");
+    }
+}
+
+/// A program that says that it ran.
+#[cfg(unix)]
+fn with_xacro(folder: &Path, arguments: &[&str]) -> (i32, String, bool) {
+    use std::os::unix::fs::PermissionsExt;
+    let programs = folder.join("bin");
+    fs::create_dir_all(&programs).expect("a folder");
+    let (xacro, ran) = (programs.join("xacro"), folder.join("ran"));
+    let script = format!("#!/bin/sh\necho > {}\necho '{LINK}'\n", ran.display());
+    fs::write(&xacro, script).expect("a file");
+    fs::set_permissions(&xacro, fs::Permissions::from_mode(0o755)).expect("a mode");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_urdd"))
+        .args(arguments)
+        .args(CORE)
+        .current_dir(folder)
+        .env("PATH", programs)
+        .output()
+        .expect("the program");
+    let said = String::from_utf8(output.stderr).expect("UTF-8");
+    let has_run = fs::remove_file(ran).is_ok();
+    (output.status.code().expect("a status"), said, has_run)
+}
+
+#[test]
+#[cfg(unix)]
+fn xacro_runs_for_no_file_that_only_a_recipe_names() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    for file in ["evil.xacro", "tool.urdf"] {
+        fs::write(folder.join(file), LINK).expect("a file");
+    }
+    std::os::unix::fs::symlink("evil.xacro", folder.join("arm.urdf")).expect("a link");
+    // A recipe, by the file itself and by a link that looks harmless.
+    for source in ["evil.xacro", "arm.urdf"] {
+        fs::write(folder.join("cell.toml"), one(source)).expect("a file");
+        let (status, said, ran) = with_xacro(folder, &["combine", "cell.toml", "-o", "out"]);
+        assert_eq!((status, ran), (1, false), "{said}");
+        assert!(said.contains("allow that: --xacro"), "{said}");
+        let (status, said, ran) =
+            with_xacro(folder, &["combine", "cell.toml", "-o", "out", "--xacro"]);
+        assert_eq!((status, ran), (0, true), "{said}");
+        fs::remove_dir_all(folder.join("out")).expect("a folder");
+    }
+    // A legacy URDD.
+    let module = folder.join("legacy/adjusted_robot_module");
+    fs::create_dir_all(&module).expect("a folder");
+    for name in [
+        "evil.xacro",
+        "legacy/../evil.xacro",
+        "../evil.xacro",
+        "/etc",
+        "..",
+    ] {
+        let document = json!({
+            "name": "short", "base_robot_name": name, "dead_end_link_names": [],
+            "fixed_base_joints": [], "deleted_base_links": [], "deleted_base_joints": [],
+            "adjusted_link_idx_to_base_link_idx_mapping": [],
+            "base_link_idx_to_adjusted_link_idx_mapping": [],
+            "adjusted_joint_idx_to_base_joint_idx_mapping": [],
+            "base_joint_idx_to_adjusted_joint_idx_mapping": [],
+        });
+        fs::write(module.join("module.json"), document.to_string()).expect("a file");
+        for more in [&[][..], &["--xacro"]] {
+            let from = ["combine", "--from", "legacy", "-o", "out"];
+            let (status, said, ran) = with_xacro(folder, &[&from[..], more].concat());
+            assert_eq!((status, ran), (1, false), "{name}: {said}");
+            assert!(said.contains("not the name of one"), "{said}");
+        }
+        let error = Recipe::of_legacy(&folder.join("legacy")).expect_err("not beside it");
+        assert!(matches!(
+            error,
+            CombineError::Part {
+                fault: PartFault::NotBeside,
+                ..
+            }
+        ));
+    }
+    // The user names it.
+    let two = [
+        "combine",
+        "evil.xacro",
+        "tool.urdf",
+        "--at",
+        "a",
+        "-o",
+        "out",
+    ];
+    let (status, said, ran) = with_xacro(folder, &two);
+    assert_eq!((status, ran), (0, true), "{said}");
+}
+
+/// The URDF of a legacy URDD may be a link, or no file at all.
+#[test]
+#[cfg(unix)]
+fn the_urdf_of_a_legacy_part_is_inside_of_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    fs::write(folder.join("secret.urdf"), LINK).expect("a file");
+    let part = folder.join("part");
+    fs::create_dir_all(part.join("urdf_module")).expect("a folder");
+    fs::write(part.join("urdf_module/module.json"), "{}").expect("a file");
+    let urdf = part.join("robot.urdf");
+    for target in ["../secret.urdf", "/dev/zero"] {
+        std::os::unix::fs::symlink(target, &urdf).expect("a link");
+        let error = put_together(&one("part"), folder, &core()).expect_err("not a file of it");
+        assert!(
+            matches!(
+                error,
+                CombineError::Part {
+                    fault: PartFault::Unreadable { .. },
+                    ..
+                }
+            ),
+            "{error:?}"
+        );
+        fs::remove_file(&urdf).expect("a link");
+    }
+    let made = std::process::Command::new("mkfifo").arg(&urdf).status();
+    assert!(made.expect("mkfifo").success());
+    assert!(put_together(&one("part"), folder, &core()).is_err());
+}
+
+/// Parts in a line, each on the one before.
+fn chain(parts: usize) -> String {
+    let part = |idx: usize| {
+        let attach = match idx {
+            0 => String::new(),
+            _ => format!("attach = {{ to = \"p{}/tip\" }}\n", idx - 1),
+        };
+        format!("[[part]]\nid = \"p{idx}\"\nsource = \"two.urdf\"\n{attach}")
+    };
+    // The last first: nothing can be decided on the way.
+    (0..parts).rev().map(part).collect()
+}
+
+#[test]
+fn very_many_parts_are_refused_before_they_are_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let start = Instant::now();
+    let error = Recipe::from_toml(&chain(10_000), "cell.toml", folder).expect_err("too many");
+    let CombineError::Recipe { fault, .. } = error else {
+        panic!("{error}");
+    };
+    assert!(
+        matches!(*fault, RecipeFault::TooManyLinks { limit: 2_000, .. }),
+        "{fault}"
+    );
+    // Few parts with too many links: none is read after the one with which they are too many.
+    fs::write(folder.join("two.urdf"), TWO).expect("a file");
+    let error = put_together(&chain(1_001), folder, &core()).expect_err("too many");
+    let CombineError::Recipe { fault, .. } = error else {
+        panic!("{error}");
+    };
+    assert!(
+        matches!(*fault, RecipeFault::TooManyLinks { found: 2_002, .. }),
+        "{fault}"
+    );
+    // Minutes once; checks went with the cube of the parts.
+    assert!(
+        start.elapsed() < Duration::from_secs(20),
+        "{:?}",
+        start.elapsed()
+    );
+}
+
+#[test]
+fn words_that_no_urdf_can_hold_are_refused_with_their_place() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::copy(ours("gripper"), folder.path().join("g.urdf")).expect("a file");
+    let long = "n".repeat(300);
+    for (recipe, line, column) in [
+        ("prefix = \"a\\u0000\"".to_owned(), 5, 10),
+        ("prefix = \"a\\nb\"".to_owned(), 5, 10),
+        ("prefix = \"\\uFFFE\"".to_owned(), 5, 10),
+        (format!("prefix = \"{long}\""), 5, 10),
+        ("[base]\nname = \"\\u0001\"".to_owned(), 6, 8),
+        ("[base]\nlink = \" \"".to_owned(), 6, 8),
+    ] {
+        let text = one("g.urdf") + &recipe;
+        let error = put_together(&text, folder.path(), &core()).expect_err("no name");
+        let CombineError::Recipe { fault, at, .. } = error else {
+            panic!("{recipe:?}: {error}");
+        };
+        assert!(matches!(*fault, RecipeFault::BadWord { .. }), "{fault}");
+        let at = at.expect("a place");
+        assert_eq!((at.line, at.column), (line, column), "{recipe:?}");
+    }
+    for name in ["", "a\\u0000", &long] {
+        let text = format!("name = \"{name}\"\n[[part]]\nid = \"g\"\nsource = \"g.urdf\"\n");
+        let error = Recipe::from_toml(&text, "cell.toml", folder.path()).expect_err("no name");
+        let CombineError::Recipe { fault, .. } = error else {
+            panic!("{error}");
+        };
+        assert!(
+            matches!(
+                *fault,
+                RecipeFault::BadWord {
+                    what: "the name",
+                    ..
+                }
+            ),
+            "{fault}"
+        );
+    }
+}
+
+/// A signal ends it within a second, at any moment.
+#[test]
+#[cfg(unix)]
+fn a_signal_ends_combining_at_any_moment() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    // Different files, so that each is read by itself.
+    fs::write(folder.join("two.urdf"), TWO).expect("a file");
+    let mut recipe = chain(900);
+    for idx in 0..900 {
+        let file = format!("{idx}.urdf");
+        fs::write(folder.join(&file), TWO).expect("a file");
+        recipe = recipe.replacen("two.urdf", &file, 1);
+    }
+    fs::write(folder.join("cell.toml"), recipe).expect("a file");
+    for wait in [50, 300, 1000] {
+        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_urdd"))
+            .args(["combine", "cell.toml", "-o", "out"])
+            .current_dir(folder)
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .expect("the program");
+        std::thread::sleep(Duration::from_millis(wait));
+        let asked = Instant::now();
+        let pid = child.id().to_string();
+        let kill = std::process::Command::new("kill")
+            .args(["-TERM", &pid])
+            .status();
+        assert!(kill.expect("kill").success());
+        let status = child.wait().expect("a status");
+        assert_eq!(status.code(), Some(143), "after {wait} ms");
+        // One second is the aim; tests run beside each other.
+        assert!(
+            asked.elapsed() < Duration::from_secs(4),
+            "{:?}",
+            asked.elapsed()
+        );
+        assert!(!folder.join("out").exists());
+    }
+}
+
+/// A word of a megabyte brings no suggestion: comparing it with each link took gigabytes.
+#[test]
+fn very_long_names_are_not_compared() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::copy(ours("gripper"), folder.path().join("g.urdf")).expect("a file");
+    let long = "n".repeat(900_000);
+    let name = "m".repeat(900_000);
+    let urdf = format!("<robot name=\"r\"><link name=\"{name}\"/></robot>");
+    fs::write(folder.path().join("long.urdf"), urdf).expect("a file");
+    let text = one("long.urdf") + &format!("drop = [\"{long}\"]\n");
+    let error = put_together(&text, folder.path(), &core()).expect_err("no such link");
+    let CombineError::Recipe { fault, .. } = error else {
+        panic!("{error}");
+    };
+    assert!(matches!(*fault, RecipeFault::Unknown { nearest: None, .. }));
+}
+
+#[test]
+fn a_recipe_is_a_regular_file_up_to_a_limit() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    fs::write(folder.join("long.toml"), vec![b'#'; (1 << 20) + 1]).expect("a file");
+    let (status, _, said) = urdd(&["combine", "long.toml", "-o", "out"], folder);
+    assert_eq!(status, 1);
+    assert!(said.contains("cannot be read"), "{said}");
+    #[cfg(unix)]
+    {
+        let made = std::process::Command::new("mkfifo")
+            .arg(folder.join("pipe.toml"))
+            .status();
+        assert!(made.expect("mkfifo").success());
+        assert_eq!(urdd(&["combine", "pipe.toml", "-o", "out"], folder).0, 1);
+    }
+}

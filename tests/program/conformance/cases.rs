@@ -1,0 +1,108 @@
+//! Every case, as the data say it.
+
+use std::collections::BTreeSet;
+
+use rayon::prelude::*;
+use urdd::conformance::case::{Case, Kind, Verdict};
+use urdd::conformance::judge;
+use urdd::conformance::suite::Suite;
+use urdd::conformance::tree::TreeError;
+use urdd::conformance::valid;
+use urdd_validate::report::Report;
+use urdd_validate::rule::Severity;
+use urdd_validate::settings::Settings;
+use urdd_validate::{rules, validate};
+
+use crate::conformance::in_repository;
+
+fn suite() -> Suite {
+    Suite::carried().expect("the suite reads")
+}
+
+/// What the validator says of a case; `None` where this system cannot have it on disk.
+fn report(case: &Case, suite: &Suite) -> Option<Report> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let root = folder.path().join("robot");
+    let tree = suite.tree(case).unwrap_or_else(|error| panic!("{error}"));
+    match tree.write(&root) {
+        Ok(()) => {}
+        Err(TreeError::Unsupported(_)) if !cfg!(target_os = "linux") => return None,
+        Err(error) => panic!("{}: {error}", case.id()),
+    }
+    let run = validate(&[&root], &Settings::default()).expect("something to examine");
+    Some(run.report(Severity::Error))
+}
+
+#[test]
+fn every_case_is_judged_as_it_says() {
+    let suite = suite();
+    assert!(suite.cases.len() > 500, "{} cases", suite.cases.len());
+    let differences = suite.cases.par_iter().filter_map(|case| {
+        let report = report(case, &suite)?;
+        judge::difference(case, &report)
+    });
+    let wrong: Vec<String> = differences.collect();
+    assert!(
+        wrong.is_empty(),
+        "{} cases are judged wrong:\n{}",
+        wrong.len(),
+        wrong.join("\n")
+    );
+}
+
+/// In hundreds, so that a new case does not change them.
+#[test]
+fn the_pages_say_how_much_there_is() {
+    let cases = format!("more than {} cases", suite().cases.len() / 100 * 100);
+    let robots = match valid::robots().len() {
+        9 => "nine robots",
+        others => panic!("{others} robots; the pages say nine"),
+    };
+    for page in ["README.md", "conformance/README.md"] {
+        let text = std::fs::read_to_string(in_repository(page)).expect(page);
+        for words in [cases.as_str(), robots] {
+            assert!(text.contains(words), "{page} does not say `{words}`");
+        }
+    }
+}
+
+#[test]
+fn a_case_is_of_one_rule() {
+    let rules = rules::all();
+    for case in suite().cases {
+        let id = case.id();
+        let rule = rules.iter().find(|rule| rule.code.as_str() == case.code);
+        let rule = rule.unwrap_or_else(|| panic!("{id}: there is no such rule"));
+        let others = case.expected.iter().filter(|one| one.code != case.code);
+        assert_eq!(others.count(), 0, "{id}: another rule finds something too");
+        assert_eq!(
+            case.expected.is_empty(),
+            case.kind == Kind::NearMiss,
+            "{id}"
+        );
+        let rejected = case.kind == Kind::Invalid && rule.severity == Severity::Error;
+        assert_eq!(case.verdict == Verdict::Reject, rejected, "{id}");
+    }
+}
+
+#[test]
+fn every_rule_has_an_invalid_case_and_a_near_miss() {
+    let cases = suite().cases;
+    let of = |kind| -> BTreeSet<String> {
+        let of_kind = cases.iter().filter(|case| case.kind == kind);
+        of_kind.map(|case| case.code.clone()).collect()
+    };
+    let all: BTreeSet<String> = rules::all()
+        .iter()
+        .map(|rule| rule.code.to_string())
+        .collect();
+    assert_eq!(of(Kind::Invalid), all);
+    assert_eq!(of(Kind::NearMiss), all);
+}
+
+#[test]
+fn every_base_is_used() {
+    let suite = suite();
+    let used: BTreeSet<&String> = suite.cases.iter().map(|case| &case.base).collect();
+    assert_eq!(used, suite.bases.keys().collect());
+}

@@ -1,0 +1,214 @@
+//! `urdd conformance producer`, with the reference generator as somebody's.
+
+use std::fs;
+
+use crate::conformance::{conformance, result, stderr};
+
+const URDD: &str = env!("CARGO_BIN_EXE_urdd");
+
+#[test]
+fn the_reference_generator_passes() {
+    let command = [
+        "--",
+        URDD,
+        "generate",
+        "--samples",
+        "20",
+        "{urdf}",
+        "-o",
+        "{out}",
+    ];
+    let arguments = [
+        &["producer", "--class", "shapes", "--format", "json"][..],
+        &["--robot", "gripper", "--robot", "welding_arm"],
+        &command,
+    ];
+    let (status, result) = result(&arguments.concat());
+    assert_eq!((status, &result["passed"]), (0, &true.into()), "{result:#}");
+    let robots = result["robots"].as_array().expect("a list");
+    assert_eq!(robots.len(), 2);
+    for class in result["classes"].as_array().expect("a list") {
+        assert_eq!((&class["passed"], &class["of"]), (&2.into(), &2.into()));
+    }
+    assert_eq!(result["classes"].as_array().map(Vec::len), Some(3));
+}
+
+/// Core modules only, and asked for more.
+#[test]
+fn what_is_missing_is_told_by_class_and_module() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let skips = folder.path().join("skips");
+    let command = [
+        "--",
+        URDD,
+        "generate",
+        "--modules",
+        "core",
+        "{urdf}",
+        "-o",
+        "{out}",
+    ];
+    let arguments = [
+        &[
+            "producer", "--class", "geometry", "--format", "json", "--robot", "gripper",
+        ][..],
+        &["--skip", skips.to_str().expect("UTF-8")],
+        &command,
+    ]
+    .concat();
+    fs::write(&skips, "# nothing\n").expect("written");
+    let (status, found) = result(&arguments);
+    assert_eq!((status, &found["passed"]), (1, &false.into()));
+    assert_eq!(found["classes"][0]["passed"], 1, "{found:#}");
+    assert_eq!(found["classes"][1]["passed"], 0);
+    let modules = found["modules"].as_array().expect("a list");
+    let module = |name: &str| modules.iter().find(|module| module["name"] == name);
+    assert_eq!(module("dof_module").expect("there")["passed"], 1);
+    assert_eq!(module("plain_meshes_module").expect("asked")["present"], 0);
+
+    // With all four skipped nothing is left; a fifth, which passes, is stale.
+    let missing = ["original", "plain", "convex_hull", "convex_decomposition"];
+    let lines = missing.map(|name| format!("gripper {name}_meshes_module # no meshes yet\n"));
+    fs::write(&skips, lines.concat()).expect("written");
+    let (status, found) = result(&arguments);
+    assert_eq!(
+        (status, &found["robots"][0]["status"]),
+        (0, &"skipped".into())
+    );
+    fs::write(&skips, lines.concat() + "gripper dof_module # old\n").expect("written");
+    let (status, found) = result(&arguments);
+    assert_eq!(status, 1);
+    assert_eq!(
+        found["stale_skips"],
+        serde_json::json!(["gripper dof_module"])
+    );
+    // A robot that was not run is neither right nor wrong.
+    fs::write(&skips, lines.concat() + "hand # slow\n").expect("written");
+    assert_eq!(result(&arguments).0, 0);
+
+    fs::write(&skips, "gripper\n").expect("written");
+    let output = conformance(&arguments);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("line 1: say why"),
+        "{}",
+        stderr(&output)
+    );
+    fs::write(&skips, "griper # why\n").expect("written");
+    let output = conformance(&arguments);
+    assert!(
+        stderr(&output).contains("there is no `griper`"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn what_a_producer_does_wrong_is_told() {
+    let run = |script: &str| {
+        let arguments = [
+            &[
+                "producer",
+                "--format",
+                "json",
+                "--robot",
+                "gripper",
+                "--timeout",
+                "5",
+            ][..],
+            &["--", "sh", "-c", script, "sh", "{urdf}", "{out}"],
+        ];
+        let (status, result) = result(&arguments.concat());
+        assert_eq!(status, 1, "{script}");
+        result["robots"][0].clone()
+    };
+    let robot = run("echo no idea >&2; exit 7");
+    assert_eq!(robot["end"], "exit status 7");
+    assert_eq!(robot["stderr"], "no idea\n");
+    assert!(robot["unreadable"].is_null());
+    let text = |robot: &serde_json::Value| robot["unreadable"].as_str().unwrap_or("").to_owned();
+    assert!(text(&run("true")).contains("made no folder"));
+    assert!(text(&run("mkdir \"$2\"")).contains("no URDD here"));
+    let nested = format!("'{URDD}' generate --modules core \"$1\" -o \"$2/inside\"");
+    assert!(text(&run(&nested)).contains("itself must be the URDD"));
+    assert_eq!(run("sleep 60")["end"], "stopped at the time limit");
+}
+
+#[test]
+fn usage() {
+    for (arguments, message) in [
+        (&["producer", "--", "make", "{urdf}"][..], "{out}"),
+        (
+            &["producer", "--class", "best", "--", "a", "{urdf}", "{out}"],
+            "best",
+        ),
+        (
+            &["producer", "--robot", "r2", "--", "a", "{urdf}", "{out}"],
+            "gripper",
+        ),
+        (&["producer"], "COMMAND"),
+    ] {
+        let output = conformance(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+    }
+}
+
+/// The worked example of README: a producer in Python, scored.
+#[test]
+#[ignore = "needs python3; .ci/run runs it"]
+fn the_python_example_passes() {
+    let command = ["python3", "examples/minimal_producer.py", "{urdf}", "{out}"];
+    let (status, result) =
+        result(&[&["producer", "--format", "json", "--"][..], &command].concat());
+    assert_eq!(status, 0, "{result:#}");
+    assert_eq!(result["robots"].as_array().map(Vec::len), Some(9));
+    assert_eq!(result["classes"][0]["passed"], 9);
+}
+
+#[test]
+fn robots_are_run_at_a_time_and_can_be_kept() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (log, kept) = (folder.path().join("log"), folder.path().join("kept"));
+    let more = [
+        "--jobs",
+        "2",
+        "--log",
+        log.to_str().expect("UTF-8"),
+        "--keep",
+        kept.to_str().expect("UTF-8"),
+    ];
+    let start = [
+        "producer",
+        "--format",
+        "json",
+        "--robot",
+        "gripper",
+        "--robot",
+        "single_link",
+    ];
+    let command = [
+        "--",
+        URDD,
+        "generate",
+        "--modules",
+        "core",
+        "{urdf}",
+        "-o",
+        "{out}",
+    ];
+    let (status, result) = result(&[&start[..], &more, &command].concat());
+    assert_eq!(status, 0, "{result:#}");
+    // In the order of the robots, however they ended.
+    let names: Vec<&serde_json::Value> = result["robots"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|robot| &robot["robot"])
+        .collect();
+    assert_eq!(names, ["gripper", "single_link"]);
+    assert_eq!(fs::read_to_string(&log).expect("a log").lines().count(), 2);
+    assert!(kept.join("gripper/gripper/urdd.json").is_file());
+    assert!(kept.join("single_link/robots/single_link.urdf").is_file());
+}

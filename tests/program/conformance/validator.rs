@@ -1,0 +1,377 @@
+//! `urdd conformance validator`, with ours as somebody's, and with some that are no good.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use crate::conformance::{conformance, result, stderr};
+
+const URDD: &str = env!("CARGO_BIN_EXE_urdd");
+
+fn run(cases: &[&str], more: &[&str], command: &[&str]) -> (i32, Value) {
+    let only: Vec<&str> = cases.iter().flat_map(|case| ["--case", case]).collect();
+    let start = ["validator", "--format", "json", "--timeout", "20"];
+    result(&[&start[..], &only, more, &["--"], command].concat())
+}
+
+fn shell(cases: &[&str], script: &str) -> (i32, Value) {
+    run(cases, &[], &["sh", "-c", script, "sh", "{dir}"])
+}
+
+#[test]
+fn ours_is_right() {
+    let command = [URDD, "validate", "{dir}"];
+    let cases = ["DOF", "LEG", "SRC00", "DIR016", "DIR024", "valid/gripper"];
+    let (status, result) = run(&cases, &[], &command);
+    assert_eq!((status, &result["passed"]), (0, &true.into()), "{result:#}");
+    assert_eq!(result["totals"]["right"], result["totals"]["of"]);
+    assert!(result["totals"]["of"].as_u64() > Some(50));
+    assert_eq!(result["families"][1]["name"], "DOF");
+}
+
+/// Every case, for `.ci/run`.
+#[test]
+#[ignore = "takes a minute; .ci/run runs it"]
+fn ours_is_right_everywhere() {
+    let (status, result) = run(&[], &[], &[URDD, "validate", "{dir}"]);
+    assert_eq!(status, 0, "{result:#}");
+    assert!(result["totals"]["of"].as_u64() > Some(500));
+}
+
+#[test]
+fn verdicts_are_told_apart() {
+    let cases = ["DOF001", "DOF002", "valid/single_link"];
+    let (_, right) = run(&cases, &[], &[URDD, "validate", "{dir}"]);
+    let of = right["totals"]["of"].as_u64().expect("a number");
+    let (status, all_accepted) = shell(&cases, "exit 0");
+    let missed = all_accepted["totals"]["missed"].as_u64().expect("a number");
+    assert_eq!(status, 1);
+    assert!(missed > 2 && missed < of);
+    assert_eq!(all_accepted["sound"]["false_alarms"], 0);
+    let (_, all_rejected) = shell(&cases, "exit 1");
+    assert_eq!(all_rejected["totals"]["false_alarms"], json!(of - missed));
+    assert_eq!(all_rejected["totals"]["missed"], 0);
+    assert_eq!(all_rejected["sound"]["false_alarms"], json!(of - missed));
+    // Neither another status, nor a signal, nor a program that is not there is a verdict.
+    for script in ["exit 2", "exit 101", "kill -9 $$"] {
+        let (status, none) = shell(&cases, script);
+        assert_eq!(
+            (status, &none["totals"]["undecided"]),
+            (1, &json!(of)),
+            "{script}"
+        );
+    }
+    let (_, none) = run(&cases, &[], &["/no/such/validator", "{dir}"]);
+    assert_eq!(none["totals"]["undecided"], json!(of));
+    let end = none["wrong"][0]["end"].as_str().expect("text");
+    assert!(end.contains("could not be started"), "{end}");
+}
+
+#[test]
+fn the_time_limit_is_no_verdict() {
+    let command = ["sh", "-c", "sleep 60; exit 1", "sh", "{dir}"];
+    let more = ["--timeout", "1"];
+    let start = [
+        "validator",
+        "--format",
+        "json",
+        "--case",
+        "valid/single_link",
+    ];
+    let (status, result) = result(&[&start[..], &more, &["--"], &command].concat());
+    assert_eq!(status, 1);
+    assert_eq!(result["wrong"][0]["fault"], "undecided");
+    assert_eq!(result["wrong"][0]["end"], "stopped at the time limit");
+}
+
+#[test]
+fn skips_excuse_and_go_stale() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("skips");
+    let skip = ["--skip", file.to_str().expect("UTF-8")];
+    let accept = ["sh", "-c", "exit 0", "sh", "{dir}"];
+    let cases = ["DOF001", "DOF002"];
+    fs::write(&file, "DOF001 # soon\nDOF002 # soon\nBND # not run here\n").expect("written");
+    let (status, result) = run(&cases, &skip, &accept);
+    assert_eq!((status, &result["passed"]), (0, &true.into()), "{result:#}");
+    assert_eq!(result["wrong"][0]["skipped_since"], "soon");
+    assert_eq!(result["stale_skips"], json!([]));
+    let (status, result) = run(&cases, &skip, &[URDD, "validate", "{dir}"]);
+    assert_eq!(status, 1);
+    assert_eq!(result["stale_skips"], json!(["DOF001", "DOF002"]));
+
+    fs::write(&file, "DOF999 # why\n").expect("written");
+    let start = ["validator", "--case", "DOF001"];
+    let output = conformance(&[&start[..], &skip, &["--"], &accept].concat());
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("there is no `DOF999`"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn cases_are_of_versions() {
+    let command = ["--", URDD, "validate", "{dir}"];
+    let newer = ["validator", "--spec-version", "2.0.0"];
+    let output = conformance(&[&newer[..], &command].concat());
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("no case to run"),
+        "{}",
+        stderr(&output)
+    );
+    let minor = ["validator", "--format", "json", "--spec-version", "1.4.0"];
+    let (status, _) = result(&[&minor[..], &["--case", "DOF001"], &command].concat());
+    assert_eq!(status, 0);
+}
+
+#[test]
+fn a_crash_that_ends_with_one_is_warned_of() {
+    let cases = ["DOF001", "DOF002", "valid/single_link"];
+    let crash = "echo 'Traceback (most recent call last):' >&2; exit 1";
+    let (_, result) = shell(&cases, crash);
+    assert_eq!(
+        result["crashed"].as_array().map(Vec::len),
+        result["totals"]["of"].as_u64().map(|of| of as usize),
+        "{result:#}"
+    );
+    let start = ["validator", "--case", "DOF001", "--"];
+    let output = conformance(&[&start[..], &["sh", "-c", crash, "sh", "{dir}"]].concat());
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        said.contains("look like crashes") && said.contains("--reject-status"),
+        "{said}"
+    );
+    // With a status of its own for rejections, it is no verdict.
+    let (_, result) = run(
+        &cases,
+        &["--reject-status", "3"],
+        &["sh", "-c", crash, "sh", "{dir}"],
+    );
+    assert_eq!(result["totals"]["undecided"], result["totals"]["of"]);
+    assert_eq!(result["crashed"], json!([]));
+    let (_, result) = run(
+        &cases,
+        &["--reject-status", "3"],
+        &["sh", "-c", "exit 3", "sh", "{dir}"],
+    );
+    assert_eq!(result["totals"]["undecided"], 0);
+    assert_eq!(result["totals"]["missed"], 0);
+}
+
+#[test]
+fn legacy_is_counted_apart() {
+    let command = [URDD, "validate", "{dir}"];
+    let cases = ["LEG", "DOF001"];
+    let (status, with) = run(&cases, &[], &command);
+    assert_eq!(status, 0);
+    let of = |result: &Value, sum: &str| result[sum]["of"].as_u64().expect("a number");
+    assert!(
+        of(&with, "legacy") > 5 && of(&with, "totals") > 1,
+        "{with:#}"
+    );
+    let (status, without) = run(&cases, &["--no-legacy"], &command);
+    assert_eq!((status, of(&without, "legacy")), (0, 0));
+    assert_eq!(of(&without, "totals"), of(&with, "totals"));
+    // What is wrong with legacy URDDs does not touch the score of version 1, but is not passed over.
+    let script = "test -f \"$1/urdd.json\" || exit 2; exec \"$0\" validate \"$1\"";
+    let (status, wrong) = run(&cases, &[], &["sh", "-c", script, URDD, "{dir}"]);
+    assert_eq!((status, &wrong["totals"]), (1, &with["totals"]));
+    assert_eq!(wrong["legacy"]["undecided"], wrong["legacy"]["of"]);
+}
+
+#[test]
+fn results_are_logged_as_they_come_and_folders_can_stay() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (log, kept) = (folder.path().join("log"), folder.path().join("kept"));
+    let more = ["--log", log.to_str().expect("UTF-8"), "--jobs", "1"];
+    let keep = ["--keep", kept.to_str().expect("UTF-8")];
+    // The second command to run ends the whole program, as a person does who has seen enough.
+    let script = format!(
+        "test -f '{0}' && kill -9 $PPID; touch '{0}'; exit 1",
+        folder.path().join("ran").display()
+    );
+    let start = ["validator", "--case", "DOF001", "--case", "DOF002"];
+    let output = conformance(
+        &[
+            &start[..],
+            &more,
+            &["--", "sh", "-c", &script, "sh", "{dir}"],
+        ]
+        .concat(),
+    );
+    assert_eq!(output.status.code(), None, "it was killed");
+    let lines = fs::read_to_string(&log).expect("a log");
+    let lines: Vec<Value> = lines
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("JSON"))
+        .collect();
+    assert_eq!(lines.len(), 1, "{lines:?}");
+    assert_eq!(lines[0]["end"], "exit status 1");
+    assert!(
+        lines[0]["id"]
+            .as_str()
+            .is_some_and(|id| id.starts_with("DOF001/"))
+    );
+
+    let (_, result) = run(
+        &["DOF001"],
+        &[&more[..], &keep].concat(),
+        &[URDD, "validate", "{dir}"],
+    );
+    let of = result["totals"]["of"].as_u64().expect("a number") as usize;
+    let logged = fs::read_to_string(&log).expect("a log");
+    assert_eq!(logged.lines().count(), of);
+    let cases = fs::read_dir(kept.join("invalid/DOF001")).expect("what was kept");
+    for case in cases {
+        assert!(
+            case.expect("an entry")
+                .path()
+                .join("robot/urdd.json")
+                .is_file()
+        );
+    }
+    // Never into a folder that holds something.
+    let again = conformance(&[&start[..], &keep, &["--", URDD, "validate", "{dir}"]].concat());
+    assert_eq!(again.status.code(), Some(2));
+    assert!(stderr(&again).contains("not empty"), "{}", stderr(&again));
+    let full = ["--log", "/dev/full"];
+    if cfg!(target_os = "linux") {
+        let output = conformance(&[&start[..], &full, &["--", URDD, "validate", "{dir}"]].concat());
+        assert_eq!(output.status.code(), Some(2));
+        assert!(
+            stderr(&output).contains("/dev/full: cannot be written"),
+            "{}",
+            stderr(&output)
+        );
+    }
+}
+
+/// Processes whose numbers a script wrote into a folder, and that still run.
+fn alive(folder: &std::path::Path) -> Vec<String> {
+    let files = fs::read_dir(folder).expect("a folder");
+    let pids =
+        files.map(|file| fs::read_to_string(file.expect("a file").path()).expect("a number"));
+    let runs = |pid: &String| {
+        let stat = fs::read_to_string(format!("/proc/{}/stat", pid.trim())).unwrap_or_default();
+        stat.rsplit_once(')')
+            .is_some_and(|(_, rest)| !rest.starts_with(" Z"))
+    };
+    pids.filter(runs).collect()
+}
+
+/// A command whose children go different ways: in its group, in sessions of their own, without a parent, and without an
+/// environment. Each writes its number into the folder.
+fn family(folder: &std::path::Path, last: &str) -> String {
+    let child = |name: &str| {
+        format!(
+            "sh -c 'echo $$ > {}/{name}; exec sleep 600'",
+            folder.display()
+        )
+    };
+    format!(
+        "{} & setsid {} & (setsid {} &) & (env -i setsid {} &) & setsid sh -c \"(setsid {} &) & sleep 600\" & {last}",
+        child("group"),
+        child("session"),
+        child("orphan"),
+        child("bare"),
+        child("deep").replace('$', "\\$"),
+    )
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_signal_ends_all_that_was_started() {
+    use std::time::{Duration, Instant};
+    for (signal, status) in [("TERM", 143), ("INT", 130), ("HUP", 129)] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let script = family(folder.path(), "sleep 600");
+        let mut run = std::process::Command::new(URDD)
+            .args([
+                "conformance",
+                "validator",
+                "--case",
+                "DOF001",
+                "--jobs",
+                "1",
+            ])
+            .args(["--", "sh", "-c", &script, "sh", "{dir}"])
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .expect("the program");
+        let start = Instant::now();
+        while alive(folder.path()).len() < 5 && start.elapsed() < Duration::from_secs(60) {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        assert_eq!(alive(folder.path()).len(), 5);
+        let pid = run.id().to_string();
+        let kill = std::process::Command::new("kill")
+            .args([&format!("-{signal}"), &pid])
+            .status();
+        assert!(kill.expect("kill").success());
+        assert_eq!(run.wait().expect("a status").code(), Some(status));
+        assert_eq!(alive(folder.path()), [] as [String; 0], "SIG{signal}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn whatever_a_command_started_ends_with_it() {
+    for (last, end) in [
+        ("sleep 600", "stopped at the time limit"),
+        ("sleep 1; exit 7", "exit status 7"),
+    ] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let script = family(folder.path(), last);
+        let command = ["sh", "-c", &script, "sh", "{dir}"];
+        let start = [
+            "validator",
+            "--format",
+            "json",
+            "--case",
+            "valid/single_link",
+            "--timeout",
+            "2",
+        ];
+        let (_, result) = result(&[&start[..], &["--"], &command].concat());
+        assert_eq!(result["wrong"][0]["end"], end);
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 5);
+        assert_eq!(alive(folder.path()), [] as [String; 0], "{last}");
+    }
+}
+
+#[test]
+fn a_log_replaces_no_other_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("thesis.tex");
+    let log = ["--log", file.to_str().expect("UTF-8")];
+    let start = ["validator", "--case", "DOF001"];
+    let command = ["--", "sh", "-c", "exit 1", "sh", "{dir}"];
+    let run = |more: &[&str]| conformance(&[&start[..], &log, more, &command].concat());
+    for text in ["my thesis\n", "{}\n", "{\"end\": 1}\n", "[1]"] {
+        fs::write(&file, text).expect("written");
+        let output = run(&[]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(
+            stderr(&output).contains("is not a log of this command"),
+            "{}",
+            stderr(&output)
+        );
+        assert_eq!(fs::read_to_string(&file).expect("a file"), text);
+    }
+    assert_ne!(run(&["--force"]).status.code(), Some(2));
+    let logged = fs::read_to_string(&file).expect("a log");
+    assert!(logged.starts_with("{\"id\":\"DOF001/"), "{logged}");
+    // Its own log it writes again, and an empty file too.
+    assert_ne!(run(&[]).status.code(), Some(2));
+    fs::write(&file, "").expect("written");
+    assert_ne!(run(&[]).status.code(), Some(2));
+    assert_eq!(run(&["--output", log[1]]).status.code(), Some(2));
+    let metadata = folder.path().join("urdd.json");
+    let named = ["--log", metadata.to_str().expect("UTF-8")];
+    let output = conformance(&[&start[..], &named, &command].concat());
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(!metadata.exists());
+}

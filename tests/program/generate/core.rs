@@ -1,0 +1,99 @@
+//! What the modules say: as the validator and `tests/support`, a producer of its own, have it.
+
+use std::fs;
+use std::path::Path;
+
+use proptest::test_runner::{Config, TestCaseError, TestRunner};
+use urdd_format::registry::ModuleKind;
+use urdd_generate::{Settings, generate};
+
+use crate::generate::{findings_of, our_robots, read_json};
+use testkit::difference::difference;
+use testkit::fixture::Fixture;
+use testkit::robot::{Robot, arbitrary_robot};
+
+#[test]
+fn our_robots_have_no_findings() {
+    for (name, path) in our_robots() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join(&name);
+        let made = generate(&path, &target, &Settings::default(), &()).unwrap();
+        assert_eq!(made.notes, [], "{name}");
+        assert_eq!(findings_of(&target), [], "{name}");
+    }
+}
+
+#[test]
+fn arbitrary_robots_are_as_the_others_have_them() {
+    let config = Config {
+        cases: 60,
+        failure_persistence: None,
+        max_shrink_iters: 100,
+        ..Config::default()
+    };
+    let outcome = TestRunner::new(config).run(&arbitrary_robot(), |robot| {
+        compare(&robot).map_err(TestCaseError::fail)
+    });
+    outcome.unwrap_or_else(|failure| panic!("{failure}"));
+}
+
+fn compare(robot: &Robot) -> Result<(), String> {
+    let folder = tempfile::tempdir().unwrap();
+    let (source, target) = (folder.path().join("robot.urdf"), folder.path().join("out"));
+    let xml = robot.to_urdf_xml();
+    fs::write(&source, &xml).unwrap();
+    generate(&source, &target, &Settings::default(), &()).map_err(|error| error.to_string())?;
+    let carried = fs::read_to_string(target.join("robot.urdf")).unwrap();
+    if carried != xml {
+        return Err("the URDF was changed".to_owned());
+    }
+    let findings = findings_of(&target);
+    if let Some(finding) = findings.iter().find(|(code, ..)| !code.starts_with("SRC")) {
+        return Err(format!("{finding:?}"));
+    }
+    let theirs = Fixture::core(robot);
+    let mut compared = 0;
+    for kind in ModuleKind::ALL
+        .iter()
+        .filter(|kind| !kind.folder().contains('/'))
+    {
+        let Some(theirs) = theirs.documents.get(kind.name()) else {
+            continue;
+        };
+        let ours = read_json(&target.join(kind.folder()).join("module.json"));
+        let found = difference(&ours, theirs, "");
+        found.map_or(Ok(()), |found| Err(format!("{}{found}", kind.name())))?;
+        compared += 1;
+    }
+    if compared != 6 {
+        return Err(format!("{compared} modules were compared"));
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_asked_for_is_made_and_the_core_class_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let selection = urdd_generate::Selection::parse(["dof"]).unwrap();
+    let settings = Settings {
+        selection,
+        ..Settings::default()
+    };
+    let (_, robot) = our_robots().remove(0);
+    let target = folder.path().join("out");
+    generate(&robot, &target, &settings, &()).unwrap();
+    assert!(exists(&target, "connections_module"));
+    assert!(!exists(&target, "kinematics_samples_module"));
+    assert!(!exists(&target, "mesh_modules"));
+    let codes: Vec<String> = findings_of(&target)
+        .into_iter()
+        .map(|(code, ..)| code)
+        .collect();
+    assert_eq!(codes, ["KIN005"], "the samples are recommended");
+    let error = urdd_generate::Selection::parse(["dof", "dofs"]).unwrap_err();
+    assert_eq!(error.word, "dofs");
+}
+
+fn exists(target: &Path, name: &str) -> bool {
+    target.join(name).exists()
+}

@@ -1,0 +1,30 @@
+//! The program from outside, and what holds the repository together: SPEC.md, the suite, the page, figures.
+
+mod architecture;
+mod bad_input;
+mod cli_schema;
+mod cli_validate;
+mod combine;
+mod conformance;
+mod directory_sources;
+mod export;
+mod fuzz_findings;
+mod generate;
+mod large_inputs;
+mod page_bundle;
+mod printing;
+mod producers_agree;
+mod program;
+mod published_corpus;
+mod published_schemas;
+mod readers;
+mod report_formats;
+mod report_summary;
+mod results;
+mod robot;
+mod security_doc;
+mod snapshots;
+mod spec_agrees;
+mod support_is_sound;
+mod vectors;
+mod view;

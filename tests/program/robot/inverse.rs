@@ -1,0 +1,215 @@
+//! Inverse kinematics, against closed forms and against forward kinematics.
+
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use urdd_robot::{Inverse, InverseSettings, Robot, RobotError, Target};
+
+use crate::robot::{made, made_of, our_robots};
+
+/// A planar arm with two links of 0.5 m and 0.3 m whose elbow bends one way, and a finger that follows the elbow.
+const PLANAR: &str = r#"<robot name="planar">
+  <link name="base"/><link name="upper"/><link name="fore"/><link name="tip"/><link name="finger"/><link name="lid"/>
+  <joint name="shoulder" type="continuous"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="0.5 0 0"/>
+    <axis xyz="0 0 1"/><limit lower="0" upper="2.5" effort="1" velocity="1"/></joint>
+  <joint name="hand" type="fixed"><parent link="fore"/><child link="tip"/><origin xyz="0.3 0 0"/></joint>
+  <joint name="finger" type="prismatic"><parent link="tip"/><child link="finger"/><axis xyz="1 0 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="elbow" multiplier="0.1" offset="0.02"/></joint>
+  <joint name="lid" type="revolute"><parent link="base"/><child link="lid"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+</robot>"#;
+
+fn ask(robot: &Robot, target: Target, start: &[f64]) -> Inverse {
+    robot
+        .inverse_kinematics(&target, start, &InverseSettings::default())
+        .unwrap()
+}
+
+#[test]
+fn a_planar_arm_as_the_textbook_has_it() {
+    let (_folder, path) = made_of(PLANAR);
+    let robot = Robot::open(path).unwrap();
+    let tip = robot.link("tip").unwrap();
+    for angle in [0.0, 1.0, 2.0, 3.0, -2.5] {
+        for reach in [0.35, 0.5, 0.7, 0.79] {
+            let (x, y) = (reach * f64::cos(angle), reach * f64::sin(angle));
+            let found = ask(&robot, Target::position(tip, [x, y, 0.0]), &[3.0, 0.1, 0.4]);
+            let q = found.reached().expect("within reach").configuration;
+            // The law of cosines, and the one elbow that the bounds leave.
+            let elbow = f64::acos((reach * reach - 0.25 - 0.09) / (2.0 * 0.5 * 0.3));
+            let behind = f64::atan2(0.3 * f64::sin(elbow), 0.5 + 0.3 * f64::cos(elbow));
+            assert!((q[1] - elbow).abs() < 1e-4, "{q:?}, {elbow}");
+            let off = (q[0] - (angle - behind)).rem_euclid(std::f64::consts::TAU);
+            assert!(off.min(std::f64::consts::TAU - off) < 1e-4, "{q:?}");
+            assert!(q[0].abs() <= std::f64::consts::PI);
+            // The lid does not move the tip.
+            assert_eq!(q[2], 0.4);
+        }
+    }
+}
+
+#[test]
+fn what_is_out_of_reach_is_approached() {
+    let (_folder, path) = made_of(PLANAR);
+    let robot = Robot::open(path).unwrap();
+    let tip = robot.link("tip").unwrap();
+    // Stretched out, and 1.2 m short.
+    let found = ask(
+        &robot,
+        Target::position(tip, [0.0, 2.0, 0.0]),
+        &[0.3, 1.0, 0.0],
+    );
+    assert!(!found.is_reached());
+    let nearest = found.nearest();
+    assert!((nearest.position_error - 1.2).abs() < 1e-4, "{nearest:?}");
+    assert!(nearest.configuration[1] < 0.02, "{nearest:?}");
+    let there = robot.link_poses(&nearest.configuration).unwrap()[tip];
+    let off = (there.translation.vector - Vector3::new(0.0, 2.0, 0.0)).norm();
+    assert!((off - nearest.position_error).abs() < 1e-12);
+    // The rotation about x is one that the arm does not have: a quarter of a turn is left.
+    let turned = Isometry3::from_parts(
+        Translation3::new(0.5, 0.3, 0.0),
+        UnitQuaternion::from_euler_angles(std::f64::consts::FRAC_PI_2, 0.0, 0.0),
+    );
+    let found = ask(&robot, Target::pose(tip, turned), &[0.3, 1.0, 0.0]);
+    assert!(
+        !found.is_reached() && found.nearest().rotation_error > 1.5,
+        "{found:?}"
+    );
+    // A link that nothing moves is where it is.
+    let base = robot.link("base").unwrap();
+    assert!(ask(&robot, Target::position(base, [0.0; 3]), &[0.0; 3]).is_reached());
+    let found = ask(&robot, Target::position(base, [0.0, 0.0, 1.0]), &[0.0; 3]);
+    assert_eq!(found.nearest().position_error, 1.0);
+}
+
+#[test]
+fn bounds_hold_and_may_be_others() {
+    let (_folder, path) = made_of(PLANAR);
+    let robot = Robot::open(path).unwrap();
+    let tip = robot.link("tip").unwrap();
+    let target = Target::position(tip, [0.5, 0.0, 0.0]);
+    let pi = std::f64::consts::PI;
+    let elbow = |bounds: [f64; 2]| {
+        let settings = InverseSettings {
+            bounds: Some(vec![[-pi, pi], bounds, [0.0, 0.0]]),
+            ..InverseSettings::default()
+        };
+        robot
+            .inverse_kinematics(&target, &[0.0; 3], &settings)
+            .unwrap()
+    };
+    // The elbow bent the other way, which the robot's own bounds forbid.
+    let q = elbow([-2.5, 0.0]).reached().unwrap().configuration;
+    assert!((-2.5..-1.0).contains(&q[1]), "{q:?}");
+    // Held too straight: 0.3 m and 0.5 m bent by 0.5 rad reach farther than to 0.5 m.
+    let found = elbow([0.0, 0.5]);
+    let reach = f64::sqrt(0.34 + 0.3 * f64::cos(0.5));
+    assert!(!found.is_reached());
+    assert!(
+        (found.nearest().position_error - (reach - 0.5)).abs() < 1e-6,
+        "{found:?}"
+    );
+    assert_eq!(found.nearest().configuration[1], 0.5);
+}
+
+#[test]
+fn every_pose_of_every_robot_is_found_again() {
+    let mut asked = 0;
+    for (name, urdf) in our_robots() {
+        let (_folder, path) = made(&urdf);
+        let robot = Robot::open(path).unwrap();
+        let space = robot.configurations().unwrap();
+        for link in 0..robot.links().unwrap().len() {
+            for k in 0..6 {
+                // Numbers that no restart begins with.
+                let wanted = space.random((1 << 20) + k);
+                let pose = robot.link_poses(&wanted).unwrap()[link];
+                let point = [0.1, -0.05, 0.2];
+                let place: [f64; 3] = (pose * Point3::from(point)).coords.into();
+                let tool = Isometry3::from_parts(Translation3::from(place), pose.rotation);
+                let start = space.random((1 << 21) + k);
+                for target in [
+                    Target::pose(link, pose),
+                    Target::pose(link, tool).of_point(point),
+                    Target::position(link, place).of_point(point),
+                ] {
+                    let found = ask(&robot, target, &start);
+                    assert_eq!(found, ask(&robot, target, &start), "the same answer again");
+                    let found = found
+                        .reached()
+                        .unwrap_or_else(|| panic!("{name}, {link}, {k}"));
+                    let q = &found.configuration;
+                    assert!(space.is_within_bounds(q), "{name}, {link}, {k}: {q:?}");
+                    let there = robot.link_poses(q).unwrap()[link];
+                    let of_point = Target::position(link, place).of_point(point) == target;
+                    let off = (there * Point3::from(point) - pose * Point3::from(point)).norm();
+                    assert!(off < 2e-6, "{name}, {link}, {k}: {off}");
+                    let turned = there.rotation.angle_to(&pose.rotation);
+                    assert!(of_point || turned < 2e-6, "{name}, {link}, {k}: {turned}");
+                    asked += 1;
+                }
+            }
+        }
+    }
+    assert!(asked > 1000, "{asked}");
+}
+
+#[test]
+fn questions_that_are_none() {
+    let (_folder, path) = made_of(PLANAR);
+    let robot = Robot::open(path).unwrap();
+    let settings = InverseSettings::default();
+    let ask = |target: Target, start: &[f64], settings: &InverseSettings| {
+        robot.inverse_kinematics(&target, start, settings)
+    };
+    let there = Target::position(3, [0.0; 3]);
+    assert_eq!(
+        ask(Target::position(9, [0.0; 3]), &[0.0; 3], &settings),
+        Err(RobotError::OutOfRange {
+            what: "link",
+            index: 9,
+            count: 6
+        })
+    );
+    let nowhere = Target::position(3, [0.0, f64::NAN, 0.0]);
+    assert!(matches!(
+        ask(nowhere, &[0.0; 3], &settings),
+        Err(RobotError::Target(_))
+    ));
+    let infinite = there.of_point([f64::INFINITY, 0.0, 0.0]);
+    assert!(matches!(
+        ask(infinite, &[0.0; 3], &settings),
+        Err(RobotError::Target(_))
+    ));
+    assert!(matches!(
+        ask(there, &[0.0; 2], &settings),
+        Err(RobotError::Configuration(_))
+    ));
+    assert!(matches!(
+        ask(there, &[0.0, f64::NAN, 0.0], &settings),
+        Err(RobotError::Configuration(_))
+    ));
+    for bounds in [vec![[0.0, 1.0]; 2], vec![[0.0, f64::INFINITY]; 3]] {
+        let settings = InverseSettings {
+            bounds: Some(bounds),
+            ..InverseSettings::default()
+        };
+        assert!(matches!(
+            ask(there, &[0.0; 3], &settings),
+            Err(RobotError::Target(_))
+        ));
+    }
+    // Numbers at the end of what there is: no answer, and no panic.
+    let far = Target::position(3, [1e308, -1e308, 1e308]);
+    assert!(!ask(far, &[0.0; 3], &settings).unwrap().is_reached());
+    let none = InverseSettings {
+        restarts: 0,
+        iterations: 0,
+        ..settings
+    };
+    assert!(
+        !ask(Target::position(3, [0.1, 0.2, 0.0]), &[0.0; 3], &none)
+            .unwrap()
+            .is_reached()
+    );
+}

@@ -1,0 +1,282 @@
+//! Distances to obstacles: closed forms, parry, and the same bodies as links of the robot.
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use parry3d_f64::math::{Pose, Vector};
+use parry3d_f64::query;
+use parry3d_f64::shape::{Capsule, ConvexPolyhedron, Cuboid, Shape};
+use urdd_geometry::Mesh;
+use urdd_robot::{Obstacle, ObstacleDistance, Robot, RobotError, ShapeKind, World};
+
+use crate::robot::{made, made_of, our_robots};
+
+/// A block of 0.2 m that slides along x, and one that turns about z a metre away from the axis.
+const MOVERS: &str = r#"<robot name="movers">
+  <link name="base"/>
+  <link name="block"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
+  <link name="ball"><collision><origin xyz="1 0 0"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <joint name="slide" type="prismatic"><parent link="base"/><child link="block"/><axis xyz="1 0 0"/>
+    <limit lower="-5" upper="5" effort="1" velocity="1"/></joint>
+  <joint name="turn" type="continuous"><parent link="base"/><child link="ball"/><axis xyz="0 0 1"/></joint>
+</robot>"#;
+
+fn of<'a>(all: &'a [ObstacleDistance], link: &str, obstacle: &str) -> &'a ObstacleDistance {
+    let wanted = |one: &&ObstacleDistance| *one.link == *link && *one.obstacle == *obstacle;
+    all.iter()
+        .find(wanted)
+        .unwrap_or_else(|| panic!("{link} and {obstacle}"))
+}
+
+fn at(x: f64, y: f64, z: f64) -> Isometry3<f64> {
+    Isometry3::translation(x, y, z)
+}
+
+#[test]
+fn bodies_as_their_sizes_have_them() {
+    let (_folder, path) = made_of(MOVERS);
+    let robot = Robot::open(path).unwrap();
+    let quarter = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), std::f64::consts::FRAC_PI_2);
+    let lying = Isometry3::from_parts(Translation3::new(0.0, 0.0, 2.0), quarter);
+    let world = World::new([
+        Obstacle::cuboid("wall", at(3.0, 0.0, 0.0), [0.5, 2.0, 2.0]).unwrap(),
+        Obstacle::sphere("sun", [0.0, 3.0, 0.0], 0.5).unwrap(),
+        Obstacle::capsule("bar", lying, 0.25, 10.0).unwrap(),
+        Obstacle::cylinder("mast", at(0.0, -3.0, 0.0), 0.5, 4.0).unwrap(),
+    ]);
+    let proximity = robot.proximity(ShapeKind::Boxes).unwrap();
+    let among = proximity.among(&world).unwrap();
+    for q in [-0.7, 0.0, 1.1] {
+        let all = among.distances(&[q, 0.0]).unwrap();
+        assert_eq!(all.len(), 8);
+        let wall = of(&all, "block", "wall");
+        assert!((wall.distance - (2.4 - q)).abs() < 1e-7, "{wall:?}");
+        assert!((wall.points[0][0] - (q + 0.1)).abs() < 1e-7, "{wall:?}");
+        assert!((wall.points[1][0] - 2.5).abs() < 1e-7, "{wall:?}");
+        // The bar lies along x, over the block.
+        let bar = of(&all, "block", "bar");
+        assert!((bar.distance - (1.9 - 0.25)).abs() < 1e-7, "{bar:?}");
+        assert!((bar.points[1][2] - 1.75).abs() < 1e-7, "{bar:?}");
+        let sun = of(&all, "block", "sun");
+        let beside = (q.abs() - 0.1).max(0.0);
+        let expected = (2.9_f64.powi(2) + beside * beside).sqrt() - 0.5;
+        assert!((sun.distance - expected).abs() < 1e-7, "{sun:?}");
+        // A prism about a cylinder: nearer by 0.13 % of its radius at most.
+        let mast = of(&all, "block", "mast");
+        let exact = (2.9_f64.powi(2) + beside * beside).sqrt() - 0.5;
+        let short = exact - mast.distance;
+        assert!((-1e-9..=0.5 * 0.0013).contains(&short), "{mast:?}");
+    }
+    let hit = among.distances(&[2.45, 0.0]).unwrap();
+    let hit = of(&hit, "block", "wall");
+    assert_eq!((hit.distance, hit.points[0]), (0.0, hit.points[1]));
+    assert!(among.in_collision(&[2.45, 0.0]).unwrap());
+    assert!(!among.in_collision(&[2.39, 0.0]).unwrap());
+}
+
+#[test]
+fn spheres_reach_as_far_as_their_radii() {
+    let (_folder, path) = made_of(MOVERS);
+    let robot = Robot::open(path).unwrap();
+    let world = World::new([Obstacle::sphere("sun", [0.0, 3.0, 0.0], 0.5).unwrap()]);
+    let proximity = robot.proximity(ShapeKind::Spheres).unwrap();
+    let among = proximity.among(&world).unwrap();
+    let ball = &among
+        .distances(&[0.0, std::f64::consts::FRAC_PI_2])
+        .unwrap()[1];
+    assert!((ball.distance - 1.4).abs() < 1e-6, "{ball:?}");
+    assert!((ball.points[0][1] - 1.1).abs() < 1e-6 && (ball.points[1][1] - 2.5).abs() < 1e-6);
+    // Deep in one another: one point of both.
+    let world = World::new([Obstacle::sphere("sun", [0.9, 0.0, 0.0], 0.5).unwrap()]);
+    let among = proximity.among(&world).unwrap();
+    let ball = &among.distances(&[-3.0, 0.0]).unwrap()[1];
+    assert_eq!((ball.distance, ball.points[0]), (0.0, ball.points[1]));
+    let from = |centre: [f64; 3]| -> f64 {
+        let d = [0, 1, 2].map(|k| ball.points[0][k] - centre[k]);
+        d.iter().map(|x| x * x).sum::<f64>().sqrt()
+    };
+    assert!(from([1.0, 0.0, 0.0]) <= 0.1 + 1e-6 && from([0.9, 0.0, 0.0]) <= 0.5);
+    assert!(among.in_collision(&[-3.0, 0.0]).unwrap());
+}
+
+/// A cup of walls 0.1 m thick, open at the top, about the origin: 1 m wide and high.
+fn cup() -> Mesh {
+    let mut mesh = Mesh::default();
+    for (centre, half) in [
+        ([0.0, 0.0, -0.45], [0.5, 0.5, 0.05]),
+        ([0.45, 0.0, 0.05], [0.05, 0.5, 0.45]),
+        ([-0.45, 0.0, 0.05], [0.05, 0.5, 0.45]),
+        ([0.0, 0.45, 0.05], [0.4, 0.05, 0.45]),
+        ([0.0, -0.45, 0.05], [0.4, 0.05, 0.45]),
+    ] {
+        let first = mesh.vertices.len() as u32;
+        for i in 0..8 {
+            let sign = |bit: usize| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            mesh.vertices
+                .push([0, 1, 2].map(|k: usize| centre[k] + sign(k) * half[k]));
+        }
+        for [a, b, c, d] in [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ] {
+            for t in [[a, b, c], [a, c, d]] {
+                mesh.triangles.push(t.map(|v: u32| first + v));
+            }
+        }
+    }
+    mesh
+}
+
+#[test]
+fn a_mesh_keeps_its_cavity_and_a_hull_fills_it() {
+    let (_folder, path) = made_of(MOVERS);
+    let robot = Robot::open(path).unwrap();
+    let proximity = robot.proximity(ShapeKind::Pieces).unwrap();
+    let cup = cup();
+    let pieces = Obstacle::mesh("cup", at(0.0, 0.0, 0.0), &cup).unwrap();
+    let hull = Obstacle::hull("cup", at(0.0, 0.0, 0.0), &cup.vertices).unwrap();
+    assert!(pieces.num_parts() >= 5, "{}", pieces.num_parts());
+    assert_eq!(hull.num_parts(), 1);
+    // The block stands in the middle of the cup, the ball outside.
+    let q = [0.0, 0.0];
+    let world = World::new([pieces]);
+    let all = proximity.among(&world).unwrap().distances(&q).unwrap();
+    let inside = of(&all, "block", "cup");
+    assert!((inside.distance - 0.3).abs() < 2e-4, "{inside:?}");
+    let among = proximity.among(&world).unwrap();
+    let values = among.distance_values(&q).unwrap();
+    // One for each shape, of the nearest part.
+    assert_eq!(values.len(), all.len());
+    for (value, one) in values.iter().zip(&all) {
+        assert!((value - one.distance).abs() < 1e-12, "{value} {one:?}");
+    }
+    let world = World::new([hull]);
+    assert!(proximity.among(&world).unwrap().in_collision(&q).unwrap());
+}
+
+#[test]
+fn as_parry_has_it() {
+    let ours = our_robots();
+    let (_, urdf) = ours.iter().find(|(name, _)| name == "welding_arm").unwrap();
+    let (_folder, path) = made(urdf);
+    let robot = Robot::open(path).unwrap();
+    let proximity = robot.proximity(ShapeKind::Hulls).unwrap();
+    let turned = UnitQuaternion::from_euler_angles(0.4, -0.7, 1.1);
+    let pose = Isometry3::from_parts(Translation3::new(0.4, 0.2, 0.4), turned);
+    let axis = turned.scaled_axis();
+    let theirs = Pose::new(
+        Vector::new(0.4, 0.2, 0.4),
+        Vector::new(axis.x, axis.y, axis.z),
+    );
+    let world = World::new([
+        Obstacle::cuboid("box", pose, [0.2, 0.3, 0.1]).unwrap(),
+        Obstacle::capsule("rod", pose, 0.1, 0.3).unwrap(),
+    ]);
+    let rod = Capsule::new(Vector::new(0.0, 0.0, -0.3), Vector::new(0.0, 0.0, 0.3), 0.1);
+    let block = Cuboid::new(Vector::new(0.2, 0.3, 0.1));
+    let bodies: [(&str, &dyn Shape); 2] = [("box", &block), ("rod", &rod)];
+    let among = proximity.among(&world).unwrap();
+    let (mut apart, mut together) = (0, 0);
+    for seed in 0..40 {
+        let q = robot.configurations().unwrap().random(seed);
+        let poses = robot.link_poses(&q).unwrap();
+        let all = among.distances(&q).unwrap();
+        let values: Vec<f64> = all.iter().map(|one| one.distance).collect();
+        let without_points = among.distance_values(&q).unwrap();
+        assert_eq!(without_points.len(), values.len());
+        for (one, other) in without_points.iter().zip(&values) {
+            assert!((one - other).abs() < 1e-12, "{one} {other}");
+        }
+        let pairs: Vec<([usize; 2], usize)> = all
+            .iter()
+            .map(|one| ([one.link_idx, one.piece], one.obstacle_idx))
+            .collect();
+        assert_eq!(among.pairs().collect::<Vec<_>>(), pairs);
+        let mut nearest = all.clone();
+        nearest.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        assert_eq!(
+            among.nearest(&q, 1).unwrap()[0].distance,
+            nearest[0].distance
+        );
+        assert_eq!(
+            among.least_distance(&q).unwrap(),
+            without_points.iter().copied().reduce(f64::min)
+        );
+        assert_eq!(among.in_collision(&q).unwrap(), nearest[0].distance == 0.0);
+        for one in &all {
+            let shape = robot.shapes(ShapeKind::Hulls).unwrap();
+            let shape = shape
+                .iter()
+                .find(|shape| shape.link == one.link_idx)
+                .unwrap();
+            let urdd_robot::Solid::Mesh(mesh) = &shape.solid else {
+                panic!("a hull is a mesh");
+            };
+            let placed = mesh.vertices.iter().map(|v| {
+                let [x, y, z] = (poses[one.link_idx] * nalgebra::Point3::from(*v))
+                    .coords
+                    .into();
+                Vector::new(x, y, z)
+            });
+            let hull = ConvexPolyhedron::from_convex_hull(&placed.collect::<Vec<_>>()).unwrap();
+            let (_, body) = bodies
+                .iter()
+                .find(|(name, _)| **name == *one.obstacle)
+                .unwrap();
+            let distance = query::distance(&Pose::identity(), &hull, &theirs, *body)
+                .unwrap()
+                .distance;
+            assert!((distance - one.distance).abs() < 2e-6, "{distance} {one:?}");
+            match one.distance > 0.0 {
+                true => apart += 1,
+                false => together += 1,
+            }
+        }
+    }
+    assert!(apart > 100 && together > 5, "{apart} {together}");
+}
+
+#[test]
+fn links_that_an_obstacle_ignores() {
+    let (_folder, path) = made_of(MOVERS);
+    let robot = Robot::open(path).unwrap();
+    let proximity = robot.proximity(ShapeKind::Pieces).unwrap();
+    let table = Obstacle::cuboid("table", at(0.0, 0.0, -0.2), [0.5, 0.5, 0.15]).unwrap();
+    let q = [0.0, 0.0];
+    let world = World::new([table.clone()]);
+    assert!(proximity.among(&world).unwrap().in_collision(&q).unwrap());
+    let world = World::new([table.clone().ignoring("block")]);
+    let among = proximity.among(&world).unwrap();
+    assert!(!among.in_collision(&q).unwrap());
+    let all = among.nearest(&q, 10).unwrap();
+    assert_eq!(all.len(), 1);
+    assert_eq!(&*all[0].link, "ball");
+    let wrong = World::new([table.ignoring("blok")]);
+    match proximity.among(&wrong) {
+        Err(RobotError::Unknown { name, nearest, .. }) => {
+            assert_eq!((name.as_str(), nearest.as_deref()), ("blok", Some("block")));
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn what_is_no_body_is_refused() {
+    let here = Isometry3::identity();
+    let far = at(f64::NAN, 0.0, 0.0);
+    for result in [
+        Obstacle::sphere("bad", [0.0; 3], -1.0),
+        Obstacle::sphere("bad", [f64::INFINITY, 0.0, 0.0], 1.0),
+        Obstacle::cuboid("bad", here, [1.0, f64::NAN, 1.0]),
+        Obstacle::cuboid("bad", far, [1.0; 3]),
+        Obstacle::capsule("bad", here, 1.0, 1e10),
+        Obstacle::cylinder("bad", here, f64::INFINITY, 1.0),
+        Obstacle::hull("bad", here, &[]),
+        Obstacle::mesh("bad", here, &Mesh::default()),
+    ] {
+        let error = result.expect_err("refused");
+        assert!(matches!(&error, RobotError::Obstacle { name, .. } if name == "bad"));
+    }
+}

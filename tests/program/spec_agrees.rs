@@ -1,0 +1,155 @@
+//! SPEC.md and the rules agree, both ways: every code in SPEC.md is a rule of that clause, and every
+//! rule stands in the clause that it names.
+
+mod annex;
+mod values;
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use urdd_format::registry::{ModuleKind, SPEC_VERSION};
+use urdd_validate::code::Code;
+use urdd_validate::rule::Severity;
+use urdd_validate::rules;
+
+fn spec() -> String {
+    fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md")).expect("SPEC.md")
+}
+
+/// For each `[CODE]` of the text, the clauses in which it stands and the sentence before it.
+fn codes_by_clause(text: &str) -> BTreeMap<String, Vec<(String, String)>> {
+    let mut codes: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
+    let mut clause = String::new();
+    for paragraph in text.split("\n\n") {
+        if let Some(rest) = paragraph.trim_start().strip_prefix("**") {
+            let number: String = rest
+                .chars()
+                .take_while(|c| c.is_ascii_digit() || *c == '.')
+                .collect();
+            if !number.is_empty() {
+                clause = number.trim_end_matches('.').to_owned();
+            }
+        }
+        let mut before = 0;
+        for (place, _) in paragraph.match_indices('[') {
+            let Some(end) = paragraph[place..].find(']') else {
+                continue;
+            };
+            let word = &paragraph[place + 1..place + end];
+            if Code::parse(word).is_some_and(|code| code.as_str() == word) {
+                let sentence = paragraph[before..place].to_owned();
+                codes
+                    .entry(word.to_owned())
+                    .or_default()
+                    .push((clause.clone(), sentence));
+                before = place + end + 1;
+            }
+        }
+    }
+    codes
+}
+
+#[test]
+fn every_rule_stands_in_its_clause() {
+    let codes = codes_by_clause(&spec());
+    for rule in rules::all() {
+        let places = codes
+            .get(rule.code.as_str())
+            .unwrap_or_else(|| panic!("{} is not in SPEC.md", rule.code));
+        let clauses: Vec<&str> = places.iter().map(|(clause, _)| clause.as_str()).collect();
+        assert_eq!(
+            clauses,
+            [rule.clause],
+            "{}: the clauses of SPEC.md that name it",
+            rule.code
+        );
+    }
+}
+
+#[test]
+fn every_code_in_the_specification_is_a_rule() {
+    let registered: Vec<&str> = rules::all().iter().map(|rule| rule.code.as_str()).collect();
+    for code in codes_by_clause(&spec()).keys() {
+        // The introduction names one rule as an example.
+        assert!(
+            registered.contains(&code.as_str()),
+            "SPEC.md names {code}, and there is no such rule"
+        );
+    }
+}
+
+#[test]
+fn severities_follow_the_words_of_the_specification() {
+    let codes = codes_by_clause(&spec());
+    for rule in rules::all() {
+        let (_, sentence) = &codes[rule.code.as_str()][0];
+        // The words of the sentence that the code ends, or of the list that it is part of.
+        let should = sentence.contains("SHOULD");
+        let must = sentence.contains("MUST");
+        match rule.severity {
+            Severity::Error => assert!(
+                !should || must,
+                "{}: an error, but SPEC.md says SHOULD",
+                rule.code
+            ),
+            Severity::Warning => assert!(
+                !must || should,
+                "{}: a warning, but SPEC.md says MUST",
+                rule.code
+            ),
+            Severity::Info => assert!(!must, "{}: an info, but SPEC.md says MUST", rule.code),
+        }
+    }
+}
+
+#[test]
+fn the_table_of_modules_is_the_registry() {
+    let text = spec();
+    let table: Vec<&str> = text
+        .lines()
+        .skip_while(|line| !line.starts_with("| module | folder | class"))
+        .skip(2)
+        .take_while(|line| line.starts_with('|'))
+        .collect();
+    let cells: Vec<(String, String)> = table
+        .iter()
+        .map(|row| {
+            let cell = |i: usize| {
+                row.split('|')
+                    .nth(i)
+                    .unwrap_or_default()
+                    .trim()
+                    .trim_matches('`')
+                    .to_owned()
+            };
+            (cell(1), cell(2))
+        })
+        .collect();
+    let registry: Vec<(String, String)> = ModuleKind::ALL
+        .iter()
+        .filter(|kind| urdd_format::registry::find(**kind, SPEC_VERSION).is_some())
+        .map(|kind| (kind.name().to_owned(), kind.folder().to_owned()))
+        .collect();
+    assert_eq!(cells, registry);
+}
+
+const BEGIN: &str = "<!-- made from the schemas by tests/spec_agrees.rs: begin -->\n";
+const END: &str = "<!-- end -->";
+
+/// `URDD_UPDATE=1 cargo test --test spec_agrees` writes the tables.
+#[test]
+fn the_tables_of_fields_are_the_schemas() {
+    let text = spec();
+    let begin = text.find(BEGIN).expect("the annex begins") + BEGIN.len();
+    let end = begin + text[begin..].find(END).expect("the annex ends");
+    let expected = format!("\n{}", annex::tables());
+    if std::env::var_os("URDD_UPDATE").is_some() {
+        let updated = format!("{}{expected}{}", &text[..begin], &text[end..]);
+        fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md"), updated).expect("written");
+        return;
+    }
+    assert!(
+        text[begin..end] == expected,
+        "annex A of SPEC.md is not what the schemas say: run URDD_UPDATE=1 cargo test --test spec_agrees"
+    );
+}

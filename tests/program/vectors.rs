@@ -1,0 +1,69 @@
+//! Holds urdd to `conformance/vectors`: numbers that others computed, or that closed forms give. (Those
+//! two of forward kinematics and sampled configurations: `tests/kinematics_figures.rs`.)
+
+mod conventions;
+mod core_modules;
+mod learned;
+mod solids;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+/// The files, each with the tests that hold us to it.
+const FILES: &[(&str, &str)] = &[
+    ("boxes_and_spheres.json", "tests/vectors/solids.rs"),
+    ("distances.json", "tests/vectors/solids.rs"),
+    ("forward_kinematics.json", "tests/kinematics_figures.rs"),
+    ("hulls.json", "tests/vectors/solids.rs"),
+    ("in_plane_bases.json", "tests/vectors/conventions.rs"),
+    ("inertia.json", "tests/vectors/core_modules.rs"),
+    ("mimics.json", "tests/vectors/core_modules.rs"),
+    ("rotations.json", "tests/vectors/conventions.rs"),
+    ("sampled_configurations.json", "tests/kinematics_figures.rs"),
+    ("self_collision_model.json", "tests/vectors/learned.rs"),
+];
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/vectors")
+}
+
+fn vectors<T: for<'de> Deserialize<'de>>(name: &str) -> T {
+    let text = fs::read_to_string(folder().join(name)).unwrap();
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// Whether numbers are as near as two ways to compute them in doubles bring them.
+#[track_caller]
+fn assert_near(found: &[f64], expected: &[f64], tolerance: f64, place: &str) {
+    assert_eq!(found.len(), expected.len(), "{place}");
+    for (found_one, expected_one) in found.iter().zip(expected) {
+        let off = (found_one - expected_one).abs();
+        assert!(
+            off <= tolerance,
+            "{place}: {found:?}, expected {expected:?}: {off:e} off"
+        );
+    }
+}
+
+#[test]
+fn every_file_is_held_to_and_described() {
+    let mut there: BTreeSet<String> = fs::read_dir(folder())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    assert!(there.remove("README.md"));
+    let known: BTreeSet<String> = FILES.iter().map(|(name, _)| (*name).to_owned()).collect();
+    assert_eq!(there, known);
+    let readme = fs::read_to_string(folder().join("README.md")).unwrap();
+    for (name, test) in FILES {
+        assert!(
+            readme.contains(&format!("## {name}")),
+            "{name} is not in the README"
+        );
+        let test = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(test)).unwrap();
+        assert!(test.contains(name), "no test reads {name}");
+    }
+}
