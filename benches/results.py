@@ -3,7 +3,7 @@
     python benches/results.py            writes the pages again from benches/results/*.json; standard library alone
 
 A script measures, and calls `write`: it writes `benches/results/<part>.json` (where, when and by what it was measured, and
-items: tables, or short texts), prints what changed, and puts the items into the pages. `tests/results.rs` fails where a page
+items: tables, or short texts), prints what changed, and puts the items into the pages. `tests/program/results.rs` fails where a page
 and the results differ. In a page an item is between markers, a table or the line on its origin (`made`) on lines of its own:
 
     <!-- results: conversion/times -->

@@ -282,7 +282,8 @@ inPage(
     await page.getByRole("button", { name: "Middle" }).click();
     await state(page, "q", (q) => q.some((value) => value !== 0));
     await page.click("#tab-Shapes");
-    await page.check("#layer-pieces");
+    // Not the pieces: whether the robot collides is always shown, so they may be there already.
+    await page.check("#layer-hulls");
     await page.locator(".layer .fault:visible").first().waitFor();
   },
   { faults: null },

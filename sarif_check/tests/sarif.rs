@@ -29,7 +29,7 @@ fn sarif(folder: &Path, arguments: &[&str]) -> Value {
         "--quiet",
         "--manifest-path",
         manifest,
-        "--package",
+        "--bin",
         "urdd",
         "--",
     ];

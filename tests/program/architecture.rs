@@ -1,5 +1,5 @@
-//! The house keeps its shape: which room may import which, how large a file may grow, and that every
-//! rule on disk is registered.
+//! What Cargo does not keep of the house: the wall between generator and validator, how large a file may grow, and that
+//! every rule on disk is registered.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,140 +8,26 @@ use std::path::{Path, PathBuf};
 use urdd_validate::code::Code;
 use urdd_validate::rules;
 
-/// The rooms that each room may import, besides itself.
-const ROOMS: &[(&str, &[&str])] = &[
-    ("cancellation", &[]),
-    ("format", &[]),
-    ("directory", &["cancellation", "format"]),
-    ("document", &["format", "directory", "kinematics"]),
-    ("process", &["cancellation"]),
-    ("xml", &[]),
-    ("geometry", &["xml"]),
-    ("kinematics", &["format"]),
-    ("skips", &["format"]),
-    (
-        "learn",
-        &["cancellation", "format", "geometry", "kinematics"],
-    ),
-    (
-        "generate",
-        &[
-            "cancellation",
-            "format",
-            "directory",
-            "geometry",
-            "kinematics",
-            "learn",
-            "process",
-            "skips",
-            "xml",
-        ],
-    ),
-    (
-        "combine",
-        &[
-            "cancellation",
-            "format",
-            "directory",
-            "kinematics",
-            "generate",
-            "xml",
-        ],
-    ),
-    (
-        "validate",
-        &[
-            "cancellation",
-            "format",
-            "directory",
-            "document",
-            "geometry",
-            "kinematics",
-            "xml",
-        ],
-    ),
-    (
-        "robot",
-        &[
-            "cancellation",
-            "format",
-            "directory",
-            "document",
-            "geometry",
-            "kinematics",
-            "learn",
-            "skips",
-        ],
-    ),
-    (
-        "export",
-        &[
-            "format",
-            "document",
-            "geometry",
-            "kinematics",
-            "robot",
-            "xml",
-        ],
-    ),
-    ("report", &["format", "directory", "document", "validate"]),
-    (
-        "conformance",
-        &[
-            "cancellation",
-            "format",
-            "directory",
-            "document",
-            "geometry",
-            "kinematics",
-            "skips",
-            "generate",
-            "process",
-            "validate",
-            "report",
-        ],
-    ),
-    (
-        "view",
-        &[
-            "cancellation",
-            "format",
-            "directory",
-            "robot",
-            "validate",
-            "report",
-        ],
-    ),
-    (
-        "cli",
-        &[
-            "cancellation",
-            "format",
-            "directory",
-            "document",
-            "geometry",
-            "kinematics",
-            "learn",
-            "skips",
-            "generate",
-            "combine",
-            "validate",
-            "report",
-            "robot",
-            "view",
-            "export",
-            "conformance",
-            "process",
-        ],
-    ),
-];
-
 /// Files under about 400 lines, rules under about 200: what "about" lets pass.
 const LONGEST_FILE: usize = 420;
 const LONGEST_RULE: usize = 210;
 
-fn source() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+fn repository() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The folders of the program's source and of each crate's.
+fn sources() -> Vec<PathBuf> {
+    let mut folders = vec![repository().join("src")];
+    for entry in fs::read_dir(repository().join("crates")).expect("the crates") {
+        folders.push(entry.expect("an entry").path().join("src"));
+    }
+    assert!(folders.len() > 10, "{folders:?}");
+    folders
+}
+
+fn rules_folder() -> PathBuf {
+    repository().join("crates/urdd-validate/src/rules")
 }
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {
@@ -158,92 +44,31 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The rooms that a text names after `crate::`.
-fn imported(text: &str) -> BTreeSet<String> {
-    // What a comment links to is no import.
-    let code = text
-        .lines()
-        .filter(|line| !line.trim_start().starts_with("//"));
-    let text = &code.collect::<Vec<_>>().join("\n");
-    let mut rooms = BTreeSet::new();
-    for (place, _) in text.match_indices("crate::") {
-        let rest = &text[place + "crate::".len()..];
-        // `use crate::{a, b::c}` as well as `crate::a::b`.
-        let (list, nested) = match rest.strip_prefix('{') {
-            Some(list) => (list.split('}').next().unwrap_or_default(), true),
-            None => (rest, false),
-        };
-        for item in list.split(',') {
-            let word: String = item
-                .trim()
-                .chars()
-                .take_while(|c| c.is_ascii_alphanumeric() || *c == '_')
-                .collect();
-            rooms.insert(word);
-            if !nested {
-                break;
-            }
-        }
-    }
-    rooms
-}
-
-#[test]
-fn rooms_import_only_what_they_may() {
-    let mut seen = 0;
-    for (room, allowed) in ROOMS {
-        let folder = source().join(room);
-        if !folder.is_dir() {
-            continue;
-        }
-        for file in rust_files(&folder) {
-            let text = fs::read_to_string(&file).expect("a source file");
-            for import in imported(&text) {
-                let is_room = ROOMS.iter().any(|(name, _)| *name == import);
-                seen += usize::from(is_room);
-                assert!(
-                    !is_room || import == *room || allowed.contains(&import.as_str()),
-                    "{} imports `{import}`, which `{room}` may not (see the table in this test)",
-                    file.display()
-                );
-            }
-        }
-    }
-    assert!(
-        seen > 50,
-        "only {seen} imports between rooms were found: the test looks at nothing"
-    );
-}
-
 #[test]
 fn the_wall_between_generate_and_validate_stands() {
-    for (room, other) in [("generate", "validate"), ("validate", "generate")] {
-        let files = rust_files(&source().join(room));
-        assert!(!files.is_empty(), "src/{room} is empty");
-        for file in files {
-            let text = fs::read_to_string(&file).expect("a source file");
-            let named =
-                text.contains(&format!("crate::{other}")) || imported(&text).contains(other);
-            assert!(
-                !named,
-                "{} names `{other}`: each must be written from SPEC.md alone",
-                file.display()
-            );
-        }
+    for (name, other) in [
+        ("urdd-generate", "urdd-validate"),
+        ("urdd-validate", "urdd-generate"),
+    ] {
+        let manifest = repository().join("crates").join(name).join("Cargo.toml");
+        let text = fs::read_to_string(&manifest).expect("a manifest");
+        assert!(
+            text.contains("urdd-format"),
+            "{}: another form",
+            manifest.display()
+        );
+        assert!(
+            !text.contains(other),
+            "{} names `{other}`: each must be written from SPEC.md alone",
+            manifest.display()
+        );
     }
-}
-
-#[test]
-fn imports_are_found_in_every_form() {
-    let text = "use crate::a::b; use crate::{c, d::e};\n x = crate::f::g();";
-    let found: Vec<String> = imported(text).into_iter().collect();
-    assert_eq!(found, ["a", "c", "d", "f"]);
 }
 
 #[test]
 fn files_stay_small() {
-    let rules = source().join("validate/rules");
-    for file in rust_files(&source()) {
+    let rules = rules_folder();
+    for file in sources().iter().flat_map(|folder| rust_files(folder)) {
         let lines = fs::read_to_string(&file)
             .expect("a source file")
             .lines()
@@ -264,7 +89,7 @@ fn files_stay_small() {
 #[test]
 fn every_rule_on_disk_is_registered() {
     let mut on_disk = BTreeSet::new();
-    for file in rust_files(&source().join("validate/rules")) {
+    for file in rust_files(&rules_folder()) {
         let text = fs::read_to_string(&file).expect("a source file");
         let Some(place) = text.find("declare_rule! {") else {
             continue;
@@ -286,7 +111,7 @@ fn every_rule_on_disk_is_registered() {
     let codes: BTreeSet<String> = Code::ALL.iter().map(|code| code.to_string()).collect();
     assert_eq!(
         codes, registered,
-        "src/validate/code.rs and the rules differ"
+        "crates/urdd-validate/src/code.rs and the rules differ"
     );
 }
 

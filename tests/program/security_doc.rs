@@ -35,7 +35,7 @@ fn cells(line: &str) -> Vec<&str> {
 fn every_promise_names_tests_that_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut tests = BTreeSet::new();
-    for folder in ["src", "tests", "python/tests"] {
+    for folder in ["src", "crates", "tests", "python/tests"] {
         tests_below(&root.join(folder), &mut tests);
     }
     let page = fs::read_to_string(root.join("docs/security.md")).unwrap();

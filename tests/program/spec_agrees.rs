@@ -133,10 +133,10 @@ fn the_table_of_modules_is_the_registry() {
     assert_eq!(cells, registry);
 }
 
-const BEGIN: &str = "<!-- made from the schemas by tests/spec_agrees.rs: begin -->\n";
+const BEGIN: &str = "<!-- made from the schemas by tests/program/spec_agrees.rs: begin -->\n";
 const END: &str = "<!-- end -->";
 
-/// `URDD_UPDATE=1 cargo test --test spec_agrees` writes the tables.
+/// `URDD_UPDATE=1 cargo test --test program spec_agrees` writes the tables.
 #[test]
 fn the_tables_of_fields_are_the_schemas() {
     let text = spec();
@@ -150,6 +150,6 @@ fn the_tables_of_fields_are_the_schemas() {
     }
     assert!(
         text[begin..end] == expected,
-        "annex A of SPEC.md is not what the schemas say: run URDD_UPDATE=1 cargo test --test spec_agrees"
+        "annex A of SPEC.md is not what the schemas say: run URDD_UPDATE=1 cargo test --test program spec_agrees"
     );
 }

@@ -14,16 +14,28 @@ use serde::Deserialize;
 
 /// The files, each with the tests that hold us to it.
 const FILES: &[(&str, &str)] = &[
-    ("boxes_and_spheres.json", "tests/vectors/solids.rs"),
-    ("distances.json", "tests/vectors/solids.rs"),
-    ("forward_kinematics.json", "tests/kinematics_figures.rs"),
-    ("hulls.json", "tests/vectors/solids.rs"),
-    ("in_plane_bases.json", "tests/vectors/conventions.rs"),
-    ("inertia.json", "tests/vectors/core_modules.rs"),
-    ("mimics.json", "tests/vectors/core_modules.rs"),
-    ("rotations.json", "tests/vectors/conventions.rs"),
-    ("sampled_configurations.json", "tests/kinematics_figures.rs"),
-    ("self_collision_model.json", "tests/vectors/learned.rs"),
+    ("boxes_and_spheres.json", "tests/program/vectors/solids.rs"),
+    ("distances.json", "tests/program/vectors/solids.rs"),
+    (
+        "forward_kinematics.json",
+        "crates/urdd-validate/tests/validate/kinematics_figures.rs",
+    ),
+    ("hulls.json", "tests/program/vectors/solids.rs"),
+    (
+        "in_plane_bases.json",
+        "tests/program/vectors/conventions.rs",
+    ),
+    ("inertia.json", "tests/program/vectors/core_modules.rs"),
+    ("mimics.json", "tests/program/vectors/core_modules.rs"),
+    ("rotations.json", "tests/program/vectors/conventions.rs"),
+    (
+        "sampled_configurations.json",
+        "crates/urdd-validate/tests/validate/kinematics_figures.rs",
+    ),
+    (
+        "self_collision_model.json",
+        "tests/program/vectors/learned.rs",
+    ),
 ];
 
 fn folder() -> PathBuf {

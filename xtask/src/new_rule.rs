@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const CODES: &str = "src/validate/code.rs";
-const RULES: &str = "src/validate/rules";
+const CODES: &str = "crates/urdd-validate/src/code.rs";
+const RULES: &str = "crates/urdd-validate/src/rules";
 const SPEC: &str = "SPEC.md";
 const CASES: &str = "tests/rules/main.rs";
 
@@ -222,9 +222,9 @@ fn rule(code: &str, name: &str, severity: &str, clause: &str) -> String {
         ""
     };
     format!(
-        r#"use crate::validate::context::Context;
-use crate::validate::finding::{{Finding, Findings}};
-use crate::validate::rule::declare_rule;
+        r#"use crate::context::Context;
+use crate::finding::{{Finding, Findings}};
+use crate::rule::declare_rule;
 
 declare_rule! {{
     /// TODO: what is wrong, in one sentence.
@@ -236,8 +236,8 @@ declare_rule! {{
 }}
 
 fn check(context: &Context, findings: &mut Findings) {{
-    // TODO: look, and report each place. `src/validate/context.rs` says what there is to look at,
-    // `src/validate/tolerance.rs` how numbers are compared.
+    // TODO: look, and report each place. `crates/urdd-validate/src/context.rs` says what there is to look at,
+    // `crates/urdd-validate/src/tolerance.rs` how numbers are compared.
     let wrong = context.modules().is_empty();
     if wrong {{
         findings.report(
@@ -253,8 +253,8 @@ fn check(context: &Context, findings: &mut Findings) {{
 
 fn two_cases(code: &str, family: &str, cases: &str) -> String {
     let base = match CORE.contains(&family) {
-        true => "crate::support::fixture::Fixture::core(&crate::support::fixture::toy_robot())",
-        false => "crate::support::fixture::Fixture::toy()",
+        true => "testkit::fixture::Fixture::core(&testkit::fixture::toy_robot())",
+        false => "testkit::fixture::Fixture::toy()",
     };
     format!(
         r#"pub fn {cases}() -> Vec<crate::Case> {{

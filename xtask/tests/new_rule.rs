@@ -24,8 +24,8 @@ fn source() -> TempDir {
     let folder = TempDir::new().expect("a folder");
     let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     for part in [
-        "src/validate/code.rs",
-        "src/validate/rules",
+        "crates/urdd-validate/src/code.rs",
+        "crates/urdd-validate/src/rules",
         "SPEC.md",
         "tests/rules",
     ] {
@@ -50,7 +50,7 @@ fn text(root: &Path, path: &str) -> String {
 
 /// The next free code of a family.
 fn next(root: &Path, family: &str) -> String {
-    let codes = text(root, "src/validate/code.rs");
+    let codes = text(root, "crates/urdd-validate/src/code.rs");
     let of_family = codes
         .split_whitespace()
         .filter(|word| word.starts_with(family));
@@ -82,14 +82,17 @@ fn a_rule_gets_all_of_its_files() {
     );
     assert!(said.contains(&format!("URDD_CASE={code}")), "{said}");
 
-    let rule = text(root, "src/validate/rules/source/made_of_cheese.rs");
+    let rule = text(
+        root,
+        "crates/urdd-validate/src/rules/source/made_of_cheese.rs",
+    );
     assert!(
         rule.contains(&format!(
             "{code} \"made-of-cheese\", Warning, clause \"6.1.7\""
         )),
         "{rule}"
     );
-    let list = text(root, "src/validate/rules/source/mod.rs");
+    let list = text(root, "crates/urdd-validate/src/rules/source/mod.rs");
     assert!(
         list.contains("pub mod made_of_cheese;\n")
             && list.contains("    &made_of_cheese::RULE,\n];"),
@@ -99,7 +102,7 @@ fn a_rule_gets_all_of_its_files() {
     let place = |name: &str| list.find(&format!("mod {name};")).expect(name);
     assert!(place("inertia_not_positive_definite") < place("made_of_cheese"));
     assert!(place("made_of_cheese") < place("mass_not_positive"));
-    assert!(text(root, "src/validate/code.rs").contains(&format!(" {code}")));
+    assert!(text(root, "crates/urdd-validate/src/code.rs").contains(&format!(" {code}")));
     let spec = text(root, "SPEC.md");
     let clause = spec
         .split("\n\n")
@@ -130,7 +133,7 @@ fn a_rule_gets_all_of_its_files() {
 fn every_family_can_have_another_rule() {
     let codes = text(
         &Path::new(env!("CARGO_MANIFEST_DIR")).join(".."),
-        "src/validate/code.rs",
+        "crates/urdd-validate/src/code.rs",
     );
     let list = codes.split_once("\ncodes! {").expect("the list").1;
     let list = list.split_once("\n}").expect("its end").0;
@@ -161,7 +164,7 @@ fn every_family_can_have_another_rule() {
 fn what_does_not_fit_writes_nothing() {
     let folder = source();
     let root = folder.path();
-    let before = text(root, "src/validate/code.rs");
+    let before = text(root, "crates/urdd-validate/src/code.rs");
     let next = next(root, "SRC");
     for (arguments, words) in [
         (&["SRC999", "a-name"][..], "next free code"),
@@ -182,5 +185,5 @@ fn what_does_not_fit_writes_nothing() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(said.contains(words), "{arguments:?}: {said}");
     }
-    assert_eq!(text(root, "src/validate/code.rs"), before);
+    assert_eq!(text(root, "crates/urdd-validate/src/code.rs"), before);
 }

@@ -64,7 +64,7 @@ impl Robot {
     /// use urdd_robot::{Inverse, InverseSettings, Robot, Target};
     ///
     /// # let folder = tempfile::tempdir()?;
-    /// # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance/robots/welding_arm.urdf");
+    /// # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/../../conformance/robots/welding_arm.urdf");
     /// # let path = folder.path().join("welding_arm");
     /// # urdd_generate::generate(urdf.as_ref(), &path, &Default::default(), &())?;
     /// let robot = Robot::open(&path)?;

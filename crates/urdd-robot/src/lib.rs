@@ -10,7 +10,7 @@
 //! use urdd_robot::{Robot, ShapeKind};
 //!
 //! # let folder = tempfile::tempdir()?;
-//! # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance/robots/gripper.urdf");
+//! # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/../../conformance/robots/gripper.urdf");
 //! # let path = folder.path().join("gripper");
 //! # urdd_generate::generate(urdf.as_ref(), &path, &Default::default(), &())?;
 //! let robot = Robot::open(&path)?;

@@ -12,7 +12,7 @@ use urdd_validate::validate;
 
 use crate::conformance::in_repository;
 
-/// `URDD_UPDATE=1 cargo test --test conformance` writes them. Elsewhere the last digits of numbers
+/// `URDD_UPDATE=1 cargo test --test program conformance` writes them. Elsewhere the last digits of numbers
 /// may differ (SPEC 9.4 and 13.3).
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[test]
@@ -49,7 +49,7 @@ fn generating_gives_what_is_kept() {
     assert!(
         stale.is_empty(),
         "urdd generate does not make these of our robots any more; if that is meant, run URDD_UPDATE=1 cargo test \
-         --test conformance and read what changed: {stale:#?}"
+         --test program conformance and read what changed: {stale:#?}"
     );
 }
 

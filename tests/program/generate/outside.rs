@@ -324,7 +324,7 @@ fn side_files_are_carried_only_as_what_they_are() {
     }
     let dae = |image: &str| {
         let mut text = fs::read_to_string(
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/generate/textured.dae"),
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/program/generate/textured.dae"),
         )
         .unwrap();
         text = text.replace("IMAGE", image);

@@ -10,7 +10,7 @@ use urdd_generate::{Settings, generate};
 
 use crate::generate::{our_robots, read_json};
 
-const RECORD: &str = "tests/generate/stage_versions.json";
+const RECORD: &str = "tests/program/generate/stage_versions.json";
 const ROBOTS: &[&str] = &["gripper", "scaled_parts", "toy_all_joints"];
 
 /// For each module that may be kept: the hash of all that it was made of, and of what was made.
@@ -58,7 +58,7 @@ fn a_stage_that_makes_something_else_has_another_version() {
             now["inputs"] != before["inputs"] || now["made"] == before["made"],
             "{key}: the stage makes something else of the same inputs. Change its text in src/generate/stages.rs \
              (or its settings in geometry_stages.rs), so that nobody keeps what it made before; \
-             then URDD_UPDATE=1 cargo test --test generate stage_versions"
+             then URDD_UPDATE=1 cargo test --test program stage_versions"
         );
     }
     if std::env::var_os("URDD_UPDATE").is_some() {
@@ -68,6 +68,6 @@ fn a_stage_that_makes_something_else_has_another_version() {
     }
     assert!(
         made == recorded,
-        "what stages are made of has changed; record it: URDD_UPDATE=1 cargo test --test generate stage_versions"
+        "what stages are made of has changed; record it: URDD_UPDATE=1 cargo test --test program stage_versions"
     );
 }

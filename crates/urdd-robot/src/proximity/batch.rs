@@ -25,7 +25,7 @@ impl Proximity {
     /// use urdd_directory::cancellation::Cancellation;
     /// # use urdd_robot::{Robot, RobotError, ShapeKind};
     /// # let folder = tempfile::tempdir()?;
-    /// # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance/robots/gripper.urdf");
+    /// # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/../../conformance/robots/gripper.urdf");
     /// # let path = folder.path().join("gripper");
     /// # urdd_generate::generate(urdf.as_ref(), &path, &Default::default(), &())?;
     /// # let robot = Robot::open(&path)?;

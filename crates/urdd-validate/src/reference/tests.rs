@@ -129,7 +129,7 @@ fn chains_may_be_as_long_as_the_file() {
 
 #[test]
 fn joints_are_read_as_a_peer_reads_them() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance/robots");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../conformance/robots");
     let mut compared = 0;
     for entry in std::fs::read_dir(folder).expect("our robots") {
         let path = entry.expect("an entry").path();
