@@ -1,4 +1,5 @@
-/** What a page that is one file carries in itself: `<script type="text/plain" id="...">`, deflated, in base64. */
+/** What a page that is one file carries in itself: `<script type="text/plain" id="...">` in base64, deflated; the module by
+ * brotli. */
 
 import { inflateSync } from "fflate";
 import type { Explanation, Report, RobotSource } from "./engine/protocol";
@@ -10,11 +11,17 @@ function text(name: string): string {
   return carried.trim();
 }
 
-export function bytes(name: string): ArrayBuffer {
-  const raw = atob(text(name));
-  const found = new Uint8Array(raw.length);
-  for (let k = 0; k < raw.length; k++) found[k] = raw.charCodeAt(k);
-  return inflateSync(found).slice().buffer;
+function packed(name: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(atob(text(name)), (c) => c.charCodeAt(0));
+}
+
+function bytes(name: string): ArrayBuffer {
+  return inflateSync(packed(name)).slice().buffer;
+}
+
+/** The module, compressed by brotli: the worker unpacks it. */
+export function module(): ArrayBuffer {
+  return packed("urdd.wasm").buffer;
 }
 
 /** The worker's code as an address. */

@@ -34,7 +34,7 @@ function start(): void {
   const base = document.baseURI;
   const engine =
     mode === "inline"
-      ? new Engine(inline.worker(), inline.bytes("urdd.wasm"))
+      ? new Engine(inline.worker(), inline.module())
       : new Engine(new URL(named("worker.js"), base).href, new URL(named("urdd.wasm"), base).href);
   const app = new App(engine, site);
 

@@ -11,7 +11,9 @@ use clap::Args;
 use super::generate_output::{Format, Printer};
 use super::output;
 use super::signals::Signals;
-use crate::view::{Collection, Making, Server, Shown, Temporary, export, may_hold_page, page_with};
+use crate::view::{
+    Collection, ExportError, Making, Server, Shown, Temporary, export, may_hold_page, page_with,
+};
 use urdd_directory::discover::DiscoverError;
 use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
@@ -297,11 +299,9 @@ fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<
                 "a page in one file holds one robot, and here are {count}; give one of them, or a folder to --export"
             )));
         };
-        let shown = folder.display();
         if !may_hold_page(folder) {
-            return Err(usage(format!(
-                "{shown}: this file is no page that `urdd view --export` wrote; give another one"
-            )));
+            let files = vec![folder.to_owned()];
+            return Err(usage(ExportError::InTheWay { files }));
         }
         let page = page_with(robot).map_err(usage)?;
         output::write_file(folder, &page).map_err(usage)?;

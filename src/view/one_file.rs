@@ -2,8 +2,7 @@
 //! robot what the page draws and computes with, and not each file of the URDD.
 
 use std::collections::BTreeSet;
-use std::fs::File;
-use std::io::{self, Cursor, Read, Write};
+use std::io::{self, Cursor, Write};
 use std::path::Path;
 
 use base64::Engine;
@@ -19,26 +18,41 @@ use super::assets;
 use super::collection::Shown;
 use super::export::{ExportError, Published, published, unread};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::regular;
 use urdd_directory::root::{EntryKind, ReadError, Root};
+use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::registry::ModuleKind;
 use urdd_validate::rules;
 
 /// Most bytes of a robot that is put into a page.
 const MAX_ROBOT_BYTES: u64 = 100_000_000;
 
-/// By this a file is known as one that holds such a page. It stands near its beginning.
-const MARK: &str = "<meta name=\"urdd-mode\" content=\"inline\" />";
-/// Most bytes before the mark.
-const MAX_HEAD_BYTES: u64 = 1 << 16;
+/// Unpacks the page's program and runs it.
+const START: &str = include_str!("one_file.js");
 
-/// Whether a page may be written to a path: no file is there, or it is empty or holds such a page.
+/// How the last line of a page begins.
+const SEAL: &str = "<!-- written by urdd; SHA-256 of what is above: ";
+
+/// The last line of a page, by which an unchanged page is known.
+fn seal(above: &str) -> String {
+    let hash = hexadecimal(&Sha256::digest(above));
+    format!("{SEAL}{hash} -->\n")
+}
+
+/// Whether a page may be written to a path: no file is there, or it is empty, or a page as [`page_with`] gave it.
 pub fn may_hold_page(file: &Path) -> bool {
     if !file.is_file() {
         return true;
     }
-    let mut head = Vec::new();
-    let read = File::open(file).and_then(|open| open.take(MAX_HEAD_BYTES).read_to_end(&mut head));
-    read.is_ok() && (head.is_empty() || String::from_utf8_lossy(&head).contains(MARK))
+    let read = regular::read(file, 2 * MAX_ROBOT_BYTES).ok();
+    let Some(page) = read.and_then(|bytes| String::from_utf8(bytes).ok()) else {
+        return false;
+    };
+    let is_sealed = |at| {
+        let (above, last) = page.split_at(at);
+        seal(above) == last
+    };
+    page.is_empty() || page.rfind(SEAL).is_some_and(is_sealed)
 }
 
 /// The page with a robot in it, as HTML. It asks for nothing else, and needs no origin of its own: a frame may be
@@ -58,8 +72,9 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
     let (index, script, style) = (text("index.html")?, text("app.js")?, text("style.css")?);
     let hash = |text: &str| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text)));
     let policy = format!(
-        "default-src 'none'; script-src {} 'wasm-unsafe-eval'; style-src {}; connect-src blob: data:; \
+        "default-src 'none'; script-src {} {} 'wasm-unsafe-eval'; style-src {}; connect-src blob: data:; \
          img-src blob: data:; worker-src blob:; base-uri 'none'; form-action 'none'",
+        hash(START),
         hash(&script),
         hash(&style),
     );
@@ -68,26 +83,29 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
         report,
         entry,
     } = published(robot)?;
-    let module = assets::ROBOT_MODULE.bytes().map_err(ExportError::Page)?;
     let mut carried = String::new();
+    let mut carry = |id: &str, packed: &[u8]| {
+        let text = STANDARD.encode(packed);
+        carried.push_str(&format!(
+            "<script type=\"text/plain\" id=\"{id}\">{text}</script>\n"
+        ));
+    };
     for (id, bytes) in [
         ("robots.json", json!([entry]).to_string().into_bytes()),
         ("rules.json", meanings(&report).to_string().into_bytes()),
         ("report.json", report.into_bytes()),
         ("robot.zip", archive(robot, &root)?),
+        ("app.js", script.into_bytes()),
         ("worker.js", asset("worker.js")?),
-        ("urdd.wasm", module),
     ] {
-        let text = STANDARD.encode(deflated(&bytes).map_err(ExportError::Page)?);
-        carried.push_str(&format!(
-            "<script type=\"text/plain\" id=\"{id}\">{text}</script>\n"
-        ));
+        carry(id, &deflated(&bytes).map_err(ExportError::Page)?);
     }
+    carry("urdd.wasm", assets::ROBOT_MODULE.brotli);
     let mut page = String::new();
     for line in index.lines() {
         let of_page = line.trim_start();
         if of_page.starts_with("<meta name=\"urdd-mode\"") {
-            page.push_str(MARK);
+            page.push_str("<meta name=\"urdd-mode\" content=\"inline\" />");
         } else if of_page.starts_with("<meta http-equiv=\"Content-Security-Policy\"") {
             page.push_str("<meta http-equiv=\"Content-Security-Policy\" content=\"");
             page.push_str(&policy);
@@ -101,13 +119,14 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
         } else if of_page.starts_with("</body>") {
             page.push_str(&carried);
             page.push_str("<script>");
-            page.push_str(&script);
+            page.push_str(START);
             page.push_str("</script>\n</body>");
         } else {
             page.push_str(line);
         }
         page.push('\n');
     }
+    page.push_str(&seal(&page));
     Ok(page)
 }
 
@@ -169,7 +188,10 @@ fn archive(robot: &Shown, root: &Root) -> Result<Vec<u8>, ExportError> {
     let failed = |error: zip::result::ZipError| ExportError::Page(io::Error::other(error));
     for path in needed {
         match root.read(path, MAX_ROBOT_BYTES) {
-            Ok(bytes) => {
+            Ok(mut bytes) => {
+                if path.ends_with(".glb") {
+                    round_normals(&mut bytes);
+                }
                 zip.start_file(path, options).map_err(failed)?;
                 zip.write_all(&bytes).map_err(ExportError::Page)?;
             }
@@ -178,6 +200,35 @@ fn archive(robot: &Shown, root: &Root) -> Result<Vec<u8>, ExportError> {
         }
     }
     Ok(zip.finish().map_err(failed)?.into_inner())
+}
+
+/// Rounds the normals in a .glb that urdd wrote to multiples of 1/128, by less than half a degree: no picture shows it, and
+/// they deflate to a third. Positions and indices stay as they are, and so does any other file.
+fn round_normals(glb: &mut [u8]) -> Option<()> {
+    let number = |value: &Value| usize::try_from(value.as_u64()?).ok();
+    let length = u32::from_le_bytes(glb.get(12..16)?.try_into().ok()?) as usize;
+    let json: Value = serde_json::from_slice(glb.get(20..)?.get(..length)?).ok()?;
+    // Others' numbers may be interleaved.
+    if json["asset"]["generator"] != "urdd" {
+        return None;
+    }
+    let data = glb.get_mut(28 + length..)?;
+    // Whoever says that urdd wrote it: no byte is looked at more than once on average.
+    let mut left = data.len();
+    for primitive in json["meshes"][0]["primitives"].as_array()? {
+        let accessor = &json["accessors"][number(&primitive["attributes"]["NORMAL"])?];
+        let view = &json["bufferViews"][number(&accessor["bufferView"])?];
+        let length = number(&view["byteLength"])?;
+        left = left.checked_sub(length)?;
+        let normals = data.get_mut(number(&view["byteOffset"])?..)?;
+        for bytes in normals.get_mut(..length)?.chunks_exact_mut(4) {
+            let x = f32::from_le_bytes((&*bytes).try_into().ok()?);
+            // One zero of both.
+            let rounded = (x * 128.0).round() / 128.0 + 0.0;
+            bytes.copy_from_slice(&rounded.to_le_bytes());
+        }
+    }
+    Some(())
 }
 
 /// Of the files of a URDD those that the page reads: of each mesh one format, no second copy of a document, and of the

@@ -304,6 +304,7 @@ export type RobotSource =
 
 /** What the worker answers, by the name of what is asked. */
 export interface Calls {
+  /** The module: its address, or itself, compressed by brotli. */
   init: [{ wasm: string | ArrayBuffer }, null];
   open: [{ source: RobotSource }, { about: About; files: FileEntry[]; folder: string }];
   poses: [{ q: number[] }, Float64Array];

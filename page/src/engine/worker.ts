@@ -1,5 +1,6 @@
 /** The worker: it owns the module, reads files and answers questions, one after another. */
 
+import { decompress } from "brotli/decompress";
 import { UrddModule } from "./module";
 import { Store } from "./store";
 import type {
@@ -47,7 +48,7 @@ type Result<K extends CallName> = Calls[K][1] | Promise<Calls[K][1]>;
 
 const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result<K> } = {
   async init({ wasm }) {
-    module = await UrddModule.of(typeof wasm === "string" ? fetch(wasm) : wasm);
+    module = await UrddModule.of(typeof wasm === "string" ? fetch(wasm) : decompress(new Uint8Array(wasm)).slice());
     return null;
   },
 
