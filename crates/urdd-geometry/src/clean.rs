@@ -59,7 +59,7 @@ impl Mesh {
         before - self.vertices.len()
     }
 
-    /// Drops triangles without area, with coincident or collinear corners; returns how many.
+    /// Drops triangles without area, which have coincident or collinear corners; returns how many.
     ///
     /// The area is computed from the stored coordinates in binary64 and compared with exactly 0, so a thin triangle
     /// stays. After [`round_to_f32`](Self::round_to_f32) two corners are either equal or distinct.

@@ -36,7 +36,7 @@ pub const SPHERE_TRIANGLES: usize = 20 << (2 * SPLITS);
 #[must_use]
 pub fn cuboid(size: [f64; 3]) -> Mesh {
     let half = size.map(|length| length / 2.0);
-    // The index of a corner is 4 x + 2 y + z; each term is 0 at the low side, else 1.
+    // The index of a corner is 4 x + 2 y + z; each coordinate is 0 at the low side, else 1.
     let vertices = (0..8)
         .map(|corner| [4, 2, 1].map(|bit| if corner & bit == 0 { -1.0 } else { 1.0 }))
         .map(|side: [f64; 3]| std::array::from_fn(|axis| side[axis] * half[axis]))

@@ -33,7 +33,7 @@ pub struct ConvexHull {
     flat: bool,
 }
 
-/// Why a set of points has no hull with a surface.
+/// Why a set of points has no hull.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum HullError {
     /// There are no points.

@@ -153,7 +153,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Against the standard library's parser.
+        /// Compares with the standard library's parser.
         #[test]
         fn floats_are_those_of_the_standard_library(text in "[+-]?[0-9]{0,12}(\\.[0-9]{0,12})?([eE][+-]?[0-9]{1,3})?") {
             let expected = text.parse::<f64>().unwrap_or(f64::NAN);

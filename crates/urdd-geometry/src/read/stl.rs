@@ -13,8 +13,8 @@ const RECORD: usize = 50;
 
 /// Reads binary STL: an arbitrary header of 80 bytes, a count, and 50 bytes per triangle.
 ///
-/// The count decides if the data suffices. Some writers never fill in the count: if it is 0, all complete records are
-/// read. A count beyond the end means a truncated file or a placeholder: the complete records are read.
+/// The count is used if there is data for it. Some writers never fill in the count: if it is 0, all complete records
+/// are read. A count beyond the end means a truncated file or a placeholder: the complete records are read.
 pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
     let (Some(count), Some(data)) = (bytes.get(80..HEADER), bytes.get(HEADER..)) else {
         return Err(Fault::Truncated(format!(

@@ -181,7 +181,7 @@ impl<'a> Walker<'a, '_> {
             {
                 matrix *= transform::rows(transform::numbers::<16>(shape)?);
             }
-            // 1.5 renames the morph's attribute `method`; both versions have `source`.
+            // Both `skin` and `morph` reference what they deform by `source`.
             url = deformer.attribute("source").unwrap_or("");
         }
         self.missing("controller", url);

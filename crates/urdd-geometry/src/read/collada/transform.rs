@@ -35,7 +35,7 @@ pub(super) fn rows(values: [f64; 16]) -> Matrix4<f64> {
     matrix
 }
 
-/// Exactly `N` finite numbers.
+/// Parses exactly `N` finite numbers.
 pub(super) fn numbers<const N: usize>(element: Node<'_, '_>) -> Result<[f64; N], Failure> {
     let text = text(element);
     let mut words = Words::new(text.as_bytes());

@@ -145,7 +145,7 @@ pub(super) fn check_normals(
     Ok(())
 }
 
-/// Tolerance for the length of a normal.
+/// Tolerance for the length of a normal, which must be 1.
 const UNIT_NORMAL: f64 = 1e-3;
 
 /// The vertex indices of an accessor.
