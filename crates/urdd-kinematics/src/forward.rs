@@ -46,6 +46,8 @@ use urdd_format::index::LinkIdx;
 /// let poses = kinematics.link_poses(&[std::f64::consts::FRAC_PI_2])?;
 ///
 /// // The handle is 0.8 m along the door, which is now at a right angle to the wall.
+/// let handle = poses[1] * nalgebra::Point3::new(0.8, 0.0, 1.0);
+/// assert!((handle - nalgebra::Point3::new(0.5, 0.8, 1.0)).norm() < 1e-15);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
