@@ -1,10 +1,9 @@
-//! The smallest sphere about a set of points.
+//! The smallest enclosing sphere of a set of points.
 //!
-//! E. Welzl, Smallest Enclosing Disks (Balls and Ellipsoids), New Results and New Trends in Computer
-//! Science, LNCS 555 (1991); the way to walk is that of B. Gärtner, Fast and Robust Smallest
-//! Enclosing Balls, ESA '99: take in the point farthest outside, and find the smallest sphere about
-//! it and the few points that carried the last one. That one is larger each time, so no set of
-//! points carries twice, and the walk ends. There is no chance in it.
+//! E. Welzl, Smallest Enclosing Disks (Balls and Ellipsoids), New Results and New Trends in Computer Science, LNCS 555
+//! (1991). The iteration is that of B. Gärtner, Fast and Robust Smallest Enclosing Balls, ESA '99: add the point
+//! farthest outside, and compute the smallest sphere of that point and the support points of the previous sphere. The
+//! radius grows in each step, so no support set occurs twice and the iteration ends. It is deterministic.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -19,7 +18,7 @@ pub struct BoundingSphere {
     pub radius: f64,
 }
 
-/// A sphere through up to four points; lengths and origin are those of the walk.
+/// A sphere and its support of up to four points, in the scaled coordinates of the iteration.
 #[derive(Clone, Debug)]
 struct Carried {
     support: Vec<Vector3<f64>>,
@@ -27,27 +26,27 @@ struct Carried {
     radius: f64,
 }
 
-/// Points count as inside up to this part of the radius: some tens of roundings.
+/// Points count as inside up to this fraction of the radius: some tens of rounding errors.
 const ROUNDING: f64 = 1e-14;
 
 impl BoundingSphere {
-    /// The smallest sphere about a hull, but for rounding. On 447 meshes of robots a lower bound
-    /// (the Lagrangian dual) shows that no sphere's radius is smaller by more than 5e-9 of it; it
-    /// takes many points near one circle to come to that.
+    /// The smallest enclosing sphere of a hull, up to rounding. On 447 robot meshes a lower bound (the Lagrangian dual)
+    /// shows that the radius exceeds the optimum by less than 5e-9 of it. The worst cases have many points near one
+    /// circle.
     ///
-    /// No vertex is farther from the centre than the radius, computed in doubles.
+    /// No vertex is farther from the centre than the radius, as computed in doubles.
     pub fn around(hull: &ConvexHull) -> Self {
         Self::of_points(&hull.mesh().vertices)
     }
 
-    /// As [`BoundingSphere::around`], of points in any order and place; at the origin, and of radius 0, without any.
+    /// As [`BoundingSphere::around`], for points in any order; without points, radius 0 at the origin.
     pub fn of_points(points: &[[f64; 3]]) -> Self {
         let vertices: Vec<_> = points.iter().map(|p| Vector3::from(*p)).collect();
         let first = vertices.first().copied().unwrap_or_default();
         let size = vertices
             .iter()
             .fold(0.0, |size: f64, p| size.max((p - first).amax()));
-        // Lengths about 1, in which no product under- or overflows. A power of 2 changes no digit.
+        // Scale lengths to about 1, so that products neither underflow nor overflow. A power of 2 is exact.
         let scale = if size > 0.0 {
             size.log2().ceil().exp2()
         } else {
@@ -65,7 +64,7 @@ impl BoundingSphere {
     }
 }
 
-/// The centre of the smallest sphere about points.
+/// The centre of the smallest enclosing sphere.
 fn smallest(points: &[Vector3<f64>]) -> Vector3<f64> {
     let Some(first) = points.first() else {
         return Vector3::zeros();
@@ -91,15 +90,15 @@ fn smallest(points: &[Vector3<f64>]) -> Vector3<f64> {
         carriers.push(*farthest);
         match smallest_of_few(&carriers) {
             Some(larger) if larger.radius > sphere.radius => sphere = larger,
-            // Only rounding is left.
+            // Only rounding errors remain.
             _ => break,
         }
     }
     sphere.centre
 }
 
-/// The smallest sphere about up to five points. Its centre is the circumcentre of some of them, of
-/// all such the one nearest to the farthest of the points.
+/// The smallest enclosing sphere of up to five points. Its centre is the circumcentre of a subset: the one whose
+/// farthest point is nearest.
 fn smallest_of_few(points: &[Vector3<f64>]) -> Option<Carried> {
     let mut best: Option<Carried> = None;
     for chosen in 1u32..1 << points.len() {
@@ -114,8 +113,7 @@ fn smallest_of_few(points: &[Vector3<f64>]) -> Option<Carried> {
         let Some(centre) = circumcentre(&support) else {
             continue;
         };
-        // How far the sphere must reach to hold them all; the support alone would leave it to
-        // rounding whether it does.
+        // The radius that encloses all points. The distance to the support alone could exclude one by rounding.
         let radius = points
             .iter()
             .fold(0.0, |r: f64, p| r.max((p - centre).norm()));
@@ -130,8 +128,8 @@ fn smallest_of_few(points: &[Vector3<f64>]) -> Option<Carried> {
     best
 }
 
-/// The point of their plane, line or space that is as far from each of one to four points; `None`
-/// if there is none.
+/// The point in the span of one to four points (a point, line, plane or space) that is equidistant from them; `None` if
+/// there is none.
 fn circumcentre(points: &[Vector3<f64>]) -> Option<Vector3<f64>> {
     let (origin, rest) = points.split_first()?;
     let from_origin = |k: usize| rest[k] - origin;

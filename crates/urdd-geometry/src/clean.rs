@@ -1,23 +1,24 @@
-//! Puts a mesh in order: rounding, welding, and dropping what carries no surface.
+//! Mesh cleaning: rounding, welding, and removal of degenerate or unused elements.
 //!
-//! Everything here keeps the order of what stays, and depends on nothing but the mesh.
+//! All operations are deterministic and keep the order of the remaining elements.
 
 use super::mesh::{Mesh, double_area_normal};
 
 impl Mesh {
-    /// Rounds every coordinate to the nearest binary32, and -0 to 0; returns how many triangles were dropped
-    /// because a corner has no finite binary32.
+    /// Rounds every coordinate to the nearest binary32, and -0 to 0. Returns how many triangles were dropped because a
+    /// corner has no finite binary32 value.
     pub fn round_to_f32(&mut self) -> usize {
         for coordinate in self.vertices.iter_mut().flatten() {
             #[allow(clippy::cast_possible_truncation)]
             let rounded = *coordinate as f32;
-            // Adding 0 turns -0 into 0 and changes nothing else.
+            // Adding 0 turns -0 into 0 and leaves other values unchanged.
             *coordinate = f64::from(rounded) + 0.0;
         }
         self.drop_non_finite()
     }
 
-    /// Drops triangles with a corner that is not finite, and those corners; returns how many.
+    /// Drops triangles with a non-finite corner; returns how many. If a coordinate is not finite, also drops all unused
+    /// vertices.
     pub fn drop_non_finite(&mut self) -> usize {
         if self
             .vertices
@@ -40,9 +41,9 @@ impl Mesh {
         before - self.triangles.len()
     }
 
-    /// Makes vertices at the same place one: the first. 0 and -0 are the same place; nothing else is rounded.
+    /// Merges vertices at the same position into the first of them. 0 and -0 are equal; no tolerance applies.
     ///
-    /// Returns how many vertices went. Triangles stay, also those that thereby lose their area.
+    /// Returns how many vertices were removed. Triangles stay, even if they become degenerate.
     pub fn weld(&mut self) -> usize {
         let before = self.vertices.len();
         let mut table = PlaceTable::for_count(before);
@@ -58,10 +59,10 @@ impl Mesh {
         before - self.vertices.len()
     }
 
-    /// Drops triangles without area: two corners at one place, or three on one line; returns how many.
+    /// Drops triangles without area, which have coincident or collinear corners; returns how many.
     ///
-    /// The area is that of the coordinates as they are, computed in binary64 and compared with exactly 0, so a
-    /// thin triangle stays. After [`round_to_f32`](Self::round_to_f32) two corners are either equal or apart.
+    /// The area is computed from the stored coordinates in binary64 and compared with exactly 0, so a thin triangle
+    /// stays. After [`round_to_f32`](Self::round_to_f32) two corners are either equal or distinct.
     pub fn drop_degenerate(&mut self) -> usize {
         let before = self.triangles.len();
         let vertices = &self.vertices;
@@ -72,7 +73,7 @@ impl Mesh {
         before - self.triangles.len()
     }
 
-    /// Drops vertices that no triangle uses; returns how many. The others keep their order.
+    /// Drops vertices that no triangle uses; returns how many. The order of the others is kept.
     pub fn drop_unused_vertices(&mut self) -> usize {
         let mut used = vec![false; self.vertices.len()];
         for index in self.triangles.iter().flatten() {
@@ -94,7 +95,8 @@ impl Mesh {
     }
 }
 
-/// From places to their first index: open addressing, as the standard map with its safe hash takes three times as long.
+/// Maps positions to their first index. Uses open addressing: the standard map with its secure hash takes three times
+/// as long.
 struct PlaceTable {
     slots: Vec<u32>,
 }
@@ -108,7 +110,7 @@ impl PlaceTable {
         }
     }
 
-    /// The index of the place in `kept`, where it is added if it is new.
+    /// The index of the position in `kept`; appends the position if it is new.
     fn index(&mut self, place: [f64; 3], kept: &mut Vec<[f64; 3]>) -> u32 {
         let mask = self.slots.len() - 1;
         let mut slot = hash(place) & mask;

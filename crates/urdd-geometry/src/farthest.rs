@@ -1,4 +1,4 @@
-//! How far shapes reach from the origin, metres.
+//! Largest distance of a shape's points from the origin, metres.
 
 use nalgebra::Vector3;
 
@@ -6,13 +6,13 @@ use super::bounding_sphere::BoundingSphere;
 use super::mesh::Mesh;
 use super::oriented_box::OrientedBox;
 
-/// The distance of the farthest vertex of a mesh, which is its farthest point; 0 without vertices.
+/// Distance of the farthest vertex of a mesh, which is also its farthest point; 0 without vertices.
 pub fn of_mesh(mesh: &Mesh) -> f64 {
     let distances = mesh.vertices.iter().map(|p| Vector3::from(*p).norm());
     distances.fold(0.0, f64::max)
 }
 
-/// The distance of the farthest corner of a box.
+/// Distance of the farthest corner of a box.
 pub fn of_box(shape: &OrientedBox) -> f64 {
     let corners = shape.corners();
     corners
@@ -21,7 +21,7 @@ pub fn of_box(shape: &OrientedBox) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The distance of the centre plus the radius.
+/// Distance of the centre plus the radius.
 pub fn of_sphere(sphere: &BoundingSphere) -> f64 {
     Vector3::from(sphere.centre).norm() + sphere.radius
 }

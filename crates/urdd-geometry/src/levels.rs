@@ -1,8 +1,8 @@
-//! The instruction sets of this machine: kernels give the same bits on each, which tests hold.
+//! The SIMD instruction sets of this machine. Tests check that kernels return the same bits on each of them.
 
 use fearless_simd::Level;
 
-/// Every level that this machine has, the lowest that its architecture may have among them.
+/// All levels that this machine supports, including the baseline of its architecture.
 pub fn levels() -> Vec<Level> {
     let best = Level::new();
     let mut levels = vec![best];

@@ -1,11 +1,11 @@
-//! Meshes in and out, and what is computed from them. Knows no URDD.
+//! Mesh input and output, and geometry computed from meshes. This crate does not know the URDD format.
 //!
-//! - [`mesh`] is the triangle mesh that everything here works on, [`clean`] puts one in order.
+//! - [`mesh`] is the triangle mesh that all modules share. [`clean`] rounds, welds and filters it.
 //! - [`read`] reads STL, COLLADA, OBJ and glTF; [`write`](mod@write) writes STL, OBJ and GLB.
 //! - [`primitives`] tessellates box, cylinder, sphere and capsule.
-//! - [`hull`] finds convex hulls, [`oriented_box`] and [`bounding_sphere`] the smallest boxes and spheres,
-//!   [`decompose`](mod@decompose) convex pieces.
-//! - [`farthest`] and [`convex`] measure distances from the origin and between convex shapes.
+//! - [`hull`] computes convex hulls. [`oriented_box`] and [`bounding_sphere`] fit minimum-volume boxes and spheres.
+//!   [`decompose`](mod@decompose) splits a mesh into convex pieces.
+//! - [`farthest`] measures the extent from the origin. [`convex`] measures distances between convex shapes.
 
 pub mod bounding_sphere;
 pub mod clean;

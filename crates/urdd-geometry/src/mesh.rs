@@ -1,31 +1,31 @@
-//! A triangle mesh, and its measures.
+//! A triangle mesh, its measures and transforms.
 
 use nalgebra::{Matrix3, Matrix4, Vector3};
 
 /// A triangle mesh. Lengths in metres.
 ///
-/// A triangle is three indices into `vertices`, counter-clockwise when seen from outside. The methods of this
-/// type panic on an index that is out of range; meshes from [`read`](crate::read) have none.
+/// A triangle is three indices into `vertices`, counter-clockwise when seen from outside. The methods of this type
+/// panic on an index that is out of range; meshes from [`read`](crate::read) have no such index.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Positions, metres.
     pub vertices: Vec<[f64; 3]>,
-    /// Corners of each triangle, as indices of `vertices`.
+    /// Vertex indices of each triangle.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// An axis-aligned box: its lowest and highest corner, metres.
+/// An axis-aligned bounding box: its minimum and maximum corner, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// The least coordinate along each axis.
+    /// Smallest coordinate along each axis.
     pub min: [f64; 3],
-    /// The greatest coordinate along each axis.
+    /// Largest coordinate along each axis.
     pub max: [f64; 3],
 }
 
-/// Scales, then rotates, then moves: the 4 by 4 matrix of a URDF mesh element in its link's frame.
+/// The 4 by 4 matrix that places a URDF mesh element in its link's frame: scale, then rotation, then translation.
 ///
-/// `rotation` holds rows, `translation` is in metres.
+/// `rotation` is row-major; `translation` is in metres.
 #[must_use]
 pub fn placement(scale: [f64; 3], rotation: [[f64; 3]; 3], translation: [f64; 3]) -> Matrix4<f64> {
     Matrix4::from_fn(|row, column| match (row, column) {
@@ -37,13 +37,13 @@ pub fn placement(scale: [f64; 3], rotation: [[f64; 3]; 3], translation: [f64; 3]
 }
 
 impl Mesh {
-    /// The positions of a triangle's corners.
+    /// The positions of a triangle's vertices.
     #[must_use]
     pub fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
         triangle.map(|index| self.vertices[index as usize])
     }
 
-    /// The box around the triangles; `None` without triangles. Vertices that no triangle uses do not count.
+    /// The axis-aligned bounding box of the triangles; `None` without triangles. Unused vertices do not count.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
         let first = self.vertices[self.triangles.first()?[0] as usize];
@@ -64,7 +64,7 @@ impl Mesh {
         Some(bounds)
     }
 
-    /// The sum of the triangles' areas, square metres.
+    /// Surface area, square metres.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.triangles
@@ -73,11 +73,11 @@ impl Mesh {
             .sum()
     }
 
-    /// The volume inside the surface, cubic metres: positive for a closed surface whose triangles face outward.
+    /// Enclosed volume, cubic metres; positive for a closed surface whose triangles face outward.
     ///
-    /// The sum of the signed tetrahedra between a fixed point and each triangle (the divergence theorem). The point
-    /// is the first vertex, so that a mesh far from the origin loses no digits. Of a surface that is not closed it
-    /// has no meaning.
+    /// Sums the signed tetrahedra between a fixed point and each triangle (divergence theorem). The fixed point is the
+    /// first vertex, so that a mesh far from the origin loses no precision. The result has no meaning for an open
+    /// surface.
     #[must_use]
     pub fn signed_volume(&self) -> f64 {
         let Some(first) = self.triangles.first() else {
@@ -97,8 +97,8 @@ impl Mesh {
 
     /// Applies a 4 by 4 matrix whose last row is 0, 0, 0, 1.
     ///
-    /// Where the matrix mirrors (a negative determinant), the triangles are turned round so that they face outward
-    /// as before. A scale of 1 and a rotation by 0 leave every coordinate as it was.
+    /// A mirroring matrix (negative determinant) also flips the triangles, so that they still face outward. The
+    /// identity matrix leaves every coordinate unchanged.
     pub fn transform(&mut self, matrix: &Matrix4<f64>) {
         let rows: [[f64; 4]; 3] =
             std::array::from_fn(|row| std::array::from_fn(|column| matrix[(row, column)]));
@@ -112,17 +112,17 @@ impl Mesh {
         }
     }
 
-    /// Turns every triangle round.
+    /// Reverses the winding of every triangle.
     pub fn flip(&mut self) {
         for triangle in &mut self.triangles {
             triangle.swap(1, 2);
         }
     }
 
-    /// Appends the vertices and triangles of `other`, in their order.
+    /// Appends the vertices and triangles of `other`, in order.
     ///
     /// # Panics
-    /// With more than `u32::MAX` vertices in all.
+    /// If the total number of vertices exceeds `u32::MAX`.
     pub fn append(&mut self, other: &Self) {
         let offset = u32::try_from(self.vertices.len()).expect("more vertices than u32 can count");
         assert!(
@@ -139,7 +139,7 @@ impl Mesh {
     }
 }
 
-/// The normal of a triangle, twice its area long.
+/// The normal of a triangle; its length is twice the area.
 pub(crate) fn double_area_normal(corners: [[f64; 3]; 3]) -> Vector3<f64> {
     let [a, b, c] = corners.map(Vector3::from);
     (b - a).cross(&(c - a))

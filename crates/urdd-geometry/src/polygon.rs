@@ -1,17 +1,18 @@
-//! Splits polygons in space into triangles.
+//! Triangulates polygons in space.
 
 use earcut::Earcut;
 use nalgebra::Vector3;
 
-/// Cutting ears can take time with the square of the corners: 0.5 s for so many in a tangle. Real faces have up to 40.
+/// Maximum number of corners for ear clipping. Its worst case is quadratic: 0.5 s for a tangled polygon of this size.
+/// Real faces have up to 40 corners.
 const MOST_CORNERS: usize = 10_000;
-/// The squares of the numbers of corners of all polygons that one splitter cuts by ears, each of more corners
-/// than [`FEW_CORNERS`]: some seconds, were all of them tangles.
+/// Budget of one splitter for ear clipping: the sum of squared corner counts of polygons with more than [`FEW_CORNERS`]
+/// corners. If all of them are tangled, this takes some seconds.
 const MOST_WORK: usize = 500_000_000;
-/// Polygons of so few corners cost next to nothing.
+/// Polygons with at most this many corners do not count against the budget.
 const FEW_CORNERS: usize = 100;
 
-/// Splits polygons; keeps its buffers between them.
+/// Triangulates polygons; reuses its buffers.
 pub(crate) struct Splitter {
     ears: Earcut<f64>,
     flat: Vec<[f64; 2]>,
@@ -29,11 +30,12 @@ impl Splitter {
         }
     }
 
-    /// Appends the triangles of one polygon, whose corners are indices of `vertices`, with its winding.
+    /// Appends the triangles of one polygon, with its winding. `corners` are indices of `vertices`.
     ///
-    /// Three corners are a triangle; a convex polygon is a fan around its first corner, which is what every reader
-    /// of quads does; one that is not convex is cut by ears in the plane that it faces most. Fewer than three
-    /// corners are nothing; more than [`MOST_CORNERS`] are always a fan, and so is what comes after [`MOST_WORK`].
+    /// A convex polygon becomes a fan around its first corner, as in every reader of quads. Other polygons are
+    /// triangulated by ear clipping, projected along the largest component of their normal. Fewer than three corners
+    /// give no triangles. More than [`MOST_CORNERS`] corners always give a fan. Once [`MOST_WORK`] is spent, so do more
+    /// than [`FEW_CORNERS`].
     pub(crate) fn split(
         &mut self,
         vertices: &[[f64; 3]],
@@ -57,7 +59,7 @@ impl Splitter {
                     .map(|pair| [corners[0], pair[0], pair[1]]),
             )
         };
-        // An index out of range or a number that is none: the caller drops the triangles that have it.
+        // An index out of range or a non-finite coordinate: the caller drops the affected triangles.
         let Some(places) =
             places.filter(|places| places.iter().flatten().all(|value| value.is_finite()))
         else {
@@ -100,7 +102,7 @@ impl Splitter {
             .extend(places.iter().map(|place| [place[u], place[v]]));
         self.ears
             .earcut::<u32>(self.flat.iter().copied(), &[], &mut self.found);
-        // Earcut winds its triangles always the same way; the polygon's own is known.
+        // Earcut always winds its triangles the same way; restore the polygon's winding.
         let wanted = normal[normal.iamax()] > 0.0;
         for cut in self.found.chunks_exact(3) {
             let [a, b, c] = [cut[0], cut[1], cut[2]].map(|index| self.flat[index as usize]);
@@ -115,7 +117,7 @@ impl Splitter {
     }
 }
 
-/// The polygon's normal, twice its area long (Newell's method).
+/// The polygon's normal (Newell's method); its length is twice the area.
 fn area_normal(places: &[Vector3<f64>]) -> Vector3<f64> {
     let origin = places[0];
     places[1..]
@@ -126,7 +128,7 @@ fn area_normal(places: &[Vector3<f64>]) -> Vector3<f64> {
 
 /// Whether no corner turns against the polygon's normal by more than rounding.
 fn is_convex(places: &[Vector3<f64>], normal: Vector3<f64>) -> bool {
-    /// Sine of the angle by which a corner may turn back: below it, corners count as lying on a line.
+    /// Sine of the turn-back angle below which corners count as collinear.
     const SLACK: f64 = 1e-6;
     let count = places.len();
     let length = normal.norm();
@@ -143,6 +145,6 @@ fn is_convex(places: &[Vector3<f64>], normal: Vector3<f64>) -> bool {
             turned += (before.dot(&after) / scale).clamp(-1.0, 1.0).acos();
         }
     }
-    // A star turns always the same way, but more than once round.
+    // A star polygon always turns the same way, but more than one full turn.
     turned < 1.5 * std::f64::consts::TAU
 }

@@ -1,26 +1,26 @@
-//! Box, cylinder, sphere and capsule as triangles.
+//! Tessellation of box, cylinder, sphere and capsule.
 //!
-//! All are closed, face outward, and are centred at the origin, with the axis along z, as URDF and `MuJoCo` have it.
-//! Every vertex lies on the true surface, and those on the coordinate axes lie there exactly, so extents are exact. The
-//! flat faces lie inside the true surface by at most these parts of the radius:
+//! All meshes are closed, face outward and are centred at the origin. The axis is along z, as in URDF and `MuJoCo`.
+//! Every vertex is on the true surface. Vertices on the coordinate axes are exact, so extents are exact. The flat faces
+//! are inside the true surface by at most this fraction of the radius:
 //!
-//! | shape | vertices | triangles | inside by |
+//! | shape | vertices | triangles | deviation |
 //! |---|---|---|---|
 //! | box | 8 | 12 | 0 |
 //! | cylinder | 64 | 124 | 1 - cos(pi / 32) = 0.48 % |
 //! | sphere | 642 | 1280 | 0.46 % |
 //! | capsule | 514 | 1024 | 0.96 % |
 //!
-//! The sphere is an icosahedron whose faces are split in four three times: of bodies with as many corners it is
-//! nearly the roundest, where one of meridians and parallels crowds its corners at the poles.
+//! The sphere is an icosahedron with each face split in four, three times. Among bodies with as many vertices it is
+//! nearly the roundest; a sphere of meridians and parallels crowds its vertices at the poles.
 
 use super::mesh::Mesh;
 
-/// Corners of a circle.
+/// Vertices of a circle.
 pub const SEGMENTS: usize = 32;
-/// Circles between the equator and a pole of a capsule, counting the equator.
+/// Circles from the equator to a pole of a capsule, including the equator.
 pub const RINGS: usize = SEGMENTS / 4;
-/// How often the faces of the icosahedron are split.
+/// How many times the faces of the icosahedron are split.
 const SPLITS: usize = 3;
 
 /// Triangles of a box.
@@ -32,11 +32,11 @@ pub const CAPSULE_TRIANGLES: usize = 4 * RINGS * SEGMENTS;
 /// Triangles of a sphere.
 pub const SPHERE_TRIANGLES: usize = 20 << (2 * SPLITS);
 
-/// A box. `size` is its full lengths along x, y and z, metres.
+/// A box with the edge lengths `size` along x, y and z, metres.
 #[must_use]
 pub fn cuboid(size: [f64; 3]) -> Mesh {
     let half = size.map(|length| length / 2.0);
-    // Corner 4 x + 2 y + z, each 0 at the low side.
+    // The index of a corner is 4 x + 2 y + z; each coordinate is 0 at the low side, else 1.
     let vertices = (0..8)
         .map(|corner| [4, 2, 1].map(|bit| if corner & bit == 0 { -1.0 } else { 1.0 }))
         .map(|side: [f64; 3]| std::array::from_fn(|axis| side[axis] * half[axis]))
@@ -59,7 +59,7 @@ pub fn cuboid(size: [f64; 3]) -> Mesh {
     }
 }
 
-/// A cylinder along z of this radius and full length, metres.
+/// A cylinder along z with the given radius and full length, metres.
 #[must_use]
 pub fn cylinder(radius: f64, length: f64) -> Mesh {
     let mut mesh = Mesh::default();
@@ -74,7 +74,7 @@ pub fn cylinder(radius: f64, length: f64) -> Mesh {
     mesh
 }
 
-/// A capsule along z: a cylinder of this radius and length with half a sphere on each end, metres.
+/// A capsule along z: a cylinder of the given radius and length with a hemisphere at each end, metres.
 #[must_use]
 pub fn capsule(radius: f64, length: f64) -> Mesh {
     let mut mesh = Mesh::default();
@@ -110,7 +110,7 @@ pub fn capsule(radius: f64, length: f64) -> Mesh {
     mesh
 }
 
-/// A sphere of this radius, metres.
+/// A sphere of the given radius, metres.
 #[must_use]
 pub fn sphere(radius: f64) -> Mesh {
     let golden = f64::midpoint(1.0, 5.0_f64.sqrt());
@@ -124,7 +124,7 @@ pub fn sphere(radius: f64) -> Mesh {
         mesh.vertices
             .extend([[0.0, one, long], [one, long, 0.0], [long, 0.0, one]].map(unit));
     }
-    // Faces of the icosahedron: triples of corners that are next to one another, found by their distance.
+    // Faces of the icosahedron: triples of adjacent corners, found by their dot products.
     let near = |a: usize, b: usize| dot(mesh.vertices[a], mesh.vertices[b]) > 0.4 && a != b;
     for a in 0..12 {
         for b in a + 1..12 {
@@ -146,7 +146,7 @@ pub fn sphere(radius: f64) -> Mesh {
     mesh
 }
 
-/// Splits each triangle in four, with the new corners moved out to the unit sphere.
+/// Splits each triangle in four and moves the new vertices out to the unit sphere.
 fn split(mesh: &mut Mesh) {
     let mut middles = std::collections::BTreeMap::new();
     let mut triangles = Vec::with_capacity(mesh.triangles.len() * 4);
@@ -167,7 +167,7 @@ fn split(mesh: &mut Mesh) {
     mesh.triangles = triangles;
 }
 
-/// Cosine and sine of each corner of the circle, exact at the quarters and mirrored exactly between them.
+/// Cosine and sine of each vertex of the circle: exact at the quarters, and exactly mirrored between them.
 fn circle() -> [(f64, f64); SEGMENTS] {
     let quarter = SEGMENTS / 4;
     #[allow(clippy::cast_precision_loss)]
@@ -195,7 +195,7 @@ fn push_ring(mesh: &mut Mesh, radius: f64, height: f64) {
         .extend(circle().map(|(cosine, sine)| [radius * cosine, radius * sine, height]));
 }
 
-/// The wall between the ring that begins at `first` and the next.
+/// Adds the wall between the ring that starts at `first` and the next ring.
 fn join_rings(mesh: &mut Mesh, first: u32) {
     for corner in 0..SEGMENTS {
         let (a, b) = (
@@ -207,7 +207,7 @@ fn join_rings(mesh: &mut Mesh, first: u32) {
     }
 }
 
-/// Meshes here have a few hundred vertices.
+/// Primitive meshes have a few hundred vertices, so the cast is safe.
 #[allow(clippy::cast_possible_truncation)]
 const fn index(at: usize) -> u32 {
     at as u32

@@ -1,4 +1,4 @@
-//! The joints that move one link: what its pose and its Jacobian need, and nothing of the rest of the robot.
+//! The joints that move one link: all that its pose and Jacobian need.
 
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
@@ -7,26 +7,26 @@ use super::forward::{ForwardKinematics, Step, is_finite};
 use super::jacobian::{add_to, columns};
 use super::joint::Motion;
 
-/// The joints between the root and one link.
+/// The joints from the root to one link.
 #[derive(Debug, Clone)]
 pub struct Branch<'a> {
     kinematics: &'a ForwardKinematics,
     link: usize,
-    /// From the root on.
+    /// In order from the root.
     pub(super) steps: Vec<&'a Step>,
 }
 
-/// Where the link of a branch is. It is used again for the next configuration.
+/// The pose of a branch's link; reusable for further configurations.
 #[derive(Debug, Clone)]
 pub struct Place {
     /// The pose of the link in the root link's frame.
     pub pose: Isometry3<f64>,
-    /// Of each joint the rotation of its frame, and the place of its child.
+    /// For each joint, the rotation of its frame and the position of its child link.
     pub(super) joints: Vec<(UnitQuaternion<f64>, Vector3<f64>)>,
 }
 
 impl Default for Place {
-    /// The identity, of no joint.
+    /// The identity, without joints.
     fn default() -> Self {
         Self {
             pose: Isometry3::identity(),
@@ -36,7 +36,7 @@ impl Default for Place {
 }
 
 impl ForwardKinematics {
-    /// The joints that move a link; none for the root, and for a link that is not there.
+    /// The joints that move a link; none for the root or a link that does not exist.
     pub fn branch(&self, link: usize) -> Branch<'_> {
         let mut steps: Vec<&Step> = self.path(link).collect();
         steps.reverse();
@@ -49,7 +49,7 @@ impl ForwardKinematics {
 }
 
 impl Branch<'_> {
-    /// Where the link is, for numbers of which it is known that there are enough.
+    /// Computes the pose of the link. The length of `configuration` must be checked already.
     pub(super) fn place(&self, configuration: &[f64], place: &mut Place) {
         place.joints.clear();
         let mut pose = Isometry3::identity();
@@ -64,15 +64,14 @@ impl Branch<'_> {
         place.pose = pose;
     }
 
-    /// The geometric Jacobian of a point of the link, given in the link's frame, metres: as
-    /// [`ForwardKinematics::jacobian`], column after column of 6 numbers into `jacobian`, one for each DOF.
+    /// The geometric Jacobian of a point of the link, as [`ForwardKinematics::jacobian`]. The point is in the link's
+    /// frame, metres. `jacobian` is column-major, 6 numbers for each DOF.
     ///
     /// # Errors
-    /// A configuration of another length, or with a value that is not finite; or one so large that the link is out of
-    /// the range of numbers.
+    /// If the configuration has the wrong length or a value that is not finite, or if the link's pose overflows.
     ///
     /// # Panics
-    /// Where `jacobian` does not have 6 numbers for each DOF.
+    /// If `jacobian` has fewer than 6 numbers for each DOF.
     pub fn jacobian_into(
         &self,
         configuration: &[f64],
@@ -88,7 +87,7 @@ impl Branch<'_> {
         }
         let point = place.pose * point;
         jacobian.fill(0.0);
-        // From the link on, as there, so that sums are the same to the bit.
+        // From the link to the root, as in `ForwardKinematics::jacobian`, so that sums are bit-identical.
         for (step, (frame, child)) in self.steps.iter().zip(&place.joints).rev() {
             columns(
                 step,

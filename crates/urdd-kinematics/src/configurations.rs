@@ -1,5 +1,4 @@
-//! The configurations that the specification defines: the same for every producer and every
-//! validator, in any language.
+//! The configurations that the specification defines, identical for every producer and validator in any language.
 
 use std::f64::consts::PI;
 
@@ -11,10 +10,10 @@ use urdd_format::chain::ChainModule;
 use urdd_format::dof::DofModule;
 use urdd_format::urdf::JointType;
 
-/// Number `i` of sample `k`: in [0, 1), as good as random, and the same everywhere.
+/// Pseudo-random number `i` of sample `k`, in [0, 1), identical on every platform.
 ///
-/// It is output `k * 2^32 + i` of the generator SplitMix64 with seed 0, of which the upper 53 bits
-/// are taken as a binary fraction. All integers are of 64 bits and wrap.
+/// It is output `k * 2^32 + i` of the generator SplitMix64 with seed 0; its upper 53 bits are read as a binary
+/// fraction. All integers have 64 bits and wrap.
 pub fn unit(k: u64, i: u64) -> f64 {
     (bits(k, i) >> 11) as f64 * (0.5_f64).powi(53)
 }
@@ -30,8 +29,8 @@ fn bits(k: u64, i: u64) -> u64 {
 
 /// The configurations of a robot that the specification defines.
 ///
-/// The last three DOFs of a floating joint and the three of a spherical one are a rotation vector:
-/// all rotations are within its bounds, and it is treated as one thing. No value is negative zero.
+/// The last three DOFs of a floating joint and the three of a spherical one form a rotation vector. Its bounds contain
+/// all rotations, and it is handled as a unit. No value is negative zero.
 #[derive(Debug, Clone)]
 pub struct ConfigurationSpace {
     bounds: Vec<[f64; 2]>,
@@ -39,7 +38,7 @@ pub struct ConfigurationSpace {
 }
 
 impl ConfigurationSpace {
-    /// From the three modules.
+    /// Builds the configuration space from the three modules.
     pub fn new(
         dof: &DofModule,
         chain: &ChainModule,
@@ -48,7 +47,8 @@ impl ConfigurationSpace {
         Self::within(dof, chain, &bounds.bounds)
     }
 
-    /// From two modules and `bounds` of `bounds_module`, in whatever order the two of a pair are; they must be finite.
+    /// Builds the configuration space from two modules and the `bounds` of a `bounds_module`. Each pair may be in
+    /// either order; all bounds must be finite.
     pub fn within(
         dof: &DofModule,
         chain: &ChainModule,
@@ -84,17 +84,17 @@ impl ConfigurationSpace {
         })
     }
 
-    /// Number of DOFs: the length of each configuration.
+    /// Number of DOFs, which is the length of each configuration.
     pub fn num_dofs(&self) -> usize {
         self.bounds.len()
     }
 
-    /// The bounds of each DOF, in whatever order the two are.
+    /// The bounds of each DOF; a pair may be in either order.
     pub fn bounds(&self) -> &[[f64; 2]] {
         &self.bounds
     }
 
-    /// The same robot's configurations within other bounds; `None` where these are not one finite pair for each DOF.
+    /// The same robot with other bounds; `None` unless there is one finite pair for each DOF.
     pub fn with_bounds(&self, bounds: &[[f64; 2]]) -> Option<Self> {
         let finite = bounds.as_flattened().iter().all(|bound| bound.is_finite());
         (finite && bounds.len() == self.bounds.len()).then(|| Self {
@@ -103,43 +103,42 @@ impl ConfigurationSpace {
         })
     }
 
-    /// The DOFs of each rotation vector, three at a time: of floating joints the last three, of
-    /// spherical ones all.
+    /// The three DOFs of each rotation vector: the last three of floating joints, all of spherical ones.
     pub fn rotation_vectors(&self) -> &[[usize; 3]] {
         &self.rotation_vectors
     }
 
-    /// Every DOF 0, even where 0 is out of bounds.
+    /// All DOFs 0, even if 0 is out of bounds; Pinocchio's *neutral configuration*.
     pub fn zero(&self) -> Vec<f64> {
         vec![0.0; self.bounds.len()]
     }
 
-    /// The default configuration: every DOF 0, or the bound nearest to 0 where 0 is out of bounds. A
-    /// rotation vector is (0, 0, 0).
+    /// The default configuration: every DOF 0, or the bound nearest to 0 if 0 is out of bounds. Rotation vectors are
+    /// (0, 0, 0).
     pub fn default_configuration(&self) -> Vec<f64> {
         let nearest_to_zero = |[a, b]: [f64; 2]| 0.0_f64.max(f64::min(a, b)).min(f64::max(a, b));
         self.build(|_, pair| nearest_to_zero(pair), |_| [0.0; 3])
     }
 
-    /// Every DOF half-way between its bounds: `lower/2 + upper/2`, which cannot overflow, is 0 for
-    /// symmetric bounds, and the bound itself where both are equal. A rotation vector is (0, 0, 0).
+    /// Every DOF at the middle of its bounds: `lower/2 + upper/2`. This cannot overflow, is 0 for symmetric bounds, and
+    /// equals the bound if both are equal. Rotation vectors are (0, 0, 0).
     pub fn middle(&self) -> Vec<f64> {
         self.build(|_, [lower, upper]| lower / 2.0 + upper / 2.0, |_| [0.0; 3])
     }
 
-    /// Every DOF at its lower bound; a rotation vector is (-pi, 0, 0).
+    /// Every DOF at its lower bound; rotation vectors are (-pi, 0, 0).
     pub fn lower(&self) -> Vec<f64> {
         self.build(|_, [lower, _]| lower, |_| [-PI, 0.0, 0.0])
     }
 
-    /// Every DOF at its upper bound; a rotation vector is (pi, 0, 0).
+    /// Every DOF at its upper bound; rotation vectors are (pi, 0, 0).
     pub fn upper(&self) -> Vec<f64> {
         self.build(|_, [_, upper]| upper, |_| [PI, 0.0, 0.0])
     }
 
     /// Sampled configuration `k`, with `u(i)` = [`unit()`]`(k, i)` for DOF `i`:
     /// `q = lower * (1 - u(i)) + upper * u(i)`, which cannot overflow. A rotation vector is that of the
-    /// [`uniform_rotation`] made of the `u(i)` of its three DOFs, in order.
+    /// [`uniform_rotation`] from the `u(i)` of its three DOFs, in order.
     pub fn sampled(&self, k: u64) -> Vec<f64> {
         self.build(
             |i, pair| between(pair, unit(k, i as u64)),

@@ -1,4 +1,4 @@
-//! What can be wrong with modules, and with a configuration.
+//! Errors in modules and configurations.
 
 use thiserror::Error;
 
@@ -6,13 +6,13 @@ use super::pose::PoseError;
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::JointType;
 
-/// Modules that kinematics cannot be computed from: where, and why.
+/// A fault in a module that prevents kinematics: its location and kind.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{}{pointer}: {fault}", .module.name())]
 pub struct KinematicsError {
     /// The module with the fault.
     pub module: ModuleKind,
-    /// JSON Pointer to the value at fault.
+    /// JSON Pointer to the invalid value.
     pub pointer: String,
     /// What is wrong with it.
     pub fault: Fault,
@@ -51,49 +51,49 @@ impl KinematicsError {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A list that goes with another one has another length.
+    /// A list does not have one entry per item of another list.
     #[error("{found} entries, expected {expected}: one for each {what}")]
     Length {
-        /// What each entry is for.
+        /// The items of the other list.
         what: &'static str,
-        /// Number of those.
+        /// Number of those items.
         expected: usize,
         /// Number of entries.
         found: usize,
     },
-    /// An index that points at nothing.
+    /// An index out of range.
     #[error("there is no {what} {index}: the number of them is {count}")]
     OutOfRange {
-        /// What is indexed.
+        /// The indexed items.
         what: &'static str,
         /// The index.
         index: u32,
-        /// Number of things there are.
+        /// Number of items.
         count: usize,
     },
-    /// A joint that moves the root.
+    /// A joint's child is the root link.
     #[error("this joint moves link {link}, the root")]
     RootMoved {
         /// Index of the root.
         link: usize,
     },
-    /// Two joints that move one link.
+    /// Two joints have the same child link.
     #[error("link {link} is moved by joint {first} already")]
     MovedTwice {
         /// Index of the link.
         link: usize,
-        /// Index of the joint that comes first in the list.
+        /// Index of the first such joint in the list.
         first: usize,
     },
-    /// A link that hangs on nothing, or on a ring of joints.
+    /// A link that is not connected to the root, or is on a cycle of joints.
     #[error("no path leads from the root to this link")]
     Unreached,
-    /// A joint with more or fewer DOFs than joints of its type have.
+    /// A joint whose number of DOFs does not match its type.
     #[error("{found} DOFs, expected {expected} of a {joint_type} joint")]
     DofCount {
         /// Type of the joint.
         joint_type: JointType,
-        /// Number of DOFs that such a joint has.
+        /// Number of DOFs of this type.
         expected: usize,
         /// Number of DOFs listed.
         found: usize,
@@ -104,31 +104,31 @@ pub enum Fault {
         /// Number of DOFs listed.
         found: usize,
     },
-    /// A mimic joint whose position is not one number.
+    /// A mimic joint whose position is not a scalar.
     #[error("a {0} joint cannot be a mimic joint: its position is not one number")]
     MimicType(JointType),
-    /// A joint that needs an axis and has none.
+    /// A joint without the axis that its type requires.
     #[error("a {0} joint needs an axis")]
     NoAxis(JointType),
-    /// An axis that is not of length 1.
+    /// An axis that is not a unit vector.
     #[error("not a unit vector: its length is {norm}")]
     AxisNotUnit {
         /// Its length.
         norm: f64,
     },
-    /// Numbers that are no rigid transform.
+    /// A pose that is not a rigid transform.
     #[error(transparent)]
     Pose(#[from] PoseError),
-    /// A number that is infinite, or none.
+    /// A number that is infinite or NaN.
     #[error("{0} is not a finite number")]
     NotFinite(f64),
 }
 
-/// A configuration that has no link poses.
+/// Why link poses cannot be computed for a configuration.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ConfigurationError {
-    /// More or fewer values than DOFs.
+    /// The number of values is not the number of DOFs.
     #[error("the configuration has {found} values, the robot {expected} DOFs")]
     Length {
         /// Number of DOFs.
@@ -136,7 +136,7 @@ pub enum ConfigurationError {
         /// Number of values.
         found: usize,
     },
-    /// A value that is infinite, or none.
+    /// A value is infinite or NaN.
     #[error("value {dof_idx} of the configuration is {value}, not a finite number")]
     NotFinite {
         /// Index of the DOF.
@@ -144,7 +144,7 @@ pub enum ConfigurationError {
         /// The value.
         value: f64,
     },
-    /// Values so large that a link's pose is beyond what `f64` can hold.
+    /// Values so large that a link's pose overflows `f64`.
     #[error("link {link_idx} is out of the range of 64-bit numbers")]
     Overflow {
         /// Index of the link.
@@ -153,7 +153,7 @@ pub enum ConfigurationError {
 }
 
 impl ConfigurationError {
-    /// Whether a configuration has so many values, and all are finite.
+    /// Checks that a configuration has `expected` values, all finite.
     pub(crate) fn check(configuration: &[f64], expected: usize) -> Result<(), Self> {
         let found = configuration.len();
         if found != expected {

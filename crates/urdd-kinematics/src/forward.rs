@@ -1,4 +1,4 @@
-//! Forward kinematics: from a configuration to the pose of every link.
+//! Forward kinematics: link poses from a configuration.
 
 use nalgebra::Isometry3;
 
@@ -11,7 +11,7 @@ use urdd_format::index::LinkIdx;
 
 /// Forward kinematics of a robot, from its `chain_module` and `dof_module`.
 ///
-/// Poses are in the frame of the root link, which thus is the identity. Bounds are not looked at.
+/// Poses are in the frame of the root link, whose own pose is the identity. Bounds are not checked.
 ///
 /// ```
 /// use urdd_format::{chain::ChainModule, dof::DofModule};
@@ -45,7 +45,7 @@ use urdd_format::index::LinkIdx;
 /// let kinematics = ForwardKinematics::new(&chain, &dof)?;
 /// let poses = kinematics.link_poses(&[std::f64::consts::FRAC_PI_2])?;
 ///
-/// // The handle is 0.8 m along the door, which now stands at a right angle to the wall.
+/// // The handle is 0.8 m along the door, which is now at a right angle to the wall.
 /// let handle = poses[1] * nalgebra::Point3::new(0.8, 0.0, 1.0);
 /// assert!((handle - nalgebra::Point3::new(0.5, 0.8, 1.0)).norm() < 1e-15);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -55,9 +55,9 @@ pub struct ForwardKinematics {
     num_links: usize,
     num_dofs: usize,
     root: usize,
-    /// One for each joint; a link's own step comes before those of its children.
+    /// One step per joint; parents come before children.
     steps: Vec<Step>,
-    /// For each link the step that moves it; `None` for the root.
+    /// For each link, the index of the step that moves it; `None` for the root.
     step_of: Vec<Option<usize>>,
 }
 
@@ -70,9 +70,9 @@ pub(super) struct Step {
 }
 
 impl ForwardKinematics {
-    /// Reads the tree from the joints of `chain` and checks that each link hangs on the root by
-    /// exactly one path; the order comes from that, not from `kinematic_hierarchy`. What forward
-    /// kinematics does not need is not looked at.
+    /// Builds the tree from the joints of `chain`, and checks that exactly one path connects each link to the root. The
+    /// order follows from the tree, not from `kinematic_hierarchy`. Data that forward kinematics does not need is not
+    /// checked.
     pub fn new(chain: &ChainModule, dof: &DofModule) -> Result<Self, KinematicsError> {
         check_lengths(chain, dof)?;
         let order = joints_from_root(chain)?;
@@ -103,12 +103,12 @@ impl ForwardKinematics {
         })
     }
 
-    /// Number of DOFs: the length of a configuration.
+    /// Number of DOFs, which is the length of a configuration.
     pub fn num_dofs(&self) -> usize {
         self.num_dofs
     }
 
-    /// Number of links: the length of what [`link_poses`](Self::link_poses) returns.
+    /// Number of links, which is the number of poses that [`link_poses`](Self::link_poses) returns.
     pub fn num_links(&self) -> usize {
         self.num_links
     }
@@ -124,8 +124,7 @@ impl ForwardKinematics {
         Ok(poses)
     }
 
-    /// As [`link_poses`](Self::link_poses), into a vector that can be used again. What was in it is
-    /// lost, after an error too.
+    /// As [`link_poses`](Self::link_poses), into a reusable vector. Its previous content is discarded, also on error.
     pub fn link_poses_into(
         &self,
         configuration: &[f64],
@@ -150,15 +149,15 @@ impl ForwardKinematics {
         Ok(())
     }
 
-    /// Whether a configuration is one finite value for each DOF.
+    /// Checks that a configuration has one finite value for each DOF.
     ///
     /// # Errors
-    /// Where it is not.
+    /// If it does not.
     pub(super) fn check(&self, configuration: &[f64]) -> Result<(), ConfigurationError> {
         ConfigurationError::check(configuration, self.num_dofs)
     }
 
-    /// The joints between a link and the root, from the link on.
+    /// The joints from a link up to the root.
     pub(super) fn path(&self, link: usize) -> impl Iterator<Item = &Step> {
         let step = |link: usize| {
             self.step_of
@@ -170,7 +169,7 @@ impl ForwardKinematics {
         std::iter::successors(step(link), move |above| step(above.parent))
     }
 
-    /// Index of the root link, whose pose is the identity.
+    /// Index of the root link; its pose is the identity.
     pub fn root(&self) -> usize {
         self.root
     }
@@ -181,7 +180,7 @@ pub(super) fn is_finite(pose: &Isometry3<f64>) -> bool {
         && pose.rotation.coords.iter().all(|x| x.is_finite())
 }
 
-/// The indices of all joints, each after the joint that its parent link hangs on.
+/// The indices of all joints, each after the joint that moves its parent link.
 fn joints_from_root(chain: &ChainModule) -> Result<Vec<usize>, KinematicsError> {
     let num_links = chain.links_in_chain.len();
     let root = link_at("/root_idx", chain.root_idx, num_links)?;
@@ -202,8 +201,8 @@ fn joints_from_root(chain: &ChainModule) -> Result<Vec<usize>, KinematicsError> 
         joints_on[parent].push(idx);
     }
 
-    // Every link but the root is moved by one joint at most, so the walk meets none twice and ends;
-    // what it does not meet hangs on nothing, or on a ring.
+    // At most one joint moves each link except the root, so the walk visits no joint twice and ends. A link that it
+    // does not reach is disconnected or on a cycle.
     let mut order: Vec<usize> = Vec::with_capacity(chain.joints_in_chain.len());
     order.extend(&joints_on[root]);
     let mut next = 0;

@@ -1,4 +1,4 @@
-//! Geometric Jacobians: how a point of a link moves as the DOFs do.
+//! Geometric Jacobians: the velocity of a point of a link for the velocity of each DOF.
 
 use nalgebra::{Isometry3, Matrix3, Matrix6xX, Point3, UnitQuaternion, Vector3};
 
@@ -6,13 +6,13 @@ use super::forward::{ForwardKinematics, Step};
 use super::joint::Motion;
 
 impl ForwardKinematics {
-    /// The geometric Jacobian of a point that moves with a link: 6 rows, one column for each DOF.
+    /// The geometric Jacobian of a point that moves with a link: 6 rows, one column per DOF.
     ///
-    /// Times the DOFs' speeds it gives the velocity of the point (rows 0 to 2, m/s), then the angular velocity of the
-    /// link (rows 3 to 5, rad/s), both along the axes of the root link's frame. `poses` are those of
-    /// [`link_poses`](Self::link_poses) at `configuration`, and `point` is in the root link's frame, metres. The
-    /// coordinates of floating and spherical joints are rotation vectors, so that their columns are derivatives by
-    /// the vector's components. Zero for a link that is not there.
+    /// Multiplied by the DOF velocities, it gives the velocity of the point (rows 0 to 2, m/s) and the angular velocity
+    /// of the link (rows 3 to 5, rad/s), both in the axes of the root link's frame. `poses` are those of
+    /// [`link_poses`](Self::link_poses) at `configuration`; `point` is in the root link's frame, metres. The
+    /// coordinates of floating and spherical joints are rotation vectors; their columns are derivatives with respect to
+    /// the vector's components. The Jacobian of a link that does not exist is zero.
     pub fn jacobian(
         &self,
         configuration: &[f64],
@@ -34,7 +34,7 @@ impl ForwardKinematics {
     }
 }
 
-/// Adds a velocity and an angular velocity to a column of 6 numbers.
+/// Adds a linear and an angular velocity to a column of 6 numbers.
 pub(super) fn add_to(column: &mut [f64], linear: Vector3<f64>, angular: Vector3<f64>) {
     for axis in 0..3 {
         column[axis] += linear[axis];
@@ -42,9 +42,11 @@ pub(super) fn add_to(column: &mut [f64], linear: Vector3<f64>, angular: Vector3<
     }
 }
 
-/// How a point moves with the DOFs of one joint on its way to the root: for each, velocity and angular velocity.
+/// Calls `add` for each DOF of one joint between the point's link and the root, with the velocity of the point and the
+/// angular velocity of the link.
 ///
-/// `frame` is the rotation of the joint's frame, `child` the place of its child link, both in the root link's frame.
+/// `frame` is the rotation of the joint frame and `child` the position of its child link, both in the root link's
+/// frame.
 pub(super) fn columns(
     step: &Step,
     frame: &UnitQuaternion<f64>,
@@ -98,7 +100,7 @@ pub(super) fn columns(
     }
 }
 
-/// The angular velocity for the speed of each component of a rotation vector, as columns.
+/// The angular velocity for the derivative of each component of a rotation vector, as columns.
 ///
 /// Source: T. Barfoot, State Estimation for Robotics (2017), 7.1.5: the left Jacobian of SO(3).
 fn left_jacobian(vector: [f64; 3]) -> Matrix3<f64> {
@@ -106,7 +108,7 @@ fn left_jacobian(vector: [f64; 3]) -> Matrix3<f64> {
     let angle = vector.norm();
     let cross = vector.cross_matrix();
     let square = angle * angle;
-    // The series of both where the differences would lose their digits.
+    // Use series for small angles, where the differences would lose precision.
     let (first, second) = if angle < 1e-2 {
         (
             0.5 - square / 24.0 + square * square / 720.0,

@@ -1,4 +1,4 @@
-//! How a joint moves: its motion as a function of the configuration.
+//! Joint motion as a function of the configuration.
 
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
@@ -15,7 +15,7 @@ type Axis = Unit<Vector3<f64>>;
 const DOFS: &str = "joint_idx_to_dof_idxs_mapping";
 const MIMICS: &str = "joint_idx_to_mimic_mapping";
 
-/// A joint's position where it is one number: `multiplier * q[dof] + offset`.
+/// The scalar position of a joint: `multiplier * q[dof] + offset`.
 #[derive(Debug, Clone)]
 pub(super) struct Position {
     pub dof: Option<usize>,
@@ -32,8 +32,8 @@ impl Position {
     }
 }
 
-/// The motion of a joint, with the indices of its DOFs: checked, so that [`Motion::at`] cannot fail
-/// on a configuration of the right length.
+/// The motion of a joint, with the indices of its DOFs. They are checked, so [`Motion::at`] cannot fail on a
+/// configuration of the right length.
 #[derive(Debug, Clone)]
 pub(super) enum Motion {
     Fixed,
@@ -59,7 +59,7 @@ pub(super) enum Motion {
 }
 
 impl Motion {
-    /// Pose of the child link's frame in the joint's frame.
+    /// Pose of the child link's frame in the joint frame.
     pub(super) fn at(&self, q: &[f64]) -> Isometry3<f64> {
         match self {
             Motion::Fixed => Isometry3::identity(),
@@ -93,7 +93,7 @@ impl Motion {
     }
 }
 
-/// Number of DOFs of a joint that is no mimic joint.
+/// Number of DOFs of a joint that is not a mimic joint.
 fn dof_count(joint_type: JointType) -> usize {
     match joint_type {
         JointType::Fixed => 0,
@@ -103,7 +103,7 @@ fn dof_count(joint_type: JointType) -> usize {
     }
 }
 
-/// Checks that the lists per joint go with the chain.
+/// Checks that the per-joint lists have one entry for each joint of the chain.
 pub(super) fn check_lengths(chain: &ChainModule, dof: &DofModule) -> Result<(), KinematicsError> {
     let expected = chain.joints_in_chain.len();
     let dofs = dof.joint_idx_to_dof_idxs_mapping.len();
@@ -122,8 +122,8 @@ pub(super) fn check_lengths(chain: &ChainModule, dof: &DofModule) -> Result<(), 
     Ok(())
 }
 
-/// The DOFs of joint `idx`: as many as its type asks for (none for a mimic joint), each in range.
-/// [`check_lengths`] has found the lists long enough.
+/// The DOFs of joint `idx`: the number that its type requires (none for a mimic joint), each in range.
+/// [`check_lengths`] must have passed.
 pub(super) fn joint_dofs(
     joint_type: JointType,
     idx: usize,
@@ -193,7 +193,7 @@ pub(super) fn motion(
         (JointType::Floating, &[x, y, z, a, b, c]) => Motion::Float {
             dofs: [x, y, z, a, b, c],
         },
-        // Their count is right, so this is a mimic joint, which has none.
+        // The count is right, so this is a mimic joint, which has no DOFs.
         (JointType::Planar | JointType::Spherical | JointType::Floating, _) => {
             let fault = Fault::MimicType(joint_type);
             return Err(KinematicsError::dof(format!("/{MIMICS}/{idx}"), fault));

@@ -1,8 +1,7 @@
-//! Kinematics as a consumer does it: from the modules of a URDD alone, no URDF in sight.
+//! Kinematics from the modules of a URDD alone, without the URDF, as consumers compute it.
 //!
-//! [`ForwardKinematics`] turns a configuration into the pose of every link;
-//! [`ConfigurationSpace`] makes the configurations that the specification defines; [`inverse`] goes back from a pose to
-//! a configuration.
+//! [`ForwardKinematics`] computes the pose of every link from a configuration. [`ConfigurationSpace`] provides the
+//! configurations that the specification defines. [`inverse`] computes a configuration from a pose.
 
 mod branch;
 mod configurations;

@@ -1,4 +1,4 @@
-//! Poses as a URDD writes them, and as nalgebra computes with them.
+//! Conversion of poses between URDD and nalgebra.
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use thiserror::Error;
@@ -6,18 +6,17 @@ use thiserror::Error;
 use super::rotation::canonical;
 use urdd_format::pose::Pose;
 
-/// How far from 1 the length of a quaternion or an axis may be before we refuse to compute with it:
-/// wide enough for a producer that writes seven digits, far too narrow for one that forgot to
-/// normalise.
+/// Tolerance for the length of unit quaternions and unit axes. It accepts a producer that writes seven digits, and
+/// rejects one that does not normalise.
 pub const UNIT_TOLERANCE: f64 = 1e-6;
 
-/// Numbers that are no rigid transform.
+/// Why a pose is not a rigid transform.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum PoseError {
-    /// A component of the position is infinite, or none.
+    /// A component of the position is infinite or NaN.
     #[error("the position has a component that is not a finite number")]
     Position,
-    /// The quaternion is not of length 1.
+    /// The quaternion does not have length 1.
     #[error("not a unit quaternion: its length is {norm}")]
     NotUnit {
         /// Its length.
@@ -25,13 +24,13 @@ pub enum PoseError {
     },
 }
 
-/// Whether a vector of this length passes for a unit vector; NaN does not.
+/// Whether a length is that of a unit vector, within the tolerance; false for NaN.
 pub(super) fn is_unit(norm: f64) -> bool {
     (norm - 1.0).abs() <= UNIT_TOLERANCE
 }
 
-/// The transform of a pose as it is written. The quaternion may have either sign; it is scaled to
-/// length 1, and has to be within [`UNIT_TOLERANCE`] of it.
+/// Converts a URDD pose to a transform. The quaternion may have either sign. Its length must be within
+/// [`UNIT_TOLERANCE`] of 1; it is normalised.
 pub fn to_isometry(pose: &Pose) -> Result<Isometry3<f64>, PoseError> {
     if !pose.position.iter().all(|x| x.is_finite()) {
         return Err(PoseError::Position);
@@ -48,7 +47,7 @@ pub fn to_isometry(pose: &Pose) -> Result<Isometry3<f64>, PoseError> {
     ))
 }
 
-/// The pose as a URDD writes it: canonical quaternion (see [`canonical`]), no negative zero.
+/// Converts a transform to a URDD pose, with a canonical quaternion (see [`canonical`]) and without negative zeros.
 pub fn from_isometry(isometry: &Isometry3<f64>) -> Pose {
     let rotation = UnitQuaternion::new_normalize(*isometry.rotation.quaternion());
     let q = canonical(&rotation);

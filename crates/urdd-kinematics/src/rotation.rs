@@ -1,31 +1,29 @@
-//! Rotations: canonical quaternions, rotation vectors, fixed-axis angles, axes, and how far two
-//! rotations are apart.
+//! Rotations: canonical quaternions, rotation vectors, fixed-axis angles, axes, and distances between rotations.
 
 use std::f64::consts::{SQRT_2, TAU};
 
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 
-/// Below this distance from the z axis, the arc from z to a planar joint's axis has no direction
-/// that numbers as URDFs have them could tell.
+/// Distance from the z axis below which the arc from z to a planar joint's axis has no direction, given the precision
+/// of numbers in URDFs.
 const PLANAR_AXIS_EPSILON: f64 = 1e-10;
 
-/// The vector scaled to length 1, without negative zeros; `None` if it has no direction (zero, or
-/// not finite).
+/// The vector scaled to length 1, without negative zeros; `None` if it has no direction (zero or not finite).
 pub fn unit_axis(axis: [f64; 3]) -> Option<Unit<Vector3<f64>>> {
     let v = Vector3::from(axis);
-    // First to components near 1: the squares of huge or tiny ones overflow or vanish. What has no
-    // direction comes out of this as NaN, which is not longer than 0.
+    // Scale the components to about 1 first, because the squares of huge or tiny ones overflow or underflow. A vector
+    // without direction becomes NaN, which is not longer than 0.
     let unit = Unit::try_new(v / v.amax(), 0.0)?;
     Some(Unit::new_unchecked(unit.map(|x| x + 0.0)))
 }
 
-/// The rotation of fixed-axis roll, pitch, yaw, as URDF has it: `Rz(yaw) * Ry(pitch) * Rx(roll)`.
+/// The rotation of fixed-axis roll, pitch, yaw, as in URDF: `Rz(yaw) * Ry(pitch) * Rx(roll)`.
 pub fn from_rpy([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
     UnitQuaternion::from_euler_angles(roll, pitch, yaw)
 }
 
-/// The one of the two quaternions of a rotation whose first component that is not zero, in the
-/// order w, x, y, z, is positive: so `w >= 0`. No component is negative zero.
+/// The canonical one of a rotation's two quaternions: its first non-zero component, in the order w, x, y, z, is
+/// positive. So `w >= 0`. No component is negative zero.
 pub fn canonical(rotation: &UnitQuaternion<f64>) -> UnitQuaternion<f64> {
     let q = rotation.quaternion();
     let wxyz = [q.w, q.i, q.j, q.k];
@@ -34,13 +32,12 @@ pub fn canonical(rotation: &UnitQuaternion<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z))
 }
 
-/// The rotation by `|v|` radians about `v`. Keeps every digit of a tiny rotation, which nalgebra's
-/// own does not.
+/// The rotation by `|v|` radians about `v`. Keeps full precision for tiny rotations, unlike nalgebra's function.
 pub fn from_rotation_vector(v: [f64; 3]) -> UnitQuaternion<f64> {
     let v = Vector3::from(v);
     let angle = v.norm();
     let half = 0.5 * angle;
-    // sin(a/2)/a is 1/2 - a^2/48 + ...: below 1e-8 that is 1/2 to the last digit.
+    // sin(a/2)/a is 1/2 - a^2/48 + ...: below 1e-8 that is 1/2 in full precision.
     let factor = if angle < 1e-8 {
         0.5
     } else {
@@ -49,8 +46,8 @@ pub fn from_rotation_vector(v: [f64; 3]) -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::from_parts(half.cos(), v * factor))
 }
 
-/// The rotation vector of a rotation: its axis times its angle, which is in [0, pi]. The canonical
-/// quaternion decides between the two vectors of half a turn.
+/// The rotation vector of a rotation: its axis times its angle, which is in [0, pi]. For a half turn, the canonical
+/// quaternion selects one of the two vectors.
 pub fn to_rotation_vector(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
     let q = canonical(rotation);
     let v = q.imag();
@@ -64,10 +61,9 @@ pub fn to_rotation_vector(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
     (v * factor).map(|x| x + 0.0).into()
 }
 
-/// The rotation that three numbers in [0, 1] stand for; uniform among rotations where they are in
-/// that interval (Shoemake, 1992). It is the [`canonical`] quaternion of
-/// `w = sqrt(u1) cos(2 pi u3)`, `x = sqrt(1 - u1) sin(2 pi u2)`, `y = sqrt(1 - u1) cos(2 pi u2)`,
-/// `z = sqrt(u1) sin(2 pi u3)`.
+/// The rotation for three numbers in [0, 1]; uniformly distributed if they are (Shoemake, 1992). It is the
+/// [`canonical`] quaternion of `w = sqrt(u1) cos(2 pi u3)`, `x = sqrt(1 - u1) sin(2 pi u2)`,
+/// `y = sqrt(1 - u1) cos(2 pi u2)`, `z = sqrt(u1) sin(2 pi u3)`.
 pub fn uniform_rotation([u1, u2, u3]: [f64; 3]) -> UnitQuaternion<f64> {
     let (zw, xy) = (u1.sqrt(), (1.0 - u1).sqrt());
     let ((sin2, cos2), (sin3, cos3)) = ((TAU * u2).sin_cos(), (TAU * u3).sin_cos());
@@ -75,15 +71,15 @@ pub fn uniform_rotation([u1, u2, u3]: [f64; 3]) -> UnitQuaternion<f64> {
     canonical(&UnitQuaternion::new_unchecked(quaternion))
 }
 
-/// The directions of a planar joint's first two DOFs: x and y, turned by the shortest arc that
-/// takes z to the axis; if the axis is -z, by half a turn about x.
+/// The directions of a planar joint's first two DOFs: x and y, rotated by the shortest arc from z to the axis. If the
+/// axis is -z, by a half turn about x.
 pub fn planar_basis(axis: &Unit<Vector3<f64>>) -> [Vector3<f64>; 2] {
     let radius = axis.x.hypot(axis.y);
     if radius < PLANAR_AXIS_EPSILON {
         return [Vector3::x(), Vector3::y() * axis.z.signum()];
     }
-    // Rodrigues' formula about (-ny, nx, 0). Written with 1 - az, and not with 1 + az in a
-    // denominator, it holds near -z as it does everywhere.
+    // Rodrigues' formula about (-ny, nx, 0). It uses 1 - az instead of 1 + az in a denominator, so it is accurate near
+    // -z too.
     let (nx, ny) = (axis.x / radius, axis.y / radius);
     let versine = 1.0 - axis.z;
     let mixed = -versine * nx * ny;
@@ -93,9 +89,8 @@ pub fn planar_basis(axis: &Unit<Vector3<f64>>) -> [Vector3<f64>; 2] {
     ]
 }
 
-/// How far two rotations are apart: the Frobenius norm of the difference of their matrices,
-/// divided by the square root of 2. Equals `2 sin(a/2)` for rotations that differ by the angle `a`:
-/// `a` itself where it is small, 2 for half a turn.
+/// The distance between two rotations: the Frobenius norm of the difference of their matrices, divided by `sqrt(2)`.
+/// For rotations that differ by the angle `a` it equals `2 sin(a/2)`: about `a` for small angles, 2 for a half turn.
 pub fn rotation_distance(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>) -> f64 {
     let difference = a.to_rotation_matrix().into_inner() - b.to_rotation_matrix().into_inner();
     difference.norm() / SQRT_2

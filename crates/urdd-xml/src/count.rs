@@ -1,10 +1,10 @@
-//! What is counted of a text before it is parsed.
+//! Limits that are checked before parsing.
 
 use std::collections::HashSet;
 
 use super::{Kind, MOST_ATTRIBUTES, MOST_LEVELS, MOST_PREFIXES, XmlError, text_pos};
 
-/// Counts, tag by tag; what is not well-formed is left to the parser.
+/// Checks the limits tag by tag. Malformed XML is left to the parser.
 pub(super) fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
     let mut prefixes: HashSet<&[u8]> = HashSet::new();
     let (mut levels, mut elements) = (0_usize, 0_usize);
@@ -12,7 +12,7 @@ pub(super) fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
     let mut at = 0;
     while let Some(found) = find(bytes, at, b"<") {
         let rest = &bytes[found..];
-        // `<!-->` begins a comment and does not end it.
+        // `<!-->` starts a comment but does not end it.
         let end_of = |start: &[u8], mark: &[u8]| {
             find(bytes, found + start.len(), mark).map(|end| end + mark.len())
         };
@@ -73,18 +73,18 @@ enum TagKind {
     Empty,
     /// `</a>`.
     End,
-    /// `<!DOCTYPE …`, and what is declared in it.
+    /// `<!DOCTYPE …`, and the declarations inside it.
     Declaration,
 }
 
-/// What is counted of a tag.
+/// The counted properties of a tag.
 struct Tag<'t> {
     kind: TagKind,
-    /// Signs of equality outside of quotes.
+    /// Number of `=` outside quotes.
     attributes: usize,
-    /// What stands between `xmlns:` and such a sign.
+    /// The names between `xmlns:` and such a `=`.
     prefixes: Vec<&'t [u8]>,
-    /// Where it ends.
+    /// Byte offset of its end.
     end: usize,
 }
 
@@ -101,7 +101,7 @@ impl<'t> Tag<'t> {
             end: bytes.len(),
         };
         let mut quote = None;
-        // Where the last word began, and whether it has ended.
+        // Start of the last word, and whether the word has ended.
         let (mut word, mut ended) = (start + 1, false);
         for (offset, byte) in bytes[start + 1..].iter().enumerate() {
             let at = start + 1 + offset;
@@ -118,7 +118,7 @@ impl<'t> Tag<'t> {
                     tag.prefixes.extend(name.strip_prefix(b"xmlns:"));
                     ended = true;
                 }
-                // A declaration of a DOCTYPE holds others.
+                // A DOCTYPE contains other declarations.
                 (None, b'>' | b'[') => {
                     tag.end = at + 1;
                     if tag.kind == TagKind::Start && bytes[at - 1] == b'/' {

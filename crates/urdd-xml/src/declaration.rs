@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::{XmlError, text_pos};
 
-/// Checks that the declaration, where there is one, names a version 1.x, and no other encoding than
-/// UTF-8. (The parser takes any.)
+/// Checks that the declaration, if present, names a version 1.x and no encoding other than UTF-8. The parser accepts
+/// any.
 pub(super) fn check(text: &str) -> Result<(), XmlError> {
     if let Some(range) = wrong_version(text) {
         return Err(XmlError::Version {
@@ -25,7 +25,7 @@ pub(super) fn check(text: &str) -> Result<(), XmlError> {
     Ok(())
 }
 
-/// Where the declaration names a version that is not 1.0, 1.1 and so on.
+/// The range of the declared version, unless it is 1.0, 1.1 and so on.
 pub fn wrong_version(text: &str) -> Option<Range<usize>> {
     let range = value(text, "version")?;
     let digits = text[range.clone()].strip_prefix("1.");
@@ -33,7 +33,7 @@ pub fn wrong_version(text: &str) -> Option<Range<usize>> {
     (!is_right).then_some(range)
 }
 
-/// Where the value of one of the declaration's parts stands.
+/// The range of the value of a pseudo-attribute of the declaration.
 fn value(text: &str, name: &str) -> Option<Range<usize>> {
     let rest = text.strip_prefix("<?xml")?;
     let rest = rest

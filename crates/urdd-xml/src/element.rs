@@ -1,16 +1,15 @@
-//! Elements by the names that are written, and changes of a text that leave the rest of it as it is.
+//! Elements by their qualified names, and text edits that leave the rest of a document unchanged.
 
 use std::ops::Range;
 
 use roxmltree::{Attribute, Document, Node};
 
-/// The name of an element, its prefix included, as it is written: `xacro:link` is no `link`, whatever
-/// `xacro` stands for.
+/// The qualified name of an element, including its prefix: `xacro:link` is not `link`, whatever namespace `xacro` has.
 pub fn name<'a>(element: Node<'a, 'a>) -> &'a str {
     name_at(element.document(), &element.range())
 }
 
-/// The name of the element that stands at a place, as [`name`] gives it.
+/// The qualified name of the element at a range, as from [`name`].
 pub fn name_at<'a>(document: &'a Document<'a>, range: &Range<usize>) -> &'a str {
     let text = &document.input_text()[range.clone()];
     let start = text.strip_prefix('<').unwrap_or(text);
@@ -20,7 +19,7 @@ pub fn name_at<'a>(document: &'a Document<'a>, range: &Range<usize>) -> &'a str 
         .unwrap_or_default()
 }
 
-/// The elements directly in an element, with their names.
+/// The child elements, with their names.
 pub fn children<'a>(parent: Node<'a, 'a>) -> impl Iterator<Item = (&'a str, Node<'a, 'a>)> {
     parent
         .children()
@@ -28,23 +27,23 @@ pub fn children<'a>(parent: Node<'a, 'a>) -> impl Iterator<Item = (&'a str, Node
         .map(|element| (name(element), element))
 }
 
-/// An attribute without prefix.
+/// An attribute without a prefix, by name.
 pub fn attribute<'a>(element: Node<'a, 'a>, name: &str) -> Option<Attribute<'a, 'a>> {
     element
         .attributes()
         .find(|attribute| attribute.name() == name && attribute.namespace().is_none())
 }
 
-/// A change of a text: the bytes of `range` become `text`.
+/// A text edit: replaces the bytes of `range` by `text`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Edit {
-    /// Bytes of the text.
+    /// Byte range to replace.
     pub range: Range<usize>,
-    /// What stands there instead.
+    /// The replacement.
     pub text: String,
 }
 
-/// The text with its edits. Of two edits, one within the other, the outer one counts.
+/// Applies edits to a text. If one edit is inside another, only the outer one applies.
 pub fn apply(text: &str, mut edits: Vec<Edit>) -> String {
     edits.sort_by_key(|edit| (edit.range.start, std::cmp::Reverse(edit.range.end)));
     let mut edited = String::with_capacity(text.len());

@@ -1,9 +1,8 @@
-//! Parses XML from anybody. Knows no URDD.
+//! Parses untrusted XML. This crate does not know the URDD format.
 //!
-//! What a small file can make large is counted before any parser sees it: levels, elements,
-//! attributes, prefixes, and declarations of entities. `roxmltree` compares each attribute of an
-//! element with the others, and copies the namespaces of an element to those below it that declare
-//! one: time and memory with the square, or the cube.
+//! Before parsing, this crate limits what a small file can use to exhaust time or memory: nesting depth, elements,
+//! attributes, prefixes and entity declarations. `roxmltree` compares each attribute of an element with the others, and
+//! copies an element's namespaces to each descendant that declares one. Its time and memory are quadratic or cubic.
 
 mod count;
 mod declaration;
@@ -13,29 +12,29 @@ mod words;
 pub use declaration::wrong_version;
 use roxmltree::{Document, ParsingOptions, TextPos};
 
-/// Most levels of elements inside one another; a URDF has 6, a COLLADA scene some 20, and of a
-/// snake robot of 100 joints 110.
+/// Maximum nesting depth. A URDF has 6 levels and a COLLADA scene some 20; that of a snake robot with 100 joints has
+/// 110.
 pub const MOST_LEVELS: usize = 256;
 
-/// Most nodes of a document: elements, texts, comments. A robot of 2,000 links has some 100,000.
+/// Maximum number of nodes of a document: elements, texts, comments. A robot with 2,000 links has some 100,000.
 pub const MOST_NODES: usize = 4_000_000;
 
-/// Most elements of a URDF: some 20,000 links with two shapes each.
+/// Maximum number of elements of a URDF: enough for some 20,000 links with two shapes each.
 pub const MOST_ROBOT_ELEMENTS: usize = 500_000;
 
-/// Most attributes of one element, declarations of namespaces among them; real ones have up to 10.
+/// Maximum number of attributes of one element, including namespace declarations; real ones have up to 10.
 pub const MOST_ATTRIBUTES: usize = 256;
 
-/// Most prefixes that a document declares; real ones have up to 10.
+/// Maximum number of namespace prefixes of a document; real ones have up to 10.
 pub const MOST_PREFIXES: usize = 64;
 
-/// What a document is read as.
+/// The kind of document to parse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// A URDF (SPEC 6.1.8): at most [`MOST_ROBOT_ELEMENTS`] elements; a `<!DOCTYPE robot>` is
-    /// passed over, and what it names outside the file is never fetched.
+    /// A URDF (SPEC 6.1.8): at most [`MOST_ROBOT_ELEMENTS`] elements. A `<!DOCTYPE robot>` is skipped; external files
+    /// that it references are never fetched.
     Robot,
-    /// Anything else, a COLLADA scene say: without a document type.
+    /// Any other document, such as a COLLADA scene. A document type is an error.
     Other,
 }
 
@@ -48,40 +47,40 @@ impl Kind {
     }
 }
 
-/// Why a text is not parsed.
+/// Why a document was rejected.
 #[derive(Debug)]
 pub enum XmlError {
-    /// It is not well-formed.
+    /// Not well-formed XML.
     Parser(roxmltree::Error),
-    /// It declares entities of its own: that is how small files grow large.
+    /// It declares entities, which can expand a small file exponentially.
     Entities(TextPos),
-    /// Its XML declaration names a version that is not 1.0, 1.1 and so on.
+    /// The version of the XML declaration is not 1.x.
     Version {
         /// The version.
         found: String,
-        /// Where it stands.
+        /// Its position.
         pos: TextPos,
     },
-    /// Its XML declaration names another encoding than UTF-8.
+    /// The XML declaration names an encoding other than UTF-8.
     Encoding {
         /// The encoding.
         found: String,
-        /// Where it stands.
+        /// Its position.
         pos: TextPos,
     },
-    /// It has more of something than any document needs.
+    /// A limit is exceeded.
     TooMany {
-        /// What there is too much of.
+        /// The limited items.
         what: &'static str,
-        /// How many are allowed.
+        /// The limit.
         limit: usize,
-        /// Where the element begins that has it.
+        /// The start of the element that exceeds the limit.
         pos: TextPos,
     },
 }
 
 impl XmlError {
-    /// Where it is.
+    /// The position of the error.
     pub fn pos(&self) -> TextPos {
         match self {
             XmlError::Parser(error) => error.pos(),
@@ -92,7 +91,7 @@ impl XmlError {
         }
     }
 
-    /// What is wrong with `text`, without the place, and what to do.
+    /// The error message for `text`, without the position: what is wrong and what to do.
     pub fn words(&self, text: &str) -> String {
         words::of(self, text)
     }
@@ -101,7 +100,8 @@ impl XmlError {
 /// Parses a document.
 ///
 /// # Errors
-/// Where it is not well-formed, declares entities, or has too much of something.
+/// [`XmlError`] if the document is not well-formed, declares entities, or exceeds a limit. For [`Kind::Robot`], also if
+/// the XML declaration names a wrong version or encoding.
 pub fn parse(text: &str, kind: Kind) -> Result<Document<'_>, XmlError> {
     count::check(text, kind)?;
     if kind == Kind::Robot {
@@ -115,7 +115,7 @@ pub fn parse(text: &str, kind: Kind) -> Result<Document<'_>, XmlError> {
     Document::parse_with_options(text, options).map_err(XmlError::Parser)
 }
 
-/// The line and column of a byte, as the parser counts them.
+/// The line and column of a byte, counted as the parser does.
 fn text_pos(text: &str, offset: usize) -> TextPos {
     let before = &text[..offset];
     let line = before.rsplit('\n').next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What is counted, and what is not.
+//! Tests of the limits and of the error messages.
 
 use super::*;
 
@@ -83,12 +83,12 @@ fn levels_are_bounded() {
     let expected = "there are more than 256 levels of elements inside one another";
     let error = result(&nested(MOST_LEVELS + 1)).unwrap_err();
     assert_eq!(error, format!("1:{}: {expected}", 9 * MOST_LEVELS + 1));
-    // Neither elements that are closed at once, nor text, nor what a document type declares.
+    // Not nested: empty elements, closed elements, text, and declarations in a document type.
     let flat = "<b/><c d='/>'></c><!-- <e> --><![CDATA[<f>]]><?g <h>?>".repeat(MOST_LEVELS + 1);
     assert_eq!(result(&format!("<r>{flat}</r>")), Ok(()));
     let types = "<!ELEMENT r ANY>".repeat(MOST_LEVELS + 1);
     assert_eq!(result(&format!("<!DOCTYPE r [{types}]><r/>")), Ok(()));
-    // Two million levels are refused as fast.
+    // Two million levels are rejected as fast.
     let start = std::time::Instant::now();
     assert!(result(&"<a>".repeat(2_000_000)).is_err());
     assert!(start.elapsed().as_secs() < 5);
@@ -112,7 +112,7 @@ fn entities_are_refused_where_they_are_declared() {
     assert!(error.starts_with("2:2: it declares entities"), "{error}");
     let nested = "<!DOCTYPE r [ <!ELEMENT r ANY> <!-- ] --> <!ENTITY % a '0'> ]><r/>";
     assert!(result(nested).unwrap_err().contains("declares entities"));
-    // Elsewhere these characters declare nothing.
+    // Elsewhere these characters do not declare anything.
     for text in [
         "<!DOCTYPE r><!-- <!ENTITY a '0'> --><r/>",
         "<!DOCTYPE r [ <!-- <!ENTITY a '0'> --> ]><r/>",

@@ -1,10 +1,10 @@
-//! What is wrong with a text that is not well-formed, in words that say what to do.
+//! Error messages for malformed XML that say what to do.
 
 use roxmltree::Error;
 
 use super::{MOST_NODES, XmlError};
 
-/// What a parser's error means for whoever wrote `text`, without the place.
+/// The message for a parser error, without the position.
 pub(super) fn of_parser(error: &Error, text: &str) -> String {
     match error {
         Error::InvalidXmlPrefixUri(_)
@@ -99,7 +99,7 @@ fn expected_character(expected: &str, found: u8) -> String {
     format!("{expected} is expected, not {found}")
 }
 
-/// The parser says the same of three faults, which differ by where they are.
+/// The parser reports the same error for three faults; the position distinguishes them.
 fn unknown_token(text: &str, pos: roxmltree::TextPos) -> &'static str {
     let (row, column) = (pos.row as usize, pos.col as usize);
     let start: usize = text
@@ -125,7 +125,7 @@ fn unknown_token(text: &str, pos: roxmltree::TextPos) -> &'static str {
     }
 }
 
-/// What is wrong, without the place.
+/// The error message, without the position.
 pub(super) fn of(error: &XmlError, text: &str) -> String {
     match error {
         XmlError::Parser(error) => of_parser(error, text),

@@ -1,7 +1,7 @@
-//! Pairs side by side: one lane is one pair, where [`super::pair_distances`] has one pair in many samples.
+//! Distances of several pairs at once: one lane is one pair. In [`super::pair_distances`] the lanes are samples of one
+//! pair.
 //!
-//! A lane's result does not depend on what is in the other lanes, so that distances are the same bits
-//! whatever pairs are asked for together.
+//! A lane's result does not depend on the other lanes, so distances are bit-identical for any grouping of the pairs.
 
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use nalgebra::Isometry3;
@@ -12,29 +12,29 @@ use super::shape::ConvexShape;
 use super::support::{Support, cells_of};
 use super::witness::{self, Witness};
 
-/// Two convex shapes in their places.
+/// Two convex shapes with their relative pose.
 #[derive(Clone, Copy, Debug)]
 pub struct PlacedPair<'a> {
     /// The first shape.
     pub a: &'a ConvexShape,
     /// The second shape.
     pub b: &'a ConvexShape,
-    /// The pose of the frame of `b` in that of `a`: the columns of the rotation, then the shift, metres.
+    /// The pose of the frame of `b` in that of `a`: the columns of the rotation, then the translation, metres.
     pub b_in_a: [[f64; 3]; 4],
 }
 
-/// Pairs that are worked on at once.
+/// Pairs per batch.
 pub const AT_ONCE: usize = LANES;
 
 impl<'a> PlacedPair<'a> {
-    /// Of a pose with finite numbers.
+    /// The pose must be finite.
     pub fn new(a: &'a ConvexShape, b: &'a ConvexShape, b_in_a: &Isometry3<f64>) -> Self {
         let b_in_a = columns(b_in_a);
         Self { a, b, b_in_a }
     }
 }
 
-/// The columns of a pose's rotation, then its shift, metres.
+/// The columns of a pose's rotation, then its translation, metres.
 pub fn columns(pose: &Isometry3<f64>) -> [[f64; 3]; 4] {
     let rotation = pose.rotation.to_rotation_matrix();
     let column = |k: usize| rotation.matrix().column(k).into_owned().into();
@@ -42,7 +42,7 @@ pub fn columns(pose: &Isometry3<f64>) -> [[f64; 3]; 4] {
     [column(0), column(1), column(2), shift]
 }
 
-/// The distance of each pair, metres, 0 for those that touch or overlap. `distances` is as long as `pairs`.
+/// The distance of each pair, metres; 0 if they touch or overlap. `distances` is as long as `pairs`.
 pub fn distances(level: Level, pairs: &[PlacedPair], distances: &mut [f64]) {
     for (pairs, out) in pairs.chunks(LANES).zip(distances.chunks_mut(LANES)) {
         let found = dispatch!(level, simd => eight_distances(simd, pairs));
@@ -50,14 +50,14 @@ pub fn distances(level: Level, pairs: &[PlacedPair], distances: &mut [f64]) {
     }
 }
 
-/// Whether any pair touches or overlaps: one at distance 0 by [`distances`].
+/// Whether any pair touches or overlaps, which is where [`distances`] gives 0.
 pub fn any_touches(level: Level, pairs: &[PlacedPair]) -> bool {
     pairs
         .chunks(LANES)
         .any(|pairs| dispatch!(level, simd => eight_touch(simd, pairs)) != 0)
 }
 
-/// Which of up to [`AT_ONCE`] pairs touch or overlap, as [`any_touches`]: bit `k` is set where pair `k` does.
+/// Like [`any_touches`], for the first [`AT_ONCE`] pairs at most: bit `k` is set if pair `k` touches or overlaps.
 pub fn touching(level: Level, pairs: &[PlacedPair]) -> u64 {
     match pairs.is_empty() {
         true => 0,
@@ -65,7 +65,7 @@ pub fn touching(level: Level, pairs: &[PlacedPair]) -> u64 {
     }
 }
 
-/// The distance of each pair with the points at which it is, in the frame of the pair's first shape.
+/// The distance and closest points of each pair, in the frame of the pair's first shape.
 pub fn witnesses(level: Level, pairs: &[PlacedPair]) -> Vec<Witness> {
     let mut found = Vec::with_capacity(pairs.len());
     for pairs in pairs.chunks(LANES) {
@@ -100,7 +100,7 @@ fn eight_witnesses<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [Witness; LANES] {
     found
 }
 
-/// The set of the first lanes.
+/// Bit set of the first `count` lanes.
 #[inline(always)]
 fn lanes(count: usize) -> u64 {
     if count < LANES {
@@ -110,11 +110,11 @@ fn lanes(count: usize) -> u64 {
     }
 }
 
-/// A shape in each lane.
+/// One shape per lane.
 struct Eight<'a>([&'a ConvexShape; LANES]);
 
-/// The shapes of up to eight pairs, each about its own centre, and the poses of the second in the frames of the
-/// first; the last pair is in the lanes that are left.
+/// The shapes of up to eight pairs, relative to their centres, and the poses of the second shapes in the frames of the
+/// first. The last pair fills the remaining lanes.
 #[inline(always)]
 fn eight<'a, S: Simd>(simd: S, pairs: &[PlacedPair<'a>]) -> (Eight<'a>, Eight<'a>, Pose<S>) {
     let pair = |lane: usize| &pairs[lane.min(pairs.len() - 1)];

@@ -1,6 +1,6 @@
-//! Pairs of bodies of several convex shapes each: whether any is in contact, and how far they are apart.
+//! Contact and distance of pairs of bodies, each with several convex shapes.
 //!
-//! Shapes far apart are passed over by spheres about them.
+//! Bounding spheres cull shapes that are far apart.
 
 use fearless_simd::Level;
 use nalgebra::Isometry3;
@@ -8,36 +8,36 @@ use nalgebra::Isometry3;
 use super::across::{self, AT_ONCE, PlacedPair};
 use super::shape::{ConvexShape, ShapeError};
 
-/// A convex shape and the sphere about it.
+/// A convex shape and the radius of its bounding sphere.
 #[derive(Debug)]
 struct Part {
     shape: ConvexShape,
     radius: f64,
 }
 
-/// Shapes of bodies, and which pairs of them are of interest.
+/// The shapes of bodies, and the pairs of interest.
 #[derive(Debug)]
 pub struct BodyPairs {
     parts: Vec<Part>,
-    /// For each body the places of its shapes in `parts`.
+    /// For each body, the indices of its shapes in `parts`.
     of_body: Vec<Vec<usize>>,
-    /// Pairs of parts, those of one pair of bodies after each other.
+    /// Pairs of parts, grouped by body pair.
     pairs: Vec<[usize; 2]>,
-    /// For each pair of bodies the bodies, and the end of its pairs in `pairs`.
+    /// For each body pair, the bodies and the end of its range in `pairs`.
     bodies: Vec<([usize; 2], usize)>,
-    /// For each body a sphere about all its shapes: the centre, and the radius; `None` for one without.
+    /// For each body, the bounding sphere of all its shapes: centre and radius; `None` without shapes.
     spheres: Vec<Option<([f64; 3], f64)>>,
     level: Level,
 }
 
-/// So much larger, as a part, a sphere is than its farthest vertex: more than rounding can hide.
+/// Factor that enlarges bounding spheres by more than the rounding error.
 const LARGER: f64 = 1.0 + 1e-12;
 
 impl BodyPairs {
-    /// Of shapes: for each the number of its body, and its vertices in the body's frame, metres.
+    /// Takes the shapes: for each the index of its body, and its vertices in the body frame, metres.
     ///
     /// # Errors
-    /// The number of the first shape that distances cannot be taken of, and why.
+    /// The index of the first invalid shape, and the reason.
     pub fn new<'a>(
         shapes: impl IntoIterator<Item = (usize, &'a [[f64; 3]])>,
     ) -> Result<Self, (usize, ShapeError)> {
@@ -66,8 +66,8 @@ impl BodyPairs {
         })
     }
 
-    /// Adds two bodies, with all pairs of their shapes that `of_interest` is true of; it gets the numbers of two shapes.
-    /// Returns whether there is such a pair: without one, nothing is added.
+    /// Adds a pair of bodies, with all pairs of their shapes for which `of_interest` returns true; it takes two shape
+    /// indices. Returns whether there is such a pair; otherwise adds nothing.
     pub fn add(&mut self, bodies: [usize; 2], of_interest: impl Fn(usize, usize) -> bool) -> bool {
         let before = self.pairs.len();
         let of = |body: usize| self.of_body.get(body).map_or(&[][..], Vec::as_slice);
@@ -82,7 +82,7 @@ impl BodyPairs {
         any
     }
 
-    /// The pairs of bodies, as they were added.
+    /// The body pairs in the order of addition.
     pub fn bodies(&self) -> impl ExactSizeIterator<Item = [usize; 2]> {
         self.bodies.iter().map(|(bodies, _)| *bodies)
     }
@@ -92,8 +92,8 @@ impl BodyPairs {
         self.pairs.len()
     }
 
-    /// The distance of each pair of bodies, metres, 0 in contact; `limit` where it is more than that. `poses` has a
-    /// finite pose for each body. `distances` is as long as [`BodyPairs::bodies`].
+    /// The distance of each body pair, metres, 0 in contact, and at most `limit`. `poses` has a finite pose for each
+    /// body. `distances` is as long as [`BodyPairs::bodies`].
     pub fn distances(&self, poses: &[Isometry3<f64>], limit: f64, distances: &mut [f64]) {
         distances.fill(limit);
         let mut near = Near::default();
@@ -106,12 +106,12 @@ impl BodyPairs {
         near.take_distances(self.level, distances);
     }
 
-    /// Whether any pair of bodies is in contact.
+    /// Whether any body pair is in contact.
     pub fn any_touches(&self, poses: &[Isometry3<f64>]) -> bool {
         self.any_touches_and_work(poses).0
     }
 
-    /// Whether any pair of bodies is in contact, and how many pairs of shapes had to be compared beyond their spheres.
+    /// Whether any body pair is in contact, and how many shape pairs the bounding spheres could not exclude.
     pub fn any_touches_and_work(&self, poses: &[Isometry3<f64>]) -> (bool, usize) {
         let mut near = Near::default();
         let mut compared = 0;
@@ -125,7 +125,7 @@ impl BodyPairs {
         (near.touch(self.level), compared)
     }
 
-    /// The numbers of the pairs of bodies that are in contact, ascending.
+    /// The indices of the body pairs in contact, ascending.
     pub fn touching(&self, poses: &[Isometry3<f64>]) -> Vec<usize> {
         let mut near = Near::default();
         let mut found: Vec<usize> = Vec::new();
@@ -142,7 +142,7 @@ impl BodyPairs {
         found
     }
 
-    /// The pairs of shapes whose spheres are no farther apart than `limit`, each with the number of its pair of bodies.
+    /// The shape pairs whose bounding spheres are at most `limit` apart, each with the index of its body pair.
     fn near<'a>(
         &'a self,
         poses: &'a [Isometry3<f64>],
@@ -180,7 +180,7 @@ impl BodyPairs {
     }
 }
 
-/// Pairs that wait to be worked on together.
+/// Pairs waiting for a full batch.
 #[derive(Default)]
 struct Near<'a> {
     numbers: Vec<usize>,
@@ -197,7 +197,7 @@ impl<'a> Near<'a> {
         self.pairs.len() == AT_ONCE
     }
 
-    /// Takes the distances of those that wait into those of the pairs of bodies.
+    /// Computes the distances of the waiting pairs, and updates those of the body pairs.
     fn take_distances(&mut self, level: Level, distances: &mut [f64]) {
         let mut found = [0.0; AT_ONCE];
         across::distances(level, &self.pairs, &mut found[..self.pairs.len()]);
@@ -207,7 +207,7 @@ impl<'a> Near<'a> {
         self.pairs.clear();
     }
 
-    /// Adds the pairs of bodies in contact of those that wait.
+    /// Appends the body pairs in contact among the waiting pairs.
     fn take_touching(&mut self, level: Level, found: &mut Vec<usize>) {
         let touching = across::touching(level, &self.pairs);
         let in_contact = |(k, number): (usize, usize)| (touching >> k & 1 == 1).then_some(number);
@@ -216,7 +216,7 @@ impl<'a> Near<'a> {
         self.pairs.clear();
     }
 
-    /// Whether any of those that wait is in contact.
+    /// Whether any of the waiting pairs is in contact.
     fn touch(&mut self, level: Level) -> bool {
         let touch = !self.pairs.is_empty() && across::any_touches(level, &self.pairs);
         self.numbers.clear();
@@ -225,7 +225,7 @@ impl<'a> Near<'a> {
     }
 }
 
-/// A sphere about the spheres of shapes.
+/// A bounding sphere of the shapes' bounding spheres; `None` without shapes.
 fn about<'a>(parts: impl Iterator<Item = &'a Part> + Clone) -> Option<([f64; 3], f64)> {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];

@@ -1,12 +1,12 @@
-//! Cells of directions, and which points can be farthest in each.
+//! Cells of directions, and the points that can be farthest in each.
 
-/// For each cell, row by row, the numbers of the points that are farthest in some direction of it.
+/// For each cell, row by row, the indices of the points that are farthest in some direction of the cell.
 ///
-/// The directions are those of an octahedral map of the sphere onto a square of `side` x `side` cells
-/// (Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", J. Computer
-/// Graphics Techniques 3(2), 2014). On each cell the map is linear in one or two triangles, and so is the dot
-/// product of a point and the direction: a point that another one beats at all corners of a cell is beaten
-/// everywhere in it. `side` is a power of two, at least 2. There is one point or more.
+/// The cells divide an octahedral map of the sphere onto a square of `side` x `side` cells (Cigolle et al., "A Survey
+/// of Efficient Representations for Independent Unit Vectors", J. Computer Graphics Techniques 3(2), 2014). On each
+/// cell, the map is linear in one or two triangles, and so is the dot product of a point and the direction. So a point
+/// that another one beats at all corners of a cell is beaten in the whole cell. `side` is a power of two, at least 2.
+/// `points` must not be empty.
 pub(crate) fn candidates(points: &[[f64; 3]], side: usize) -> Vec<Vec<u32>> {
     let mut search = Search {
         points,
@@ -15,7 +15,7 @@ pub(crate) fn candidates(points: &[[f64; 3]], side: usize) -> Vec<Vec<u32>> {
         stack: (0..points.len() as u32).collect(),
         values: Vec::new(),
     };
-    // A square over more than one octant would not be linear.
+    // A square across several octants would not be linear.
     let half = side / 2;
     for (row, column) in [(0, 0), (0, half), (half, 0), (half, half)] {
         search.divide(0, [row, column, half]);
@@ -27,14 +27,14 @@ struct Search<'a> {
     points: &'a [[f64; 3]],
     side: usize,
     lists: Vec<Vec<u32>>,
-    /// The candidates of the square that is looked at, after those of the squares around it.
+    /// The candidates of the current square, after those of the squares that contain it.
     stack: Vec<u32>,
-    /// Dot products of the candidates and the corners; kept to save its memory.
+    /// Dot products of the candidates with the corners; kept to reuse its memory.
     values: Vec<[f64; 4]>,
 }
 
 impl Search<'_> {
-    /// Keeps those of `stack[start..]` that can be farthest within a square, and goes on with its quarters.
+    /// Keeps the points of `stack[start..]` that can be farthest within a square, and recurses into its quarters.
     fn divide(&mut self, start: usize, [row, column, size]: [usize; 3]) {
         let end = self.stack.len();
         if end - start == 1 {
@@ -57,7 +57,7 @@ impl Search<'_> {
         self.stack.truncate(end);
     }
 
-    /// Pushes those of `stack[start..]` that can be farthest within a square.
+    /// Pushes the points of `stack[start..]` that can be farthest within a square.
     fn keep(&mut self, start: usize, [row, column, size]: [usize; 3]) {
         let end = self.stack.len();
         let at = |i: usize| 2.0 * i as f64 / self.side as f64 - 1.0;
@@ -68,7 +68,7 @@ impl Search<'_> {
             direction(u[1], v[0]),
             direction(u[1], v[1]),
         ];
-        // The farthest at each corner, and in the mean of them.
+        // The farthest point at each corner, and for the sum of the corners.
         let mut best = [0; 5];
         let mut most = [f64::NEG_INFINITY; 5];
         self.values.clear();
@@ -96,7 +96,7 @@ impl Search<'_> {
     }
 }
 
-/// The direction, of some length, that belongs to the point `u`, `v` of the map, each from -1 to 1.
+/// The direction (not normalized) for the point `u`, `v` of the map, each from -1 to 1.
 fn direction(u: f64, v: f64) -> [f64; 3] {
     let z = 1.0 - u.abs() - v.abs();
     if z >= 0.0 {
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn an_octahedron_has_one_candidate_away_from_the_planes_of_symmetry() {
-        // The farthest vertex is that of the direction's largest coordinate: +z in the middle of the map.
+        // The direction's largest coordinate determines the farthest vertex: +z in the middle of the map.
         let points = [
             [1.0, 0.0, 0.0],
             [-1.0, 0.0, 0.0],

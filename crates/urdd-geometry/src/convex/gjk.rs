@@ -1,9 +1,8 @@
 //! The Gilbert-Johnson-Keerthi algorithm for several samples at once.
 //!
-//! Source: as for `simplex`; the end test is that of van den Bergen, "A Fast and Robust GJK Implementation
-//! for Collision Detection of Convex Objects", J. Graphics Tools 4(2), 1999: with v the nearest point so far
-//! and w the point of the difference that is farthest towards the origin, the distance is between
-//! v . w / |v| and |v|.
+//! Source: as for `simplex`. The termination test is that of van den Bergen, "A Fast and Robust GJK Implementation for
+//! Collision Detection of Convex Objects", J. Graphics Tools 4(2), 1999. Let v be the nearest point so far, and w the
+//! support point of the Minkowski difference towards the origin. Then the distance is between v . w / |v| and |v|.
 
 use fearless_simd::{Simd, prelude::*};
 
@@ -11,28 +10,28 @@ use super::lanes::{LANES, Mask, Num, Pose, Vec3, select, splat};
 use super::simplex::{Nearest, segment, tetrahedron, triangle};
 use super::support::Support;
 
-/// Distances are right within this, metres: their upper and lower bound differ by no more. (For shapes
-/// or shifts of more than 10 km, within 1e-13 of that size.)
+/// Maximum error of distances, metres: the upper and lower bound differ by no more. For shapes or offsets beyond 10 km
+/// it is 1e-13 of that size.
 pub const TOLERANCE: f64 = 1e-9;
 
-/// Nearer than this is contact, metres.
+/// Shapes nearer than this are in contact, metres.
 const CONTACT: f64 = 1e-10;
 
-/// Rounds after which a lane is given up; two to five are usual.
+/// Maximum number of iterations per lane; two to five are usual.
 pub(crate) const MAX_ROUNDS: usize = 64;
 
-/// The set of all lanes.
+/// Bit set of all lanes.
 pub(crate) const ALL: u64 = (1 << LANES) - 1;
 
-/// Upper bounds of the distances.
+/// Upper bounds of distances.
 struct Bounds<S: Simd> {
     upper: Num<S>,
-    /// Where the lower bound is further off than the tolerance: rounding stopped the descent.
+    /// Lanes whose bounds differ by more than the tolerance, because rounding stopped the descent.
     unsure: Mask<S>,
 }
 
-/// Distances in the set of lanes `lanes` of `a` and `b`, each about its own centre, `pose` being that of
-/// `b` in the frame of `a`.
+/// Distances of `a` and `b` in the lanes of the bit set `lanes`. Both shapes are relative to their centres; `pose` is
+/// that of `b` in the frame of `a`.
 #[inline(always)]
 pub(crate) fn distances<S: Simd, T: Support>(
     simd: S,
@@ -53,8 +52,8 @@ pub(crate) fn distances<S: Simd, T: Support>(
     distances
 }
 
-/// The distance of two shapes in one pose, descending from the eight octants: the first sure result, or else the least
-/// upper bound, of which `upper` is one.
+/// The distance of two shapes in one pose, descending from all eight octants. Returns the first converged result,
+/// otherwise the least upper bound, including `upper`.
 #[inline(never)]
 fn from_other_sides<S: Simd, T: Support>(
     simd: S,
@@ -81,7 +80,7 @@ fn from_other_sides<S: Simd, T: Support>(
     )
 }
 
-/// A direction into each octant.
+/// One direction into each octant.
 #[inline(always)]
 pub(crate) fn octants<S: Simd>(simd: S) -> Vec3<S> {
     let mut octants = [[0.0; LANES]; 3];
@@ -93,7 +92,7 @@ pub(crate) fn octants<S: Simd>(simd: S) -> Vec3<S> {
     Vec3::load(simd, [&octants[0], &octants[1], &octants[2]])
 }
 
-/// The descent, from the point of the difference A - B that is farthest against `start`.
+/// Runs the descent. It starts from the point of the difference A - B that is farthest against `start`.
 #[inline(always)]
 fn descend<S: Simd, T: Support>(
     simd: S,
@@ -149,8 +148,8 @@ fn descend<S: Simd, T: Support>(
     }
 }
 
-/// Of the lanes `lanes` those in which `a` and `b` touch or overlap: whose distance is 0 by [`distances`]. It ends as
-/// soon as a plane between the shapes is found.
+/// The lanes of `lanes` in which `a` and `b` touch or overlap, which is where [`distances`] returns 0. Stops early when
+/// it finds a separating plane.
 #[inline(always)]
 pub(crate) fn touching<S: Simd, T: Support>(
     simd: S,
@@ -214,7 +213,7 @@ pub(crate) fn touching<S: Simd, T: Support>(
 
 /// The point of the difference A - B that is farthest against `v`.
 ///
-/// A function, for a closure may not be compiled for the instruction set that `simd` stands for.
+/// This is a function because a closure may not be compiled for the instruction set of `simd`.
 #[inline(always)]
 fn farthest<S: Simd, T: Support>(
     simd: S,

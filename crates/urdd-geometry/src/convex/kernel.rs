@@ -9,15 +9,15 @@ use super::motion::PoseLanes;
 use super::shape::{ConvexShape, OrientedBox, Sphere};
 use super::support::Support;
 
-/// A shape of which distances can be worked out: [`ConvexShape`], [`OrientedBox`] or [`Sphere`].
+/// A shape with distance queries: [`ConvexShape`], [`OrientedBox`] or [`Sphere`].
 pub trait Shape: sealed::Distances + Sync {}
 
 impl Shape for ConvexShape {}
 impl Shape for OrientedBox {}
 impl Shape for Sphere {}
 
-/// Distance of two shapes, metres, 0 if they touch or overlap; `b_in_a` is the pose of the frame of `b` in
-/// that of `a`, with finite numbers.
+/// The distance of two shapes, metres; 0 if they touch or overlap. `b_in_a` is the pose of the frame of `b` in that of
+/// `a` and must be finite.
 pub fn distance<T: Shape>(a: &T, b: &T, b_in_a: &Isometry3<f64>) -> f64 {
     let poses = PoseLanes::new(std::iter::once(b_in_a));
     let mut lanes = [0.0; LANES];
@@ -29,7 +29,7 @@ mod sealed {
     use super::{Level, PoseLanes};
 
     pub trait Distances: Sized {
-        /// The distance in each sample, in order. `distances` has room for whole lanes.
+        /// The distance in each sample, in order. The length of `distances` is a multiple of the lane count.
         fn distances(level: Level, a: &Self, b: &Self, poses: &PoseLanes, distances: &mut [f64]);
     }
 }
@@ -105,14 +105,14 @@ fn spheres<S: Simd>(simd: S, a: &Sphere, b: &Sphere, poses: &PoseLanes, distance
     }
 }
 
-/// The samples of each group of lanes: the first's number, and where their distances go.
+/// For each group of lanes, the index of its first sample and the output slice for its distances.
 #[inline(always)]
 fn groups(distances: &mut [f64]) -> impl Iterator<Item = (usize, &mut [f64])> {
     let groups = distances.chunks_exact_mut(LANES).enumerate();
     groups.map(|(i, out)| (i * LANES, out))
 }
 
-/// Works out and stores the distances of one group, of which the first `samples` lanes count.
+/// Computes and stores the distances of one group, whose first `samples` lanes are in use.
 #[inline(always)]
 fn store<S: Simd, T: Support>(
     simd: S,

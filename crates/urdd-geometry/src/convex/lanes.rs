@@ -1,21 +1,20 @@
-//! Vectors of several samples side by side: one lane is one sample.
+//! Vectors of several samples at once: one lane is one sample.
 //!
-//! Only operations whose result is the same on every instruction set are used (IEEE add, subtract,
-//! multiply, divide, square root, compare, select; never a fused multiply-add), so that a result does not
-//! depend on the machine's SIMD level.
+//! Uses only operations with the same result on every instruction set (IEEE add, subtract, multiply, divide, square
+//! root, compare, select; never a fused multiply-add), so that a result does not depend on the machine's SIMD level.
 
 use fearless_simd::{Simd, f64x8, mask64x8, prelude::*};
 use nalgebra::Isometry3;
 
-/// Samples worked on at once.
+/// Samples per batch.
 pub(crate) const LANES: usize = 8;
 
 /// A number for each lane.
 pub(crate) type Num<S> = f64x8<S>;
-/// A truth value for each lane.
+/// A Boolean for each lane.
 pub(crate) type Mask<S> = mask64x8<S>;
 
-/// A vector of space for each lane.
+/// A three-dimensional vector for each lane.
 #[derive(Clone, Copy)]
 pub(crate) struct Vec3<S: Simd> {
     pub x: Num<S>,
@@ -126,7 +125,7 @@ impl<S: Simd> core::ops::Neg for Vec3<S> {
     }
 }
 
-/// A rotation and a shift for each lane; `columns` are the images of the axes.
+/// A rotation and a translation for each lane; `columns` are the images of the axes.
 #[derive(Clone, Copy)]
 pub(crate) struct Pose<S: Simd> {
     pub columns: [Vec3<S>; 3],
@@ -134,7 +133,7 @@ pub(crate) struct Pose<S: Simd> {
 }
 
 impl<S: Simd> Pose<S> {
-    /// The same in each lane.
+    /// The same pose in each lane.
     #[inline(always)]
     pub fn splat(simd: S, pose: &Isometry3<f64>) -> Self {
         let rotation = pose.rotation.to_rotation_matrix();
@@ -149,7 +148,7 @@ impl<S: Simd> Pose<S> {
         }
     }
 
-    /// The columns and the shift of one lane, in each lane.
+    /// The columns and translation of one lane, copied to each lane.
     #[inline(always)]
     pub fn same(simd: S, pose: &[[f64; 3]; 4]) -> Self {
         Self {
@@ -162,7 +161,7 @@ impl<S: Simd> Pose<S> {
         }
     }
 
-    /// The columns and the shift of one lane.
+    /// The columns and translation of one lane.
     #[inline(always)]
     pub fn lane(&self, lane: usize) -> [[f64; 3]; 4] {
         [

@@ -1,12 +1,11 @@
-//! Distances between convex shapes: hulls, boxes and spheres, and their statistics over many poses.
+//! Distances between convex shapes (hulls, boxes and spheres), and their statistics over many poses.
 //!
-//! A robot's statistics take tens of millions of distances, so that the work is arranged for them: the poses
-//! of eight samples are treated at once (`gjk`), and the farthest vertex in a direction is looked up in a
-//! table instead of searched (`support_table`).
+//! A robot's statistics take tens of millions of distance queries. So GJK processes the poses of eight samples at once
+//! (`gjk`), and a table replaces the search for the farthest vertex in a direction (`support_table`).
 //!
-//! **Accuracy.** Each distance is the exact distance of the hulls of the given points within
-//! [`TOLERANCE`]; shapes that touch or overlap are at distance 0. Results are the same bits on each
-//! instruction set of an architecture and for each number of threads.
+//! **Accuracy.** Each distance is within [`TOLERANCE`] of the exact distance of the convex hulls of the given points.
+//! Shapes that touch or overlap have distance 0. Results are bit-identical on each instruction set of an architecture
+//! and for any number of threads.
 
 pub mod across;
 mod bodies;

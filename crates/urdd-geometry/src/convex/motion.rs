@@ -1,11 +1,11 @@
-//! Poses of bodies in many samples, laid out for eight samples at once.
+//! Poses of bodies in many samples, in a layout for eight samples at once.
 
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use nalgebra::Isometry3;
 
 use super::lanes::{LANES, Pose, Vec3};
 
-/// Where the bodies of a robot are in each sample.
+/// The poses of a robot's bodies in each sample.
 #[derive(Clone, Debug)]
 pub struct Motion {
     num_samples: usize,
@@ -13,7 +13,7 @@ pub struct Motion {
     groups: Vec<usize>,
 }
 
-/// Why poses are no motion.
+/// Why poses are not a valid motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MotionError {
     #[error("there are no samples; give at least one")]
@@ -29,8 +29,8 @@ pub enum MotionError {
 }
 
 impl Motion {
-    /// From the pose of each body in each sample, `poses[sample][body]`, and the group of each body: bodies
-    /// of one group do not move with respect to each other.
+    /// Builds a motion from the pose of each body in each sample, `poses[sample][body]`, and the group of each body.
+    /// Bodies of one group do not move relative to each other.
     pub fn new(poses: &[Vec<Isometry3<f64>>], groups: &[usize]) -> Result<Self, MotionError> {
         if poses.is_empty() {
             return Err(MotionError::NoSamples);
@@ -69,13 +69,12 @@ impl Motion {
         self.bodies.len()
     }
 
-    /// Whether two bodies do not move with respect to each other.
+    /// Whether two bodies are fixed relative to each other.
     pub fn is_rigid(&self, a: usize, b: usize) -> bool {
         self.groups[a] == self.groups[b]
     }
 
-    /// The poses of body `b` in the frame of body `a`: of all samples, or of the first where they are all the
-    /// same.
+    /// The poses of body `b` in the frame of body `a`: of all samples, or only of the first if all are equal.
     pub(crate) fn relative(&self, a: usize, b: usize) -> PoseLanes {
         if a == b {
             PoseLanes::new(std::iter::once(&Isometry3::identity()))
@@ -90,16 +89,16 @@ impl Motion {
     }
 }
 
-/// One pose for each sample: lists of the 12 numbers, the columns of the rotation and then the shift.
+/// One pose per sample, as 12 arrays: the columns of the rotation, then the translation.
 #[derive(Clone, Debug)]
 pub struct PoseLanes {
     num_samples: usize,
-    /// Each as long as `num_samples`, filled up to whole lanes by the last sample.
+    /// Each of length `num_samples`, padded to a multiple of the lane count with the last sample.
     numbers: [Vec<f64>; 12],
 }
 
 impl PoseLanes {
-    /// Of poses, at least one.
+    /// From at least one pose.
     pub fn new<'a>(poses: impl Iterator<Item = &'a Isometry3<f64>>) -> Self {
         let mut numbers: [Vec<f64>; 12] = Default::default();
         let mut num_samples: usize = 0;
@@ -121,7 +120,7 @@ impl PoseLanes {
         }
     }
 
-    /// The inverse of `a`, times `b`, of the first samples.
+    /// The inverse of `a` times `b`, for the first `num_samples` samples.
     fn relative(a: &Self, b: &Self, num_samples: usize) -> Self {
         let len = num_samples.next_multiple_of(LANES);
         let mut relative = Self {
@@ -155,7 +154,7 @@ impl PoseLanes {
         self.num_samples
     }
 
-    /// The poses of the samples from `at`, a multiple of the lanes.
+    /// The poses of the samples from `at`, which is a multiple of the lane count.
     #[inline(always)]
     pub(crate) fn load<S: Simd>(&self, simd: S, at: usize) -> Pose<S> {
         Pose {

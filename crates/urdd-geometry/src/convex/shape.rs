@@ -5,16 +5,16 @@ use nalgebra::{Isometry3, Vector3};
 use super::support_table::SupportTable;
 use crate::mesh::Mesh;
 
-/// The convex hull of some points, prepared for distances.
+/// The convex hull of points, prepared for distance queries.
 #[derive(Clone, Debug)]
 pub struct ConvexShape {
-    /// Middle of the bounds, in the frame of the body.
+    /// Centre of the axis-aligned bounds, in the body frame.
     pub(crate) centre: [f64; 3],
-    /// Of the points about the centre.
+    /// Support table of the points relative to the centre.
     pub(crate) table: SupportTable,
 }
 
-/// A box, prepared for distances.
+/// A box, prepared for distance queries.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrientedBox {
     pub(crate) pose: Isometry3<f64>,
@@ -28,7 +28,7 @@ pub struct Sphere {
     pub(crate) radius: f64,
 }
 
-/// Why there is no such convex shape.
+/// Why a convex shape cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ShapeError {
     #[error("the shape has no vertices; give at least one")]
@@ -41,7 +41,7 @@ pub enum ShapeError {
     Size { size: f64 },
 }
 
-/// Larger coordinates would make squares of squares that no number holds, and are no robot.
+/// Maximum coordinate, metres. Fourth powers of much larger ones would overflow, and no robot is that large.
 const FARTHEST: f64 = 1e9;
 
 fn in_range(v: &[f64; 3]) -> bool {
@@ -49,13 +49,12 @@ fn in_range(v: &[f64; 3]) -> bool {
 }
 
 impl ConvexShape {
-    /// The convex hull of a mesh's vertices; the triangles are not looked at. A hull may be flat, a line or
-    /// a point.
+    /// The convex hull of a mesh's vertices; ignores the triangles. A hull may be a polygon, a segment or a point.
     pub fn new(mesh: &Mesh) -> Result<Self, ShapeError> {
         Self::of_points(&mesh.vertices)
     }
 
-    /// The convex hull of points, metres. The fewer of them are inside, the less there is to prepare.
+    /// The convex hull of points, metres. Interior points only cost preparation time.
     pub fn of_points(points: &[[f64; 3]]) -> Result<Self, ShapeError> {
         if let Some(vertex) = points.iter().position(|p| !in_range(p)) {
             return Err(ShapeError::OutOfRange { vertex });
@@ -79,14 +78,14 @@ impl ConvexShape {
         Ok(Self { centre, table })
     }
 
-    /// Middle of the bounds, in the frame of the body, metres.
+    /// Centre of the axis-aligned bounds, in the body frame, metres.
     pub fn centre(&self) -> [f64; 3] {
         self.centre
     }
 }
 
 impl OrientedBox {
-    /// A box with its centre and axes, in the frame of its body, and half of each edge's length, metres.
+    /// A box from the pose of its centre and axes in the body frame, and its half extents, metres.
     pub fn new(pose: Isometry3<f64>, half_extents: [f64; 3]) -> Result<Self, ShapeError> {
         let rotation = pose.rotation.coords;
         if !in_range(&pose.translation.vector.into()) || !rotation.iter().all(|x| x.is_finite()) {
@@ -103,7 +102,7 @@ impl OrientedBox {
 }
 
 impl Sphere {
-    /// A sphere with its centre, in the frame of its body, and its radius, metres.
+    /// A sphere from its centre in the body frame and its radius, metres.
     pub fn new(centre: Vector3<f64>, radius: f64) -> Result<Self, ShapeError> {
         let centre = centre.into();
         if !in_range(&centre) {

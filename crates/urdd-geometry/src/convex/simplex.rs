@@ -1,37 +1,36 @@
-//! The point of a simplex that is nearest to the origin, for all lanes at once and without branches.
+//! The point of a simplex that is nearest to the origin, for all lanes at once without branches.
 //!
-//! Method: the newest vertex w is known to be part of the answer (GJK adds it because it lies beyond the
-//! plane through the nearest point so far), so that the candidates are w, the three edges at w, the three
-//! faces at w, and the inside. Each candidate's distance is worked out and the least is taken: the
-//! exhaustive form of the sub-algorithm of Gilbert, Johnson and Keerthi, "A fast procedure for computing the
-//! distance between complex objects in three-dimensional space", IEEE J. Robotics and Automation 4 (1988).
-//! A simplex with fewer vertices repeats one; its edges and faces of no size are left out.
+//! Method: the newest vertex w is part of the nearest feature, because GJK adds it beyond the plane through the nearest
+//! point so far. So the candidates are w, the three edges at w, the three faces at w, and the interior. The code
+//! computes the distance of every candidate and selects the least: the exhaustive form of the sub-algorithm of Gilbert,
+//! Johnson and Keerthi, "A fast procedure for computing the distance between complex objects in three-dimensional
+//! space", IEEE J. Robotics and Automation 4 (1988). A simplex with fewer vertices repeats one; degenerate edges and
+//! faces are never selected.
 
 use fearless_simd::{Simd, prelude::*};
 
 use super::lanes::{Mask, Num, Vec3, select, splat};
 
-/// The nearest point, the vertices of the feature that it is on (the first is w), and whether the origin
-/// is inside.
+/// The nearest point, the vertices of its feature (the first is w), and whether the origin is inside the simplex.
 pub(crate) struct Nearest<S: Simd> {
     pub point: Vec3<S>,
     pub vertices: [Vec3<S>; 3],
     pub inside: Mask<S>,
 }
 
-/// Nearest point of an edge at w, as `w + t * edge`, and its squared distance.
+/// The nearest point of an edge at w, as the parameter t of `w + t * edge`, and its squared distance.
 #[inline(always)]
 fn edge<S: Simd>(simd: S, c: Num<S>, b: Num<S>, a: Num<S>) -> (Num<S>, Num<S>) {
     let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
     let t = b / a;
-    // A comparison with NaN (0 / 0) is false and leaves the vertex w.
+    // A comparison with NaN (0 / 0) is false, which leaves the vertex w.
     let t = select(t.simd_gt(zero), t, zero);
     let t = select(t.simd_lt(one), t, one);
     (t, c + t * (t * a - (b + b)))
 }
 
-/// Whether the foot of the origin on the plane of a face is inside the face, its squared distance, and the
-/// factor by which the normal becomes the foot.
+/// Whether the projection of the origin onto the plane of a face is inside the face, its squared distance, and the
+/// factor that scales the normal to this projection.
 #[inline(always)]
 fn face<S: Simd>(
     simd: S,
@@ -49,7 +48,7 @@ fn face<S: Simd>(
     (inside, height * k, k)
 }
 
-/// Nearest point of the segment from `w` to `s`.
+/// The nearest point of the segment from `w` to `s`.
 #[inline(always)]
 pub(crate) fn segment<S: Simd>(simd: S, w: Vec3<S>, s: Vec3<S>) -> Nearest<S> {
     let e = s - w;
@@ -62,7 +61,7 @@ pub(crate) fn segment<S: Simd>(simd: S, w: Vec3<S>, s: Vec3<S>) -> Nearest<S> {
     }
 }
 
-/// Nearest point of the triangle of `w` and `s`.
+/// The nearest point of the triangle of `w` and `s`.
 #[inline(always)]
 pub(crate) fn triangle<S: Simd>(simd: S, w: Vec3<S>, s: [Vec3<S>; 2]) -> Nearest<S> {
     let e = [s[0] - w, s[1] - w];
@@ -92,7 +91,7 @@ pub(crate) fn triangle<S: Simd>(simd: S, w: Vec3<S>, s: [Vec3<S>; 2]) -> Nearest
     }
 }
 
-/// Nearest point of the tetrahedron of `w` and `s`.
+/// The nearest point of the tetrahedron of `w` and `s`.
 #[inline(always)]
 pub(crate) fn tetrahedron<S: Simd>(simd: S, w: Vec3<S>, s: [Vec3<S>; 3]) -> Nearest<S> {
     let zero = splat(simd, 0.0);
@@ -104,7 +103,7 @@ pub(crate) fn tetrahedron<S: Simd>(simd: S, w: Vec3<S>, s: [Vec3<S>; 3]) -> Near
     let (n01, n12, n20) = (e[0].cross(e[1]), e[1].cross(e[2]), e[2].cross(e[0]));
     let (h01, h12, h20) = (w.dot(n01), w.dot(n12), w.dot(n20));
 
-    // Barycentric coordinates of the origin, times the squared volume.
+    // Barycentric coordinates of the origin, times the squared volume determinant.
     let volume = e[0].dot(n12);
     let (g0, g1, g2) = (-(h12 * volume), -(h20 * volume), -(h01 * volume));
     let inside = g0.simd_ge(zero)

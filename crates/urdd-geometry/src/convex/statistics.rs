@@ -1,4 +1,4 @@
-//! Mean, least and greatest distance of each pair of shapes over samples.
+//! Mean, minimum and maximum distance of each pair of shapes over samples.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -9,7 +9,7 @@ use super::kernel::Shape;
 use super::lanes::LANES;
 use super::motion::{Motion, PoseLanes};
 
-/// A shape and the number of the body that it is on.
+/// A shape and the index of its body.
 #[derive(Clone, Debug)]
 pub struct PlacedShape<T> {
     pub body: usize,
@@ -18,7 +18,7 @@ pub struct PlacedShape<T> {
 
 /// Distances of each pair of shapes over the samples, metres; 0 in contact.
 ///
-/// Each is a square symmetric matrix over the shapes in their order, with zeros on the diagonal.
+/// Each is a symmetric matrix over the shapes, in their order, with zeros on the diagonal.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairStatistics {
     pub mean: Vec<Vec<f64>>,
@@ -26,7 +26,7 @@ pub struct PairStatistics {
     pub max: Vec<Vec<f64>>,
 }
 
-/// What is known of one pair.
+/// Statistics of one pair.
 #[derive(Clone, Copy)]
 struct Summary {
     mean: f64,
@@ -34,22 +34,22 @@ struct Summary {
     max: f64,
 }
 
-/// The pairs of a shape of a kind with others.
+/// The pairs of shape `i` of one kind.
 struct Row {
     kind: usize,
     i: usize,
     pairs: Vec<(usize, Summary)>,
 }
 
-/// Shapes of one kind, whichever: a list of [`PlacedShape`].
+/// A list of [`PlacedShape`] of any one kind.
 pub trait ShapeList: Sync {
     /// Number of shapes.
     fn count(&self) -> usize;
 
-    /// The body of a shape.
+    /// Body index of a shape.
     fn body(&self, shape: usize) -> usize;
 
-    /// The distance of two shapes in each sample, in order. `distances` has room for whole lanes.
+    /// The distance of two shapes in each sample, in order. The length of `distances` is a multiple of the lane count.
     fn distances(&self, level: Level, pair: [usize; 2], poses: &PoseLanes, distances: &mut [f64]);
 }
 
@@ -73,14 +73,13 @@ impl<T: Shape> ShapeList for &[PlacedShape<T>] {
     }
 }
 
-/// Pairs of bodies of which the results are held until they are put into matrices.
+/// Number of body pairs whose results are buffered before they go into the matrices.
 const PAIRS_AT_ONCE: usize = 1 << 13;
 
-/// The statistics of every pair of shapes. `None` if a shape is on a body that the motion does not have.
+/// The statistics of every pair of shapes. `None` if a shape's body is not in the motion.
 ///
-/// Pairs that do not move with respect to each other are worked out once. The result has the same bits
-/// for each number of threads and each instruction set: a pair is the work of one thread, and its mean
-/// is summed in the order of the samples.
+/// Pairs in fixed relative position are evaluated once. The result is bit-identical for any number of threads and each
+/// instruction set: one thread handles a pair and sums its mean in sample order.
 pub fn pair_statistics<T: Shape>(
     shapes: &[PlacedShape<T>],
     motion: &Motion,
@@ -88,15 +87,14 @@ pub fn pair_statistics<T: Shape>(
     statistics_of_kinds(&[&shapes], motion, &|| false)?.pop()
 }
 
-/// The statistics of several kinds of shapes, each as [`pair_statistics`] gives it. Where two bodies are
-/// with respect to each other is worked out once for all kinds. `None` also if `should_stop` says so, which is asked
-/// before each pair of shapes.
+/// The statistics of several kinds of shapes, each as from [`pair_statistics`]. The relative poses of two bodies are
+/// computed once for all kinds. Checks `should_stop` before each pair of shapes, and also returns `None` if it is true.
 pub fn statistics_of_kinds(
     kinds: &[&dyn ShapeList],
     motion: &Motion,
     should_stop: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<PairStatistics>> {
-    // For each body its shapes: the kind, and the number in it.
+    // For each body, its shapes: the kind, and the index within it.
     let mut on_body: Vec<Vec<(usize, usize)>> = vec![Vec::new(); motion.num_bodies()];
     for (kind, shapes) in kinds.iter().enumerate() {
         for shape in 0..shapes.count() {
@@ -130,7 +128,7 @@ pub fn statistics_of_kinds(
             return Some(statistics);
         }
         let goes_on = &goes_on;
-        // Poses of pairs that nobody needs any more take long too.
+        // After cancellation, skip the relative poses too: they take long.
         let wanted = |_: &[usize; 2]| !is_stopped.load(Ordering::Relaxed);
         let rows = some.into_par_iter().filter(wanted).flat_map(|[a, b]| {
             let poses = motion.relative(a, b);
@@ -174,8 +172,7 @@ impl PairStatistics {
     }
 }
 
-/// The distance of two shapes in each sample, metres; 0 in contact. `None` if a shape is on a body that the
-/// motion does not have.
+/// The distance of two shapes in each sample, metres; 0 in contact. `None` if a shape's body is not in the motion.
 pub fn pair_distances<T: Shape>(
     a: &PlacedShape<T>,
     b: &PlacedShape<T>,
@@ -188,13 +185,13 @@ pub fn pair_distances<T: Shape>(
     let mut distances = vec![0.0; poses.num_samples().next_multiple_of(LANES)];
     T::distances(Level::new(), &a.shape, &b.shape, &poses, &mut distances);
     distances.truncate(poses.num_samples());
-    // Of bodies that do not move with respect to each other one sample stands for all.
+    // Bodies in fixed relative position have one sample that stands for all.
     let first = distances.first().copied()?;
     distances.resize(motion.num_samples(), first);
     Some(distances)
 }
 
-/// The pairs of shape `i` with others, all on one body.
+/// The statistics of shape `i` with others, all on one body.
 fn row(
     level: Level,
     shapes: &dyn ShapeList,
@@ -212,7 +209,7 @@ fn row(
         .collect()
 }
 
-/// Of one distance or more.
+/// `distances` must not be empty.
 fn summary(distances: &[f64]) -> Summary {
     let (mut sum, mut min, mut max) = (0.0, f64::INFINITY, 0.0);
     for &d in distances {
@@ -220,7 +217,7 @@ fn summary(distances: &[f64]) -> Summary {
         min = if d < min { d } else { min };
         max = if d > max { d } else { max };
     }
-    // The sum's rounding may not push the mean of equal distances beyond them.
+    // Rounding of the sum must not push the mean outside the range of the distances.
     let mean = (sum / distances.len() as f64).max(min).min(max);
     Summary { mean, min, max }
 }

@@ -6,16 +6,16 @@ use super::lanes::{LANES, Num, Vec3, select, splat};
 use super::support_table::SupportTable;
 use super::{ConvexShape, OrientedBox};
 
-/// A shape about its centre, of which the farthest point in a direction is known.
+/// A shape, relative to its centre, with a support function.
 pub(crate) trait Support: Sync {
-    /// What is in one lane.
+    /// The type of the shape in one lane.
     type Single: Support;
 
-    /// The shape of one lane, for all lanes.
+    /// The shape in one lane, to be used in all lanes.
     fn single(&self, lane: usize) -> &Self::Single;
 
-    /// The farthest point in each lane's direction. Any point of the shape for a direction that is zero,
-    /// and in the lanes that are not in the bit set `lanes`.
+    /// The farthest point in each lane's direction. If a direction is zero, or its lane is not in the bit set `lanes`,
+    /// the result may be any point.
     fn support<S: Simd>(&self, simd: S, direction: Vec3<S>, lanes: u64) -> Vec3<S>;
 }
 
@@ -79,10 +79,10 @@ fn cells<S: Simd>(simd: S, table: &SupportTable, d: Vec3<S>) -> [usize; LANES] {
     cells_of(simd, splat(simd, table.side() as f64), d)
 }
 
-/// The cell of each lane's direction in a table of that many cells along one side.
+/// The cell of each lane's direction, in a table with `side` cells along one side.
 #[inline(always)]
 pub(crate) fn cells_of<S: Simd>(simd: S, side: Num<S>, d: Vec3<S>) -> [usize; LANES] {
-    /// 1.5 * 2^52: adding it rounds to an integer, which is then the lowest bits of the sum.
+    /// 1.5 * 2^52: adding it rounds to an integer, which the lowest bits of the sum then contain.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
     let half = side * splat(simd, 0.5);
@@ -91,7 +91,7 @@ pub(crate) fn cells_of<S: Simd>(simd: S, side: Num<S>, d: Vec3<S>) -> [usize; LA
     let lower = d.z.simd_lt(zero);
     let u2 = select(lower, (one - v.abs()).copysign(u), u);
     let v2 = select(lower, (one - u.abs()).copysign(v), v);
-    // Less than the side by so little that no vertex is lost.
+    // Slightly less than the side, so that no index exceeds the table; too little to miss a vertex.
     let scale = half * splat(simd, 1.0 - 1e-12);
     let shift = half - splat(simd, 0.5);
     let round = splat(simd, ROUND);

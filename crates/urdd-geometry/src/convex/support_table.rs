@@ -1,48 +1,48 @@
 //! The farthest vertex in a direction, in constant time.
 //!
-//! The directions are divided into cells (`cells`). A cell's list is mostly one to four vertices of
-//! which the farthest is then found by four dot products, however many vertices the shape has.
+//! The directions are divided into cells (`cells`). Most cells list one to four vertices, so four dot products find the
+//! farthest, however many vertices the shape has.
 
 use fearless_simd::{Simd, f64x4, prelude::*};
 
 use super::cells::candidates;
 
-/// Vertices of a block.
+/// Vertices per block.
 pub(crate) const WIDTH: usize = 4;
 
-/// Candidates of a cell, filled up by repetition.
+/// Candidates of a cell, padded by repetition.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct Block {
     pub x: [f64; WIDTH],
     pub y: [f64; WIDTH],
     pub z: [f64; WIDTH],
-    /// The next block belongs to the same list.
+    /// Whether the next block continues the same list.
     pub more: bool,
 }
 
-/// For each cell of directions, the vertices that are farthest in one of them.
+/// For each cell of directions, the vertices that are farthest in some direction of it.
 #[derive(Clone, Debug)]
 pub(crate) struct SupportTable {
     /// Cells along one side of the square map: a power of two.
     side: usize,
-    /// The first block of each cell, row by row. Cells share blocks: one with few candidates takes a block
-    /// in which they are, so that the blocks stay near the processor.
+    /// The first block of each cell, row by row. Cells share blocks: a cell with few candidates reuses a block that
+    /// contains them, so that the blocks fit the cache.
     cells: Vec<u32>,
     blocks: Vec<Block>,
 }
 
 impl SupportTable {
-    /// Of points, at least one, all finite.
+    /// From at least one point, all finite.
     pub fn new(points: &[[f64; 3]]) -> Self {
         let side = if points.len() < 24 { 32 } else { 64 };
         let lists = candidates(points, side);
         let mut cells = vec![0; side * side];
         let mut blocks = Vec::new();
-        // Longest lists first, then as the cells are.
+        // Longest lists first, then in the order of the cells.
         let mut order: Vec<usize> = (0..lists.len()).collect();
         order.sort_by_key(|&cell| std::cmp::Reverse(lists[cell].len()));
-        // Of each vertex the lists of one block that it is in.
+        // For each vertex, the single-block lists that contain it.
         let mut shared: Vec<Vec<(u32, &[u32])>> = vec![Vec::new(); points.len()];
         for cell in order {
             let list = &lists[cell];
@@ -84,7 +84,7 @@ impl SupportTable {
         self.side
     }
 
-    /// The vertex that is farthest in a direction of a cell. Any number is taken as that of some cell.
+    /// The vertex that is farthest in a direction of a cell. Out-of-range cell numbers wrap around.
     #[inline(always)]
     pub fn farthest<S: Simd>(&self, simd: S, cell: usize, d: [f64; 3]) -> [f64; 3] {
         let mut at = self.cells[cell & (self.cells.len() - 1)] as usize;
@@ -106,10 +106,10 @@ impl SupportTable {
     }
 }
 
-/// The greatest dot product of a block's vertices and a direction.
+/// The greatest dot product of a block's vertices with a direction.
 ///
-/// The number of the vertex in the block is put into the lowest bits, so that the greatest is found without
-/// branches. It shifts the product by less than 2^-50 of itself.
+/// The lowest bits of each product are replaced by the index of its vertex, to find the greatest without branches. This
+/// changes the product by less than 2^-50 of its value.
 #[inline(always)]
 fn greatest<S: Simd>(simd: S, block: &Block, d: [f64; 3]) -> f64 {
     let dots = f64x4::load_array_ref(simd, &block.x) * d[0]
@@ -120,7 +120,7 @@ fn greatest<S: Simd>(simd: S, block: &Block, d: [f64; 3]) -> f64 {
     greater(greater(mark(0), mark(1)), greater(mark(2), mark(3)))
 }
 
-/// The greater of two numbers, neither NaN: one instruction.
+/// The greater of two numbers, neither NaN; compiles to one instruction.
 #[inline(always)]
 fn greater(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
@@ -135,8 +135,7 @@ mod tests {
     use super::super::support::Support;
     use super::*;
 
-    /// Directions of all kinds: general, and those with equal, zero and opposite coordinates, which lie on
-    /// the borders of cells.
+    /// General directions, and directions with equal, zero and opposite coordinates, which are on the borders of cells.
     fn directions() -> Vec<[f64; 3]> {
         let mut list: Vec<[f64; 3]> = (0..4000)
             .map(|i| {
@@ -170,7 +169,7 @@ mod tests {
     #[test]
     fn the_table_finds_the_farthest_vertex() {
         for n in [1, 2, 3, 5, 8, 30, 300, 3000] {
-            // On a stretched sphere, with some groups of vertices close together; about the origin.
+            // On a stretched sphere around the origin, with some groups of close vertices.
             let points: Vec<[f64; 3]> = (0..n)
                 .flat_map(|i| {
                     let x = f64::from(i);

@@ -1,7 +1,8 @@
-//! The points of two shapes at which their distance is.
+//! The closest points of two shapes.
 //!
-//! The descent is that of `gjk`, and each vertex of the simplex is kept with the point of the first shape that it
-//! was made from. The nearest point is then a mean of vertices, and the first shape's point the same mean of theirs.
+//! The descent is that of `gjk`. In addition, each vertex of the simplex keeps its support point on the first shape.
+//! The nearest point is a convex combination of the vertices; the same weights give the closest point on the first
+//! shape.
 
 use fearless_simd::{Simd, prelude::*};
 
@@ -10,24 +11,24 @@ use super::lanes::{LANES, Mask, Pose, Vec3, select, splat};
 use super::simplex::{Nearest, segment, tetrahedron, triangle};
 use super::support::Support;
 
-/// The distance of two shapes, and where it is.
+/// The distance of two shapes and their closest points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Witness {
-    /// Metres; 0 where they touch or overlap.
+    /// Distance, metres; 0 if they touch or overlap.
     pub distance: f64,
-    /// A point of the first shape and one of the second, metres: those at the distance; where the shapes overlap, both
-    /// are one point that they have in common.
+    /// The closest points on the first and the second shape, metres. If the shapes overlap, both are one common point.
     pub points: [[f64; 3]; 2],
 }
 
-/// A simplex of the difference of two shapes: vertices, and the points of the first shape that they are made from.
+/// A simplex of the Minkowski difference: its vertices, and their support points on the first shape.
 #[derive(Clone, Copy)]
 struct Simplex {
     vertices: [[f64; 3]; 4],
     on_a: [[f64; 3]; 4],
 }
 
-/// The witnesses in the set of lanes `lanes`, about the centre of `a`; `distances` are those that are known.
+/// The closest points in the lanes of the bit set `lanes`, relative to the centre of `a`. `distances` are the known
+/// distances.
 #[inline(always)]
 pub(crate) fn witnesses<S: Simd, T: Support>(
     simd: S,
@@ -49,8 +50,8 @@ pub(crate) fn witnesses<S: Simd, T: Support>(
     })
 }
 
-/// The witness of two shapes in one pose, descending from the eight octants, and by how much it is off: the best of
-/// the eight. The first descent was stopped by rounding.
+/// The closest points of two shapes in one pose, and their error: the best of eight descents, one from each octant.
+/// Used when rounding stopped the first descent.
 #[inline(never)]
 fn from_other_sides<S: Simd, T: Support>(
     simd: S,
@@ -76,7 +77,8 @@ fn from_other_sides<S: Simd, T: Support>(
     )
 }
 
-/// The last simplex of each lane, from the point of the difference that is farthest against `start`.
+/// The final simplex of each lane. The descent starts from the point of the difference that is farthest against
+/// `start`.
 #[inline(always)]
 fn descend<S: Simd, T: Support>(
     simd: S,
@@ -91,7 +93,7 @@ fn descend<S: Simd, T: Support>(
     let (mut v, first) = farthest(simd, a, b, pose, start, lanes);
     let mut s = [v; 3];
     let mut on_a = [first; 3];
-    // The fourth vertex, where the origin is inside.
+    // The fourth vertex, if the origin is inside.
     let mut last = (v, first);
     let mut squared = v.dot(v);
     let mut done = squared.simd_le(zero) | Mask::from_bitmask(simd, !lanes & ALL);
@@ -114,7 +116,7 @@ fn descend<S: Simd, T: Support>(
             2 => triangle(simd, w, [s[0], s[1]]),
             _ => tetrahedron(simd, w, s),
         };
-        // Inside, all four stay: three in their places, and the new one.
+        // If the origin is inside, keep all four: the three previous vertices and the new one.
         let enclosing = inside & !done;
         last.0 = Vec3::select(enclosing, w, last.0);
         last.1 = Vec3::select(enclosing, w_on_a, last.1);
@@ -123,7 +125,7 @@ fn descend<S: Simd, T: Support>(
         done |= !least.simd_lt(squared);
         let before = (s, on_a);
         for k in 0..3 {
-            // Each vertex is one that was there: equal ones are as good as each other.
+            // Find the support point of each vertex by value; equal vertices are interchangeable.
             let mut of = w_on_a;
             for (vertex, on_a) in before.0.iter().zip(before.1) {
                 of = Vec3::select(equal(*vertex, vertices[k]), on_a, of);
@@ -148,7 +150,7 @@ fn equal<S: Simd>(a: Vec3<S>, b: Vec3<S>) -> Mask<S> {
     a.x.simd_eq(b.x) & a.y.simd_eq(b.y) & a.z.simd_eq(b.z)
 }
 
-/// The point of the difference that is farthest against `v`, and the point of `a` that it is made from.
+/// The point of the difference that is farthest against `v`, and its support point on `a`.
 #[inline(always)]
 fn farthest<S: Simd, T: Support>(
     simd: S,
@@ -163,7 +165,7 @@ fn farthest<S: Simd, T: Support>(
     (on_a - pose.rotate(on_b) - pose.shift, on_a)
 }
 
-/// The points at which the simplex is nearest to the origin, and by how much they are not `distance` apart.
+/// The closest points from the simplex, and the deviation of their distance from `distance`.
 fn witness(simplex: &Simplex, distance: f64) -> (Witness, f64) {
     let weights = weights(&simplex.vertices);
     let mean = |points: &[[f64; 3]; 4]| {
@@ -183,10 +185,10 @@ fn witness(simplex: &Simplex, distance: f64) -> (Witness, f64) {
     (found, (length - distance).abs())
 }
 
-/// The weights of the four vertices whose mean is the point of their hull that is nearest to the origin.
+/// The weights of the four vertices for the point of their hull nearest to the origin.
 fn weights(vertices: &[[f64; 3]; 4]) -> [f64; 4] {
     let point = |i: usize| nalgebra::Vector3::from(vertices[i]);
-    // Inside: four weights of one sign.
+    // The origin is inside if no weight is negative.
     let edges = [1, 2, 3].map(|i| point(i) - point(0));
     let volume = edges[0].cross(&edges[1]).dot(&edges[2]);
     if volume != 0.0 {
@@ -216,7 +218,7 @@ fn weights(vertices: &[[f64; 3]; 4]) -> [f64; 4] {
     best.0
 }
 
-/// The weights of a triangle's corners for its point that is nearest to the origin.
+/// The weights of a triangle's corners for its point nearest to the origin.
 ///
 /// Source: C. Ericson, Real-Time Collision Detection (2005), 5.1.5: the regions of corners, edges and the face.
 fn of_triangle([a, b, c]: [nalgebra::Vector3<f64>; 3]) -> [f64; 3] {

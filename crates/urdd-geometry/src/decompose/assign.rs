@@ -1,8 +1,8 @@
-//! The whole surface handed out to the groups that the search found.
+//! Assigns the whole surface to the groups that the search found.
 //!
-//! Every triangle goes down the tree of cuts; one that crosses a plane is clipped there
-//! (Sutherland and Hodgman, "Reentrant polygon clipping", 1974) and both parts go on. So the parts
-//! of the groups make up the surface exactly, but for the rounding of the new points.
+//! Every triangle descends the tree of cuts. A triangle that crosses a plane is clipped there (Sutherland and Hodgman,
+//! "Reentrant polygon clipping", 1974) and both parts continue. So the parts of the groups make up the surface exactly,
+//! up to the rounding of the new points.
 
 use super::clean::Surface;
 use super::part::Plane;
@@ -10,19 +10,19 @@ use super::search::Node;
 use super::vector::{cross, dot, lerp, norm, sub};
 use crate::hull::ConvexHull;
 
-/// A corner on its way down: its place in unit coordinates, and which vertex or point it is.
+/// A polygon corner during the descent.
 #[derive(Clone, Copy)]
 struct Corner {
     unit: [f64; 3],
     at: [f64; 3],
-    /// The vertex, or `NEW` for a point made by a cut.
+    /// The vertex index, or `NEW` for a point on a cut.
     vertex: u32,
 }
 
 const NEW: u32 = u32::MAX;
 
-/// The points of each group, in metres: of the surface, and of points inside. Points made by a cut are rounded to
-/// f32, as meshes are written.
+/// The points of each group, in metres: surface points and points inside. New points on cuts are rounded to f32, the
+/// precision of written meshes.
 pub(super) fn assign(
     surface: &Surface,
     inside: &Inside,
@@ -58,14 +58,14 @@ pub(super) fn assign(
 /// Points inside the body, in unit coordinates.
 pub(super) struct Inside<'a> {
     points: &'a [[f64; 3]],
-    /// How near to a cut they are put into it.
+    /// Maximum distance from a cut at which a point is also projected into it.
     reach: f64,
-    /// Planes about the body: outward normals of unit length, and their offsets.
+    /// Planes of the body's hull: outward unit normals and their offsets.
     planes: Vec<([f64; 3], f64)>,
 }
 
 impl<'a> Inside<'a> {
-    /// `body` are points of the surface whose hull is the body's, or within it.
+    /// `body` are points of the surface whose hull is inside the body's hull or equal to it.
     pub fn new(points: &'a [[f64; 3]], reach: f64, body: &[[f64; 3]]) -> Inside<'a> {
         let hull = match points {
             [] => None,
@@ -95,14 +95,14 @@ impl<'a> Inside<'a> {
     }
 }
 
-/// So many points of a group are gathered before they are thinned out.
+/// Number of points of a group at which they are first thinned out.
 const MOST_POINTS: usize = 1 << 21;
 
 struct Hands<'a> {
     points: Vec<Vec<[f64; 3]>>,
-    /// For each group, at how many points it is thinned out next.
+    /// For each group, the number of points at which it is thinned out next.
     most: Vec<usize>,
-    /// The group that a vertex was last given to: most belong to one only.
+    /// The group that each vertex was last assigned to: most vertices belong to one group only.
     last: Vec<u32>,
     nodes: &'a [Node],
     group_of_leaf: &'a [usize],
@@ -139,8 +139,8 @@ impl Hands<'_> {
         }
     }
 
-    /// A point inside, in unit coordinates: near a plane it is put into that too, for both sides. One that left
-    /// the hull of the body on its way is dropped: each move is short, but they add up.
+    /// Descends with a point inside, in unit coordinates. A point near a plane is also projected into it, for both
+    /// sides. A point outside the body's hull at the leaf is dropped: each move is short, but they add up.
     fn drop_in(&mut self, node: usize, p: [f64; 3], inside: &Inside, surface: &Surface) {
         match self.nodes[node] {
             Node::Leaf(leaf) => {
@@ -178,8 +178,8 @@ impl Hands<'_> {
         }
     }
 
-    /// Keeps the corners of a group's hull: each triangle of a tangle leaves some points in every group, and
-    /// all of them together would take many times the memory of the mesh.
+    /// Keeps only the corners of a group's hull. In a tangled mesh, each triangle leaves points in every group, which
+    /// together would take many times the memory of the mesh.
     fn thin_out(&mut self, group: usize) {
         if let Ok(hull) = ConvexHull::new(&self.points[group]) {
             self.points[group] = hull.into_mesh().vertices;
@@ -204,7 +204,7 @@ fn clip(polygon: &[Corner], plane: &Plane, eps: f64) -> [Vec<Corner>; 2] {
             out[1].push(*c);
         }
         if (hc < -eps && hd > eps) || (hc > eps && hd < -eps) {
-            // From the lower end always, so that two triangles with this edge make the same point.
+            // Always from the lower end, so that two triangles with this edge get the same point.
             let (from, to, hf, ht) = if hc < hd {
                 (c, d, hc, hd)
             } else {
@@ -232,7 +232,7 @@ mod tests {
     #[test]
     fn a_point_that_two_cuts_move_out_of_the_body_is_dropped() {
         let surface = Surface::new(&cuboid([2.0, 2.0, 2.0])).expect("a surface");
-        // Two planes through the edge x = y = 1.02, which lies just outside: a point near it goes into both.
+        // Two planes through the edge x = y = 1.02, just outside; a point near it is projected into both.
         let plane = |degrees: f64| {
             let (sin, cos) = degrees.to_radians().sin_cos();
             Plane {
@@ -257,7 +257,7 @@ mod tests {
         };
         let out = |p: &[f64; 3]| p.iter().any(|x| x.abs() > 1.0 + 1e-6);
         assert!(!given(0.11).iter().any(out), "{:?}", given(0.11));
-        // The move into the first plane alone stays.
+        // The projection into the first plane alone stays.
         assert!(given(0.11).len() > given(0.0).len());
     }
 }

@@ -1,21 +1,20 @@
-//! Few points whose hull holds all of many, to within a tolerance.
+//! Selects few points whose hull contains all given points, within a tolerance.
 //!
-//! The points farthest out in fixed directions start a hull; then the point farthest outside is
-//! added, until none is farther than the tolerance: quickhull's order (Barber, Dobkin and Huhdanpaa,
-//! "The quickhull algorithm for convex hulls", 1996), stopped early. The distance that counts is that
-//! from a triangle of chosen points, which is never less than the distance from their hull: so the
-//! promise does not rest on the growing hull being free of rounding.
+//! The extreme points in fixed directions start a hull. Then the point farthest outside is added until none is farther
+//! than the tolerance: quickhull's order (Barber, Dobkin and Huhdanpaa, "The quickhull algorithm for convex hulls",
+//! 1996), stopped early. The distance is measured to a triangle of chosen points. It is an upper bound of the distance
+//! to their hull, so rounding in the growing hull cannot violate the tolerance.
 
 use super::growing_hull::GrowingHull;
 use super::support::{Candidate, support};
 use super::vector::{cross, distance_to_triangle, dot, norm, sub};
 
-/// So often a point may be held against a face. Links need some tens of millions; where the tolerance asks for
-/// many thousand faces about many points, all corners of their hull are taken instead.
+/// Maximum number of point-face tests. Links need some tens of millions. If the tolerance requires many thousand faces
+/// for many points, the result is all points.
 const MOST_LOOKS: usize = 2_000_000_000;
 
-/// A subset of the points, none of them farther than `tolerance` from its hull; all of them where they
-/// are flat.
+/// A subset of the points such that none is farther than `tolerance` from its hull. Returns all points if they are
+/// flat.
 pub(super) fn choose(points: &[[f64; 3]], tolerance: f64) -> Vec<[f64; 3]> {
     let Some((mut hull, mut taken, eps)) = start(points) else {
         return points.to_vec();
@@ -31,7 +30,7 @@ pub(super) fn choose(points: &[[f64; 3]], tolerance: f64) -> Vec<[f64; 3]> {
     while let Some(k) = farthest(&outside) {
         let p = outside.swap_remove(k).point;
         if !hull.insert(p, eps) {
-            // The hull can take no more, or rounding is in the way: leave nothing to chance.
+            // The hull is full, or rounding interferes: return all points.
             return points.to_vec();
         }
         taken.push(p);
@@ -64,7 +63,7 @@ struct Outside {
     distance: f64,
 }
 
-/// The point with the face that it is farthest above, if it is too far outside.
+/// Measures a point that is too far outside, at the face that it is farthest above; `None` otherwise.
 fn look(
     hull: &GrowingHull,
     taken: &[[f64; 3]],
@@ -76,7 +75,7 @@ fn look(
     if height <= eps {
         return None;
     }
-    // Not less than the distance from the hull.
+    // An upper bound of the distance from the hull.
     let distance = distance_to_triangle(p, hull.face(face).map(|i| taken[i as usize]));
     (distance > tolerance).then_some(Outside {
         point: p,
@@ -85,7 +84,7 @@ fn look(
     })
 }
 
-/// The first of the farthest.
+/// The index of the farthest point, the first of equals.
 fn farthest(outside: &[Outside]) -> Option<usize> {
     let mut best: Option<usize> = None;
     for (k, o) in outside.iter().enumerate() {
@@ -96,8 +95,8 @@ fn farthest(outside: &[Outside]) -> Option<usize> {
     best
 }
 
-/// The hull of the support points, those that it took, and a length that is nothing at their size. None
-/// where the points are flat.
+/// The hull of the support points, the points that it took, and a length that is negligible at their size. `None` if
+/// the points are flat.
 fn start(points: &[[f64; 3]]) -> Option<(GrowingHull, Vec<[f64; 3]>, f64)> {
     let origin = *points.first()?;
     let size = points
@@ -110,7 +109,7 @@ fn start(points: &[[f64; 3]]) -> Option<(GrowingHull, Vec<[f64; 3]>, f64)> {
         .iter()
         .filter_map(|&i| points.get(i as usize).copied())
         .collect();
-    // A tetrahedron as wide as it may be: farthest pair, then farthest from the line, from the plane.
+    // A large tetrahedron: the first support point, then the farthest from it, from the line, and from the plane.
     let a = *support.first()?;
     let by = |f: &dyn Fn([f64; 3]) -> f64| {
         support

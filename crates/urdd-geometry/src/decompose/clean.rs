@@ -1,24 +1,24 @@
-//! The surface as the decomposition sees it: valid triangles over welded vertices, in a unit frame.
+//! The surface as the decomposition uses it: valid triangles over welded vertices, in unit coordinates.
 
 use super::vector::{cross, dot, sub};
 use crate::Mesh;
 
-/// A welded surface. `unit` are the vertices moved and scaled so that the largest extent runs from
-/// -1 to 1; planes are kept in those coordinates.
+/// A welded surface. `unit` are the vertices moved and scaled so that the largest extent runs from -1 to 1; planes use
+/// these coordinates.
 pub(super) struct Surface {
     pub vertices: Vec<[f64; 3]>,
     pub unit: Vec<[f64; 3]>,
     pub triangles: Vec<[u32; 3]>,
-    /// Metres for one unit.
+    /// Length of one unit, metres.
     pub scale: f64,
     /// The origin of unit coordinates, in metres.
     pub centre: [f64; 3],
-    /// Triangles left out: an index out of range or a coordinate that is not a finite number.
+    /// Number of dropped triangles, with an index out of range or a non-finite coordinate.
     pub ignored: usize,
 }
 
 impl Surface {
-    /// Welds equal vertices and leaves out what is not a triangle of finite points; None where nothing is left.
+    /// Welds equal vertices and drops invalid triangles; `None` if no triangle remains.
     pub fn new(mesh: &Mesh) -> Option<Self> {
         let (vertices, index) = weld(&mesh.vertices);
         let mut triangles = Vec::with_capacity(mesh.triangles.len());
@@ -62,14 +62,14 @@ impl Surface {
             centre,
             ignored,
         };
-        // A surface that is inside out as a whole is turned: fronts are to look outwards.
+        // Flip a surface that is inside out as a whole, so that fronts face outward.
         if out.volume() < 0.0 {
             out.triangles.iter_mut().for_each(|t| t.swap(1, 2));
         }
         Some(out)
     }
 
-    /// The volume enclosed where the surface is closed, in unit coordinates.
+    /// The enclosed volume of a closed surface, in unit coordinates.
     fn volume(&self) -> f64 {
         self.triangles
             .iter()
@@ -95,8 +95,8 @@ impl Surface {
     }
 }
 
-/// The triangles without repetitions: of those with the same corners that face the same way, the first.
-/// A file of a few bytes a triangle can say one many thousand times, and once is all that it means.
+/// Removes duplicate triangles. Of those with the same corners and orientation, keeps the first. A small file can
+/// repeat one triangle many thousand times.
 fn each_once(triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
     let from_lowest = |[a, b, c]: [u32; 3]| {
         if a <= b && a <= c {
@@ -118,8 +118,8 @@ fn each_once(triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
     first.into_iter().map(|at| triangles[at as usize]).collect()
 }
 
-/// Different vertices in order of first use, and for each given vertex its place among them
-/// (`u32::MAX` where it is not finite). An open-addressing table keyed by the bits of the coordinates.
+/// The distinct vertices in order of first use, and the index of each given vertex among them (`u32::MAX` if it is out
+/// of range). Uses an open-addressing table keyed by the bits of the coordinates.
 fn weld(given: &[[f64; 3]]) -> (Vec<[f64; 3]>, Vec<u32>) {
     let size = (given.len() * 2).next_power_of_two().max(16);
     let shift = 64 - size.trailing_zeros();
@@ -128,11 +128,11 @@ fn weld(given: &[[f64; 3]]) -> (Vec<[f64; 3]>, Vec<u32>) {
     let index = given
         .iter()
         .map(|p| {
-            // The range of the hull's arithmetic: no robot is that large.
+            // The range of the hull's exact arithmetic: no robot is that large.
             if !p.iter().all(|x| x.abs() < 1e60) {
                 return u32::MAX;
             }
-            // Below its range is nothing, and -0 and 0 are one place.
+            // Values below that range become 0, and -0 becomes 0.
             let p = p.map(|x| if x.abs() < 1e-59 { 0.0 } else { x });
             let mut hash = 0_u64;
             for x in p {
@@ -181,7 +181,7 @@ mod tests {
         };
         let s = Surface::new(&mesh).unwrap();
         assert_eq!(s.vertices.len(), 3);
-        // Three times the same, and once from behind.
+        // Three times the same triangle, and once flipped.
         assert_eq!(s.triangles, vec![[0, 1, 2], [0, 2, 1]]);
         assert_eq!(s.ignored, 2);
         assert_eq!(s.scale, 1.5);

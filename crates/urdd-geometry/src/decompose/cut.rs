@@ -1,27 +1,27 @@
-//! The best plane to divide a part by.
+//! The best cutting plane of a part.
 //!
-//! A part's *cost* is the standoff of its hull (`field`) and a little of the hull's bulk: its volume, thickened to
-//! V + t A / 2 for a small t, so that flat parts have a cost too. Planes are tried at many places across a few directions, and the one
-//! that lowers the summed cost of the two sides most is taken. Along one direction all planes are
-//! tried in two sweeps: the part is sliced once, and a hull that grows by slice after slice gives the
-//! cost of everything below each plane; the sweep back, of everything above.
+//! A part's *cost* is the standoff of its hull (`field`) plus a fraction of the hull's bulk: V + t A / 2 for a small
+//! thickness t, so that flat parts have a cost too. Planes are tried at many offsets along a few directions; the one
+//! that lowers the summed cost of the two sides most is taken. Two sweeps evaluate all planes of a direction: the part
+//! is sliced once, and a hull that grows slice by slice gives the cost of everything below each plane. The reverse
+//! sweep gives the cost of everything above.
 
 use super::grower::{Bounds, Frame, Grower, Places, SEED};
 use super::part::{Part, Plane};
 use super::slices::Slices;
 use super::vector::dot;
 
-/// Planes tried across an axis, evenly spaced; flat coordinates come on top.
+/// Evenly spaced planes per axis; flat coordinates come on top.
 const EVEN: usize = 9;
 
-/// Planes tried across a diagonal.
+/// Evenly spaced planes per diagonal.
 const EVEN_DIAGONAL: usize = 5;
 
-/// Weight of a cut through the middle of the longest extent, as a part of the part's cost. It decides
-/// where no cut helps at once, as in a ring, where only the second one does.
+/// Weight of a cut through the middle of the longest extent, as a fraction of the part's cost. It decides when no
+/// single cut helps, as in a ring, where only the second one does.
 const MIDDLE: f64 = 0.01;
 
-/// A cut and what it saves of the part's cost.
+/// A cut and the cost that it saves.
 #[derive(Clone, Debug)]
 pub(super) struct Cut {
     pub plane: Plane,
@@ -29,13 +29,13 @@ pub(super) struct Cut {
     pub score: f64,
 }
 
-/// The part's hull, and the best cuts, best first: none where the part is too small to be cut.
+/// The part's hull and its best cuts, best first; no cuts if the part is too small or convex.
 pub(super) fn best_cuts(part: &Part, places: &Places) -> (Grower, Vec<Cut>) {
     let mut found: Vec<Cut> = Vec::new();
     let mut hull = None;
     let mut turned = Vec::new();
     for (frame, flats) in &places.frames {
-        // Coordinates in which the planes lie across z.
+        // Coordinates in the frame: the planes are perpendicular to their z.
         turned.clear();
         turned.extend(part.points.iter().map(|&p| frame.map(|axis| dot(axis, p))));
         let Some((whole, cuts)) = cuts_across(part, &turned, frame, flats, places) else {
@@ -54,12 +54,12 @@ pub(super) fn best_cuts(part: &Part, places: &Places) -> (Grower, Vec<Cut>) {
         part.points.iter().for_each(|&p| hull.add(p));
         hull
     });
-    // Stable, so the first of equal ones stays first.
+    // A stable sort keeps the first of equals first.
     found.sort_by(|a, b| b.score.total_cmp(&a.score));
     (hull, found)
 }
 
-/// Whether no point of the surface lies deeper in the hull than what the search resolves.
+/// Whether no triangle of the surface is deeper in the hull than the search resolves.
 fn is_convex(part: &Part, whole: &Grower) -> bool {
     part.triangles.iter().all(|t| {
         let [a, b, c] = t.map(|i| part.points[i as usize]);
@@ -68,9 +68,8 @@ fn is_convex(part: &Part, whole: &Grower) -> bool {
     })
 }
 
-/// The directions across which cuts are tried, each with two others to make a frame, and the places
-/// that are tried along it beside the even ones: the axes, z first, for which these are given, and the diagonals
-/// between any two of them.
+/// The frames of the cutting directions, with the flat coordinates to try along each in addition to the even ones. The
+/// directions are the axes (z first), which have the given flats, and the diagonals between any two axes.
 pub(super) fn frames(flats: [Vec<f64>; 3]) -> Vec<Frame> {
     let axis = |a: usize| [0, 1, 2].map(|b| f64::from(u8::from(a % 3 == b)));
     let mut out: Vec<Frame> = Vec::new();
@@ -90,7 +89,7 @@ pub(super) fn frames(flats: [Vec<f64>; 3]) -> Vec<Frame> {
     out
 }
 
-/// Offsets of the planes tried between `low` and `high`, ascending: `even` ones, and flats.
+/// Offsets of the planes between `low` and `high`, ascending: `even` evenly spaced ones, and flats.
 fn offsets(low: f64, high: f64, flats: &[f64], eps: f64, even: usize) -> Vec<f64> {
     let step = (high - low) / (even + 1) as f64;
     let near = (0.02 * (high - low)).max(2.0 * eps);
@@ -112,11 +111,11 @@ fn offsets(low: f64, high: f64, flats: &[f64], eps: f64, even: usize) -> Vec<f64
     out
 }
 
-/// A slice mask has a bit for each slice.
+/// The limit of a slice mask, which has one bit per slice.
 const MOST_OFFSETS: usize = 31;
 
-/// The part's hull (in turned coordinates) and its cuts across the last of `frame`, which is their z:
-/// those that are better than the ones beside them. None where the part is too thin to be sliced.
+/// The part's hull (in the coordinates `turned`) and its cuts along the last axis of `frame`, which is their z: the
+/// cuts with a locally maximal score. `None` if the part is too thin to be sliced.
 fn cuts_across(
     part: &Part,
     turned: &[[f64; 3]],
@@ -150,7 +149,7 @@ fn cuts_across(
     let scored: Vec<Option<Cut>> = (0..planes.len())
         .map(|k| {
             let (offset, b, a) = (planes[k], below[k], above[planes.len() - 1 - k]);
-            // Zero: that side is empty.
+            // Zero means that the side is empty.
             (b > 0.0 && a > 0.0).then(|| {
                 let gain = all - b - a;
                 let middle = 1.0 - (2.0 * (offset - low) / (high - low) - 1.0).abs();

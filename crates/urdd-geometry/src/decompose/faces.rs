@@ -1,9 +1,8 @@
-//! Cuts along flat faces that lie deep in a part's hull.
+//! Cuts along flat faces deep inside a part's hull.
 //!
-//! No single cut through a box without a lid saves anything: the hull of what is left is closed by the same lid
-//! until the last wall is off. But each wall's inner face lies deep in the hull, and a cut along it puts it onto the
-//! hull of its own part. So here a part is divided along the flat face over which the integral of depths is largest,
-//! again and again.
+//! No single cut through a box without a lid saves anything: the hull of the rest has the same lid until the last wall
+//! is cut off. But each wall's inner face is deep in the hull, and a cut along it puts it onto the hull of its own
+//! part. So a part is divided repeatedly along the flat face with the largest integral of depths.
 
 use rayon::join;
 use rayon::prelude::*;
@@ -13,33 +12,33 @@ use super::part::{Part, Plane};
 use super::search::Node;
 use super::vector::{cross, dot, norm, sub};
 
-/// Less deep than so many steps of the hull is what the hull leaves out.
+/// Depths below this many steps of the hull are within the hull's error.
 const LEAST: f64 = 1.2;
 
-/// Planes that are weighed in a part, beside those across the axes.
+/// Maximum number of planes considered in a part, in addition to the axis-aligned ones.
 const MOST_PLANES: usize = 16;
 
-/// A face is worth a cut with this part of the integral over the whole surface.
+/// Minimum share of a face in the integral over the whole surface for a cut.
 const WORTH: f64 = 0.01;
 
-/// Only where more of the integral than this part is over the deepest faces is all that lies deep flat: as in boxes.
-/// Of links with curved walls these have up to eight tenths, and cuts along them first are no better.
+/// If the faces have more than this share of the integral, everything deep counts as flat, as in boxes. On links with
+/// curved walls the share is up to 0.8, and cuts along faces first are no better.
 const FLAT: f64 = 0.8;
 
-/// Directions of which the deepest face is tried as the first cut: a comb needs fewer cuts after one along its back
+/// Number of directions whose deepest face is tried as the first cut. A comb needs fewer cuts after one along its back
 /// than after one along a tooth, which is as deep.
 const ROOTS: usize = 3;
 
-/// Normals with a cosine above this are of one direction.
+/// Normals with a cosine above this count as parallel.
 const PARALLEL: f64 = 0.99;
 
 /// A part and its deep faces.
 #[derive(Clone)]
 struct Deep {
     part: Part,
-    /// Depths below the part's hull, integrated over its surface.
+    /// Integral of the depths below the part's hull over its surface.
     integral: f64,
-    /// Planes of flat faces, and how much of the integral is over them; most first.
+    /// Planes of flat faces with their shares of the integral, largest first.
     faces: Vec<(Plane, f64)>,
     node: usize,
 }
@@ -60,7 +59,7 @@ impl Deep {
                 (depth > LEAST * hull.step).then_some((depth * area, [a, b, c]))
             })
             .collect();
-        // Stable, so the first of equal ones stays first.
+        // A stable sort keeps the first of equals first.
         triangles.sort_by(|a, b| b.0.total_cmp(&a.0));
         let flats = places.frames.iter().flat_map(|(frame, flats)| {
             let normal = frame[2];
@@ -96,7 +95,7 @@ impl Deep {
     }
 }
 
-/// Of a triangle with an area.
+/// The plane of a triangle with an area.
 fn plane_of([a, b, c]: [[f64; 3]; 3]) -> Plane {
     let n = cross(sub(b, a), sub(c, a));
     let length = norm(n);
@@ -107,14 +106,14 @@ fn plane_of([a, b, c]: [[f64; 3]; 3]) -> Plane {
     }
 }
 
-/// A tree of cuts and the parts at its leaves.
+/// A tree of cuts with the parts at its leaves.
 struct Tree {
     nodes: Vec<Node>,
     parts: Vec<Deep>,
 }
 
 impl Tree {
-    /// Cuts part `k`; whether the plane left something on either side.
+    /// Cuts part `k`; false, without a cut, if a side would be empty.
     fn cut(&mut self, k: usize, plane: Plane, places: &Places) -> bool {
         let Some([mut below, mut above]) = self.parts[k].split(&plane, places) else {
             return false;
@@ -128,7 +127,7 @@ impl Tree {
         true
     }
 
-    /// Cuts along the deepest face anywhere until there are `most` parts, or no face weighs more than `least`.
+    /// Cuts along the deepest face of all parts until there are `most` parts, or no face weighs more than `least`.
     fn grow(&mut self, most: usize, least: f64, places: &Places) {
         while self.parts.len() < most {
             let parts = self.parts.iter().enumerate();
@@ -153,11 +152,11 @@ impl Tree {
 pub(super) struct Cuts {
     /// The first is the root.
     pub nodes: Vec<Node>,
-    /// The leaves, and their places among the nodes.
+    /// The leaves, and their indices among the nodes.
     pub parts: Vec<(Part, usize)>,
 }
 
-/// Cuts along deep faces into at most `most` parts. None where what lies deep is not flat.
+/// Cuts along deep faces into at most `most` parts. `None` unless everything deep is flat.
 pub(super) fn cut(part: Part, places: &Places, most: usize) -> Option<Cuts> {
     let whole = Deep::new(part, places);
     let all = whole.integral;
@@ -184,7 +183,7 @@ pub(super) fn cut(part: Part, places: &Places, most: usize) -> Option<Cuts> {
             good.then_some(tree)
         })
         .collect();
-    // What is left deep, and a little for each part.
+    // The remaining integral, and a small penalty per part.
     let rank = |tree: &Tree| tree.integral() + WORTH * all * tree.parts.len() as f64;
     let best = trees
         .into_iter()

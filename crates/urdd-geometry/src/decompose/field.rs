@@ -1,9 +1,8 @@
-//! How far from the surface the search's hulls stand.
+//! Distance field for the standoff of the search's hulls.
 //!
-//! What a piece adds to the mean standoff is the integral, over those of its faces that are on the
-//! outside, of the distance to the surface. So distances are kept at the nodes of a grid, negative
-//! inside, and interpolated between them. Each node's nearest triangle is found by sweeps that hand
-//! triangles on from node to node (Danielsson, "Euclidean distance mapping", 1980).
+//! A piece adds to the mean standoff the integral, over its outside faces, of the distance to the surface. So the nodes
+//! of a grid store signed distances, negative inside, which are interpolated. Sweeps that pass triangles from node to
+//! node find each node's nearest triangle (Danielsson, "Euclidean distance mapping", 1980).
 
 use super::grower::Bounds;
 use super::growing_hull::GrowingHull;
@@ -14,20 +13,20 @@ use super::vector::{cross, dot, nearest_on_triangle, norm, sub};
 /// Nodes along the largest extent.
 const ALONG: f64 = 40.0;
 
-/// Most nodes.
+/// Maximum number of nodes.
 const MOST_NODES: f64 = 20_000.0;
 
-/// About so many samples of the surface, at most; links need a tenth of it.
+/// Approximate maximum number of surface samples; links need a tenth of it.
 const MOST_SAMPLES: usize = 500_000;
 
-/// Nodes nearer to the surface than this are next to it, in cells.
+/// Nodes nearer to the surface than this count as next to it, in cells.
 const NEXT_TO: f64 = 0.6;
 
-/// Cells between the samples of a face, and most samples along one side.
+/// Cells between the samples of a face, and maximum samples along one side.
 const SPREAD: f64 = 4.0;
 const MOST_SIDE: usize = 3;
 
-/// Signed distances on a grid about the surface, in unit coordinates.
+/// Signed distances on a grid around the surface, in unit coordinates.
 pub(super) struct Field {
     low: [f64; 3],
     cell: f64,
@@ -36,8 +35,8 @@ pub(super) struct Field {
 }
 
 impl Field {
-    /// Inside is what a flood from the border does not reach, as in `inside`; next to the surface, the front of
-    /// triangles decides.
+    /// Inside is what a flood fill from the border does not reach, as in `inside`. Next to the surface, the triangles'
+    /// orientation decides.
     pub fn new(part: &Part) -> Field {
         let bounds = Bounds::new(&part.points);
         let size = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
@@ -67,7 +66,7 @@ impl Field {
                 (away, norm(away))
             })
             .collect();
-        // No two neighbours on either side of a surface are both farther from it than half their distance.
+        // Two neighbours on different sides of a surface cannot both be farther from it than half their distance.
         let near = NEXT_TO * cell;
         let mut state: Vec<State> = away
             .iter()
@@ -160,7 +159,7 @@ impl Field {
         best.into_iter().map(|b| b.1).collect()
     }
 
-    /// How far outside of the surface; 0 inside.
+    /// Distance outside the surface; 0 inside.
     #[inline]
     pub fn at(&self, p: [f64; 3]) -> f64 {
         let [nx, ny, _] = self.count;
@@ -179,16 +178,16 @@ impl Field {
         (low + f[2] * (plane(nx * ny) - low)).max(0.0)
     }
 
-    /// Points spread over a face's triangle, each for the same part of its area.
+    /// Passes evenly spread points of a triangle to `take`, each for the same part of its area; returns their number.
     pub fn spread(&self, [a, b, c]: [[f64; 3]; 3], mut take: impl FnMut([f64; 3])) -> usize {
         let (ab, ac) = (sub(b, a), sub(c, a));
         let bc = sub(c, b);
         let longest = dot(ab, ab).max(dot(ac, ac)).max(dot(bc, bc)).sqrt();
-        // Rounded up without `ceil`, which is a call.
+        // Rounds up without `ceil`, which would be a function call.
         let n = ((longest / (SPREAD * self.cell)) as usize)
             .saturating_add(1)
             .min(MOST_SIDE);
-        // Centroids of the n^2 triangles that parallels to the sides make.
+        // The centroids of the n^2 triangles between parallels to the sides.
         let side = 1.0 / (3 * n) as f64;
         for i in 0..n {
             for j in 0..n - i {
@@ -205,9 +204,8 @@ impl Field {
         n * n
     }
 
-    /// The integral of distances over the faces of a hull whose coordinates are along `frame`, but for
-    /// those that lie in one of the planes: there another piece begins. `known` are the integrals over faces seen
-    /// before, by slot.
+    /// The integral of distances over the faces of a hull in the coordinates of `frame`. Skips faces in one of the
+    /// planes, where another piece begins. `known` caches the integrals of faces, by slot.
     pub fn standoff(
         &self,
         hull: &GrowingHull,
@@ -236,11 +234,11 @@ impl Field {
     }
 }
 
-/// Whether a face lies in one of the planes: there another piece begins.
+/// Whether a face is in one of the planes, where another piece begins.
 pub(super) fn in_cut(corners: [[f64; 3]; 3], planes: &[Plane]) -> bool {
     let lies = |plane: &Plane| corners.iter().all(|&p| plane.height(p).abs() <= IN_CUT);
     planes.iter().any(lies)
 }
 
-/// A face that is nowhere farther from a cut than this lies in it.
+/// A face with no corner farther from a cut than this is in the cut.
 const IN_CUT: f64 = 1e-3;

@@ -1,41 +1,42 @@
-//! What the search for a cut works with: where planes are tried, and hulls that grow.
+//! Shared data of the cut search: the planes to try, and growing hulls.
 
 use super::field::Field;
 use super::growing_hull::GrowingHull;
 use super::part::Plane;
 
-/// Weight of a hull's bulk beside its standoff. Deep narrow hollows have little standoff, and still are to be cut.
+/// Weight of a hull's bulk relative to its standoff. Deep narrow hollows have little standoff, but must still be cut.
 const BULK: f64 = 0.1;
 
-/// Thickness t of the bulk, in units (half the link's largest extent).
+/// Thickness t of the bulk, in unit coordinates (1 is half the link's largest extent).
 const THICKNESS: f64 = 1e-3;
 
-/// Radius of the octahedron that hulls of the search start from.
+/// Radius of the octahedron that hulls of the search start from, in unit coordinates.
 pub(super) const SEED: f64 = 1e-4;
 
-/// The least step out that grows hulls of the search, as a part of the part's largest extent: what is
-/// left out of a cylinder's volume is less than two hundredths.
+/// Minimum outward step that grows a hull of the search, as a fraction of the part's largest extent. For a cylinder,
+/// the lost volume is below 2 %.
 const STEP: f64 = 2.5e-3;
 
-/// Three orthogonal unit vectors, the last across the planes; coordinates along it to try, ascending.
+/// Three orthonormal axes, of which the last is normal to the planes, and the flat coordinates to try along it,
+/// ascending.
 pub(super) type Frame = ([[f64; 3]; 3], Vec<f64>);
 
-/// Where and how planes are tried; the same for all parts of a link.
+/// Parameters of the planes to try; the same for all parts of a link.
 pub(super) struct Places {
     pub frames: Vec<Frame>,
-    /// Points without a triangle this near to a plane are put into it too.
+    /// Points without a triangle this near to a plane are also projected into it.
     pub reach: f64,
-    /// Points this near to a plane count as lying in it.
+    /// Points this near to a plane count as in it.
     pub eps: f64,
     /// Distances to the surface.
     pub field: Field,
 }
 
-/// The frame of unit coordinates.
+/// The identity frame.
 pub(super) const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Places {
-    /// The standoff of a hull whose coordinates are along `frame`; faces in one of the planes have none.
+    /// The standoff of a hull in the coordinates of `frame`; faces in one of the planes do not count.
     pub fn standoff(&self, hull: &mut Grower, frame: &[[f64; 3]; 3], planes: &[Plane]) -> f64 {
         self.field
             .standoff(&hull.hull, frame, planes, &mut hull.known)
@@ -47,22 +48,22 @@ impl Places {
     }
 }
 
-/// What a hull costs wherever it stands: a part of V + t A / 2.
+/// The bulk of a hull: a fraction of V + t A / 2.
 pub(super) fn bulk(hull: &GrowingHull) -> f64 {
     BULK * (hull.volume() + THICKNESS * hull.area() / 2.0)
 }
 
-/// A hull that points are put into, for the search.
+/// A growing hull for the search.
 #[derive(Clone)]
 pub(super) struct Grower {
     pub hull: GrowingHull,
     pub step: f64,
-    /// What is known of its faces.
+    /// Cached standoff of its faces, by slot.
     known: Vec<([u16; 3], f64)>,
 }
 
 impl Grower {
-    /// Nothing yet; `extent` is the largest of what will come.
+    /// An empty hull; `extent` is the largest extent of the points to come.
     pub fn new(extent: f64) -> Self {
         Grower {
             hull: GrowingHull::default(),
@@ -80,7 +81,7 @@ impl Grower {
     }
 }
 
-/// A box about points.
+/// The axis-aligned bounding box of points.
 pub(super) struct Bounds {
     pub low: [f64; 3],
     pub high: [f64; 3],

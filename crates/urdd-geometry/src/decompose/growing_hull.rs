@@ -1,35 +1,34 @@
-//! A convex hull that grows point by point and always knows its volume and area.
+//! An incremental convex hull that tracks its volume and area.
 //!
-//! The plain incremental (beneath-beyond) construction: faces that see the new point go, the
-//! horizon's edges are joined to it. Each face is tested for each point; with a hundred faces that is
-//! faster than keeping conflict lists. Points are moved by a fixed tiny pseudo-random step first, so
-//! that no four lie in a plane ("joggled input", Barber and Huhdanpaa, Qhull manual): CAD is full of flat
-//! faces, and those break a plain incremental hull. So it serves the search and the choice of vertices;
-//! what is handed out is made by [`crate::hull`].
+//! The plain incremental (beneath-beyond) construction: removes the faces that see the new point, and connects the
+//! horizon's edges to it. Tests each face for each point: with a hundred faces, that is faster than conflict lists.
+//! First moves each point by a small pseudo-random step, so that no four points are coplanar ("joggled input", Barber
+//! and Huhdanpaa, Qhull manual). CAD models are full of flat faces, which break a plain incremental hull. So this hull
+//! serves only the search and the choice of vertices; [`crate::hull`] makes the final pieces.
 
 use super::planes::{Above, Planes};
 use super::vector::{cross, dot, sub};
 
 #[derive(Clone, Default)]
 pub(super) struct GrowingHull {
-    /// The points taken, moved; those before the first insertion not.
+    /// The points of the hull, jittered, except those of the initial hull.
     pub points: Vec<[f64; 3]>,
     jitter: f64,
     corners: Vec<[u16; 3]>,
     planes: Planes,
     area: Vec<f64>,
     free: Vec<u32>,
-    /// What the point that comes next sees.
+    /// The faces that the point to be inserted sees.
     seen: Above,
-    /// The edges around that: the first corner in the upper half.
+    /// The horizon edges: the first corner in the upper half.
     edges: Vec<u32>,
     volume6: f64,
     area_sum: f64,
 }
 
 impl GrowingHull {
-    /// A hull of four points, or none where the last is no farther than `thinnest` from the plane of
-    /// the others. `jitter` is how far points may be moved.
+    /// A hull of four points; `None` if the last is at most `thinnest` from the plane of the others. `jitter` is the
+    /// maximum displacement of points along each axis.
     pub fn tetrahedron(p: [[f64; 3]; 4], thinnest: f64, jitter: f64) -> Option<Self> {
         let n = cross(sub(p[1], p[0]), sub(p[2], p[0]));
         let side = dot(n, sub(p[3], p[0]));
@@ -53,8 +52,8 @@ impl GrowingHull {
         Some(hull)
     }
 
-    /// A small octahedron about `centre`: a start that makes every later hull solid, so that flat
-    /// and thin parts need no cases of their own. Its size is far below what the search resolves.
+    /// A small octahedron around `centre`. Starting from it makes every later hull solid, so that flat and thin parts
+    /// need no special cases. Its size is far below what the search resolves.
     pub fn seed(centre: [f64; 3], radius: f64) -> Self {
         let mut hull = GrowingHull {
             jitter: radius * 1e-4,
@@ -104,7 +103,7 @@ impl GrowingHull {
         self.volume6 / 6.0
     }
 
-    /// Slots for faces, empty ones too.
+    /// Number of face slots, including empty ones.
     pub fn slots(&self) -> usize {
         self.planes.slots()
     }
@@ -114,13 +113,13 @@ impl GrowingHull {
         self.area_sum / 2.0
     }
 
-    /// Whether the hull may take no more points: corners are 16-bit, and more faces than Euler's
-    /// formula allows mean that rounding has broken it.
+    /// Whether the hull accepts no more points: corners are 16-bit, and more faces than Euler's formula allows mean
+    /// that rounding has broken the hull.
     fn is_full(&self) -> bool {
         self.points.len() >= usize::from(u16::MAX) || self.slots() > 2 * self.points.len()
     }
 
-    /// The point moved by up to `jitter` along each axis; the same for the same place in the order.
+    /// The point moved by up to `jitter` along each axis; depends only on the insertion index.
     fn moved(&self, p: [f64; 3]) -> [f64; 3] {
         let mut state = self.points.len() as u64;
         p.map(|x| {
@@ -132,17 +131,17 @@ impl GrowingHull {
         })
     }
 
-    /// The face slot whose plane the point is farthest above, and how far; below all: negative.
+    /// The face slot whose plane the point is farthest above, and its height, which is negative below all planes.
     pub fn farthest_face(&self, p: [f64; 3]) -> (u32, f64) {
         self.planes.highest(p)
     }
 
-    /// Slots whose faces went with the last insertion.
+    /// Slots whose faces the last insertion removed.
     pub fn removed(&self) -> &[u32] {
         &self.seen.slots
     }
 
-    /// The corners of a face slot: places in the order of insertion.
+    /// The corners of a face slot, as indices of `points`.
     pub fn face(&self, slot: u32) -> [u16; 3] {
         self.corners[slot as usize]
     }
@@ -154,7 +153,7 @@ impl GrowingHull {
             .map(|i| (i, self.corners[i], self.area[i] / 2.0))
     }
 
-    /// The places of points that are corners of a face, ascending.
+    /// The indices of points that are corners of a face, ascending.
     pub fn used(&self) -> Vec<usize> {
         let mut used = vec![false; self.points.len()];
         for (slot, f) in self.corners.iter().enumerate() {
@@ -165,8 +164,8 @@ impl GrowingHull {
         (0..used.len()).filter(|&i| used[i]).collect()
     }
 
-    /// Makes the hull hold `p`; false where it is inside already, to within `eps` (which is to be
-    /// more than the jitter).
+    /// Inserts `p`. Returns false if the hull already contains it within `eps` (which must exceed the jitter), or is
+    /// full.
     pub fn insert(&mut self, p: [f64; 3], eps: f64) -> bool {
         let p = self.moved(p);
         if self.is_full() || !self.planes.above(p, eps, &mut self.seen) {

@@ -1,11 +1,11 @@
-//! Flat pieces that add nothing: triangles in a cut go to one of its sides, and where nothing else of that side is in
-//! their group, the piece of the other side may hold them as well.
+//! Removal of redundant flat pieces. Triangles in a cut go to one side of it. If their group has nothing else of that
+//! side, the piece of the other side may already contain them.
 
 use super::vector::{cross, dot, norm, sub};
 use crate::Mesh;
 use crate::hull::ConvexHull;
 
-/// The pieces but for flat ones of which no point lies farther than `tolerance` outside of another piece.
+/// The pieces, without flat ones that another piece contains within `tolerance`.
 pub(super) fn without_held(pieces: Vec<ConvexHull>, tolerance: f64) -> Vec<Mesh> {
     let is_held = |flat: &ConvexHull| {
         let mut bodies = pieces.iter().filter(|other| !other.is_flat());
@@ -34,7 +34,7 @@ mod tests {
         ConvexHull::new(points).expect("a hull")
     }
 
-    /// A square 2 cm wide at a height, and a cube from 0 to 10 cm.
+    /// A cube from 0 to 10 cm, and a 2 cm square at the given height.
     fn count(height: f64, left: f64) -> usize {
         let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 0 { 0.0 } else { 0.1 });
         let cube: Vec<[f64; 3]> = (0..8).map(corner).collect();

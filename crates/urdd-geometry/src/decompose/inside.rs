@@ -1,43 +1,42 @@
 //! Points inside the surface, on a coarse grid.
 //!
-//! A part of a surface has a smaller hull than the same part of the body: cut a solid cylinder into
-//! quarters, and the quarters of its *surface* leave out its middle. Points inside, given along with
-//! the surface, keep the search from taking that for a gain, and keep pieces from leaving hollows.
-//! Where a cut passes near them they are put into it too, so that corners between cuts are not lost.
-//! Inside is what a flood from the grid's border does not reach, so a surface need not be closed,
-//! only tight to within a cell; where it is not, there is no inside and nothing changes.
+//! A part of a surface has a smaller hull than the same part of the body. If a solid cylinder is cut into quarters, the
+//! quarters of its *surface* leave out its middle. Points inside prevent the search from taking that for a gain, and
+//! keep pieces from leaving hollows. If a cut passes near them, they are also projected into it, so that corners
+//! between cuts are not lost. Inside is what a flood fill from the grid's border does not reach. So a surface need not
+//! be closed, only tight to within a cell. Otherwise it has no inside, and no points are added.
 
 use super::grower::Bounds;
 use super::part::Part;
 use super::vector::{norm, sub};
 
-/// Cells of the grid, about.
+/// Approximate number of grid cells.
 const CELLS: f64 = 8000.0;
 
-/// Most cells along the largest extent, so that flat links do not get a huge grid.
+/// Maximum number of cells along the largest extent, so that flat links do not get a huge grid.
 const MOST_ALONG: f64 = 64.0;
 
-/// Most samples of the surface. Links need up to some 50 million (long thin triangles); a tangle that
-/// needs more is taken to have no inside.
+/// Maximum number of surface samples. Links need up to some 50 million (long thin triangles). A tangled mesh that needs
+/// more is treated as having no inside.
 const MOST_SAMPLES: usize = 100_000_000;
 
-/// Cells of a grid about the surface, and which of them are inside.
+/// Grid cells around the surface, and which of them are inside.
 pub(super) struct Flood {
     low: [f64; 3],
-    /// Side of a cell.
+    /// Edge length of a cell.
     pub cell: f64,
     count: [usize; 3],
     state: Vec<State>,
 }
 
-/// Into how many parts the sides of a triangle are divided, for samples `fine` times a cell apart at most.
+/// The number of parts into which to divide a triangle's sides, for samples at most `cell / fine` apart.
 pub(super) fn parts([a, b, c]: [[f64; 3]; 3], cell: f64, fine: f64) -> usize {
     let longest = norm(sub(b, a)).max(norm(sub(c, a))).max(norm(sub(c, b)));
     (longest / cell * fine).ceil().max(1.0) as usize
 }
 
 impl Flood {
-    /// None where the part has no extent, or needs too many samples.
+    /// `None` if the part has no extent, or needs too many samples.
     pub fn new(part: &Part) -> Option<Flood> {
         let bounds = Bounds::new(&part.points);
         let size = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
@@ -54,7 +53,7 @@ impl Flood {
         if samples.sum::<usize>() > MOST_SAMPLES {
             return None;
         }
-        // A border of empty cells all around.
+        // Add a border of empty cells on all sides.
         let count = size.map(|s| (s / cell).ceil() as usize + 2);
         let mut out = Flood {
             low: bounds.low,
@@ -79,15 +78,14 @@ impl Flood {
         Some(out)
     }
 
-    /// The cell of a place within the bounds, or the nearest one.
+    /// The cell of a point within the bounds, or the nearest cell.
     fn at(&self, p: [f64; 3]) -> usize {
         let i = [0, 1, 2]
             .map(|a| (((p[a] - self.low[a]) / self.cell) as usize + 1).min(self.count[a] - 2));
         (i[2] * self.count[1] + i[1]) * self.count[0] + i[0]
     }
 
-    /// Centres of the cells inside, in the part's coordinates. So far around each as half a cell's side, all
-    /// is inside.
+    /// Centres of the cells inside, in the part's coordinates. Everything within half a cell of a centre is inside.
     pub fn centres(&self) -> Vec<[f64; 3]> {
         let [nx, ny, _] = self.count;
         let inside = (0..self.state.len()).filter(|&k| self.state[k] == State::Inside);
@@ -108,7 +106,7 @@ pub(super) enum State {
     Outside,
 }
 
-/// Marks what can be reached from the first cell, which lies in the border.
+/// Marks everything reachable from the first cell, which is in the border.
 pub(super) fn flood(state: &mut [State], count: [usize; 3]) {
     let mut stack = vec![0];
     state[0] = State::Outside;
@@ -136,7 +134,7 @@ pub(super) fn flood(state: &mut [State], count: [usize; 3]) {
 mod tests {
     use super::*;
 
-    /// The unit cube about the origin, with or without its top.
+    /// The cube from -1 to 1, with or without its top.
     fn cube(top: bool) -> Part {
         let points = (0..8)
             .map(|i| [i & 1, i >> 1 & 1, i >> 2 & 1].map(|b| 2.0 * f64::from(b) - 1.0))
@@ -165,7 +163,7 @@ mod tests {
 
     #[test]
     fn a_closed_box_has_an_inside_and_an_open_one_none() {
-        // 20 cells along each side, of which the outer ones hold the surface.
+        // 20 cells along each side; the outer ones contain the surface.
         let inside = |top| Flood::new(&cube(top)).map_or(0, |flood| flood.centres().len());
         assert_eq!(inside(true), 18 * 18 * 18);
         assert_eq!(inside(false), 0);

@@ -1,9 +1,8 @@
-//! Joining blocks again where their common hull stands off little more.
+//! Merges blocks if their common hull has little more standoff.
 //!
-//! Greedy pairwise merging, as in Mamou and Ghorbel, "A simple and efficient approach for 3D mesh
-//! approximate convex decomposition" (ICIP 2009). A join's price is what the common hull costs beyond
-//! the two. Of these counts only what is not inside the other: else blocks that overlap would seem to
-//! gain by being joined.
+//! Greedy pairwise merging, as in Mamou and Ghorbel, "A simple and efficient approach for 3D mesh approximate convex
+//! decomposition" (ICIP 2009). The price of a join is the cost of the common hull beyond that of the two hulls. Of
+//! these, only what is outside the other hull counts. Otherwise overlapping blocks would seem to gain from a join.
 
 use rayon::prelude::*;
 
@@ -12,16 +11,16 @@ use super::grower::{AXES, Places, bulk};
 use super::search::Block;
 use super::vector::{cross, norm, sub};
 
-/// A block or several joined.
+/// One block, or several merged ones.
 #[derive(Clone)]
 struct Group {
     block: Block,
     points: Vec<[f64; 3]>,
-    /// Points on its faces that stand off, with the integral that each is for.
+    /// Sample points on its faces with standoff, each with its weight in the integral.
     standing: Vec<([f64; 3], f64)>,
 }
 
-/// So far a point of a face is lifted before it is asked whether another hull holds it.
+/// Distance by which a face point is lifted before the test whether another hull contains it.
 const LIFT: f64 = 1e-3;
 
 impl Group {
@@ -57,13 +56,13 @@ impl Group {
         self.block.hull.hull.farthest_face(p).1 <= 0.0
     }
 
-    /// How much of it stands off outside of the other.
+    /// The standoff of its samples outside the other group.
     fn outside(&self, other: &Group) -> f64 {
         let outside = self.standing.iter().filter(|(p, _)| !other.holds(*p));
         outside.map(|(_, weight)| weight).sum()
     }
 
-    /// What the common hull stands off beyond the two.
+    /// Joins two groups, and computes the standoff and cost beyond theirs.
     fn join(&self, other: &Group, places: &Places) -> Join {
         let volume = |g: &Group| g.block.hull.hull.volume();
         let (large, small) = match volume(self) >= volume(other) {
@@ -99,9 +98,9 @@ impl Group {
 /// Two groups joined.
 struct Join {
     block: Block,
-    /// What it stands off beyond the two.
+    /// Its standoff beyond that of the two.
     standoff: f64,
-    /// What it costs beyond them.
+    /// Its cost beyond theirs.
     price: f64,
     /// Its volume beyond theirs.
     filled: f64,
@@ -122,30 +121,30 @@ fn standoff(groups: &[Option<Group>]) -> f64 {
     sum
 }
 
-/// A join that adds more than this many times the volume that it may cost is not free.
+/// A join is not free if its added volume exceeds the free cost times this factor.
 const FILLED: f64 = 10.0;
 
-/// When merging ends.
+/// Termination criteria of merging.
 pub(super) struct Limits {
-    /// Most groups.
+    /// Maximum number of groups.
     pub most: usize,
-    /// A join that costs no more is made in any case.
+    /// A join that costs at most this is always made.
     pub free: f64,
-    /// One after which all together stand off no more than this is made too.
+    /// A join is also made if the total standoff after it is at most this.
     pub enough: f64,
 }
 
-/// Blocks in groups.
+/// The grouping of the blocks.
 pub(super) struct Groups {
-    /// For each block its group, 0, 1, …, numbered in the order of their first blocks.
+    /// For each block, its group: 0, 1, …, in the order of their first blocks.
     pub of: Vec<usize>,
     /// The integral of distances from the surface over the groups' outside.
     pub standoff: f64,
-    /// That, and the bulk of the groups' hulls.
+    /// The standoff plus the bulk of the groups' hulls.
     pub cost: f64,
 }
 
-/// Joins blocks, the cheapest pair first.
+/// Merges blocks, the cheapest pair first.
 pub(super) fn merge(blocks: Vec<Block>, places: &Places, limits: &Limits) -> Groups {
     let n = blocks.len();
     let mut group: Vec<usize> = (0..n).collect();
@@ -188,7 +187,8 @@ pub(super) fn merge(blocks: Vec<Block>, places: &Places, limits: &Limits) -> Gro
         };
         let join = a.join(b, places);
         total += join.standoff;
-        // Blocks about a hollow seem to gain by being joined where they stand off into it. A lid stays dear.
+        // Blocks around a hollow seem to gain from a join if they protrude into it. The volume test keeps a lid
+        // expensive.
         let free = p <= limits.free && join.filled <= FILLED * limits.free;
         if left <= limits.most && !free && total > limits.enough {
             break;

@@ -1,33 +1,33 @@
 //! Convex decomposition of arbitrary triangle meshes.
 //!
-//! A link's mesh is whatever a CAD program wrote: several shells, open, crossing itself, with parts
-//! inside. So nothing here needs an inside: a *piece* is the convex hull of a part of the surface, and
-//! the parts make up the whole surface. Hence no point of it lies outside the pieces, by construction
-//! (but for [`Settings::surface_tolerance`], which buys pieces with fewer vertices).
+//! A link's mesh is arbitrary CAD output: several shells, open, self-intersecting, with internal parts. So the
+//! algorithm does not need an inside. A *piece* is the convex hull of a part of the surface, and the parts make up the
+//! whole surface. By construction no point of the surface is outside the pieces, except by
+//! [`Settings::surface_tolerance`], which allows pieces with fewer vertices.
 //!
-//! 1. `clean`: equal vertices become one, what is no triangle is left out.
-//! 2. `proxy`: a stand-in with some 1,500 points, for the search only.
-//! 3. `inside`: points inside the body, where it has an inside, so that parts count with what they enclose;
-//!    `field`: distances from the surface.
-//! 4. `search`: the stand-in is cut by planes, always there where a cut lowers the summed standoff of the
-//!    hulls most (`cut`), into half as many blocks again as wanted. Where the first cuts save little, two are followed.
-//!    Where all that lies deep in the hull is flat, as in boxes without lids, a second tree is cut along those faces
-//!    first (`faces`): the one of which the joined blocks cost less is kept.
-//! 5. `merge`: blocks are joined again, the cheapest pair first, while there are too many or a join
-//!    costs nearly nothing. Cutting far and joining back finds what one greedy pass does not.
-//! 6. `assign`: the surface itself is clipped by the same planes and handed out to the groups.
-//! 7. `choose`: few points of each group whose hull holds the rest; `ConvexHull` makes the piece. Flat ones that another
-//!    piece holds are left out (`held`).
+//! 1. `clean`: welds equal vertices and drops invalid triangles.
+//! 2. `proxy`: a proxy surface with some 1,500 points, used only by the search.
+//! 3. `inside`: points inside the body, if it has an inside, so that parts count with what they enclose. `field`:
+//!    distances from the surface.
+//! 4. `search`: planes cut the proxy, always where a cut lowers the summed standoff of the hulls most (`cut`), into 1.5
+//!    times as many blocks as wanted. If the first cuts save little, two alternatives are tried. If everything deep in
+//!    the hull is flat, as in boxes without lids, a second tree is first cut along those faces (`faces`). The tree
+//!    whose merged blocks cost less is kept.
+//! 5. `merge`: merges blocks, the cheapest pair first, while there are too many or a merge costs nearly nothing.
+//!    Cutting far and merging back finds what one greedy pass does not.
+//! 6. `assign`: clips the surface itself by the same planes and assigns it to the groups.
+//! 7. `choose`: selects few points of each group whose hull contains the rest; `ConvexHull` makes the piece. Drops flat
+//!    pieces that another piece contains (`held`).
 //!
-//! What a decomposition is judged by is how far its outside stands off the surface on average: the integral over
-//! the pieces' faces of the distance to the surface, but for faces inside and in cuts, where another piece goes on.
-//! That is what a collision check gets wrong. Volume alone counts deep narrow hollows, which hardly matter, for more
-//! than wide ones; a little of it is kept, since it tells of gains that only the cuts after the next will bring.
-//! Top-down cuts with hulls for parts are those of Wei et al., "Approximate convex decomposition for 3D meshes with
-//! collision-aware concavity and tree search" (CoACD, 2022); the measure and the sweep are our own.
+//! The quality measure is the *standoff*: the mean distance of the decomposition's outside from the surface. It is the
+//! integral of that distance over the pieces' faces, without faces inside other pieces or in cuts, where another piece
+//! continues. This is the error of a collision check. Volume alone would overrate deep narrow hollows, which hardly
+//! matter, relative to wide ones. A little volume stays in the cost, because it shows gains that only later cuts will
+//! bring. Top-down cuts with hulls as parts follow Wei et al., "Approximate convex decomposition for 3D meshes with
+//! collision-aware concavity and tree search" (CoACD, 2022). The measure and the sweep are our own.
 //!
-//! The same input gives the same bytes for any number of threads: parallel parts are independent, and
-//! their results are put together in a fixed order.
+//! The same input gives the same bytes for any number of threads: parallel tasks are independent, and their results are
+//! combined in a fixed order.
 
 mod assign;
 mod choose;
@@ -53,21 +53,21 @@ use rayon::prelude::*;
 use super::Mesh;
 use super::hull::ConvexHull;
 
-/// How finely to decompose.
+/// Settings of the decomposition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Most pieces for one mesh; at least 1.
+    /// Maximum number of pieces for one mesh; at least 1.
     pub max_pieces: usize,
-    /// How much standoff a piece must save to be worth having: the mean distance from the pieces' outside to the
-    /// surface, as a part of half the mesh's largest extent. 0 uses all pieces.
+    /// Minimum standoff that a piece must save: the mean distance from the pieces' outside to the surface, as a
+    /// fraction of half the mesh's largest extent. 0 uses all pieces.
     pub fat_tolerance: f64,
-    /// So small a mean distance from the pieces' outside to the surface is enough, metres: no piece is made beyond
-    /// those needed for that, as the search estimates it. 0 goes on.
+    /// Sufficient mean distance from the pieces' outside to the surface, metres, as estimated by the search. No further
+    /// pieces are made once it is reached. 0 disables this limit.
     pub standoff_tolerance: f64,
-    /// How far a point of the surface may lie outside the pieces, metres, if
-    /// [`Settings::relative_surface_tolerance`] is not stricter.
+    /// Maximum distance of a surface point outside the pieces, metres, unless [`Settings::relative_surface_tolerance`]
+    /// is stricter.
     pub surface_tolerance: f64,
-    /// The same as a part of half the mesh's largest extent, for small meshes.
+    /// The same as a fraction of half the mesh's largest extent, for small meshes.
     pub relative_surface_tolerance: f64,
 }
 
@@ -90,42 +90,43 @@ impl Settings {
             .max(0.0)
     }
 
-    /// What [`decompose`] would give as the mesh's `surface_tolerance`, without the work.
+    /// The `surface_tolerance` that [`decompose`] would return for the mesh, without decomposing it.
     pub fn surface_tolerance_of(&self, mesh: &Mesh) -> f64 {
         clean::Surface::new(mesh).map_or(0.0, |surface| self.tolerance(&surface))
     }
 }
 
-/// What [`decompose`] returns.
+/// The result of [`decompose`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Decomposition {
-    /// Convex, closed meshes in a fixed order. A flat part gives a flat two-sided polygon. None only
-    /// where the mesh has no triangle with an area.
+    /// Convex, closed meshes in a fixed order. A flat part gives a flat two-sided polygon. Empty only if no triangle of
+    /// the mesh has an area.
     pub pieces: Vec<Mesh>,
-    /// How far a point of the surface may lie outside the pieces, metres: what was asked for, or less.
+    /// Maximum distance of a surface point outside the pieces, metres: the requested tolerance or less.
     pub surface_tolerance: f64,
-    /// Triangles left out: an index out of range, or a coordinate that is not a finite number.
+    /// Number of dropped triangles, with an index out of range or a non-finite coordinate.
     pub ignored_triangles: usize,
 }
 
-/// Most flat coordinates kept along an axis.
+/// Maximum number of flat coordinates per axis.
 const MOST_FLATS: usize = 20;
 
-/// Points this near to a plane lie in it, in units: flat faces of CAD are no flatter than some roundings of f32.
+/// Points this near to a plane are in it, in unit coordinates. Flat faces of CAD models deviate by some f32 rounding
+/// errors.
 const ON_PLANE: f64 = 2e-5;
 
-/// The same for the stand-in, as a part of its cells.
+/// The same for the proxy, as a fraction of its cell size.
 const ON_PLANE_PROXY: f64 = 0.15;
 
-/// A flat piece that reaches so little out of another, as a part of the surface's tolerance, is held by it.
+/// A flat piece counts as contained in another if it protrudes by at most this fraction of the surface tolerance.
 const HELD: f64 = 0.01;
 
-/// Pieces cut along faces first are to cost less than this part of the others, to be taken for them.
+/// Pieces cut along faces first replace the others if they cost less than this fraction of them.
 const BETTER: f64 = 0.9;
 
-/// Divides a mesh into convex pieces that hold its whole surface.
+/// Decomposes a mesh into convex pieces that contain its whole surface.
 ///
-/// Each piece lies in the hull of the mesh, but for the rounding of clipped points to f32.
+/// Each piece is inside the convex hull of the mesh, up to the rounding of clipped points to f32.
 pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
     let Some(surface) = clean::Surface::new(mesh) else {
         return Decomposition {
@@ -185,7 +186,7 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
     let pieces: Vec<ConvexHull> = parts
         .par_iter()
         .filter(|points| !points.is_empty())
-        // A group of nothing but collinear points has no hull: its triangles have no area.
+        // A group of collinear points has no hull: its triangles have no area.
         .filter_map(|points| ConvexHull::new(&choose::choose(points, tolerance)).ok())
         .collect();
     Decomposition {

@@ -1,4 +1,4 @@
-//! A part of the stand-in surface, and its division by a plane.
+//! A part of the proxy surface, and its division by a plane.
 
 use super::vector::{cross, dot, lerp, sub};
 
@@ -30,27 +30,26 @@ impl Plane {
 pub(super) struct Part {
     pub points: Vec<[f64; 3]>,
     pub triangles: Vec<[u32; 3]>,
-    /// Points inside. They are not corners of the part's hull; their images in a cut may be.
+    /// Points inside. They are not corners of the part's hull; their projections into a cut may be.
     pub inner: Vec<[f64; 3]>,
-    /// The planes that cut it out of the whole.
+    /// The planes that bound the part within the whole.
     pub cuts: Vec<Plane>,
 }
 
 impl Part {
-    /// Whether this is a point that belongs to no triangle.
+    /// Whether this degenerate triangle is a loose point.
     pub fn is_loose(t: [u32; 3]) -> bool {
         t[0] == t[1] && t[1] == t[2]
     }
 
-    /// Whether a triangle's front looks along `direction`: one that lies in a cut goes with the body behind it.
+    /// Whether a triangle faces along `direction`. A triangle in a cut goes with the body behind it.
     pub fn faces(&self, t: [u32; 3], direction: [f64; 3]) -> bool {
         let [a, b, c] = t.map(|i| self.points[i as usize]);
         dot(cross(sub(b, a), sub(c, a)), direction) > 0.0
     }
 
-    /// What lies below and above the plane. Points within `eps` of it count as lying in it; loose
-    /// points within `reach` are put into it too, for both
-    /// sides, as are points inside.
+    /// The parts below and above the plane. Points within `eps` of it count as in it. Loose points and points inside
+    /// that are within `reach` are also projected into it, for both sides.
     pub fn split(&self, plane: &Plane, eps: f64, reach: f64) -> [Part; 2] {
         let height: Vec<f64> = self.points.iter().map(|p| plane.height(*p)).collect();
         let side = |i: u32| {
@@ -83,7 +82,7 @@ impl Part {
                             count[half] += 1;
                         }
                         if s[k] * s[(k + 1) % 3] < 0 {
-                            // The same point from either end, so that neighbours stay joined.
+                            // The same point from either end, so that neighbours stay connected.
                             let (i, j) = (i.min(j), i.max(j));
                             let (hi, hj) = (height[i as usize], height[j as usize]);
                             let p = lerp(
@@ -149,7 +148,7 @@ impl Half {
                 *place = next;
                 from.points[i as usize]
             }
-            // Twice for an edge of two triangles: support tables do not mind.
+            // Added once per triangle of an edge; support points tolerate duplicates.
             Corner::New(p) => p,
         };
         self.part.points.push(p);

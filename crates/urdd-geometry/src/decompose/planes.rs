@@ -1,14 +1,14 @@
-//! The planes of a hull's faces, several side by side.
+//! The planes of a hull's faces, in a SIMD layout.
 //!
-//! Only operations whose result is the same on every instruction set are used (IEEE add, subtract, multiply,
-//! compare, select; never a fused multiply-add), so that a hull does not depend on the machine.
+//! Uses only operations with the same result on every instruction set (IEEE add, subtract, multiply, compare, select;
+//! never a fused multiply-add), so that a hull does not depend on the machine.
 
 use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8, prelude::*};
 
-/// Slots of a block.
+/// Slots per block.
 const WIDTH: usize = 8;
 
-/// A slot that holds no face has this offset: every point is below it.
+/// The offset of an empty slot: every point is below it.
 const EMPTY: f64 = f64::INFINITY;
 
 /// Unit normals and offsets of some slots.
@@ -31,27 +31,27 @@ const NOTHING: Block = Block {
 /// Slots for planes, some of them empty.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Planes {
-    /// The last one is filled up by empty slots.
+    /// The last one is padded with empty slots.
     blocks: Vec<Block>,
     slots: usize,
 }
 
-/// The slots that a point lies above, and how far.
+/// The slots whose planes a point is above, and its heights.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Above {
     /// The slots, ascending.
     pub slots: Vec<u32>,
-    /// The height above each slot, also those that the point lies below.
+    /// The height above each slot's plane, including negative ones.
     pub heights: Vec<f64>,
 }
 
 impl Planes {
-    /// Slots, empty ones too.
+    /// Number of slots, including empty ones.
     pub fn slots(&self) -> usize {
         self.slots
     }
 
-    /// Puts a plane into one more slot.
+    /// Appends a slot with a plane.
     pub fn push(&mut self, normal: [f64; 3], offset: f64) {
         if self.slots.is_multiple_of(WIDTH) {
             self.blocks.push(NOTHING);
@@ -60,14 +60,14 @@ impl Planes {
         self.set(self.slots - 1, normal, offset);
     }
 
-    /// Puts a plane into a slot that is there.
+    /// Puts a plane into an existing slot.
     pub fn set(&mut self, slot: usize, normal: [f64; 3], offset: f64) {
         let (block, k) = (&mut self.blocks[slot / WIDTH], slot % WIDTH);
         (block.x[k], block.y[k], block.z[k]) = (normal[0], normal[1], normal[2]);
         block.offset[k] = offset;
     }
 
-    /// Makes a slot empty.
+    /// Empties a slot.
     pub fn clear(&mut self, slot: usize) {
         self.set(slot, [0.0; 3], EMPTY);
     }
@@ -77,12 +77,13 @@ impl Planes {
         self.blocks[slot / WIDTH].offset[slot % WIDTH] == EMPTY
     }
 
-    /// The slot whose plane the point is farthest above, the first of equals, and how far; below all: negative.
+    /// The slot whose plane the point is farthest above, the first of equals, and its height, which is negative below
+    /// all planes.
     pub fn highest(&self, p: [f64; 3]) -> (u32, f64) {
         self.highest_at(Level::new(), p)
     }
 
-    /// Whether the point is farther than `limit` above some plane; if so, the planes that it is above.
+    /// Whether the point is more than `limit` above some plane; if so, `found` gets the planes that it is above.
     pub fn above(&self, p: [f64; 3], limit: f64, found: &mut Above) -> bool {
         self.above_at(Level::new(), p, limit, found)
     }
@@ -148,7 +149,7 @@ fn above<S: Simd>(simd: S, blocks: &[Block], p: [f64; 3], limit: f64, found: &mu
 fn highest<S: Simd>(simd: S, blocks: &[Block], p: [f64; 3]) -> (u32, f64) {
     let p = splat(simd, p);
     let mut most = f64x8::splat(simd, f64::NEG_INFINITY);
-    // Numbers of blocks, which doubles hold exactly.
+    // Block numbers, which doubles represent exactly.
     let mut of = f64x8::splat(simd, 0.0);
     let (mut number, one) = (of, f64x8::splat(simd, 1.0));
     for block in blocks {
@@ -177,8 +178,8 @@ mod tests {
     /// A normal and an offset.
     type Plain = ([f64; 3], f64);
 
-    /// Planes about the origin at distances of about 1. Some are there again one or eight slots on, so that heights
-    /// are equal, and each fifth slot is empty.
+    /// Planes around the origin at distances of about 1. Some repeat one or eight slots later, so that heights are
+    /// equal, and every fifth slot is empty.
     fn planes(slots: usize) -> (Planes, Vec<Option<Plain>>) {
         let mut plain: Vec<Option<Plain>> = Vec::new();
         let mut planes = Planes::default();

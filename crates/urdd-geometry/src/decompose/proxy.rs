@@ -1,24 +1,24 @@
-//! A small stand-in for the surface, on which cuts are tried.
+//! A small proxy of the surface, on which cuts are tried.
 //!
-//! Vertex clustering (Rossignac and Borrel, "Multi-resolution 3D approximations for rendering complex
-//! scenes", 1993): vertices in one cell of a grid become one of them, the one nearest to their mean.
-//! Only the search sees it; pieces are made from the surface itself.
+//! Vertex clustering (Rossignac and Borrel, "Multi-resolution 3D approximations for rendering complex scenes", 1993):
+//! the vertices in a grid cell become one of them, the one nearest to their mean. Only the search uses the proxy;
+//! pieces are made from the surface itself.
 
 use super::clean::Surface;
 use super::part::Part;
 use super::vector::{dot, sub};
 
-/// Clusters aimed at.
+/// Target number of clusters.
 const TARGET: f64 = 1500.0;
 
-/// Most triangles of the stand-in. Surfaces of so few points have half as many; a tangle that has more
-/// is searched by some of them, evenly spread.
+/// Maximum number of triangles of the proxy. Surfaces with so few points have half as many. A tangled mesh with more is
+/// sampled evenly.
 const MOST_TRIANGLES: usize = 8000;
 
-/// Most cells along one axis, so that the grid's memory is bounded.
+/// Maximum number of cells along one axis, to bound the grid's memory.
 const MOST_CELLS: f64 = 96.0;
 
-/// The stand-in, and the side of its cells (0 where the surface was small enough to be taken whole).
+/// The proxy, and its cell size (0 if the surface is small enough to be used whole).
 pub(super) fn proxy(surface: &Surface) -> (Part, f64) {
     if surface.vertices.len() as f64 <= TARGET {
         let cluster: Vec<u32> = (0..surface.vertices.len() as u32).collect();
@@ -28,7 +28,7 @@ pub(super) fn proxy(surface: &Surface) -> (Part, f64) {
             0.0,
         );
     }
-    // A surface passes through about 1.5 cells per cell's area.
+    // A surface intersects about 1.5 cells per cell's area.
     let cell = (1.5 * surface.area() / TARGET).sqrt().max(2.0 / MOST_CELLS);
     let cells = (2.0 / cell).ceil() as usize + 1;
     let place = |p: [f64; 3]| {
@@ -83,7 +83,7 @@ pub(super) fn proxy(surface: &Surface) -> (Part, f64) {
     (stand_in(surface, points, &cluster, triangles), cell)
 }
 
-/// The stand-in of these points and triangles. `cluster` says which point stands for each vertex.
+/// The proxy of these points and triangles. `cluster` maps each vertex to its point.
 fn stand_in(
     surface: &Surface,
     points: Vec<[f64; 3]>,
@@ -94,7 +94,7 @@ fn stand_in(
     if every > 1 {
         triangles = triangles.into_iter().step_by(every).collect();
     }
-    // A point that no triangle is left of is still to be kept.
+    // Keep points that have lost all their triangles, as loose points.
     let mut used = vec![false; points.len()];
     triangles
         .as_flattened()
@@ -118,8 +118,8 @@ fn stand_in(
     }
 }
 
-/// Coordinates along each axis where much of the surface lies flat across it: where CAD parts change
-/// their section, so the best places to cut. At most `most` for each axis, those with most area.
+/// Coordinates along each axis at which much of the surface is flat and perpendicular to it. CAD parts change their
+/// section there, so these are the best places to cut. At most `most` per axis, those with the largest area.
 pub(super) fn flat_coordinates(surface: &Surface, most: usize) -> [Vec<f64>; 3] {
     const BINS: usize = 2048;
     // Area, and the largest triangle with its coordinate, per bin.

@@ -1,4 +1,4 @@
-//! The search for cuts: a tree of planes, grown by the best cut anywhere.
+//! The search for cuts: a tree of planes that grows by the best cut of all leaves.
 
 use rayon::join;
 use rayon::prelude::*;
@@ -8,20 +8,20 @@ use super::faces;
 use super::grower::{AXES, Grower, Places, bulk};
 use super::part::{Part, Plane};
 
-/// A tree of cuts. Leaves are numbered in the order in which they stand in `Search::leaves`.
+/// A node of the tree of cuts. Leaf numbers are indices of `Search::leaves`.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Node {
     Leaf(usize),
-    /// Below, above: places in the list of nodes.
+    /// The child nodes below and above, as indices of the node list.
     Cut(Plane, [usize; 2]),
 }
 
-/// A leaf's hull as the search sees it.
+/// A leaf's hull in the search.
 #[derive(Clone)]
 pub(super) struct Block {
     pub hull: Grower,
     pub standoff: f64,
-    /// The planes that cut it out.
+    /// The planes that bound it.
     pub cuts: Vec<Plane>,
 }
 
@@ -56,13 +56,13 @@ impl Leaf {
         }
     }
 
-    /// What is left of its cost after its best cut.
+    /// The remaining cost after its best cut.
     fn promise(&self) -> f64 {
         let gain = self.cuts.iter().map(|c| c.gain).fold(0.0, f64::max);
         self.block.cost() - gain
     }
 
-    /// The two leaves that a cut makes; none where one has no surface.
+    /// The two leaves of a cut; `None` if one of them has no surface.
     fn split(&self, cut: &Cut, places: &Places) -> Option<[Leaf; 2]> {
         let [below, above] = self.part.split(&cut.plane, places.eps, places.reach);
         if below.triangles.is_empty() || above.triangles.is_empty() {
@@ -73,20 +73,20 @@ impl Leaf {
     }
 }
 
-/// Nodes (the first is the root) and leaves; the area of the whole hull.
+/// The nodes (the first is the root) and leaves; the area of the whole hull.
 pub(super) struct Search {
     pub area: f64,
     pub nodes: Vec<Node>,
     pub leaves: Vec<Block>,
 }
 
-/// When the search ends.
+/// Termination criteria of the search.
 pub(super) struct Limits {
-    /// Most blocks.
+    /// Maximum number of blocks.
     pub most: usize,
-    /// A cut is to promise more than this, over the area of the whole hull.
+    /// Minimum promise of a cut, relative to the area of the whole hull.
     pub fat: f64,
-    /// So little standoff of all blocks together is enough, over that area.
+    /// Sufficient standoff of all blocks together, relative to that area.
     pub enough: f64,
 }
 
@@ -97,8 +97,8 @@ pub(super) fn search(part: Part, places: &Places, limits: &Limits) -> Search {
     grow(vec![Node::Leaf(0)], vec![leaf], area, places, limits)
 }
 
-/// Cuts the part along its deep flat faces, and on from there as [`search`] does, where all that lies deep is
-/// flat. `area` is that of the whole hull.
+/// Cuts the part along its deep flat faces, then continues like [`search`]. `None` unless everything deep is flat.
+/// `area` is that of the whole hull.
 pub(super) fn along_faces(
     part: Part,
     area: f64,
@@ -113,7 +113,7 @@ pub(super) fn along_faces(
     Some(grow(nodes, leaves.collect(), area, places, limits))
 }
 
-/// Cuts leaves of a tree on, the one that promises most first.
+/// Continues to cut the leaves of a tree, the most promising first.
 fn grow(
     mut nodes: Vec<Node>,
     mut leaves: Vec<Leaf>,
@@ -170,12 +170,12 @@ fn grow(
     }
 }
 
-/// What a block without a good cut still promises, as a part of its cost: cuts that help only
-/// together (a ring's) are found by going on.
+/// Promise of a block without a good cut, as a fraction of its cost. Cuts that help only together (in a ring) are found
+/// by continuing.
 const POTENTIAL: f64 = 0.05;
 
-/// A cut that saves less than this part of the cost is poor. Of poor ones among the first `EARLY`, as many as `WIDE`
-/// are made, and the one stays after which the next cuts leave least.
+/// A cut that saves less than this fraction of the cost is poor. While there are at most `EARLY` leaves, `WIDE`
+/// alternatives of a poor cut are made. The one whose next cuts leave the least cost is kept.
 const POOR: f64 = 0.5;
 const EARLY: usize = 3;
 const WIDE: usize = 2;

@@ -1,18 +1,18 @@
-//! A part sliced by parallel planes, and hulls that grow slice by slice.
+//! Slices of a part between parallel planes, and hulls that grow slice by slice.
 
 use super::grower::{Bounds, Grower, Places};
 use super::part::Part;
 use super::support::{Candidate, support};
 use super::vector::{dot, lerp};
 
-/// A part cut into slices by parallel planes: support points of the slices and of the sections between.
+/// The support points of a part's slices between parallel planes, and of the sections in these planes.
 pub(super) struct Slices {
     slices: Vec<Vec<[f64; 3]>>,
     sections: Vec<Vec<[f64; 3]>>,
 }
 
 impl Slices {
-    /// Slices across z of the `turned` coordinates, those in `frame`; planes ascending.
+    /// Slices across z of the coordinates `turned`, which are those in `frame`; planes ascending.
     pub fn new(
         part: &Part,
         turned: &[[f64; 3]],
@@ -47,12 +47,12 @@ impl Slices {
             let c = t.map(|i| code[i as usize]);
             let (least, most) = (c[0].min(c[1]).min(c[2]), c[0].max(c[1]).max(c[2]));
             if least == most && least % 2 == 0 {
-                // In a plane: with the body behind it.
+                // In a plane: goes with the body behind it.
                 let bit = 1 << (least / 2 - u8::from(part.faces(t, frame[2])));
                 t.iter().for_each(|&i| mask[i as usize] |= bit);
                 continue;
             }
-            // Slices that the triangle reaches into: first to last.
+            // The first and last slice that the triangle reaches into.
             let (first, last) = (least / 2, (most - 1) / 2);
             for k in 0..3 {
                 let v = c[k];
@@ -108,8 +108,8 @@ impl Slices {
         }
     }
 
-    /// Grows a hull over the slices, upwards or downwards: the cost at each plane in that order (zero
-    /// where there is nothing yet), and the whole hull. `cost` is of a hull that ends at the plane with this index.
+    /// Grows a hull over the slices, upwards or downwards. Returns the cost at each plane in that order (zero while the
+    /// hull is empty), and the whole hull. `cost` evaluates a hull that ends at the plane with the given index.
     pub fn sweep(
         &self,
         upwards: bool,
@@ -129,7 +129,7 @@ impl Slices {
                 (planes - n, planes - 1 - n)
             };
             take(&self.slices[slice], &mut hull);
-            // A section counts only with something beside it.
+            // A section counts only if the hull is not empty.
             if !hull.hull.points.is_empty() {
                 take(&self.sections[section], &mut hull);
             }
@@ -145,13 +145,13 @@ impl Slices {
     }
 }
 
-/// The support points of candidates, which are indices of these points.
+/// The support points of candidates, whose indices refer to `points`.
 fn farthest(candidates: &[Candidate], points: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let found = support(candidates).into_iter();
     found.map(|i| points[i as usize]).collect()
 }
 
-/// Scaling that makes a slice a cube.
+/// Scaling of a slice to a cube.
 struct Scaling {
     centre: [f64; 3],
     factor: [f64; 3],

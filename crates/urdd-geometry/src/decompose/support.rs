@@ -1,23 +1,23 @@
-//! Support points in a fixed set of directions: a bounded stand-in for a point set's hull.
+//! Support points in a fixed set of directions: a bounded approximation of a point set's hull.
 //!
-//! A part may have thousands of points; its hull is described well enough for the *search* by the
-//! farthest point in each of [`COUNT`] directions. Hulls do not change under scaling along axes, so
-//! flat sets are best scaled to a cube first: then the directions find their rims.
+//! A part may have thousands of points. For the *search*, the farthest point in each of [`COUNT`] directions describes
+//! its hull well enough. Scaling along the axes does not change which points are hull corners, so flat sets are best
+//! scaled to a cube first: then the directions find their rims.
 
 use std::sync::LazyLock;
 
 use fearless_simd::{Level, Simd, dispatch, f32x16, prelude::*, u32x16};
 
-/// Directions side by side.
+/// Directions per row.
 const WIDTH: usize = 16;
 
-/// Rows of directions.
+/// Number of rows.
 const ROWS: usize = 3;
 
 /// Number of directions.
 const COUNT: usize = ROWS * WIDTH;
 
-/// A number for each direction.
+/// One value for each direction.
 type Row<T> = [[T; WIDTH]; ROWS];
 
 struct Directions {
@@ -26,7 +26,7 @@ struct Directions {
     z: Row<f32>,
 }
 
-/// The 26 directions of a cube's faces, corners and edges, the rest a Fibonacci lattice on the sphere
+/// The 26 directions of a cube's faces, corners and edges, and a Fibonacci lattice on the sphere for the rest
 /// (Gonzalez, "Measurement of areas on a sphere using Fibonacci and latitude-longitude lattices", 2010).
 static DIRECTIONS: LazyLock<Directions> = LazyLock::new(|| {
     let mut list: Vec<[f64; 3]> = Vec::with_capacity(COUNT);
@@ -60,7 +60,7 @@ static DIRECTIONS: LazyLock<Directions> = LazyLock::new(|| {
     out
 });
 
-/// A point, and which one it is.
+/// A point and its index.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     at: [f32; 3],
@@ -76,7 +76,7 @@ impl Candidate {
     }
 }
 
-/// The different support points, in the order of the directions; of equally far ones the first.
+/// The distinct support points, in the order of the directions; the first of equally far ones.
 pub(super) fn support(candidates: &[Candidate]) -> Vec<u32> {
     let mut out: Vec<u32> = Vec::with_capacity(COUNT);
     if candidates.is_empty() {
@@ -90,7 +90,7 @@ pub(super) fn support(candidates: &[Candidate]) -> Vec<u32> {
     out
 }
 
-/// For each direction the index of the point that is farthest in it, the first of equals; of one point or more.
+/// For each direction, the index of the farthest point, the first of equals. `candidates` must not be empty.
 fn farthest_at(level: Level, candidates: &[Candidate]) -> Row<u32> {
     dispatch!(level, simd => farthest(simd, &DIRECTIONS, candidates))
 }
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn each_instruction_set_finds_what_the_plain_loop_finds() {
         for count in [1, 2, 5, 16, 33, 400] {
-            // On a coarse grid, so that many are equally far, also in directions with a zero.
+            // On a coarse grid, so that many are equally far, also in directions with a zero coordinate.
             let candidates: Vec<Candidate> = (0..count)
                 .map(|i| {
                     let x = f64::from(i);

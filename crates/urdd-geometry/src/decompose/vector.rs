@@ -1,4 +1,4 @@
-//! The few vector operations that the search needs.
+//! Vector operations for the search.
 
 pub(super) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
@@ -20,7 +20,7 @@ pub(super) fn norm(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// The point at `t` from `a` to `b`.
+/// The point at parameter `t` from `a` to `b`.
 pub(super) fn lerp(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
     [
         a[0] + t * (b[0] - a[0]),
@@ -68,7 +68,7 @@ pub(super) fn nearest_on_triangle(p: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> [f64
         let (v, w) = (vb / sum, vc / sum);
         [0, 1, 2].map(|i| a[i] + ab[i] * v + ac[i] * w)
     } else {
-        // A triangle without area that none of the edge cases took: its nearest corner bounds the distance.
+        // A degenerate triangle that no edge case handled: its nearest corner bounds the distance.
         let near = |q: [f64; 3], r: [f64; 3]| {
             if norm(sub(p, r)) < norm(sub(p, q)) {
                 r

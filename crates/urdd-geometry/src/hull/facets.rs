@@ -1,11 +1,10 @@
-//! From quickhull's triangles to the hull's own corners and faces, in a fixed order.
+//! Converts quickhull's triangles to the hull's corners and faces, in canonical order.
 
 use super::super::mesh::Mesh;
 use super::predicates::{Point, lexicographic, side_of_plane};
 use super::quickhull::Triangle;
 
-/// Joins triangles in one plane to faces, drops what is no corner, and cuts the faces into
-/// triangles anew.
+/// Joins coplanar triangles to facets, drops points that are not corners, and triangulates the facets again.
 pub fn triangulate(points: &[Point], triangles: &[Triangle]) -> Vec<[u32; 3]> {
     let (facet, facets) = facet_of_each(points, triangles);
     let is_corner = corners(points.len(), triangles, &facet);
@@ -26,7 +25,7 @@ pub fn triangulate(points: &[Point], triangles: &[Triangle]) -> Vec<[u32; 3]> {
         edges = rest;
         let mut polygon = walk(own);
         polygon.retain(|p| is_corner[*p as usize]);
-        // Begin at the first corner in space, so that the cut does not hang on how we came here.
+        // Start at the lexicographically first corner, so that the result does not depend on the triangle order.
         let by_value = |(_, p): &(usize, &u32), (_, q): &(usize, &u32)| {
             lexicographic(&points[**p as usize], &points[**q as usize])
         };
@@ -38,7 +37,7 @@ pub fn triangulate(points: &[Point], triangles: &[Triangle]) -> Vec<[u32; 3]> {
     result
 }
 
-/// For each triangle its facet, and how many facets there are.
+/// The facet of each triangle, and the number of facets.
 fn facet_of_each(points: &[Point], triangles: &[Triangle]) -> (Vec<u32>, u32) {
     let mut facet = vec![u32::MAX; triangles.len()];
     let mut facets = 0;
@@ -71,7 +70,7 @@ fn facet_of_each(points: &[Point], triangles: &[Triangle]) -> (Vec<u32>, u32) {
     (facet, facets)
 }
 
-/// For each point whether it is a corner of the hull: one where three facets or more meet.
+/// Whether each point is a corner of the hull, where at least three facets meet.
 fn corners(points: usize, triangles: &[Triangle], facet: &[u32]) -> Vec<bool> {
     let mut meetings: Vec<(u32, u32)> = Vec::with_capacity(3 * triangles.len());
     for (triangle, f) in triangles.iter().zip(facet) {
@@ -86,7 +85,7 @@ fn corners(points: usize, triangles: &[Triangle], facet: &[u32]) -> Vec<bool> {
     is_corner
 }
 
-/// The corners along a closed line of edges (facet, from, to), sorted by `from`.
+/// The corners along a closed loop of edges (facet, from, to), sorted by `from`.
 fn walk(edges: &[[u32; 3]]) -> Vec<u32> {
     let mut polygon = Vec::with_capacity(edges.len());
     let mut edge = edges.first();
@@ -103,8 +102,8 @@ fn walk(edges: &[[u32; 3]]) -> Vec<u32> {
     polygon
 }
 
-/// Cuts a convex polygon in halves again and again: of all simple ways the one with the fewest
-/// thin triangles on round faces.
+/// Triangulates a convex polygon by repeated bisection. Of the simple methods, it gives the fewest thin triangles on
+/// round faces.
 fn cut(polygon: &[u32], triangles: &mut Vec<[u32; 3]>) {
     let [first, .., last] = *polygon else { return };
     if polygon.len() < 3 {
@@ -116,8 +115,8 @@ fn cut(polygon: &[u32], triangles: &mut Vec<[u32; 3]>) {
     cut(&polygon[middle..], triangles);
 }
 
-/// The mesh of the triangles: vertices sorted by value, each triangle from its lowest vertex on,
-/// triangles sorted.
+/// The mesh in canonical order: vertices sorted by value, each triangle rotated to start at its lowest index, triangles
+/// sorted.
 pub fn canonical(points: &[Point], triangles: Vec<[u32; 3]>) -> Mesh {
     let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
     used.sort_unstable();

@@ -1,14 +1,14 @@
-//! Hulls of points in one plane: a polygon, once from each side.
+//! Hulls of coplanar points: a two-sided polygon.
 
 use super::predicates::{Point, lexicographic, turn};
 
-/// The polygon's triangles, front and back. `triangle` is of three points that are not on one line.
+/// The polygon's triangles, front and back. `triangle` is three points that are not collinear.
 pub fn triangulate(points: &[Point], triangle: [u32; 3]) -> Vec<[u32; 3]> {
     let corners = outline(points, triangle);
     let (Some(&first), Some(&second)) = (corners.first(), corners.get(1)) else {
         return Vec::new();
     };
-    // Two fans from different corners: they share no diagonal, so no edge is in four triangles.
+    // The two fans start from different corners and share no diagonal, so no edge is in four triangles.
     let fan = |tip: u32, rest: &[u32]| -> Vec<[u32; 3]> {
         rest.windows(2)
             .map(|pair| [tip, pair[0], pair[1]])
@@ -25,14 +25,14 @@ pub fn triangulate(points: &[Point], triangle: [u32; 3]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// The polygon's corners in order: Andrew's monotone chain, on the shadow along the coordinate in
-/// which the plane is least steep. A shadow keeps lines, and who is between whom.
+/// The polygon's corners in order: Andrew's monotone chain on the projection along the axis closest to the plane's
+/// normal. The projection preserves lines and betweenness.
 fn outline(points: &[Point], triangle: [u32; 3]) -> Vec<u32> {
     let [a, b, c] = triangle.map(|i| points[i as usize]);
     let shadows = [[1, 2], [2, 0], [0, 1]];
     let size =
         |[i, j]: [usize; 2]| ((b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i])).abs();
-    // By rounding alone the largest area may be none: then it is any shadow with an exact turn.
+    // Rounding can make the largest area 0, so only projections with an exact non-zero orientation qualify.
     let best = shadows
         .into_iter()
         .filter(|[i, j]| turn([a[*i], a[*j]], [b[*i], b[*j]], [c[*i], c[*j]]).is_ne())

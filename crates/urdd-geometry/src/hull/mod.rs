@@ -1,13 +1,12 @@
-//! Convex hulls, exact.
+//! Exact convex hulls.
 //!
-//! Quickhull (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The Quickhull Algorithm for Convex Hulls,
-//! ACM Transactions on Mathematical Software 22, 1996), with exact predicates in place of its
-//! tolerances: nothing is merged or moved. Triangles in one plane are joined before the end, so what
-//! comes out are the corners of the hull and nothing else.
+//! Quickhull (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The Quickhull Algorithm for Convex Hulls, ACM Transactions on
+//! Mathematical Software 22, 1996) with exact predicates instead of tolerances: no points are merged or moved. A final
+//! step joins coplanar triangles, so the result contains only the corners of the hull.
 //!
-//! parry3d's `convex_hull` was tried first. It is as fast, and right on meshes as robots have them,
-//! but what is thinner than about 1e-4 of its length it takes for flat, or for a line: points are
-//! then left outside by up to that much, or a "hull" of two vertices comes back.
+//! parry3d's `convex_hull` is as fast, and correct on typical robot meshes. But it treats a shape thinner than about
+//! 1e-4 of its length as flat or as a line: points then remain outside by up to that much, or the "hull" has two
+//! vertices.
 
 mod facets;
 mod flat;
@@ -21,60 +20,61 @@ use quickhull::Start;
 
 /// The convex hull of a set of points.
 ///
-/// - Each vertex equals one of the points (a negative zero comes out as zero), and is a corner of
-///   the hull: none lies on the segment or face between others. Sorted by x, then y, then z.
-/// - No point lies outside a face, by exact arithmetic, but for slivers: see
-///   [`ConvexHull::THINNEST`], and [`ConvexHull::OUTSIDE`] for the bound.
-/// - Closed and wound outwards: each edge is in two triangles, once in each direction.
-/// - Points in one plane have a *flat* hull: their polygon, once from each side.
-/// - It depends on the set of points only, not on their order or on how often each is given.
+/// - Each vertex equals one of the points (-0 becomes 0) and is a corner of the hull: no vertex is on the segment or
+///   face between others. Vertices are sorted by x, then y, then z.
+/// - No point is outside a face, by exact arithmetic, except for slivers: see [`ConvexHull::THINNEST`], and
+///   [`ConvexHull::OUTSIDE`] for the bound.
+/// - Closed and wound outward: each edge is in two triangles, once in each direction.
+/// - Coplanar points have a *flat* hull: their polygon, once for each side.
+/// - The result depends only on the set of points, not on their order or on duplicates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvexHull {
     mesh: Mesh,
     flat: bool,
 }
 
-/// Why a set of points has no hull with a surface.
+/// Why a set of points has no hull.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum HullError {
     /// There are no points.
     #[error("there are no points")]
     Empty,
-    /// A coordinate is NaN, infinite, or outside what arithmetic on lengths can hold.
+    /// A coordinate is NaN, infinite, or outside the range of exact arithmetic.
     #[error(
         "point {point} has a coordinate that is neither 0 nor between 1e-60 and 1e60 m in size"
     )]
     OutOfRange {
-        /// Which of the points given.
+        /// Index of the point.
         point: usize,
     },
-    /// All points are the same.
+    /// All points coincide.
     #[error("all points are one")]
     Point,
-    /// All points are on one line.
+    /// All points are collinear.
     #[error("all points lie on one line")]
     Line,
-    /// More points than a triangle's 32-bit indices can tell apart.
+    /// More points than a 32-bit index can address.
     #[error("more than 4,294,967,294 points")]
     TooMany,
 }
 
 impl ConvexHull {
-    /// Triangles thinner than this, height over length, have no normal that doubles could tell: its
-    /// error is about 2^-52 over this number. Their middle corner is left out, which moves the hull
-    /// inwards by at most this part of the triangle's length, less than single precision resolves
-    /// (2^-24 = 6e-8). Only hulls that would become flat that way keep such triangles.
+    /// Minimum height over length of a triangle. Doubles cannot determine the normal of a thinner one: its error is
+    /// about 2^-52 over this number. The middle corner of such a triangle is removed. That moves the hull inward by at
+    /// most this fraction of the triangle's length, less than single precision resolves (2^-24 = 6e-8). Such triangles
+    /// remain only in hulls that would otherwise become flat.
     pub const THINNEST: f64 = 1e-8;
 
-    /// How far outside the plane of a triangle, computed in doubles, a point may be, as a part of
-    /// the hull's extent: [`Self::THINNEST`] for a corner left out (twice, should one go that
-    /// another was held against), and 2^-52 / 1e-8 = 2e-8 for each of the two roundings of a normal.
+    /// How far a point may be outside the plane of a triangle, computed in doubles, as a fraction of the hull's extent.
+    /// It sums [`Self::THINNEST`] for a removed corner (twice, if a corner is removed that another was measured
+    /// against) and 2^-52 / 1e-8 = 2e-8 for each of the two roundings of a normal.
     pub const OUTSIDE: f64 = 6e-8;
 
     /// The hull of the points.
     ///
     /// # Errors
-    /// [`HullError`]: a coordinate out of range, or no three points off one line.
+    /// [`HullError`] if there are no or too many points, a coordinate is out of range, or all points coincide or are
+    /// collinear.
     pub fn new(points: &[Point]) -> Result<Self, HullError> {
         if u32::try_from(points.len()).is_ok_and(|n| n < u32::MAX) {
             // Adding 0 turns -0.0 into 0.0.
@@ -88,7 +88,7 @@ impl ConvexHull {
         }
     }
 
-    /// The exact hull, and then that of its corners without slivers, as long as this is solid.
+    /// The exact hull, then repeatedly the hull of its corners without slivers, while that is not flat.
     fn of_checked(points: &[Point]) -> Result<Self, HullError> {
         let mut hull = Self::exact(points)?;
         for _ in 0..slivers::ROUNDS {
@@ -128,7 +128,7 @@ impl ConvexHull {
         self.mesh
     }
 
-    /// Whether all points are in one plane, exactly: a polygon seen from both sides.
+    /// Whether all points are exactly coplanar: the hull is then a two-sided polygon.
     pub fn is_flat(&self) -> bool {
         self.flat
     }

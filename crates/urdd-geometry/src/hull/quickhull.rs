@@ -1,5 +1,5 @@
-//! Quickhull over exact predicates: from a tetrahedron, take in the farthest point of a face until
-//! no point is outside.
+//! Quickhull with exact predicates: start from a tetrahedron and add the farthest point outside a face until no point
+//! is outside.
 
 use std::cmp::Ordering;
 use std::collections::VecDeque;
@@ -9,38 +9,38 @@ use nalgebra::Vector3;
 use super::HullError;
 use super::predicates::{Point, collinear, lexicographic, side_of_plane};
 
-/// What quickhull starts from, as indices of points.
+/// The initial simplex, as point indices.
 pub enum Start {
-    /// Four points that are not in one plane.
+    /// Four points that are not coplanar.
     Tetrahedron([u32; 4]),
-    /// All points are in one plane; three that are not on one line.
+    /// All points are coplanar; these three are not collinear.
     Plane([u32; 3]),
 }
 
 /// A triangle of the hull.
 #[derive(Clone, Debug)]
 pub struct Triangle {
-    /// Indices of points, counterclockwise from outside.
+    /// Point indices, counterclockwise from outside.
     pub corners: [u32; 3],
-    /// The triangle across the edge from corner k to corner k + 1.
+    /// Neighbour k is the triangle across the edge from corner k to corner k + 1.
     pub neighbours: [u32; 3],
 }
 
-/// A triangle while the hull grows, with the points that are outside of it.
+/// A triangle of the growing hull, with the points assigned to it.
 struct Face {
     triangle: Triangle,
     anchor: Vector3<f64>,
     normal: Vector3<f64>,
-    /// A height over the face below this may have the wrong sign.
+    /// Error bound: a computed height below this may have the wrong sign.
     doubt: f64,
     outside: Vec<u32>,
-    /// The farthest of `outside`, and its height.
+    /// The farthest point of `outside`, and its height.
     farthest: Option<(u32, f64)>,
     removed: bool,
     visited_for: u32,
 }
 
-/// Four points far apart, chosen by value: neither order nor repetition of points matters.
+/// Four points that are far apart. They are chosen by value, so neither order nor duplicates matter.
 pub fn start(points: &[Point]) -> Result<Start, HullError> {
     let indices = 0..points.len() as u32;
     let at = |i: u32| points[i as usize];
@@ -57,7 +57,7 @@ pub fn start(points: &[Point]) -> Result<Start, HullError> {
             .map(|i| (measure(i), i))
             .max_by(|(x, i), (y, j)| x.total_cmp(y).then_with(|| by_value(i, j)))
     };
-    // The farthest as doubles see it; where rounding hid it, any that is off exactly.
+    // The farthest point as computed in doubles. If rounding hid it, any point that is exactly off the line or plane.
     let axis = vector(b);
     let off_line = |i: &u32| !collinear(at(a), at(b), at(*i));
     let c = far(&|i| axis.cross(&vector(i)).norm_squared())
@@ -73,7 +73,7 @@ pub fn start(points: &[Point]) -> Result<Start, HullError> {
         .or_else(|| indices.clone().filter(off_plane).min_by(by_value));
     Ok(match d {
         None => Start::Plane([a, b, c]),
-        // The fourth point goes below the first three.
+        // The fourth point must be below the first three.
         Some(d) if side_of_plane(at(a), at(b), at(c), at(d)) == Ordering::Less => {
             Start::Tetrahedron([a, b, c, d])
         }
@@ -81,7 +81,7 @@ pub fn start(points: &[Point]) -> Result<Start, HullError> {
     })
 }
 
-/// The hull's triangles. Some corners may still lie on an edge or in a face.
+/// The hull's triangles. Some corners may still be on an edge or in a face.
 pub fn grow(points: &[Point], corners: [u32; 4]) -> Vec<Triangle> {
     let mut hull = Growing::new(points);
     let [a, b, c, d] = corners;
@@ -111,7 +111,7 @@ struct Growing<'a> {
     /// Side lengths of the axis-aligned box of all points.
     extent: Vector3<f64>,
     faces: Vec<Face>,
-    /// For a point on the horizon, the new face whose edge starts there.
+    /// For each point on the horizon, the new face whose edge starts there.
     face_from: Vec<u32>,
     spare_lists: Vec<Vec<u32>>,
 }
@@ -148,9 +148,8 @@ impl<'a> Growing<'a> {
             },
             anchor,
             normal: u.cross(&v),
-            // Shewchuk's bound for this expression is (7 + 56e)e times the sum of the absolute
-            // values of its six products, e = 2^-53; here they are at most size . extent. The
-            // factor is more than twice that.
+            // Shewchuk's bound for this expression is (7 + 56e)e times the sum of the absolute values of its six
+            // products, with e = 2^-53. That sum is at most size . extent. The factor is more than twice the bound.
             doubt: 8.0 * f64::EPSILON * size.dot(&self.extent),
             outside: self.spare_lists.pop().unwrap_or_default(),
             farthest: None,
@@ -159,7 +158,7 @@ impl<'a> Growing<'a> {
         });
     }
 
-    /// The height of a point over a face, times twice the face's area, if it is outside.
+    /// The height of a point over a face, times twice the face's area; `None` unless the point is outside.
     #[inline]
     fn height_outside(&self, face: &Face, point: u32) -> Option<f64> {
         let p = self.points[point as usize];
@@ -174,8 +173,8 @@ impl<'a> Growing<'a> {
         }
     }
 
-    /// Puts each point on the list of the first face, from `first` on, that it is outside of. A
-    /// point outside of none is inside the hull for good.
+    /// Assigns each point to the first face, from index `first`, that it is outside of. A point that is not outside any
+    /// face is inside the hull and never considered again.
     fn assign(&mut self, candidates: &[u32], first: usize) {
         for &point in candidates {
             let found = (first..self.faces.len())
@@ -194,7 +193,7 @@ impl<'a> Growing<'a> {
         }
     }
 
-    /// Adds a point that is outside of `seen_from`: the faces that see it make way for a cone.
+    /// Adds a point outside `seen_from`: a cone replaces the faces visible from the point.
     fn take_in(&mut self, apex: u32, seen_from: u32) {
         let mut visible = vec![seen_from];
         let mut horizon = Vec::new();
@@ -226,7 +225,7 @@ impl<'a> Growing<'a> {
             let new = self.faces.len() as u32;
             self.face_from[from as usize] = new;
             let links = &mut self.faces[beyond as usize].triangle;
-            // The two triangles of an edge may be neighbours twice only in a flat hull.
+            // Only in a flat hull can two triangles be neighbours twice.
             if let Some(k) = links.neighbours.iter().position(|n| *n == behind) {
                 links.neighbours[k] = new;
             }
@@ -241,7 +240,7 @@ impl<'a> Growing<'a> {
         for f in visible {
             let mut list = std::mem::take(&mut self.faces[f as usize].outside);
             self.faces[f as usize].farthest = None;
-            // Quick farewell to the apex and its repetitions, which are level with all new faces.
+            // Drop the apex and its duplicates at once: they are coplanar with all new faces.
             list.retain(|p| self.points[*p as usize] != self.points[apex as usize]);
             self.assign(&list, first);
             list.clear();

@@ -1,4 +1,4 @@
-//! Arcs: the normals about an edge of the hull.
+//! Arcs: the normals that rotate about an edge of the hull.
 
 use std::cmp::Ordering;
 
@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 
 use super::shadow::{Candidate, Caster, Edge};
 
-/// What is known of the smallest box with some axis.
+/// Known bounds for the smallest box with a given axis.
 #[derive(Clone, Copy)]
 pub struct Known {
-    /// Its volume, or one that it is not below.
+    /// Its volume, or a lower bound.
     pub volume: f64,
     /// See [`Candidate::steepness`].
     pub steepness: f64,
@@ -31,13 +31,13 @@ impl Known {
 
 /// A part of an arc.
 pub struct Stretch {
-    /// No box on the stretch is expected to be smaller.
+    /// Expected lower bound of the volumes on the stretch.
     pub promise: f64,
-    /// Which arc.
+    /// Index of the arc.
     pub arc: usize,
-    /// Where it begins and ends: 0 and 1 are the ends of the arc.
+    /// Start and end: 0 and 1 are the ends of the arc.
     pub parts: [f64; 2],
-    /// What is known of its ends.
+    /// Known bounds at its ends.
     pub ends: [Known; 2],
 }
 
@@ -47,7 +47,7 @@ impl Stretch {
         0.5 * (low + high)
     }
 
-    /// The order of the queue: least promise first, then by place.
+    /// Sort key of the queue: lowest promise first, then by position.
     fn key(&self) -> (f64, usize, f64) {
         (self.promise, self.arc, self.parts[0])
     }
@@ -77,9 +77,9 @@ impl Eq for Stretch {}
 /// The normals between those of the two triangles at an edge.
 pub struct Arc {
     from: Vector3<f64>,
-    /// At a right angle to `from`, towards the other end.
+    /// Perpendicular to `from`, towards the other end.
     towards: Vector3<f64>,
-    /// From one end to the other, radians.
+    /// Angle between the ends, radians.
     pub angle: f64,
 }
 
@@ -87,7 +87,7 @@ impl Arc {
     pub fn new(caster: &Caster, edge: &Edge) -> Self {
         let [from, to] = [edge.left, edge.right].map(|t| caster.normal(t as usize));
         let along = caster.along(edge);
-        // Normals turn about the edge, also where they are nearly opposite.
+        // Normals rotate about the edge, even if they are nearly opposite.
         let mut towards = along.cross(&from);
         let sine = towards.dot(&to);
         if sine < 0.0 {
@@ -100,7 +100,7 @@ impl Arc {
         }
     }
 
-    /// From 0 at one end to 1 at the other.
+    /// The normal at a position from 0 at one end to 1 at the other.
     pub fn at(&self, part: f64) -> Vector3<f64> {
         let (sin, cos) = (self.angle * part.clamp(0.0, 1.0)).sin_cos();
         (self.from * cos + self.towards * sin).normalize()

@@ -1,9 +1,8 @@
-//! The smallest rectangle about points of a plane.
+//! Minimum-area rectangles of points in a plane.
 //!
-//! One of its sides lies along an edge of their convex hull (H. Freeman, R. Shapira, Determining the
-//! Minimum-Area Encasing Rectangle for an Arbitrary Closed Curve, Communications of the ACM 18,
-//! 1975); all edges are tried in one turn (G. Toussaint, Solving Geometric Problems with the
-//! Rotating Calipers, MELECON 1983).
+//! One side of the rectangle contains an edge of the convex hull (H. Freeman, R. Shapira, Determining the Minimum-Area
+//! Encasing Rectangle for an Arbitrary Closed Curve, Communications of the ACM 18, 1975). Rotating calipers try all
+//! edges in one turn (G. Toussaint, Solving Geometric Problems with the Rotating Calipers, MELECON 1983).
 
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 
@@ -13,7 +12,7 @@ type Point2 = [f64; 2];
 #[derive(Clone, Copy, Debug)]
 pub struct Rectangle {
     pub area: f64,
-    /// The sum of two sides at a corner.
+    /// The sum of two adjacent side lengths.
     pub half_perimeter: f64,
     /// The unit direction of a side.
     pub side: Point2,
@@ -31,15 +30,15 @@ fn minus(u: Point2, v: Point2) -> Point2 {
     [u[0] - v[0], u[1] - v[1]]
 }
 
-/// The smallest rectangle about a convex polygon, counterclockwise, or a closed line that is one but
-/// for rounding and for repeated points. `None` if it has no area.
+/// The minimum-area rectangle of a counterclockwise convex polygon. The polygon may deviate from convexity by rounding,
+/// and may repeat points. `None` if it has no area.
 pub fn smallest_rectangle(polygon: &mut Vec<Point2>) -> Option<Rectangle> {
     straighten(polygon);
     let n = polygon.len();
     if n < 3 {
         return None;
     }
-    // Edges and corners alike, one round and the first again.
+    // Close the polygon: append its first corner.
     polygon.push(polygon[0]);
     let Best {
         area,
@@ -58,7 +57,7 @@ pub fn smallest_rectangle(polygon: &mut Vec<Point2>) -> Option<Rectangle> {
     })
 }
 
-/// The best rectangle so far. Its half perimeter still holds the length of `along` as a factor.
+/// The best rectangle so far. Its half perimeter is scaled by the length of `along`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Best {
     area: f64,
@@ -73,14 +72,14 @@ impl Best {
         along: [0.0; 2],
     };
 
-    /// Takes the rectangle along an edge, with the corners farthest ahead, across and behind.
+    /// Considers the rectangle along an edge, given the corners farthest ahead, across and behind.
     #[inline(always)]
     fn take(&mut self, polygon: &[Point2], i: usize, [ahead, across, behind]: [usize; 3]) {
         let along = minus(polygon[i + 1], polygon[i]);
         let normal = [-along[1], along[0]];
         let length = dot(minus(polygon[ahead], polygon[behind]), along);
         let height = dot(minus(polygon[across], polygon[i]), normal);
-        // Both hold the length of the edge as a factor.
+        // Both are scaled by the length of the edge.
         let area = length * height / dot(along, along);
         if area < self.area {
             *self = Self {
@@ -92,8 +91,8 @@ impl Best {
     }
 }
 
-/// Tries each edge of a polygon whose first corner stands at its end again. The corner farthest in a direction is
-/// found by walking on from where the last edge had it.
+/// Tries each edge of a closed polygon, whose last corner repeats the first. The search for the farthest corner in a
+/// direction continues from its position for the previous edge.
 fn one_by_one(polygon: &[Point2]) -> Best {
     let n = polygon.len() - 1;
     let edge = |i: usize| minus(polygon[i + 1], polygon[i]);
@@ -123,14 +122,14 @@ fn one_by_one(polygon: &[Point2]) -> Best {
     best
 }
 
-/// Most edges of which a set is one word.
+/// Maximum number of edges for a bit set in one word.
 const MOST_AT_ONCE: usize = 64;
 
-/// Edges of a block.
+/// Edges per block.
 const WIDTH: usize = 8;
 
-/// The same as [`one_by_one`], bit for bit, for [`MOST_AT_ONCE`] edges or less: where walks end is asked of all edges
-/// at once, so that there are no branches that nobody can foresee.
+/// The same as [`one_by_one`], bit for bit, for at most [`MOST_AT_ONCE`] edges. Tests all edges at once where a walk
+/// ends, which avoids unpredictable branches.
 fn at_once(level: Level, polygon: &[Point2]) -> Best {
     dispatch!(level, simd => at_once_in(simd, polygon))
 }
@@ -152,7 +151,7 @@ fn at_once_in<S: Simd>(simd: S, polygon: &[Point2]) -> Best {
     for i in 0..n {
         let along_x = f64x8::splat(simd, x[i / WIDTH][i % WIDTH]);
         let along_y = f64x8::splat(simd, y[i / WIDTH][i % WIDTH]);
-        // Edges at which the walks ahead, across and behind end.
+        // The edges at which the walks ahead, across and behind end.
         let mut ends = [0, 0, 0];
         for b in (0..blocks).rev() {
             let edge_x = f64x8::load_array_ref(simd, &x[b]);
@@ -177,7 +176,7 @@ fn at_once_in<S: Simd>(simd: S, polygon: &[Point2]) -> Best {
     best
 }
 
-/// The first of a set from `from` on, or else the first of all, or else `from`.
+/// The first member of a set from `from` on, otherwise the first member of the set, otherwise `from`.
 #[inline(always)]
 fn next_of(set: u64, from: usize) -> usize {
     let later = set >> from << from;
@@ -187,7 +186,7 @@ fn next_of(set: u64, from: usize) -> usize {
     }
 }
 
-/// Removes what turns right or not at all from a closed line that is nearly a convex polygon.
+/// Removes corners that do not turn left from a closed polygon that is nearly convex.
 fn straighten(polygon: &mut Vec<Point2>) {
     let by_value = |p: &Point2, q: &Point2| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]));
     let Some((first, _)) = polygon
@@ -201,7 +200,7 @@ fn straighten(polygon: &mut Vec<Point2>) {
     let start = polygon[0];
     let mut kept = 1;
     for i in 1..=polygon.len() {
-        // The lowest corner stays, and closes the line.
+        // The lexicographically lowest corner stays, and closes the polygon.
         let p = polygon.get(i).copied().unwrap_or(start);
         while kept >= 2 {
             let (u, v) = (polygon[kept - 2], polygon[kept - 1]);
@@ -218,8 +217,8 @@ fn straighten(polygon: &mut Vec<Point2>) {
     polygon.truncate(kept);
 }
 
-/// The convex hull of points, counterclockwise, in place: Andrew's monotone chain. In doubles, which
-/// changes its area by no more than rounding does.
+/// The convex hull of points in place, counterclockwise: Andrew's monotone chain in doubles. The error of its area is
+/// within rounding.
 pub fn outline(points: &mut Vec<Point2>) {
     points.sort_unstable_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
     let mut polygon: Vec<Point2> = Vec::with_capacity(points.len() + 1);
@@ -250,8 +249,9 @@ mod tests {
     fn each_instruction_set_finds_what_walking_finds() {
         for n in [3, 4, 6, 7, 8, 9, 12, 31, 40, 63, 64] {
             for turn in 0..20 {
-                // On an ellipse, so that opposite edges of even polygons are parallel but for rounding, and unturned
-                // rectangles and hexagons have edges at right angles; each fourth with a corner that turns right.
+                // On an ellipse, so that opposite edges of even polygons are parallel up to rounding, and unrotated
+                // rectangles and hexagons have edges at right angles. Every fourth polygon has a corner that turns
+                // right.
                 let turned = 0.3 * f64::from(turn / 2);
                 let mut polygon: Vec<Point2> = (0..n)
                     .map(|k| (2.0 * f64::from(k) + 1.0) * std::f64::consts::PI / f64::from(n))

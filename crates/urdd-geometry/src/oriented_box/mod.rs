@@ -1,4 +1,4 @@
-//! Oriented boxes of least volume about convex hulls.
+//! Minimum-volume oriented bounding boxes of convex hulls.
 
 mod arc;
 mod calipers;
@@ -13,31 +13,30 @@ use super::hull::ConvexHull;
 use search::{TIE, smallest_boxes};
 use shadow::Caster;
 
-/// A box that may be turned.
+/// An oriented box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrientedBox {
     /// The centre, metres.
     pub centre: [f64; 3],
-    /// Half of each side length, metres, along the box's own x, y and z.
+    /// Half of each edge length, metres, along the box's own x, y and z.
     pub half_extents: [f64; 3],
-    /// From the box's axes to those in which `centre` is given. The scalar part is not negative.
+    /// Rotation from the box's axes to the axes of `centre`. The scalar part is not negative.
     pub rotation: UnitQuaternion<f64>,
 }
 
 impl OrientedBox {
-    /// The box of least volume about a hull; of least area, if the hull is flat.
+    /// The minimum-volume bounding box of a hull, or the minimum-area one if the hull is flat.
     ///
-    /// Of the 24 ways to name a box's axes it is the one that turns least, by 63 degrees at most: so
-    /// roll, pitch and yaw are never near the pole. Of boxes within 1e-6 of the least volume it is
-    /// also the one that turns least; the axis-aligned one, if that is among them.
+    /// A box has 24 right-handed labellings of its axes. This function picks the smallest rotation, 63 degrees at most,
+    /// so roll, pitch and yaw are never near gimbal lock. Among boxes within 1e-6 of the least volume it also picks the
+    /// smallest rotation, or the axis-aligned box if that is one of them.
     ///
-    /// The search stops when nothing promises more than 1e-6 of the volume, or when its budget is
-    /// spent. Against a dense walk of all arcs, links of robots were 2e-6 off at worst. With half the
-    /// budget, random needles 100 times as long as thick were up to 4e-4 off.
+    /// The search stops when no candidate promises a gain of more than 1e-6 of the volume, or when its budget is spent.
+    /// Compared with a dense sampling of all arcs, boxes of robot links were at most 2e-6 too large. With half the
+    /// budget, random needles 100 times as long as thick were up to 4e-4 too large.
     ///
-    /// Each vertex of the hull is inside: its coordinates in the box, computed in doubles as
-    /// `R^T (p - centre)`, are not beyond the half extents. Another order of operations may differ
-    /// in the last digit.
+    /// Every vertex of the hull is inside: its coordinates in the box, computed in doubles as `R^T (p - centre)`, do
+    /// not exceed the half extents. Another order of operations may differ in the last digit.
     pub fn around(hull: &ConvexHull) -> Self {
         let aligned = Self::with_rotation(hull, UnitQuaternion::identity());
         let candidates = if hull.is_flat() {
@@ -57,7 +56,7 @@ impl OrientedBox {
         let turns_least = candidates
             .iter()
             .map(|candidate| nearest_to_identity(&candidate.axes))
-            // The first of equals: the order of the candidates is that of the search.
+            // The first of equals wins: the search order is fixed.
             .reduce(|best, other| {
                 if other.trace() > best.trace() {
                     other
@@ -76,20 +75,20 @@ impl OrientedBox {
         found
     }
 
-    /// Whether a box that is not larger than `volume`, cubic metres, holds a hull that is not flat.
+    /// Whether a box of at most `volume`, cubic metres, encloses a non-flat hull.
     ///
-    /// The search is that of [`Self::around`], but nothing is looked at that promises no such box: much less work
-    /// where `volume` is near the least.
+    /// The search is that of [`Self::around`], but skips what cannot reach `volume`. That is much less work if `volume`
+    /// is near the minimum.
     pub fn exists_within(hull: &ConvexHull, volume: f64) -> bool {
         !smallest_boxes(hull, volume).is_empty()
     }
 
-    /// The smallest box of this orientation about a hull.
+    /// The smallest box of this orientation that encloses a hull.
     fn with_rotation(hull: &ConvexHull, rotation: UnitQuaternion<f64>) -> Self {
         let to_box = rotation.to_rotation_matrix().into_inner().transpose();
         let vertices = || hull.mesh().vertices.iter().map(|p| Vector3::from(*p));
         let first = vertices().next().unwrap_or_default();
-        // From a vertex on, to keep the digits of what is small and far away.
+        // Relative to a vertex, so that small shapes far from the origin keep their precision.
         let offsets = || vertices().map(|p| to_box * (p - first));
         let low = offsets().fold(Vector3::zeros(), |low: Vector3<f64>, p| low.inf(&p));
         let high = offsets().fold(Vector3::zeros(), |high: Vector3<f64>, p| high.sup(&p));
@@ -103,12 +102,12 @@ impl OrientedBox {
         }
     }
 
-    /// Cubic metres.
+    /// Volume, cubic metres.
     pub fn volume(&self) -> f64 {
         8.0 * self.half_extents.iter().product::<f64>()
     }
 
-    /// Square metres.
+    /// Surface area, square metres.
     pub fn area(&self) -> f64 {
         let [x, y, z] = self.half_extents;
         8.0 * (x * y + y * z + z * x)
@@ -125,8 +124,7 @@ impl OrientedBox {
     }
 }
 
-/// Of the 24 right-handed ways to name and direct three axes, the rotation by the smallest angle,
-/// which is that of the largest trace.
+/// The rotation by the smallest angle among the 24 right-handed labellings of three axes. It has the largest trace.
 fn nearest_to_identity(axes: &[Vector3<f64>; 3]) -> Matrix3<f64> {
     let orders = [
         [0, 1, 2],
@@ -151,7 +149,7 @@ fn nearest_to_identity(axes: &[Vector3<f64>; 3]) -> Matrix3<f64> {
     best
 }
 
-/// The quaternion of a rotation whose scalar part is not negative; without negative zeros.
+/// The quaternion of a rotation with non-negative scalar part and without negative zeros.
 fn canonical(rotation: &UnitQuaternion<f64>) -> UnitQuaternion<f64> {
     let q = rotation.quaternion();
     let sign = if q.w < 0.0 { -1.0 } else { 1.0 };

@@ -1,7 +1,7 @@
-//! The stretches of arcs that are still to be looked at, most promising first.
+//! The queue of stretches to evaluate, most promising first.
 //!
-//! Shadows along several axes take less work together than one by one, and none depends on another. So the
-//! middles of the next few stretches are sketched at once; the order in which stretches are looked at stays the same.
+//! Shadows along several axes together take less work than one by one, and are independent. So the queue sketches the
+//! middles of the next few stretches at once, without changing the order of evaluation.
 
 use std::collections::BinaryHeap;
 
@@ -10,19 +10,19 @@ use nalgebra::Vector3;
 use super::arc::Stretch;
 use super::shadow::Candidate;
 
-/// A stretch, and the boxes with the axis in its middle.
+/// A stretch, and the boxes for the axis in its middle.
 pub struct Looked {
     pub stretch: Stretch,
     pub axis: Vector3<f64>,
-    /// The box about the coarse hull or, where there is none, about the hull.
+    /// The box of the coarse hull if there is one, otherwise of the hull.
     pub sketch: Option<Candidate>,
-    /// Where there is a coarse hull, the box about the hull, once it is worked out.
+    /// With a coarse hull: the box of the hull, once computed.
     pub fine: Option<Option<Candidate>>,
 }
 
 pub struct Queue {
     waiting: BinaryHeap<Stretch>,
-    /// The most promising last.
+    /// Sorted; the most promising is last.
     sketched: Vec<Looked>,
 }
 
@@ -38,8 +38,8 @@ impl Queue {
         self.waiting.extend(stretches);
     }
 
-    /// The most promising stretch, if it promises less than `limit`. Where it is not sketched, it is sketched together
-    /// with those that come next, up to `ahead`: `axis` is that of a stretch's middle.
+    /// The most promising stretch, if its promise is below `limit`. If it is not sketched yet, sketches it together
+    /// with the next ones, up to `ahead`. `axis` returns the axis in the middle of a stretch.
     pub fn pop(
         &mut self,
         limit: f64,
@@ -71,12 +71,12 @@ impl Queue {
         self.sketched.pop_if(|looked| promises(&looked.stretch))
     }
 
-    /// The stretches that are sketched, the most promising first.
+    /// The sketched stretches, the most promising first.
     pub fn sketched(&mut self) -> impl Iterator<Item = &mut Looked> {
         self.sketched.iter_mut().rev()
     }
 
-    /// The stretches that are left, in any order.
+    /// The remaining stretches, in any order.
     pub fn into_rest(self) -> Vec<Stretch> {
         let mut rest = self.waiting.into_vec();
         rest.extend(self.sketched.into_iter().map(|looked| looked.stretch));

@@ -1,14 +1,14 @@
-//! The search for the smallest box.
+//! The search for the minimum-volume box.
 //!
-//! Two faces of the smallest box that share an edge each lie along an edge of the hull (J. O'Rourke,
-//! Finding Minimal Enclosing Boxes, International Journal of Computer and Information Sciences 14,
-//! 1985). So one axis of it is a normal that turns about an edge of the hull, from the plane of one
-//! of its triangles to that of the other: an *arc*; and with that axis the box is the one about the
-//! shadow. What is left is a search along the arcs, one number each.
+//! Two adjacent faces of the smallest box each contain an edge of the hull (J. O'Rourke, Finding Minimal Enclosing
+//! Boxes, International Journal of Computer and Information Sciences 14, 1985). So one box axis is a normal that
+//! rotates about a hull edge, from the plane of one adjacent triangle to that of the other: an *arc*. Given this axis,
+//! the box follows from the hull's projection along it (its *shadow*). What remains is a one-dimensional search along
+//! each arc.
 //!
-//! The ends of arcs are the normals of faces. They come first, and are often the best; then the arcs,
-//! by branch and bound. Of large hulls a small one made from some of the corners is tried first: its
-//! boxes are never larger, so what is too large there needs no second look.
+//! The ends of arcs are face normals. They come first and are often the best. Then branch and bound searches the arcs.
+//! For a large hull, a coarse hull of some of its corners is tried first. Its boxes are never larger, so a box that is
+//! too large there is too large for the hull.
 
 use nalgebra::Vector3;
 
@@ -20,17 +20,17 @@ use super::vectors::AXES;
 
 /// A pass over the arcs.
 struct Pass {
-    /// How much of the greatest steepness a box's volume is expected to fall with.
+    /// The expected slope of a box's volume, as a fraction of the maximum steepness.
     slope: f64,
-    /// Shadows to cast: this many triangles in all, ...
+    /// Budget of shadows: this many triangles in all, ...
     triangles: usize,
-    /// ... but no fewer shadows than this.
+    /// ... but at least this many shadows.
     shadows: usize,
 }
 
-/// Hulls of links fall by less than a fifth of the greatest steepness; the first pass relies on that
-/// and finds the smallest box nearly always. The second hardly relies on anything, while its budget
-/// lasts: it is for hulls of few corners, which fall more steeply.
+/// On hulls of robot links, volumes fall by less than a fifth of the maximum steepness. The first pass relies on that
+/// and nearly always finds the smallest box. The second pass makes hardly any assumption, within its budget. It serves
+/// hulls with few corners, whose volumes fall more steeply.
 const PASSES: [Pass; 2] = [
     Pass {
         slope: 0.2,
@@ -44,36 +44,36 @@ const PASSES: [Pass; 2] = [
     },
 ];
 
-/// What is gained by less than this part of the volume is not worth looking for.
+/// Minimum gain, as a fraction of the volume, that justifies more search.
 const GAIN: f64 = 1e-6;
 
-/// Boxes that differ by less, as a part of their volume, count as equally small.
+/// Boxes whose volumes differ by less than this fraction count as equal.
 pub const TIE: f64 = 1e-6;
 
-/// Hulls of fewer corners than this are not made coarser.
+/// Hulls with at most this many corners get no coarse hull.
 const COARSE_ABOVE: usize = 150;
-/// Directions in which a coarse hull reaches as far as the hull.
+/// Number of directions in which a coarse hull extends as far as the hull.
 const COARSE_DIRECTIONS: usize = 64;
 
-/// Triangles that shadows of the hull itself may be cast of, in all. Hulls of links need some tens of millions. On a
-/// round hull of many thousand triangles each promises as much as the next, and all would be tried.
+/// Maximum number of triangles projected for shadows of the hull itself. Hulls of robot links need some tens of
+/// millions. On a round hull with many thousand triangles, all candidates are equally promising and all would be tried.
 const MOST_CAST: usize = 500_000_000;
 
-/// Of how many times [`AXES`] stretches the coarse hull's boxes are worked out at once.
+/// The number of batches of [`AXES`] stretches for which boxes of the coarse hull are computed at once.
 const AHEAD: usize = 4;
 
 struct Search {
     fine: Caster,
-    /// What is left of [`MOST_CAST`].
+    /// The remaining part of [`MOST_CAST`].
     left: usize,
     coarse: Option<Caster>,
     best: f64,
-    /// Boxes that were within [`TIE`] of the best when they were found.
+    /// Boxes that were within [`TIE`] of the best when found.
     found: Vec<Candidate>,
 }
 
-/// The boxes within [`TIE`] of the smallest that was found, of those that are not larger than `volume`, cubic metres.
-/// Where that is infinite, empty only for a hull without area.
+/// The boxes within [`TIE`] of the smallest one found that is at most `volume`, cubic metres. For an infinite `volume`
+/// the result is empty only if the hull has no area.
 pub fn smallest_boxes(hull: &ConvexHull, volume: f64) -> Vec<Candidate> {
     let mut search = Search {
         fine: Caster::new(hull),
@@ -92,7 +92,7 @@ pub fn smallest_boxes(hull: &ConvexHull, volume: f64) -> Vec<Candidate> {
     search.found
 }
 
-/// A hull of some of the corners.
+/// A hull of some of the corners; `None` for a small hull.
 fn coarse(hull: &ConvexHull) -> Option<Caster> {
     let vertices = &hull.mesh().vertices;
     if vertices.len() <= COARSE_ABOVE {
@@ -109,7 +109,7 @@ fn coarse(hull: &ConvexHull) -> Option<Caster> {
         .map(|hull| Caster::new(&hull))
 }
 
-/// Directions evenly over the sphere: points of a Fibonacci spiral.
+/// Evenly distributed directions: points of a Fibonacci spiral.
 fn spread(count: usize) -> impl Iterator<Item = Vector3<f64>> {
     let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
     (0..count).map(move |i| {
@@ -121,13 +121,13 @@ fn spread(count: usize) -> impl Iterator<Item = Vector3<f64>> {
 }
 
 impl Search {
-    /// The smallest box with this axis, which counts if it is among the best.
+    /// Computes the smallest box with this axis, and keeps it if it is among the best.
     fn try_axis(&mut self, axis: &Vector3<f64>) -> Known {
         let candidate = self.fine.smallest_box(axis);
         self.take(candidate)
     }
 
-    /// A box about the hull, which counts if it is among the best.
+    /// Keeps a box of the hull if it is among the best.
     fn take(&mut self, candidate: Option<Candidate>) -> Known {
         self.left = self.left.saturating_sub(self.fine.triangles());
         let Some(candidate) = candidate else {
@@ -140,7 +140,7 @@ impl Search {
         Known::of(&candidate)
     }
 
-    /// The boxes with these axes about the coarse hull or, where there is none, about the hull.
+    /// The boxes with these axes, for the coarse hull if there is one, otherwise for the hull.
     fn sketches(&mut self, axes: &[Vector3<f64>]) -> Vec<Option<Candidate>> {
         let caster = self.coarse.as_mut().unwrap_or(&mut self.fine);
         let mut sketches = Vec::with_capacity(axes.len());
@@ -150,12 +150,12 @@ impl Search {
         sketches
     }
 
-    /// Whether a box about the coarse hull leaves open whether that about the hull is among the best.
+    /// Whether the hull's box can be among the best, given the box of the coarse hull.
     fn is_open(&self, coarse: Option<&Candidate>) -> bool {
         self.left > 0 && coarse.is_none_or(|c| c.volume <= self.best)
     }
 
-    /// What is known of the middle of a stretch.
+    /// Evaluates the middle of a stretch.
     fn judge(&mut self, mut looked: Looked, queue: &mut Queue) -> Known {
         if self.coarse.is_none() {
             return self.take(looked.sketch);
@@ -163,7 +163,7 @@ impl Search {
         match (looked.sketch, looked.fine) {
             (Some(coarse), _) if !self.is_open(Some(&coarse)) => return Known::of(&coarse),
             (_, None) => {
-                // Others will be asked for soon; together they take less work.
+                // Other stretches will need their boxes soon; a batch takes less work.
                 let open = |l: &&mut Looked| l.fine.is_none() && self.is_open(l.sketch.as_ref());
                 let soon = queue.sketched().filter(open).take(AXES - 1);
                 let mut open: Vec<&mut Looked> = std::iter::once(&mut looked).chain(soon).collect();
@@ -210,8 +210,8 @@ impl Search {
         known
     }
 
-    /// Branch and bound: halves the stretch of an arc that promises most, until none promises a
-    /// better box than the best, or the pass has cast its shadows.
+    /// Branch and bound: repeatedly halves the most promising stretch. Ends when no stretch promises a better box, or
+    /// when the budget of the pass is spent.
     fn walk_arcs(&mut self, at_faces: &[Known]) {
         let edges = &self.fine.edges;
         let arcs: Vec<Arc> = edges
@@ -234,14 +234,14 @@ impl Search {
             .unwrap_or(&self.fine)
             .triangles()
             .max(1);
-        // Sketches of the coarse hull cost little beside what is then asked of the hull.
+        // Sketches of the coarse hull are cheap compared with the boxes of the hull.
         let ahead = AXES * if self.coarse.is_some() { AHEAD } else { 1 };
         for pass in PASSES {
             let judged = |mut stretch: Stretch| {
                 let [low, high] = stretch.parts;
                 let length = arcs[stretch.arc].angle * (high - low);
                 let [from, to] = stretch.ends;
-                // Falling from both ends at most that steeply, volumes meet here.
+                // Lower bound: lines that fall from both ends with this slope meet at this volume.
                 let fall = pass.slope * length * from.steepness.max(to.steepness);
                 stretch.promise = 0.5 * (from.volume + to.volume - fall);
                 stretch

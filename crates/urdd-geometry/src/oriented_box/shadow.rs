@@ -1,5 +1,5 @@
-//! The smallest box with one axis given: how far the hull reaches along the axis, times the smallest
-//! rectangle about its shadow across it.
+//! The smallest box with a given axis: the extent of the hull along the axis, times the minimum-area rectangle of its
+//! projection along the axis (its *shadow*).
 
 use nalgebra::Vector3;
 
@@ -10,7 +10,7 @@ use super::vectors::{AXES, Axes, beyond, reach};
 /// An edge of the hull between two triangles whose planes differ.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {
-    /// The vertices, in the order in which `left` has them.
+    /// The vertices, in the direction of `left`.
     pub vertices: [u32; 2],
     /// The triangle that has the edge in this direction.
     pub left: u32,
@@ -18,34 +18,34 @@ pub struct Edge {
     pub right: u32,
 }
 
-/// A hull, made ready for many shadows.
+/// A hull, prepared for many shadows.
 pub struct Caster {
-    /// The vertices, from the first vertex on.
+    /// The vertices, relative to the first vertex.
     vertices: Vec<Vector3<f64>>,
-    /// The triangles' unit normals; zero where a triangle has none.
+    /// The triangles' unit normals; zero for a degenerate triangle.
     normals: Vec<Vector3<f64>>,
     /// Edges whose triangles' normals differ.
     pub edges: Vec<Edge>,
     largest: Vector3<f64>,
-    /// No two vertices are farther apart.
+    /// Upper bound of the distance between two vertices: the diagonal of the bounding box.
     diameter: f64,
-    /// For each triangle the set of axes that it faces along.
+    /// For each triangle, the set of axes that it faces along.
     lit: Vec<u8>,
-    /// For each edge the set of axes for which one of its triangles does and the other does not, eight edges a word.
+    /// For each edge, the set of axes that only one of its triangles faces along; eight edges per word.
     border: Vec<u64>,
-    /// The outline's vertex after this one, where it is on the outline.
+    /// For each vertex on the outline, the next one.
     next: Vec<u32>,
     polygon: Vec<[f64; 2]>,
 }
 
-/// A box with one axis given.
+/// The smallest box with a given axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate {
-    /// Cubic metres.
+    /// Volume, cubic metres.
     pub volume: f64,
-    /// No box gets smaller by more than this per radian that its axes turn, cubic metres.
+    /// Upper bound of the decrease of the volume per radian of rotation, cubic metres.
     pub steepness: f64,
-    /// The three unit axes, right-handed; the given one is the first.
+    /// The three unit axes, right-handed; the first is the given one.
     pub axes: [Vector3<f64>; 3],
 }
 
@@ -77,7 +77,7 @@ impl Caster {
             })
             .filter(|edge| normals[edge.left as usize] != normals[edge.right as usize])
             .collect();
-        // From a vertex on, to keep the digits of what is small and far away.
+        // Relative to a vertex, so that small shapes far from the origin keep their precision.
         let vertices: Vec<Vector3<f64>> = (0..mesh.vertices.len() as u32)
             .map(|i| vertex(i) - vertex(0))
             .collect();
@@ -117,13 +117,12 @@ impl Caster {
         (to - from).normalize()
     }
 
-    /// The smallest box with this unit vector as an axis; `None` where the shadow is a point.
+    /// The smallest box with this unit vector as an axis; `None` if the shadow has no area.
     pub fn smallest_box(&mut self, axis: &Vector3<f64>) -> Option<Candidate> {
         self.smallest_boxes(&[*axis])[0]
     }
 
-    /// The same for several axes at once, one or more and [`AXES`] at most: less work for each. What stands after
-    /// the last axis means nothing.
+    /// The same for 1 to [`AXES`] axes at once, with less work for each. The values after the last axis are `None`.
     pub fn smallest_boxes(&mut self, axes: &[Vector3<f64>]) -> [Option<Candidate>; AXES] {
         let lanes = Axes::new(axes);
         let [low, high] = reach(&self.vertices, &lanes);
@@ -145,7 +144,7 @@ impl Caster {
         })
     }
 
-    /// Finds which triangles face along the axes, and the edges between those that do and those that do not.
+    /// Finds the triangles that face along the axes, and the border edges between these and the others.
     fn light(&mut self, axes: &Axes) {
         beyond(&self.normals, axes, GRAZING, &mut self.lit);
         let border = self.edges.chunks(8).map(|edges| {
@@ -159,9 +158,9 @@ impl Caster {
         self.border.extend(border);
     }
 
-    /// The smallest rectangle about the shadow along an axis, in the coordinates `u` and `v`.
+    /// The minimum-area rectangle of the shadow along an axis, in the coordinates `u` and `v`.
     ///
-    /// The shadow's outline is the border of the triangles that face along the axis.
+    /// The shadow's outline is the border of the triangles that face along the axis (the silhouette).
     fn shadow(&mut self, axis: usize, [u, v]: [&Vector3<f64>; 2]) -> Option<Rectangle> {
         let (mut count, mut vertex) = (0, 0);
         for (words, edges) in self.border.chunks(8).zip(self.edges.chunks(64)) {
@@ -186,7 +185,7 @@ impl Caster {
             vertex = self.next[vertex as usize];
         }
         if count < 3 || vertex != start {
-            // Rounding has torn the border, or nothing is lit: the hull is flat and seen edge on.
+            // Rounding broke the border, or no triangle faces along the axis: the hull is flat and seen edge-on.
             self.polygon.clear();
             self.polygon.extend(vertices.iter().map(project));
             outline(&mut self.polygon);
@@ -195,11 +194,11 @@ impl Caster {
     }
 }
 
-/// Of up to eight words of eight edges each, the set of edges whose bit `axis` is set.
+/// The set of edges whose bit `axis` is set, from up to eight words of eight edges each.
 fn one_axis(words: &[u64], axis: usize) -> u64 {
     /// The lowest bit of each byte.
     const LOWEST: u64 = 0x0101_0101_0101_0101;
-    /// Times a word of lowest bits, it gathers them in the highest byte, the first byte's at the bottom.
+    /// Multiplying a word of lowest bits by this gathers them in the highest byte, the first byte's bit lowest.
     const GATHER: u64 = 0x0102_0408_1020_4080;
     let mut set = 0;
     for (k, word) in words.iter().enumerate() {
@@ -208,11 +207,11 @@ fn one_axis(words: &[u64], axis: usize) -> u64 {
     set
 }
 
-/// A triangle is taken to lie along the axis, not to face it, if the cosine between its normal and
-/// the axis is below this: then its shadow is thinner than this part of its size.
+/// A triangle counts as parallel to the axis if the cosine between its normal and the axis is below this. Its shadow is
+/// then thinner than this fraction of its size.
 const GRAZING: f64 = 1e-9;
 
-/// Two unit vectors that make a right-handed frame with a third, which comes first.
+/// Two unit vectors that complete an axis to a right-handed frame; the axis is the first of the frame.
 fn across(axis: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     let mut least = Vector3::zeros();
     least[axis.iamin()] = 1.0;

@@ -1,29 +1,29 @@
-//! A list of vectors, and how far they reach along several axes at once: one lane is one axis.
+//! Dot products of a list of vectors with several axes at once; one lane is one axis.
 //!
-//! Only operations whose result is the same on every instruction set are used (IEEE add, multiply, compare,
-//! select; never a fused multiply-add), so that a box does not depend on the machine.
+//! Uses only operations with the same result on every instruction set (IEEE add, multiply, compare, select; never a
+//! fused multiply-add), so that a box does not depend on the machine.
 
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 use nalgebra::Vector3;
 
-/// Axes at once.
+/// Axes per batch.
 pub const AXES: usize = 8;
 
-/// x, y and z of axes.
+/// The x, y and z coordinates of the axes.
 pub struct Axes([[f64; AXES]; 3]);
 
 impl Axes {
-    /// Of one axis or more, [`AXES`] at most; the rest repeats the first.
+    /// From 1 to [`AXES`] axes; the first axis fills unused lanes.
     pub fn new(axes: &[Vector3<f64>]) -> Self {
         let of = |k: usize| std::array::from_fn(|a| axes.get(a).unwrap_or(&axes[0])[k]);
         Self([of(0), of(1), of(2)])
     }
 }
 
-/// For each axis a number.
+/// One number for each axis.
 pub type Each = [f64; AXES];
 
-/// The least and the greatest dot product of each axis and the vectors.
+/// The minimum and maximum dot product of each axis with the vectors.
 pub fn reach(vectors: &[Vector3<f64>], axes: &Axes) -> [Each; 2] {
     reach_at(Level::new(), vectors, axes)
 }
@@ -32,7 +32,7 @@ fn reach_at(level: Level, vectors: &[Vector3<f64>], axes: &Axes) -> [Each; 2] {
     dispatch!(level, simd => reach_in(simd, vectors, axes))
 }
 
-/// For each vector the set of axes with which its dot product is greater than `limit`.
+/// For each vector, the set of axes with a dot product greater than `limit`.
 pub fn beyond(vectors: &[Vector3<f64>], axes: &Axes, limit: f64, found: &mut Vec<u8>) {
     beyond_at(Level::new(), vectors, axes, limit, found);
 }
@@ -51,7 +51,7 @@ fn load<S: Simd>(simd: S, axes: &Axes) -> [f64x8<S>; 3] {
     ]
 }
 
-/// The dot products of the axes and a vector.
+/// The dot products of the axes with a vector.
 #[inline(always)]
 fn along<S: Simd>(simd: S, [x, y, z]: [f64x8<S>; 3], v: &Vector3<f64>) -> f64x8<S> {
     x * f64x8::splat(simd, v.x) + y * f64x8::splat(simd, v.y) + z * f64x8::splat(simd, v.z)
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn each_instruction_set_finds_what_the_plain_loop_finds() {
-        // On a coarse grid, so that many dot products are equal, also to the limits.
+        // On a coarse grid, so that many dot products equal each other or the limits.
         let vectors = |count: u32, shift: f64| -> Vec<Vector3<f64>> {
             (0..count)
                 .map(|i| f64::from(i) + shift)

@@ -1,4 +1,4 @@
-//! Gathers what a reader finds into a [`Scene`].
+//! Collects the output of a reader into a [`Scene`].
 
 use std::collections::HashMap;
 
@@ -8,7 +8,7 @@ use super::error::{Failure, Fault, NoteCode, Notes};
 use super::{Format, Part, Scene};
 use crate::mesh::Mesh;
 
-/// A scene in the making: parts with one material each, in the order in which materials first appear.
+/// A scene under construction: one part per material, in the order of first use.
 pub(super) struct Assembly {
     parts: Vec<Part>,
     part_of: HashMap<Look, usize>,
@@ -18,11 +18,11 @@ pub(super) struct Assembly {
     pub(super) notes: Notes,
 }
 
-/// So many parts are told apart; what would be another goes to the part without a look. Real files have up
-/// to some hundred materials, and a part costs some hundred bytes for the ten that name it.
+/// Maximum number of parts. Further materials share the part without a material. Real files have up to some hundred
+/// materials. A part takes some hundred bytes of memory, for the ten bytes in the file that name it.
 pub(super) const MOST_PARTS: usize = 4096;
 
-/// How a part looks.
+/// Name and colour of a material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Material {
     pub(super) name: Option<String>,
@@ -43,7 +43,7 @@ impl Assembly {
         }
     }
 
-    /// Adds a mesh, placed by `matrix`, to the part that looks like it.
+    /// Adds a mesh, placed by `matrix`, to the part with the same material.
     pub(super) fn add(
         &mut self,
         mesh: &Mesh,
@@ -89,7 +89,7 @@ impl Assembly {
         Ok(())
     }
 
-    /// Notes vertices of an array that no triangle uses.
+    /// Adds a note if no triangle uses some vertices of an array.
     pub(super) fn note_unused(&mut self, vertices: &[[f64; 3]], used: &[bool]) {
         let mut unused = vertices.iter().zip(used).filter(|(_, used)| !**used);
         let Some(([x, y, z], _)) = unused.next() else {
@@ -105,12 +105,12 @@ impl Assembly {
         self.notes.add(NoteCode::UnusedVertices, text);
     }
 
-    /// Whether so many triangles may be held.
+    /// Checks a number of triangles against the limit.
     pub(super) fn check_triangles(&self, count: usize) -> Result<(), Failure> {
         within("triangles", count, self.limit)
     }
 
-    /// Whether so many vertices may be held: three for each triangle.
+    /// Checks a number of vertices against the limit: three for each triangle.
     pub(super) fn check_vertices(&self, count: usize) -> Result<(), Failure> {
         within("vertices", count, self.limit.saturating_mul(3))
     }
@@ -137,7 +137,7 @@ impl Assembly {
     }
 }
 
-/// What a note says where parts are not told apart.
+/// Note for materials beyond [`MOST_PARTS`].
 pub(super) const TOO_MANY_PARTS: &str =
     "more than 4096 materials; what has another one is taken without material";
 
@@ -155,7 +155,7 @@ fn within(what: &'static str, count: usize, limit: usize) -> Result<(), Failure>
     Ok(())
 }
 
-/// Picks the vertices that some triangles use, from an array that several share.
+/// Extracts the vertices that some triangles use from a shared array.
 #[derive(Default)]
 pub(super) struct Picker {
     index_of: Vec<u32>,
@@ -164,8 +164,8 @@ pub(super) struct Picker {
 const UNSEEN: u32 = u32::MAX;
 
 impl Picker {
-    /// A mesh of these triangles and the vertices they use, in the order of first use. Triangles that name a vertex
-    /// that is not there are left out; the second value says how many.
+    /// A mesh of these triangles and the vertices they use, in the order of first use. Skips triangles that reference a
+    /// missing vertex, and also returns their number.
     pub(super) fn pick(&mut self, vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> (Mesh, usize) {
         if self.index_of.len() < vertices.len() {
             self.index_of.resize(vertices.len(), UNSEEN);
@@ -185,7 +185,7 @@ impl Picker {
             mesh.triangles.push(triangle.map(|old| {
                 let new = &mut self.index_of[old as usize];
                 if *new == UNSEEN {
-                    // Fewer than `vertices`, whose indices fit.
+                    // There are at most as many as `vertices`, whose indices fit.
                     *new = u32::try_from(used.len()).unwrap_or(UNSEEN);
                     used.push(old);
                 }

@@ -1,4 +1,4 @@
-//! Why a mesh file could not be read, and what was assumed where it could.
+//! Errors and notes of the mesh readers.
 
 use std::fmt;
 
@@ -6,20 +6,20 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{file}: {}{fault}", place.as_ref().map(|place| format!("{place}: ")).unwrap_or_default())]
 pub struct MeshError {
-    /// The name that the caller gave.
+    /// The file name that the caller gave.
     pub file: String,
-    /// Where in the file, if one place is at fault.
+    /// Location in the file, if a single one is at fault.
     pub place: Option<Place>,
     /// What is wrong.
     pub fault: Fault,
 }
 
-/// A place in a mesh file.
+/// A location in a mesh file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// A line of a text file, from 1.
+    /// Line of a text file, from 1.
     Line(usize),
-    /// A byte of a binary file, from 0.
+    /// Byte offset in a binary file, from 0.
     Byte(usize),
     /// A named element, such as `geometry 'body'` or `accessor 3`.
     Element(String),
@@ -39,30 +39,30 @@ impl fmt::Display for Place {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// No bytes.
+    /// The file is empty.
     #[error("the file is empty; export the mesh again")]
     Empty,
-    /// Neither the content nor the extension says what it is.
+    /// Neither content nor extension identifies a format.
     #[error("not a mesh in STL, COLLADA, OBJ, glTF or GLB; convert it to one of these")]
     UnknownFormat,
-    /// A format, or a part of one, that this reader does not read.
+    /// An unsupported format, or an unsupported feature of a format.
     #[error("{0}; convert the mesh to binary STL, or to GLB without compression")]
     NotSupported(String),
     /// The file ends before its content does.
     #[error("the file is cut off: {0}; copy or export it again")]
     Truncated(String),
-    /// The content breaks the rules of its format.
+    /// The content violates its format.
     #[error("{0}; repair the file or export it again")]
     Malformed(String),
-    /// More than the reader is willing to hold.
+    /// A resource limit is exceeded.
     #[error("more than {limit} {what}; simplify the mesh")]
     TooLarge {
-        /// What there is too much of.
+        /// The limited items.
         what: &'static str,
-        /// How many are allowed.
+        /// The limit.
         limit: usize,
     },
-    /// A file that holds geometry and was not found.
+    /// A file with geometry was not found.
     #[error(
         "the file '{0}', which holds the geometry, was not found; put it where the mesh names it"
     )]
@@ -86,13 +86,13 @@ pub(super) struct Failure {
 }
 
 impl Failure {
-    /// The same failure at a place, if it has none yet.
+    /// Sets the location, unless one is set.
     pub(super) fn at(mut self, place: impl FnOnce() -> Place) -> Self {
         self.place.get_or_insert_with(place);
         self
     }
 
-    /// The same failure inside a named element.
+    /// Sets the named element as the location, unless one is set.
     pub(super) fn within(self, kind: &str, name: impl fmt::Display) -> Self {
         self.at(|| Place::Element(format!("{kind} '{name}'")))
     }
@@ -112,14 +112,14 @@ impl From<Fault> for Failure {
     }
 }
 
-/// Something that was assumed, left out or repaired. What it says is about one file.
+/// An assumption, omission or repair in one file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
-    /// Of what sort.
+    /// Kind of note.
     pub code: NoteCode,
-    /// One sentence for people.
+    /// One human-readable sentence.
     pub text: String,
-    /// How often.
+    /// Number of occurrences.
     pub count: usize,
 }
 
@@ -133,53 +133,53 @@ impl fmt::Display for Note {
     }
 }
 
-/// The sort of a [`Note`].
+/// The kind of a [`Note`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum NoteCode {
-    /// The content is of another format than the extension says; the content was believed.
+    /// Content and extension disagree; the content decides.
     WrongExtension,
-    /// The file's own count of triangles is not that of its data.
+    /// The triangle count in the file differs from its data.
     WrongCount,
-    /// The file is cut off; what is whole was read.
+    /// The file is truncated; all complete triangles were read.
     CutOff,
-    /// Triangles with a corner that is no finite number were dropped.
+    /// Triangles with a non-finite corner were dropped.
     NotFinite,
-    /// Triangles or faces that name a vertex that is not there were dropped.
+    /// Triangles or faces that reference a missing vertex were dropped.
     IndexOutOfRange,
-    /// A file for appearance only was not found.
+    /// A file that only affects appearance was not found.
     SideFileMissing,
-    /// The `up_axis` of a COLLADA file was not applied (nor do RViz, Pinocchio or trimesh).
+    /// The `up_axis` of a COLLADA file was not applied, as in RViz, Pinocchio and trimesh.
     UpAxisIgnored,
     /// The lengths were scaled to metres.
     UnitApplied,
-    /// The y-up axes of glTF were turned to z-up.
+    /// The y-up axes of glTF were converted to z-up.
     TurnedToZUp,
     /// A skinned mesh was read in its bind shape.
     SkinAsShape,
-    /// A part that carries no triangles for us, or that cannot be read, was left out.
+    /// Content without triangles, or content that cannot be read, was skipped.
     LeftOut,
-    /// A value was not understood, and its default taken.
+    /// A value was missing or not understood; a default replaces it.
     Assumed,
-    /// There is no triangle.
+    /// The file has no triangles.
     NoTriangles,
-    /// Vertices that no triangle uses were left out.
+    /// Vertices that no triangle uses were dropped.
     UnusedVertices,
-    /// The least and greatest coordinates that a glTF gives are not those of its positions.
+    /// The accessor bounds of a glTF differ from its positions.
     WrongBounds,
-    /// Normals of a glTF are not of unit length.
+    /// Normals of a glTF have a wrong length or number, or cannot be read.
     WrongNormals,
-    /// A node of a glTF places its mesh by a transform.
+    /// A glTF node has a transform.
     NodeTransform,
-    /// A glTF shows something else than its triangles: morph targets, animations, instances.
+    /// A glTF shows more than its triangles: morph targets, animations, instances.
     ShownOtherwise,
 }
 
-/// Notes in the order in which they came up; equal ones are counted.
+/// Notes in order of first occurrence; equal notes are counted.
 #[derive(Debug, Default)]
 pub(super) struct Notes(pub(super) Vec<Note>);
 
-/// So many different notes are kept of one file; it may name a million missing things.
+/// Maximum number of distinct notes per file. A file can reference a million missing things.
 const MOST_NOTES: usize = 50;
 
 impl Notes {

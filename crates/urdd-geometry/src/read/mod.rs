@@ -1,49 +1,49 @@
-//! Reads the mesh formats that URDFs name.
+//! Readers for the mesh formats that URDFs reference.
 //!
 //! # What each reader handles
 //!
 //! | | STL | COLLADA (.dae) | OBJ | glTF, GLB |
 //! |---|---|---|---|---|
-//! | versions | binary, ASCII (any case, several solids) | 1.4, 1.5 | as written by the tools of the field | 2.0 |
+//! | versions | binary, ASCII (any case, several solids) | 1.4, 1.5 | as common tools write it | 2.0 |
 //! | faces | triangles | triangles, polylist, polygons, trifans, tristrips | triangles, n-gons, negative indices, continued lines | triangles, strips, fans, with and without indices (8, 16, 32 bits) |
-//! | placement | none | matrix, translate, rotate, scale, skew, lookat in order; nested nodes, `instance_node`, a geometry used often | none | matrix or translation, rotation, scale; nested nodes; the default scene |
-//! | lengths | as they are | times `unit` | as they are | metres |
-//! | up axis | none | `up_axis` is *not* applied | none | y-up is turned to z-up (see [`GltfUp`]) |
-//! | colours | none | diffuse colour (of `constant`: emission) | `Kd` and `d` of the .mtl | `baseColorFactor`, `diffuseFactor` |
-//! | left out | the attribute bytes (colours of some tools) | lines, splines, textures, animation, skins (the bind shape is read), holes of polygons | lines, points, curves, textures, vertex colours | points, lines, textures, animation, morph targets, skins (read as they stand) |
-//! | refused | no whole triangle | no UTF-8 or UTF-16, a DTD | an index 0 or a face that is no face is dropped with a note | version 1, Draco, meshopt |
-//! | repaired, with a note | wrong count, cut off, NaN corners, a header that begins with `solid` | NaN, indices out of range, missing scene | NaN, indices out of range, missing .mtl | NaN, indices out of range, wrong lengths in the GLB header |
+//! | placement | none | matrix, translate, rotate, scale, skew, lookat in order; nested nodes, `instance_node`, repeated geometries | none | matrix or translation, rotation, scale; nested nodes; the default scene |
+//! | lengths | unchanged | times `unit` | unchanged | metres |
+//! | up axis | none | `up_axis` is *not* applied | none | y-up is converted to z-up (see [`GltfUp`]) |
+//! | colours | none | diffuse colour (emission for `constant`) | `Kd` and `d` of the .mtl | `baseColorFactor`, `diffuseFactor` |
+//! | ignored | the attribute bytes (some tools store colours there) | lines, splines, textures, animation, skins (the bind shape is read), polygon holes | lines, points, curves, textures, vertex colours | points, lines, textures, animation, morph targets, skins (read without deformation) |
+//! | rejected | no complete triangle | invalid UTF-16, a DTD | nothing: a face with an index 0 or a malformed index is dropped with a note | version 1, Draco, meshopt |
+//! | repaired, with a note | wrong count, truncation, NaN corners, a header that begins with `solid` | NaN, indices out of range, missing scene, invalid UTF-8 | NaN, indices out of range, missing .mtl | NaN, indices out of range, wrong lengths in the GLB header |
 //!
-//! A part with a texture has no colour: the true one is in the image. Colours are taken as they stand in the file;
-//! nothing is converted between sRGB and linear values.
+//! A part with a texture has no colour, because its true colour is in the image. Colours are clamped to 0 to 1, and not
+//! converted between sRGB and linear values.
 //!
 //! # Axes and lengths
 //!
-//! URDF says nothing of the axes and units inside mesh files, so we do what its readers do.
+//! URDF does not define the axes and units inside mesh files, so these readers follow common URDF tools.
 //!
-//! COLLADA's `unit` is applied, as the format demands and as RViz, MoveIt, Gazebo and three.js do (Assimp 6 through
-//! Pinocchio's coal, `PyBullet` and trimesh leave it out: with those a file in inches is 39 times too large). Its
-//! `up_axis` is ignored, as RViz, MoveIt, coal, `PyBullet`, trimesh and Habitat do: exporters write it at random
-//! (95 of 331 files of known robots do not say `Z_UP`), and robots are drawn right only without it.
+//! COLLADA's `unit` is applied, as the format requires and as RViz, MoveIt, Gazebo and three.js do. Assimp 6 through
+//! Pinocchio's coal, `PyBullet` and trimesh ignore it: they read a file in inches 39 times too large. `up_axis` is
+//! ignored, as in RViz, MoveIt, coal, `PyBullet`, trimesh and Habitat. Exporters set it arbitrarily (95 of 331 files of
+//! known robots do not declare `Z_UP`), and the robots look right only without it.
 //!
-//! glTF fixes y as up. RViz 2 (since June 2025), Drake, Genesis and Blender turn it to z-up, older RViz, coal and
-//! trimesh do not. We turn it and say so in a note; [`Options`] can keep the axes, which is right for the .glb files
-//! of a URDD itself.
+//! In glTF, y is up. RViz 2 (since June 2025), Drake, Genesis and Blender convert to z-up; older RViz, coal and trimesh
+//! do not. These readers convert and add a note. [`Options`] can keep the axes, which is right for a URDD's own .glb
+//! files.
 //!
-//! # Why own readers
+//! # Why not existing readers
 //!
-//! Tried in 2026 on 2,100 meshes of robots and on broken ones: `stl_io` 0.11 takes a binary file that begins with
-//! `solid` for text, and fails on one that is cut off. `mesh-loader` 0.1.13 refuses three of 574 real STL files and every
-//! one that is cut off, does not look at the count, places each COLLADA geometry once, and computes in binary32.
-//! `dae-parser` 0.11 refuses 85 of 331 real files. `tobj` 4.0 panics on `Kd 1 1`, and refuses `vt` of one number,
-//! continued lines and a missing .mtl. `gltf` 1.4 refuses accessors without bounds, panics on accessors
-//! without elements, with a huge count or of another component type, and reads nothing from those without a view.
-//! The readers here build on `roxmltree`, `serde_json`, `base64` and `earcut`.
+//! Existing crates, tested in 2026 on 2,100 robot meshes and on broken ones: `stl_io` 0.11 takes a binary file that
+//! begins with `solid` for text, and fails on a truncated one. `mesh-loader` 0.1.13 rejects three of 574 real STL files
+//! and all truncated ones, ignores the count, places each COLLADA geometry once, and computes in binary32. `dae-parser`
+//! 0.11 rejects 85 of 331 real files. `tobj` 4.0 panics on `Kd 1 1`, and rejects `vt` with one number, continued lines
+//! and a missing .mtl. `gltf` 1.4 rejects accessors without bounds, panics on accessors without elements, with a huge
+//! count or with another component type, and reads nothing from accessors without a view. The readers here build on
+//! `roxmltree`, `serde_json`, `base64` and `earcut`.
 //!
-//! # Bounds
+//! # Resource limits
 //!
-//! Memory is in proportion to the input; where a file can name more than it holds (instances of instances, empty
-//! accessors) it is counted and limited. No input makes a reader panic.
+//! Memory is proportional to the input. Where a file can reference more than it contains (instances of instances, empty
+//! accessors), a limit applies. No input makes a reader panic.
 
 mod assembly;
 mod collada;
@@ -61,16 +61,16 @@ use super::mesh::Mesh;
 use assembly::Assembly;
 use error::Failure;
 
-/// What a mesh file holds, placed, in metres.
+/// The content of a mesh file with all placements applied, in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// The format that the content has.
+    /// The detected format of the content.
     pub format: Format,
-    /// Triangles by material, in the order in which the materials first appear. Empty if there are no triangles.
+    /// One part per material, in the order of first use. Empty without triangles.
     pub parts: Vec<Part>,
-    /// Files that the mesh names (.mtl, .bin, textures), relative to it, sorted, also where they were not found.
+    /// Files that the mesh references (.mtl, .bin, textures), relative to it, sorted, including missing ones.
     pub side_files: Vec<String>,
-    /// What was assumed, repaired or left out.
+    /// Assumptions, repairs and omissions.
     pub notes: Vec<Note>,
 }
 
@@ -79,7 +79,7 @@ pub struct Scene {
 pub struct Part {
     /// The triangles, in the axes of the URDF's mesh element.
     pub mesh: Mesh,
-    /// Red, green, blue and opacity, each from 0 to 1; `None` if the file gives none, or a texture.
+    /// Red, green, blue and opacity, each from 0 to 1; `None` if the file gives no colour or uses a texture.
     pub color: Option<[f64; 4]>,
     /// The material's name.
     pub material: Option<String>,
@@ -102,22 +102,22 @@ pub enum Format {
     Glb,
 }
 
-/// What to do with the axes of glTF, which has y up.
+/// How to treat the y-up axes of glTF.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GltfUp {
-    /// Turn by +90 degrees about x: (x, y, z) becomes (x, -z, y).
+    /// Rotate by +90 degrees about x: (x, y, z) becomes (x, -z, y).
     #[default]
     Turn,
     /// Keep the file's axes.
     Keep,
 }
 
-/// How to read.
+/// Reader options.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// The axes of glTF.
+    /// Treatment of the glTF axes.
     pub gltf_up: GltfUp,
-    /// More triangles than this are an error.
+    /// Maximum number of triangles; a file with more is an error.
     pub max_triangles: usize,
 }
 
@@ -131,7 +131,7 @@ impl Default for Options {
 }
 
 impl Scene {
-    /// All parts as one mesh, in order.
+    /// All parts merged into one mesh, in order.
     #[must_use]
     pub fn merged(&self) -> Mesh {
         let mut mesh = Mesh::default();
@@ -141,7 +141,7 @@ impl Scene {
         mesh
     }
 
-    /// How many triangles there are in all parts.
+    /// Number of triangles in all parts.
     #[must_use]
     pub fn triangle_count(&self) -> usize {
         self.parts
@@ -151,13 +151,13 @@ impl Scene {
     }
 }
 
-/// Reads a mesh file as a URDF's mesh element means it.
+/// Reads a mesh file as a URDF's mesh element uses it.
 ///
-/// `name` is the file's name: its extension decides where the content does not, and errors carry it. `fetch` gives
-/// the bytes of a side file by the name that the mesh has for it; the reader opens no files itself.
+/// `name` is the file's name: errors contain it, and its extension decides where the content is ambiguous. `fetch`
+/// returns the bytes of a side file, given the name that the mesh uses. The reader itself opens no files.
 ///
 /// # Errors
-/// [`MeshError`] where the content cannot be understood; what can be repaired is a note in the scene instead.
+/// [`MeshError`] if the content cannot be read. Repairs do not fail; they add notes to the scene.
 pub fn read(
     bytes: &[u8],
     name: &str,
@@ -218,7 +218,7 @@ impl Format {
         }
     }
 
-    /// The extension that files of this format have, without the point.
+    /// The file extension of this format, without the dot.
     #[must_use]
     pub fn extension(self) -> &'static str {
         match self {

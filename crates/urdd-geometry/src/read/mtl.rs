@@ -19,7 +19,7 @@ impl Entry {
     }
 }
 
-/// The materials of a library in order, and the textures that it names.
+/// The materials of a library in order, and the textures that it references.
 pub(super) fn read(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
     let mut entries: Vec<Entry> = Vec::new();
     let mut textures = Vec::new();
@@ -54,7 +54,7 @@ pub(super) fn read(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
                 ) =>
             {
                 entry.textured |= keyword == "map_kd";
-                // Options such as `-bm 0.2` come before the name, which is last.
+                // Options such as `-bm 0.2` precede the name, which is last.
                 let name = if rest.starts_with('-') {
                     rest.rsplit(char::is_whitespace).next().unwrap_or(rest)
                 } else {
@@ -68,7 +68,7 @@ pub(super) fn read(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
     (entries, textures)
 }
 
-/// `r g b`, or `r` for all three; `spectral` and `xyz` give none.
+/// `r g b`, or `r` for all three; `None` for `spectral` and `xyz`.
 fn color(text: &str) -> Option<[f64; 3]> {
     let values: Vec<f64> = text
         .split_ascii_whitespace()
@@ -86,7 +86,7 @@ fn color(text: &str) -> Option<[f64; 3]> {
         .then(|| color.map(|value| value.clamp(0.0, 1.0)))
 }
 
-/// The first number of a `d` or `Tr` line, which may say `-halo` first.
+/// The first number of a `d` or `Tr` line; `-halo` may precede it.
 fn opacity(text: &str) -> Option<f64> {
     let word = text
         .split_ascii_whitespace()

@@ -1,6 +1,6 @@
-//! Numbers from text, fast: most of a text mesh is numbers.
+//! Fast number parsing: most of a text mesh is numbers.
 
-/// Words of a text, separated by white space.
+/// The words of a text, separated by white space.
 #[derive(Clone)]
 pub(super) struct Words<'a> {
     rest: &'a [u8],
@@ -11,12 +11,12 @@ impl<'a> Words<'a> {
         Self { rest: text }
     }
 
-    /// The next number, rounded to nearest as Rust's own parser does; a word that is none is NaN.
+    /// The next number, rounded to nearest like Rust's own parser; NaN for a word that is not a number.
     pub(super) fn float(&mut self) -> Option<f64> {
         self.next().map(float)
     }
 
-    /// Skips to the end of the line, if the last word did not end it.
+    /// Skips to the end of the line, unless the last word ended it.
     pub(super) fn skip_line(&mut self) {
         let end = self
             .rest
@@ -26,7 +26,7 @@ impl<'a> Words<'a> {
         self.rest = &self.rest[end..];
     }
 
-    /// The next index; `Some(None)` for a word that is none.
+    /// The next index; `Some(None)` for a word that is not an index.
     pub(super) fn index(&mut self) -> Option<Option<u32>> {
         self.next().map(index)
     }
@@ -49,7 +49,7 @@ impl<'a> Iterator for Words<'a> {
     }
 }
 
-/// A non-negative integer that fits an index.
+/// Parses a non-negative integer that fits `u32`.
 #[inline]
 pub(super) fn index(word: &[u8]) -> Option<u32> {
     if word.is_empty() || word.len() > 10 {
@@ -66,16 +66,16 @@ pub(super) fn index(word: &[u8]) -> Option<u32> {
     u32::try_from(value).ok()
 }
 
-/// Exact powers of ten: those that a binary64 holds without rounding.
+/// The powers of ten that binary64 represents exactly.
 const TENS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// A number; NaN for what is none (`1.#QNAN`, `-nan(ind)`, a word).
+/// Parses a number; NaN for any other word (`1.#QNAN`, `-nan(ind)`).
 ///
-/// Numbers of at most 19 digits whose digits and power of ten are exact in binary64 are one exact product or
-/// quotient (Clinger 1990), which rounds once and so correctly; all others go to the standard library.
+/// Fast path (Clinger 1990): if the digits (at most 19) and the power of ten are exact in binary64, one product or
+/// quotient rounds once, hence correctly. All other words go to the standard library.
 #[inline]
 pub(super) fn float(word: &[u8]) -> f64 {
     fast_float(word).unwrap_or_else(|| {
@@ -105,7 +105,7 @@ fn fast_float(word: &[u8]) -> Option<f64> {
         let digit = digits[at].wrapping_sub(b'0');
         if digit <= 9 {
             mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
-            // Leading zeros are no digits of the mantissa.
+            // Leading zeros are not digits of the mantissa.
             count += usize::from(mantissa != 0);
             power -= i32::from(seen_point);
         } else if digits[at] == b'.' && !seen_point {
@@ -153,7 +153,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Against the standard library's parser.
+        /// Compares with the standard library's parser.
         #[test]
         fn floats_are_those_of_the_standard_library(text in "[+-]?[0-9]{0,12}(\\.[0-9]{0,12})?([eE][+-]?[0-9]{1,3})?") {
             let expected = text.parse::<f64>().unwrap_or(f64::NAN);

@@ -10,7 +10,7 @@ use super::mtl;
 use super::number::Words;
 use crate::polygon::Splitter;
 
-/// Reads OBJ. Faces are grouped by material: objects, groups and smoothing groups make no difference to a surface.
+/// Reads OBJ. Groups faces by material: objects, groups and smoothing groups do not affect the surface.
 pub(super) fn read(
     bytes: &[u8],
     fetch: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
@@ -32,7 +32,7 @@ pub(super) fn read(
     };
     let mut joined: Vec<u8> = Vec::new();
     for (at, line) in bytes.split(|byte| *byte == b'\n').enumerate() {
-        // A backslash at the end continues the line.
+        // A trailing backslash continues the line.
         let trimmed = line.trim_ascii_end();
         if let Some(start) = trimmed.strip_suffix(b"\\") {
             joined.extend_from_slice(start);
@@ -106,9 +106,9 @@ struct File {
     vertices: Vec<[f64; 3]>,
     groups: Vec<Group>,
     current: usize,
-    /// The material that was named since the last face.
+    /// The material selected since the last face.
     wanted: Option<String>,
-    /// Whether there were more materials than are told apart.
+    /// Whether there are more than [`MOST_PARTS`] materials.
     too_many: bool,
     group_of: HashMap<String, usize>,
 }
@@ -156,7 +156,7 @@ impl File {
         Ok(())
     }
 
-    /// Turns to the group of the material that was last named; a face follows. A name without faces costs nothing.
+    /// Selects the group of the last named material before a face. A material without faces gets no group.
     fn begin_group(&mut self) {
         let Some(name) = self.wanted.take() else {
             return;
@@ -199,9 +199,10 @@ impl Faces {
     }
 }
 
-/// The vertex of a corner `v`, `v/t`, `v//n` or `v/t/n`: from 1, or back from the last so far if negative.
+/// The vertex index of a corner `v`, `v/t`, `v//n` or `v/t/n`. Indices start at 1; negative ones count back from the
+/// last vertex so far.
 ///
-/// A positive index may name a vertex that comes later in the file; whether it does is seen at the end.
+/// A positive index may reference a vertex that comes later in the file. A range check follows at the end.
 fn corner(word: &[u8], count: usize) -> Option<u32> {
     let end = word
         .iter()
@@ -226,7 +227,7 @@ fn rest_of(line: &[u8], keyword: &[u8]) -> String {
         .to_owned()
 }
 
-/// The materials of all libraries by name; of a name given twice, the first.
+/// The materials of all libraries by name; the first wins if a name occurs twice.
 fn read_libraries(
     libraries: &[String],
     fetch: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
@@ -235,7 +236,7 @@ fn read_libraries(
     let mut materials = HashMap::new();
     let mut seen: Vec<&str> = Vec::new();
     for library in libraries {
-        // A name may hold spaces; a line may also hold several names, each with the extension.
+        // A name may contain spaces. A line may also list several names, each with the extension.
         let mut whole = fetch(library);
         let words: Vec<&str> = library.split_ascii_whitespace().collect();
         let is_list = words.len() > 1
@@ -271,10 +272,10 @@ fn read_libraries(
     materials
 }
 
-/// A file may name so many material libraries; real ones name one.
+/// Maximum number of material libraries per file; real files reference one.
 const MOST_LIBRARIES: usize = 1000;
 
-/// The name of a file that `library` names, relative to the mesh.
+/// The name of a texture that `library` references, relative to the mesh.
 fn beside(library: &str, texture: &str) -> String {
     match library.replace('\\', "/").rsplit_once('/') {
         Some((folder, _)) if !texture.starts_with('/') => format!("{folder}/{texture}"),

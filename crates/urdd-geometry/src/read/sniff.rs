@@ -1,12 +1,12 @@
-//! Tells a mesh format by content, and by extension where the content says nothing.
+//! Detects the mesh format from the content, or from the extension if the content is ambiguous.
 
 use super::{Fault, Format};
 
-/// How far into a file its marks are looked for: long comments may come before the root element of XML.
+/// Number of leading bytes searched for format markers. Long comments may precede the root element of XML.
 const HEAD: usize = 64 * 1024;
 const STL_HEADER: usize = 84;
 
-/// The format of the bytes, or why they are none that is read.
+/// The format of the bytes, or why they are not readable.
 pub(super) fn format(bytes: &[u8], name: &str) -> Result<Format, Fault> {
     if bytes.is_empty() {
         return Err(Fault::Empty);
@@ -14,7 +14,7 @@ pub(super) fn format(bytes: &[u8], name: &str) -> Result<Format, Fault> {
     if bytes.starts_with(b"glTF") {
         return Ok(Format::Glb);
     }
-    // Before the text formats: a binary header may begin with "solid", or with anything else.
+    // Check before the text formats: a binary header may begin with "solid", or with anything else.
     if is_whole_binary_stl(bytes) {
         return Ok(Format::StlBinary);
     }
@@ -60,7 +60,7 @@ pub(super) fn format(bytes: &[u8], name: &str) -> Result<Format, Fault> {
     }
 }
 
-/// The format that the extension names, in any case; for `.stl` the binary one.
+/// The format of the file extension, ignoring case; binary STL for `.stl`.
 pub(super) fn extension_format(name: &str) -> Option<Format> {
     let (_, extension) = name.rsplit_once('.')?;
     match extension.to_ascii_lowercase().as_str() {
@@ -73,7 +73,7 @@ pub(super) fn extension_format(name: &str) -> Option<Format> {
     }
 }
 
-/// Whether the size is exactly that of a binary STL with the triangles that its header counts.
+/// Whether the size matches the triangle count in the header of a binary STL exactly.
 fn is_whole_binary_stl(bytes: &[u8]) -> bool {
     let Some(count) = bytes
         .get(80..STL_HEADER)
@@ -109,7 +109,7 @@ fn is_stl_name(extension: Option<Format>) -> bool {
     extension == Some(Format::StlBinary)
 }
 
-/// No control characters but white space: none of the binary formats passes.
+/// Whether there are no control characters other than white space. None of the binary formats passes.
 fn looks_like_text(head: &[u8]) -> bool {
     head.iter()
         .all(|byte| *byte >= 0x20 || byte.is_ascii_whitespace() || *byte == 0x0b || *byte == 0x1a)
@@ -132,7 +132,7 @@ fn find(head: &[u8], mark: &[u8]) -> bool {
         .any(|window| window.eq_ignore_ascii_case(mark))
 }
 
-/// Whether the first line that is neither empty nor a comment begins with a keyword of OBJ.
+/// Whether the first line that is neither empty nor a comment starts with an OBJ keyword.
 fn is_obj(text: &[u8]) -> bool {
     const KEYWORDS: [&[u8]; 10] = [
         b"v", b"vt", b"vn", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"vp",

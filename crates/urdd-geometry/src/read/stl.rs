@@ -1,4 +1,4 @@
-//! STL, binary and as text.
+//! STL, binary and ASCII.
 
 use nalgebra::Matrix4;
 
@@ -11,10 +11,10 @@ use crate::mesh::Mesh;
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 
-/// Reads binary STL: 80 bytes of anything, a count, and 50 bytes a triangle.
+/// Reads binary STL: an arbitrary header of 80 bytes, a count, and 50 bytes per triangle.
 ///
-/// The count is believed where there are bytes for it. A count of 0 before data is that of writers who never came
-/// back to fill it in: all whole records are read. A count beyond the end means a file cut off, or a placeholder.
+/// The count is used if there is data for it. Some writers never fill in the count: if it is 0, all complete records
+/// are read. A count beyond the end means a truncated file or a placeholder: the complete records are read.
 pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
     let (Some(count), Some(data)) = (bytes.get(80..HEADER), bytes.get(HEADER..)) else {
         return Err(Fault::Truncated(format!(
@@ -59,7 +59,7 @@ pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), F
         triangles: Vec::with_capacity(used),
     };
     for record in data.chunks_exact(RECORD).take(used) {
-        // The stored normal is skipped: it is often 0, and the corners say the same.
+        // Skip the stored normal: it is often 0, and the corners determine it.
         let corner =
             |at: usize| std::array::from_fn(|axis| f64::from(binary32(&record[at + 4 * axis..])));
         push_triangle(&mut mesh, [corner(12), corner(24), corner(36)])?;
@@ -67,7 +67,7 @@ pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), F
     assembly.add(&mesh, &Matrix4::identity(), &Material::default())
 }
 
-/// Reads STL as text. Words count, not lines; a loop of more than three vertices is a fan.
+/// Reads ASCII STL. Line breaks do not matter; a loop of more than three vertices becomes a fan.
 pub(super) fn read_ascii(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
     let mut words = Words::new(skip_byte_order_mark(bytes));
     let mut mesh = Mesh::default();
@@ -86,7 +86,7 @@ pub(super) fn read_ascii(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Fa
             }
             corners.clear();
         } else if word.eq_ignore_ascii_case(b"solid") {
-            // The rest of the line is a name, which may hold any word.
+            // The rest of the line is a name, which may contain any word.
             open = true;
             words.skip_line();
         } else if word.eq_ignore_ascii_case(b"endsolid") {

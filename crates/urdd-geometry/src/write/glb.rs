@@ -13,20 +13,20 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// Writes all parts as one GLB: one scene, one node without a transform, one mesh with a primitive for each part.
+/// Writes all parts as one GLB: one scene, one node without a transform, one mesh with one primitive per part.
 ///
-/// A part's colour becomes the base colour of a material, as it stands (nothing is converted between sRGB and linear);
-/// a part without one has no material. Equal materials are written once. The axes are those of the parts, whatever glTF
-/// says of up.
+/// A part's colour becomes the base colour of a material, without conversion between sRGB and linear values. A part
+/// without a colour has no material. Equal materials are written once. The axes of the parts are kept, although glTF
+/// has y up.
 ///
 /// # Errors
-/// [`WriteError`] without triangles, or where a part is broken.
+/// [`WriteError`] if there are no triangles, or if a part is invalid.
 pub fn glb(parts: &[Part]) -> Result<Vec<u8>, WriteError> {
     write(parts, false)
 }
 
-/// As [`glb`], with normals, so that what is round looks round: vertices at an edge of the surface are given once for
-/// each side of it. Their positions are those of the parts, bit for bit.
+/// As [`glb`], with normals, so that round surfaces render smoothly. Vertices at a crease are duplicated, once per
+/// normal. Positions equal those of the parts, bit for bit.
 ///
 /// # Errors
 /// As [`glb`].
@@ -82,7 +82,8 @@ fn write(parts: &[Part], smooth: bool) -> Result<Vec<u8>, WriteError> {
     container(&Value::Object(root), &data.bytes)
 }
 
-/// The header and the two chunks, each padded to 4 bytes: JSON with spaces, data with zeros (it has none to pad).
+/// The header and the two chunks. The JSON is padded to 4 bytes with spaces; the data already has a multiple of 4
+/// bytes.
 fn container(root: &Value, data: &[u8]) -> Result<Vec<u8>, WriteError> {
     let mut json = root.to_string().into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');
@@ -101,7 +102,7 @@ fn container(root: &Value, data: &[u8]) -> Result<Vec<u8>, WriteError> {
     Ok(bytes)
 }
 
-/// A matt material: glTF's own default is bare metal, which is black in a viewer without surroundings.
+/// A matt material: glTF's default is bare metal, which is black in a viewer without an environment map.
 fn material(name: Option<&str>, color: [f64; 4]) -> Value {
     let mut material = Map::new();
     if let Some(name) = name {
@@ -117,7 +118,7 @@ fn material(name: Option<&str>, color: [f64; 4]) -> Value {
     Value::Object(material)
 }
 
-/// The binary chunk, and what describes it. Each accessor has a view of its own that begins at a multiple of 4.
+/// The binary chunk, its views and accessors. Each accessor has its own view, which starts at a multiple of 4.
 #[derive(Default)]
 struct Data {
     bytes: Vec<u8>,
@@ -160,7 +161,7 @@ impl Data {
     fn push_indices(&mut self, mesh: &Mesh) -> usize {
         let start = self.bytes.len();
         let corners = mesh.triangles.iter().flatten();
-        // 65535 as an index would restart the primitive.
+        // The index 65535 would restart the primitive.
         let component = if mesh.vertices.len() <= 65535 {
             self.bytes.extend(
                 corners

@@ -1,9 +1,9 @@
 //! Writes meshes as binary STL, OBJ and GLB.
 //!
-//! Each holds the same triangles in the same order: parts one after the other, each in its own order. Coordinates are
-//! written as binary32, which changes nothing after [`round_to_f32`](crate::Mesh::round_to_f32).
-//! The text of OBJ is the shortest that means the same binary32: who reads it as binary64 must round, as `round_to_f32`
-//! does. What is written depends on the parts alone: no time, no name of a machine.
+//! All formats contain the same triangles in the same order: part by part, each in its own order. Coordinates are
+//! written as binary32, which is lossless after [`round_to_f32`](crate::Mesh::round_to_f32). OBJ has the shortest text
+//! of each binary32 value; a reader that parses it as binary64 must round, as `round_to_f32` does. The output depends
+//! only on the parts: it contains no time or machine name.
 
 mod glb;
 mod normals;
@@ -21,10 +21,10 @@ use super::read::Part;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// GLB has no way to say that there are no triangles, so none is written in any format.
+    /// GLB cannot represent a mesh without triangles, so no format writes one.
     #[error("the mesh has no triangles; do not write it")]
     Empty,
-    /// A coordinate has no finite binary32.
+    /// A coordinate has no finite binary32 value.
     #[error("vertex {vertex} of part {part} is not finite in binary32; call `round_to_f32` first")]
     NotFinite {
         /// Index of the part.
@@ -32,7 +32,7 @@ pub enum WriteError {
         /// Index of the vertex in the part.
         vertex: usize,
     },
-    /// A triangle names a vertex that is not there.
+    /// A triangle references a missing vertex.
     #[error("triangle {triangle} of part {part} names a vertex that is not there")]
     IndexOutOfRange {
         /// Index of the part.
@@ -40,7 +40,7 @@ pub enum WriteError {
         /// Index of the triangle in the part.
         triangle: usize,
     },
-    /// The format counts in 32 bits.
+    /// The counts exceed the format's 32 bits.
     #[error("the mesh is too large for {0}; simplify it")]
     TooLarge(&'static str),
 }
@@ -56,7 +56,7 @@ impl From<Mesh> for Part {
     }
 }
 
-/// Parts that have triangles, once it is known that all of them can be written.
+/// The parts with triangles, after checking that all parts can be written.
 fn checked<'a>(parts: &'a [Part], format: &'static str) -> Result<Vec<&'a Part>, WriteError> {
     let used: Vec<&Part> = parts
         .iter()

@@ -1,4 +1,4 @@
-//! Smooth normals, where a surface is round.
+//! Smooth normals for round surfaces.
 
 use std::ops::AddAssign;
 
@@ -6,21 +6,21 @@ use nalgebra::Vector3;
 
 use super::super::mesh::{Mesh, double_area_normal};
 
-/// Cosine of the crease angle, 35 degrees: faces that meet at a smaller one are parts of a round surface. Cylinders
-/// of robots have a dozen corners or more, so 30 degrees; chamfers have 45.
+/// Cosine of the crease angle, 35 degrees. Faces that meet at a smaller angle belong to a round surface. Cylinders of
+/// robots have at least a dozen corners, which is 30 degrees; chamfers have 45.
 const CREASE: f64 = 0.819_152_044_288_991_8;
 
-/// A mesh with a normal for each vertex. The vertices begin with those of the mesh, in order; after them stand copies
-/// of those that have a second normal, because the surface has an edge there.
+/// A mesh with one normal per vertex. The vertices start with those of the mesh, in order. Copies of vertices with
+/// several normals, at creases of the surface, follow.
 pub(super) struct Shaded {
     pub(super) mesh: Mesh,
     pub(super) normals: Vec<[f32; 3]>,
 }
 
-/// Gives a mesh normals. Faces around a vertex share one as long as each next face meets the last one, along an edge,
-/// at less than the crease angle; each counts by its angle at the vertex.
+/// Computes the normals of a mesh. Faces around a vertex share a normal as long as adjacent ones meet, along an edge,
+/// at less than the crease angle. Each face is weighted by its angle at the vertex.
 ///
-/// The mesh has no index out of range, and equal vertices are one.
+/// The mesh must be welded and have no index out of range.
 pub(super) fn shaded(mesh: &Mesh) -> Shaded {
     let units: Vec<Vector3<f64>> = mesh
         .triangles
@@ -28,7 +28,7 @@ pub(super) fn shaded(mesh: &Mesh) -> Shaded {
         .map(|triangle| unit(double_area_normal(mesh.corners(*triangle))))
         .collect();
     let mut groups = Groups::new(mesh.triangles.len() * 3);
-    // Each edge of a triangle: its two ends in ascending order, and the corner that it begins with.
+    // Each edge of a triangle: its ends in ascending order, and the corner at which it starts.
     let mut edges: Vec<([u32; 2], usize)> = Vec::with_capacity(mesh.triangles.len() * 3);
     for (at, triangle) in mesh.triangles.iter().enumerate() {
         for k in 0..3 {
@@ -42,7 +42,7 @@ pub(super) fn shaded(mesh: &Mesh) -> Shaded {
         if ends != others || units[first / 3].dot(&units[second / 3]) < CREASE {
             continue;
         }
-        // The corner where the edge begins, and the one where it ends.
+        // The corners at which the edge starts and ends.
         let corners = |corner: usize| [corner, corner / 3 * 3 + (corner + 1) % 3];
         let vertex = |corner: usize| mesh.triangles[corner / 3][corner % 3];
         for one in corners(first) {
@@ -77,7 +77,7 @@ pub(super) fn shaded(mesh: &Mesh) -> Shaded {
         let group = groups.first(at);
         let vertex = mesh.triangles[at / 3][at % 3];
         if vertex_of[group] == FREE {
-            // A sum of nothing is that of faces that look against each other: then the first face's.
+            // If opposite faces cancel, use the normal of the first face.
             let sum = sums[group];
             let normal = if sum.norm() > 1e-6 {
                 unit(sum)
@@ -87,7 +87,7 @@ pub(super) fn shaded(mesh: &Mesh) -> Shaded {
             #[allow(clippy::cast_possible_truncation)]
             let normal: [f32; 3] = normal.map(|x| x as f32 + 0.0).into();
             if is_taken[vertex as usize] {
-                // A mesh has at most as many corners as indices go.
+                // The number of corners fits the index type.
                 vertex_of[group] = u32::try_from(out.mesh.vertices.len()).unwrap_or(vertex);
                 out.mesh.vertices.push(mesh.vertices[vertex as usize]);
                 out.normals.push(normal);
@@ -106,7 +106,7 @@ fn unit(vector: Vector3<f64>) -> Vector3<f64> {
     vector.try_normalize(0.0).unwrap_or_else(Vector3::z)
 }
 
-/// Corners that share a normal (union-find); each group is known by its first.
+/// Union-find of corners that share a normal; the first corner represents its group.
 struct Groups(Vec<u32>);
 
 impl Groups {

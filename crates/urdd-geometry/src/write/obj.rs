@@ -3,14 +3,14 @@
 use super::super::read::Part;
 use super::{WriteError, checked, single};
 
-/// The one binary32 (found by trying all of them) whose shortest text, 7.038531e-26, becomes its neighbour if it is read
-/// as binary64 and then rounded. It is written with the digits of binary64.
+/// The only binary32 value (found by trying all) whose shortest text, 7.038531e-26, becomes its neighbour when parsed
+/// as binary64 and then rounded. It is written with binary64 digits.
 const ROUNDED_TWICE: u32 = 0x15ae_43fd;
 
-/// Writes all parts as one OBJ: vertices and faces of each part in turn, without materials.
+/// Writes all parts as one OBJ: the vertices and faces of each part in turn, without materials.
 ///
 /// # Errors
-/// [`WriteError`] without triangles, or where a part is broken.
+/// [`WriteError`] if there are no triangles, or if a part is invalid.
 pub fn obj(parts: &[Part]) -> Result<Vec<u8>, WriteError> {
     let parts = checked(parts, "OBJ")?;
     let size: usize = parts

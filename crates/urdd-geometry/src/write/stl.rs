@@ -4,13 +4,13 @@ use super::super::mesh::double_area_normal;
 use super::super::read::Part;
 use super::{WriteError, checked, single};
 
-/// Not "solid": some readers take that for STL as text.
+/// Must not start with "solid": some readers would take the file for ASCII STL.
 const HEADER: &[u8] = b"binary STL, metres";
 
-/// Writes all parts as one binary STL. Normals are those of the triangles, 0 for one without area.
+/// Writes all parts as one binary STL. Normals are computed from the triangles; 0 for a triangle without area.
 ///
 /// # Errors
-/// [`WriteError`] without triangles, or where a part is broken.
+/// [`WriteError`] if there are no triangles, or if a part is invalid.
 pub fn stl(parts: &[Part]) -> Result<Vec<u8>, WriteError> {
     let parts = checked(parts, "STL")?;
     let count: usize = parts.iter().map(|part| part.mesh.triangles.len()).sum();

@@ -1,4 +1,4 @@
-//! Damped least squares from one configuration on.
+//! Damped least squares from one start configuration.
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
@@ -7,21 +7,20 @@ use super::{Goal, InverseSettings};
 use crate::branch::Place;
 use crate::rotation::to_rotation_vector;
 
-/// Largest change of a DOF in one step, rad or m: beyond, the Jacobian says little.
+/// Maximum change of a DOF per iteration, rad or m. The linearisation is poor beyond it.
 const STEP: f64 = 0.8;
 
-/// A descent has ended in a place that is no goal when this many steps in a row have taken less than [`LITTLE`] of the
-/// cost away.
+/// A descent is stuck when this many consecutive steps each reduced the cost by less than the fraction [`LITTLE`].
 const PATIENCE: usize = 3;
 const LITTLE: f64 = 1e-2;
 
-/// Damping over cost, at first and at least.
+/// Damping relative to the cost: initial and minimum value.
 const DAMPING: [f64; 2] = [0.1, 1e-3];
 
-/// Steps that are refused in a row before a descent is given up.
+/// Consecutive rejected steps before a descent gives up.
 const REFUSED: usize = 8;
 
-/// Where a descent ended.
+/// The result of a descent.
 pub(super) struct Found {
     pub configuration: Vec<f64>,
     pub cost: f64,
@@ -30,20 +29,20 @@ pub(super) struct Found {
     pub reached: bool,
 }
 
-/// What all descents to a goal share.
+/// State shared by all descents to a goal.
 pub(super) struct Descent<'a> {
     path: &'a Path<'a>,
     goal: &'a Goal,
     settings: &'a InverseSettings,
-    /// Metres that weigh as much as a radian.
+    /// The length, in metres, that weighs as much as a radian.
     length: f64,
-    /// Steps so far.
+    /// Iterations so far.
     pub iterations: usize,
     place: Place,
     jacobian: Vec<Vector6<f64>>,
 }
 
-/// What is left to the goal: metres, then radians times the length.
+/// The remaining error: metres, then radians times the length.
 struct Left {
     vector: Vector6<f64>,
     cost: f64,
@@ -65,7 +64,7 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// Descends from a configuration that is within bounds.
+    /// Descends from a configuration within bounds.
     pub fn from(&mut self, start: Vec<f64>) -> Found {
         let mut q = start;
         let mut left = self.left(&q);
@@ -142,8 +141,8 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// The configuration that damped least squares leads to, within bounds: a DOF that would leave them is put on its
-    /// bound, and the others make up for it.
+    /// One step of damped least squares within bounds. A DOF that would leave its bounds is set to the bound, and the
+    /// others are solved again to compensate.
     fn step(&self, q: &[f64], left: &Vector6<f64>, damping: f64, next: &mut [f64]) {
         let path = self.path;
         let columns = &self.jacobian;

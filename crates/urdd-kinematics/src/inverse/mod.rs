@@ -1,8 +1,8 @@
-//! Inverse kinematics: a configuration in which a point of a link is where it is wanted.
+//! Inverse kinematics: a configuration that moves a point of a link to a goal.
 //!
-//! Method: damped least squares within bounds, `descent`, from the given configuration and then from others. The
-//! damping is in proportion to what is left of the error, after T. Sugihara, "Solvability-Unconcerned Inverse Kinematics
-//! by the Levenberg-Marquardt Method", IEEE Transactions on Robotics 27 (2011).
+//! Method: damped least squares within bounds (`descent`), from the given configuration and then from random ones. The
+//! damping is proportional to the remaining squared error, after T. Sugihara, "Solvability-Unconcerned Inverse
+//! Kinematics by the Levenberg-Marquardt Method", IEEE Transactions on Robotics 27 (2011).
 
 mod descent;
 mod path;
@@ -15,35 +15,35 @@ use super::configurations::ConfigurationSpace;
 use super::error::ConfigurationError;
 use super::forward::ForwardKinematics;
 
-/// Where a point of a link should be, and how the link should be turned.
+/// The desired position of a point of a link, and optionally the desired rotation of the link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goal {
-    /// The link.
+    /// Index of the link.
     pub link: usize,
     /// The point, in the link's frame, metres.
     pub point: Point3<f64>,
-    /// Where it should be, in the root link's frame, metres.
+    /// The desired position, in the root link's frame, metres.
     pub position: Point3<f64>,
-    /// How the link's frame should be turned in the root link's; `None` where that does not matter.
+    /// The desired rotation of the link's frame in the root link's frame; `None` for any.
     pub rotation: Option<UnitQuaternion<f64>>,
 }
 
-/// When [`ForwardKinematics::reach`] has found its target, and when it gives up.
+/// Tolerances and limits of [`ForwardKinematics::reach`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct InverseSettings {
-    /// Metres that the point may be off; 1e-6 unless you say otherwise.
+    /// Position tolerance, metres; default 1e-6.
     pub position_tolerance: f64,
-    /// Radians that the link may be turned; 1e-6 unless you say otherwise.
+    /// Rotation tolerance, radians; default 1e-6.
     pub rotation_tolerance: f64,
-    /// Steps of each descent, at most; 100 unless you say otherwise.
+    /// Maximum number of iterations per descent; default 100.
     pub iterations: usize,
-    /// Descents from random configurations after that from the start, at most; 100 unless you say otherwise.
+    /// Maximum number of descents from random configurations after the first one; default 100.
     pub restarts: usize,
-    /// Restart 1, 2, ... begins at [`ConfigurationSpace::sampled`] of this number and the
-    /// restart's. So the same question has the same answer.
+    /// Restart 1, 2, ... uses [`ConfigurationSpace::sampled`] with the sum of `seed` and the restart's number. So the
+    /// search is deterministic.
     pub seed: u64,
-    /// The bounds of each DOF, in place of those of `bounds_module`: for a base without limits, which otherwise stays
-    /// within 1 m, or for a part of what the robot can do.
+    /// Bounds of each DOF, in place of those of `bounds_module`: for an unlimited base, which otherwise stays within
+    /// one metre, or to restrict the robot further.
     pub bounds: Option<Vec<[f64; 2]>>,
 }
 
@@ -60,37 +60,37 @@ impl Default for InverseSettings {
     }
 }
 
-/// What [`ForwardKinematics::reach`] found.
+/// The result of [`ForwardKinematics::reach`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Inverse {
-    /// The target is reached.
+    /// The goal is reached within the tolerances.
     Reached(InverseSolution),
-    /// The target was not reached, because it cannot be or because the search gave up: this came nearest.
+    /// The goal was not reached, because it is unreachable or the search gave up: the nearest solution.
     Nearest(InverseSolution),
 }
 
-/// A configuration, and how near to its target it is.
+/// A configuration and its errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InverseSolution {
-    /// One value for each DOF, rad or m, within bounds. DOFs that do not move the link are as they were at the start.
+    /// One value per DOF, rad or m, within bounds. DOFs that do not move the link keep their start values.
     pub configuration: Vec<f64>,
-    /// How far the point is from its target, metres.
+    /// Distance of the point from the goal, metres.
     pub position_error: f64,
-    /// The angle by which the link is turned against its target, radians; 0 where only a place is asked for.
+    /// Angle between the link's rotation and the goal, radians; 0 for a goal without rotation.
     pub rotation_error: f64,
-    /// Descents from random configurations that it took.
+    /// Number of descents from random configurations.
     pub restarts: usize,
-    /// Steps of all descents.
+    /// Number of iterations of all descents.
     pub iterations: usize,
 }
 
 impl Inverse {
-    /// Whether the target is reached.
+    /// Whether the goal is reached.
     pub fn is_reached(&self) -> bool {
         matches!(self, Inverse::Reached(_))
     }
 
-    /// The solution where the target is reached.
+    /// The solution, if the goal is reached.
     pub fn reached(self) -> Option<InverseSolution> {
         match self {
             Inverse::Reached(solution) => Some(solution),
@@ -98,7 +98,7 @@ impl Inverse {
         }
     }
 
-    /// What came nearest, reached or not.
+    /// The nearest solution, reached or not.
     pub fn nearest(&self) -> &InverseSolution {
         match self {
             Inverse::Reached(solution) | Inverse::Nearest(solution) => solution,
@@ -107,15 +107,16 @@ impl Inverse {
 }
 
 impl ForwardKinematics {
-    /// Looks for a configuration in which a goal is reached: by damped least squares from `start`, then from random
+    /// Searches for a configuration that reaches a goal: damped least squares from `start`, then from random
     /// configurations.
     ///
-    /// What of `start` is out of bounds is moved to the nearest bound. DOFs that do not move the link stay as they are
-    /// there; the bounds of rotation vectors are not looked at. A goal for a link that is not there is not reached. When
-    /// `stop` says so, the search gives up before the next restart.
+    /// Values of `start` out of bounds are first moved into bounds: angles that move the link by whole turns if
+    /// possible, others to the nearest bound. DOFs that do not move the link then keep their value. The bounds of
+    /// rotation vectors are ignored. A goal for a link that does not exist is not reached. If `stop` returns true, the
+    /// search ends before the next restart.
     ///
     /// # Errors
-    /// Where `start` has another length, or a value that is not finite.
+    /// If `start` has the wrong length, or a value that is not finite.
     pub fn reach(
         &self,
         goal: &Goal,

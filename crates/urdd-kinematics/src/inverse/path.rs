@@ -1,4 +1,4 @@
-//! The joints that move one link.
+//! The joints and DOFs that move one link.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,26 +15,26 @@ pub(super) struct Path<'a> {
     branch: Branch<'a>,
     /// A point of the link, in its frame.
     point: Point3<f64>,
-    /// The DOFs that move the link and that bounds leave room, ascending.
+    /// The DOFs that move the link and are not fixed by their bounds, ascending.
     pub dofs: Vec<usize>,
-    /// Of all DOFs, which of `dofs` each is.
+    /// For each DOF of the robot, its index in `dofs`.
     place: Vec<Option<usize>>,
-    /// The bounds of all DOFs, the lower first.
+    /// The bounds of all DOFs, lower bound first.
     bounds: Vec<[f64; 2]>,
-    /// What a DOF's value may be, for each of `dofs`.
+    /// The range of values of each of `dofs`.
     pub kinds: Vec<Kind>,
     /// The DOFs of rotation vectors.
     vectors: Vec<[usize; 3]>,
 }
 
-/// What the value of a DOF may be.
+/// The range of values of a DOF.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// What is within the bounds.
+    /// Within the bounds.
     Bounded,
-    /// What is within the bounds; whole turns are the same.
+    /// Within the bounds; whole turns are equivalent.
     Turning,
-    /// Anything: a component of a rotation vector.
+    /// Unbounded: a component of a rotation vector.
     Free,
 }
 
@@ -88,7 +88,7 @@ impl<'a> Path<'a> {
             let kind = match uses.as_slice() {
                 [] => continue,
                 [kind] => *kind,
-                // What drives several joints does not repeat with whole turns.
+                // A DOF that drives several joints does not repeat with whole turns.
                 _ => Kind::Bounded,
             };
             let [lower, upper] = path.bounds[dof];
@@ -106,7 +106,7 @@ impl<'a> Path<'a> {
         self.bounds[self.dofs[k]]
     }
 
-    /// Moves each value to the nearest bound, where it is out of bounds, or by whole turns where that helps.
+    /// Moves each value that is out of bounds by whole turns if possible, otherwise to the nearest bound.
     pub fn confine(&self, configuration: &mut [f64]) {
         let free: Vec<usize> = self.vectors.iter().flatten().copied().collect();
         for (dof, value) in configuration.iter_mut().enumerate() {
@@ -118,7 +118,7 @@ impl<'a> Path<'a> {
         self.wrap(configuration);
     }
 
-    /// Of each rotation vector the one that is the same rotation by at most half a turn.
+    /// Replaces each rotation vector by the equivalent one of at most a half turn.
     pub fn wrap(&self, configuration: &mut [f64]) {
         for dofs in &self.vectors {
             let vector = Vector3::from(dofs.map(|dof| configuration[dof]));
@@ -132,13 +132,13 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// Where the link is in a configuration, and the point in the root link's frame.
+    /// Computes the link's pose; returns the point in the root link's frame.
     pub fn place(&self, configuration: &[f64], place: &mut Place) -> Point3<f64> {
         self.branch.place(configuration, place);
         place.pose * self.point
     }
 
-    /// How the point and the link move with each of `dofs`: velocity, then angular velocity.
+    /// The linear and angular velocity of the point for each of `dofs`.
     pub fn jacobian(&self, configuration: &[f64], place: &Place, jacobian: &mut Vec<Vector6<f64>>) {
         jacobian.clear();
         jacobian.resize(self.dofs.len(), Vector6::zeros());
@@ -159,7 +159,7 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// How far from the first joint the point can be, about, metres.
+    /// Approximate maximum distance of the point from the first joint, metres.
     pub fn reach(&self) -> f64 {
         let shifts = self
             .branch
@@ -177,7 +177,7 @@ fn uses_of(uses: &mut [Vec<Kind>], dof: Option<usize>, kind: Kind) {
     }
 }
 
-/// A value that is within bounds: by whole turns where these do not matter and help, or else the nearest bound.
+/// The value within bounds: shifted by whole turns if `turning` and possible, otherwise clamped to the nearest bound.
 pub(super) fn within(value: f64, [lower, upper]: [f64; 2], turning: bool) -> f64 {
     if turning && !(lower..=upper).contains(&value) {
         let turned = value - TAU * ((value - 0.5 * (lower + upper)) / TAU).round();

@@ -1,45 +1,45 @@
-//! Why a model is of no use.
+//! Why a model cannot be used.
 
 use thiserror::Error;
 
-/// Why a model is of no use.
+/// Why a model cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ModelError {
-    /// A list is of another length than what it goes with.
+    /// A list has the wrong length.
     #[error("{pointer}: there are {found} entries, where {what} asks for {expected}")]
     Length {
-        /// The place in the document, as a JSON pointer.
+        /// JSON Pointer to the value.
         pointer: String,
-        /// How many there are.
+        /// Number of entries.
         found: usize,
-        /// How many there must be.
+        /// Required number of entries.
         expected: usize,
-        /// What asks for them.
+        /// What determines the required number.
         what: &'static str,
     },
-    /// An index is beyond the last.
+    /// A DOF index is out of range.
     #[error("{pointer}: DOF {index} is not one of the robot's {count}")]
     Dof {
-        /// The place in the document, as a JSON pointer.
+        /// JSON Pointer to the value.
         pointer: String,
         /// The index.
         index: usize,
         /// Number of DOFs.
         count: usize,
     },
-    /// A number is not finite, or one that must be positive is not.
+    /// A number is not finite, or is not positive as required.
     #[error("{pointer}: a number is not finite, or not positive where it must be")]
     Number {
-        /// The place in the document, as a JSON pointer.
+        /// JSON Pointer to the value.
         pointer: String,
     },
-    /// There is nothing where the network needs at least one value.
+    /// A list is empty, but the network needs at least one value.
     #[error("{pointer}: there is none; the network needs at least one")]
     NoValues {
-        /// The place in the document, as a JSON pointer.
+        /// JSON Pointer to the value.
         pointer: String,
     },
-    /// There is no layer.
+    /// The network has no layers.
     #[error("/layers: there is none; the network needs at least one")]
     NoLayer,
 }

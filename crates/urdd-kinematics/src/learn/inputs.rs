@@ -1,4 +1,4 @@
-//! What the network is told of a configuration: SPEC 8.8.3.
+//! The network's inputs for a configuration: SPEC 8.8.3.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -6,7 +6,7 @@ use super::error::ModelError;
 use urdd_format::index::DofIdx;
 use urdd_format::self_collision_model::ModelInput;
 
-/// An input, with indices that are right.
+/// An input with valid indices.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Input {
     Angle(usize),
@@ -18,12 +18,12 @@ pub enum Input {
     RotationVector([usize; 3]),
 }
 
-/// Number of values that a rotation vector gives.
+/// Number of values of a rotation vector input.
 const MATRIX: usize = 9;
-/// Number of values that an angle gives.
+/// Number of values of an angle input.
 const WAVES: usize = 4;
 
-/// Reads the inputs of a robot with so many DOFs.
+/// Reads the inputs of a robot with `num_dofs` DOFs.
 pub fn read(inputs: &[ModelInput], num_dofs: usize) -> Result<Vec<Input>, ModelError> {
     let check = |place: usize, key: &str, dof: DofIdx| {
         if dof.get() < num_dofs {
@@ -64,7 +64,7 @@ pub fn read(inputs: &[ModelInput], num_dofs: usize) -> Result<Vec<Input>, ModelE
     inputs.iter().enumerate().map(read).collect()
 }
 
-/// Writes the values of all inputs, one after the other.
+/// Writes the values of all inputs to `row`, in order.
 pub fn tell(inputs: &[Input], configuration: &[f64], mut row: &mut [f64]) {
     for input in inputs {
         let (own, rest) = row.split_at_mut(input.width());
@@ -74,7 +74,7 @@ pub fn tell(inputs: &[Input], configuration: &[f64], mut row: &mut [f64]) {
 }
 
 impl Input {
-    /// How many values it gives.
+    /// Number of values of this input.
     pub fn width(&self) -> usize {
         match self {
             Input::Angle(_) => WAVES,
@@ -83,7 +83,7 @@ impl Input {
         }
     }
 
-    /// Writes its values, of which there are [`Input::width`].
+    /// Writes its [`Input::width`] values.
     pub fn put(&self, configuration: &[f64], values: &mut [f64]) {
         match *self {
             Input::Angle(dof) => {
@@ -110,7 +110,8 @@ impl Input {
         }
     }
 
-    /// Adds to the derivative by each DOF what comes of the derivatives by its values.
+    /// Adds the gradient with respect to its values, transformed by the chain rule, to the gradient with respect to the
+    /// DOFs.
     pub fn pull_back(&self, configuration: &[f64], by_values: &[f64], by_dofs: &mut [f64]) {
         match *self {
             Input::Angle(dof) => {
@@ -144,7 +145,7 @@ fn rotation(v: [f64; 3]) -> Matrix3<f64> {
     let v = Vector3::from(v);
     let angle = v.norm();
     let cross = v.cross_matrix();
-    // sin x / x and (1 - cos x) / x^2, which near 0 are their series.
+    // sin x / x and (1 - cos x) / x^2, replaced near 0 by their series.
     let (a, b) = match angle < 1e-4 {
         true => (1.0 - angle * angle / 6.0, 0.5 - angle * angle / 24.0),
         false => {
@@ -155,7 +156,7 @@ fn rotation(v: [f64; 3]) -> Matrix3<f64> {
     Matrix3::identity() + cross * a + cross * cross * b
 }
 
-/// The derivative of [`rotation`] by component `k` of the rotation vector (Gallego and Yezzi, 2015).
+/// The derivative of [`rotation`] with respect to component `k` of the rotation vector (Gallego and Yezzi, 2015).
 fn rotation_derivative(v: [f64; 3], k: usize) -> Matrix3<f64> {
     let rotation = rotation(v);
     let v = Vector3::from(v);

@@ -1,15 +1,15 @@
-//! The arithmetic of networks, for several configurations side by side.
+//! Arithmetic of the network for several configurations at once.
 //!
-//! Only operations whose result is the same on every instruction set are used, in one order.
+//! Uses only operations with the same result on every instruction set, in a fixed order.
 
-/// Configurations that are worked on together.
+/// Configurations per batch.
 pub const LANES: usize = 32;
 
-/// A value in each of the configurations.
+/// One value for each configuration of a batch.
 pub type Lanes = [f64; LANES];
 
-/// Halves, and so on, of the series of e^r for |r| <= ln 2 / 2, from the highest power: 1/13! is less than 2^-32,
-/// and r^14 then less than 2^-21.
+/// Coefficients of the series of e^r for |r| <= ln 2 / 2, highest power first. 1/13! is less than 2^-32 and r^14 less
+/// than 2^-21, so the truncation error is less than 2^-53.
 const SERIES: [f64; 14] = [
     1.0 / 6_227_020_800.0,
     1.0 / 479_001_600.0,
@@ -27,16 +27,16 @@ const SERIES: [f64; 14] = [
     1.0,
 ];
 
-/// ln 2 in two parts, of which the first times a small integer is exact.
+/// ln 2 in two parts; the product of the first part and a small integer is exact.
 const LN_2: [f64; 2] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10];
 
-/// Added to a number, it leaves an integer in the low bits.
+/// Adding this to a number leaves its rounded integer in the low bits.
 const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
 /// The hyperbolic tangent, within 4e-16: 1 - 2 / (e^2x + 1), without a branch.
 #[inline(always)]
 pub(super) fn tanh(x: f64) -> f64 {
-    // From 20 on it is 1 to the last digit.
+    // For |x| >= 20, tanh is 1 in full precision.
     let y = 2.0 * x.clamp(-20.0, 20.0);
     let shifted = y * std::f64::consts::LOG2_E + TO_INTEGER;
     let k = shifted - TO_INTEGER;
@@ -45,12 +45,12 @@ pub(super) fn tanh(x: f64) -> f64 {
     for coefficient in SERIES {
         power = power * r + coefficient;
     }
-    // The exponent's bits of 2^k, of a k between -58 and 58.
+    // The exponent bits of 2^k, for k between -58 and 58.
     let two_to_k = f64::from_bits(shifted.to_bits().wrapping_add(1023) << 52);
     1.0 - 2.0 / (power * two_to_k + 1.0)
 }
 
-/// The values of a layer: `weights` (row by row, one row an output) times `inputs`, plus `biases`.
+/// The outputs of a layer: `weights` (row-major, one row per output) times `inputs`, plus `biases`.
 #[inline(always)]
 pub(super) fn dense(weights: &[f64], biases: &[f64], inputs: &[Lanes], outputs: &mut [Lanes]) {
     let rows = weights.chunks_exact(inputs.len().max(1));

@@ -1,10 +1,10 @@
-//! The learned self-collision model (SPEC 8.8): evaluating it, and, with the feature `generate`, training it.
+//! The learned self-collision model (SPEC 8.8): evaluation.
 //!
-//! A [`CollisionModel`] estimates how near pairs of links are. It is for passing over configurations that are far from
-//! any contact. It is an estimate, not a guarantee: its module states how often it is wrong.
+//! A [`CollisionModel`] estimates the clearance of link pairs. It is meant to skip configurations that are far from
+//! contact. It is an estimate, not a guarantee: its module states its error rates.
 //!
-//! A result does not depend on the instruction set, the number of threads, or what is asked together: sums are in
-//! one order, without fused operations, and functions are those of `libm` or our own.
+//! Results do not depend on the instruction set, the number of threads, or the batching. Sums have a fixed order
+//! without fused operations, and functions are those of `libm` or our own.
 
 mod error;
 pub mod inputs;

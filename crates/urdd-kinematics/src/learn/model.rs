@@ -1,4 +1,4 @@
-//! A model in use.
+//! Evaluation of a self-collision model.
 
 use fearless_simd::Level;
 use rayon::prelude::*;
@@ -12,11 +12,11 @@ use urdd_format::self_collision_model::{
     LinkPair, ModelEvaluation, ModelPair, SelfCollisionModelModule,
 };
 
-/// An estimate of how near a robot's links are to each other.
+/// An estimator of the clearance between a robot's links.
 ///
-/// The clearance of a pair is in metres; 0 or less means that the pair may be in contact. Far from contact it says no
-/// more than that: distances were clipped in training. It is an estimate, not a guarantee:
-/// [`CollisionModel::evaluation`] says how often it is wrong.
+/// The clearance of a pair is in metres; 0 or less means that the pair may be in contact. Large clearances have no
+/// exact meaning, because training clips distances. The result is an estimate, not a guarantee:
+/// [`CollisionModel::evaluation`] states the error rates.
 #[derive(Debug, Clone)]
 pub struct CollisionModel {
     num_dofs: usize,
@@ -29,23 +29,23 @@ pub struct CollisionModel {
     level: Level,
 }
 
-/// The least clearance of a configuration.
+/// The minimum clearance of a configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clearance {
-    /// The place of its pair in [`CollisionModel::pairs`].
+    /// The index of its pair in [`CollisionModel::pairs`].
     pub pair: usize,
     /// The clearance, metres.
     pub value: f64,
-    /// Its derivative by each DOF, m/rad or m/m. It is that of this pair: where two pairs have the least clearance,
-    /// there is no one derivative.
+    /// Its gradient with respect to the DOFs, m/rad or m/m, for this pair. If two pairs have the minimum clearance, the
+    /// minimum is not differentiable.
     pub gradient: Vec<f64>,
 }
 
 impl CollisionModel {
-    /// Reads a model of a robot with so many DOFs.
+    /// Reads a model of a robot with `num_dofs` DOFs.
     ///
     /// # Errors
-    /// Where lists do not fit to each other, or indices or numbers are of no use.
+    /// [`ModelError`] if list lengths do not match, or an index or number is invalid.
     pub fn new(module: &SelfCollisionModelModule, num_dofs: usize) -> Result<Self, ModelError> {
         let inputs = inputs::read(&module.inputs, num_dofs)?;
         let width = inputs.iter().map(Input::width).sum();
@@ -71,22 +71,22 @@ impl CollisionModel {
         }
     }
 
-    /// Number of values of a configuration.
+    /// Number of DOFs, which is the length of a configuration.
     pub fn num_dofs(&self) -> usize {
         self.num_dofs
     }
 
-    /// The pairs of links that it has an output for, with their margins.
+    /// The link pairs with an output, with their margins.
     pub fn pairs(&self) -> &[ModelPair] {
         &self.pairs
     }
 
-    /// The pairs of links that it takes to be apart always.
+    /// The link pairs that the model assumes to be always apart.
     pub fn other_pairs(&self) -> &[LinkPair] {
         &self.other_pairs
     }
 
-    /// From here on distances were all the same to it, metres.
+    /// The distance at which training clips, metres.
     pub fn clip_distance(&self) -> f64 {
         self.clip_distance
     }
@@ -97,16 +97,16 @@ impl CollisionModel {
         layers.map(|of| of.weights.len() + of.biases.len()).sum()
     }
 
-    /// How often it is right on configurations that it was not made on, as its module says. The validator counts again.
+    /// Its accuracy on configurations that were not used to make it, as its module states. The validator verifies it.
     pub fn evaluation(&self) -> &ModelEvaluation {
         &self.evaluation
     }
 
-    /// The clearance of each pair, in the order of [`CollisionModel::pairs`], metres. `configuration` has one value for
-    /// each DOF, rad or m.
+    /// The clearance of each pair, in the order of [`CollisionModel::pairs`], metres. `configuration` has one value per
+    /// DOF, rad or m.
     ///
     /// # Errors
-    /// For another length, or a value that is not finite.
+    /// If the configuration has the wrong length or a value that is not finite.
     pub fn clearances(&self, configuration: &[f64]) -> Result<Vec<f64>, ConfigurationError> {
         self.check(configuration)?;
         let values = self.network.values_of_one(self.told(configuration));
@@ -114,7 +114,7 @@ impl CollisionModel {
         Ok(self.less_margins(last).collect())
     }
 
-    /// Whether any pair may be in contact: whether a clearance is 0 or less, or none is known.
+    /// Whether any pair may be in contact: whether a clearance is 0 or less, or NaN.
     ///
     /// # Errors
     /// As [`CollisionModel::clearances`].
@@ -122,7 +122,7 @@ impl CollisionModel {
         Ok(!is_clear(self.clearances(configuration)?))
     }
 
-    /// The least clearance and its derivative by each DOF; `None` for a model without a pair.
+    /// The minimum clearance and its gradient; `None` for a model without pairs.
     ///
     /// # Errors
     /// As [`CollisionModel::clearances`].
@@ -142,7 +142,7 @@ impl CollisionModel {
         }))
     }
 
-    /// The derivative of a pair's clearance by each DOF, m/rad or m/m; `None` for a pair that is not there.
+    /// The gradient of a pair's clearance with respect to the DOFs, m/rad or m/m; `None` if the pair does not exist.
     ///
     /// # Errors
     /// As [`CollisionModel::clearances`].
@@ -160,19 +160,18 @@ impl CollisionModel {
         Ok(Some(self.by_dofs(configuration, &by_inputs)))
     }
 
-    /// The clearances in each of many configurations, which follow each other: value `k * pairs + pair` is that of
-    /// `pair` in configuration `k`. The work is done by all threads of rayon's pool. What comes after the last whole
-    /// configuration is not looked at.
+    /// The clearances in many configurations, which are concatenated: value `k * pairs + pair` is that of `pair` in
+    /// configuration `k`. Uses all threads of rayon's pool. Ignores values after the last complete configuration.
     ///
     /// # Errors
-    /// As [`CollisionModel::clearances`], for the first configuration that has none.
+    /// As [`CollisionModel::clearances`], for the first invalid configuration.
     pub fn clearances_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, ConfigurationError> {
         self.batch(configurations, |clearances, out: &mut Vec<f64>| {
             out.extend(clearances);
         })
     }
 
-    /// Whether any pair may be in contact, in each of many configurations, as [`CollisionModel::may_collide`].
+    /// Whether any pair may be in contact in each of many configurations, as [`CollisionModel::may_collide`].
     ///
     /// # Errors
     /// As [`CollisionModel::clearances_batch`].
@@ -185,14 +184,14 @@ impl CollisionModel {
         })
     }
 
-    /// The least clearance in each of many configurations, metres; infinite for a model without a pair, NaN where a
-    /// clearance is not known.
+    /// The minimum clearance in each of many configurations, metres; infinite for a model without pairs, NaN if a
+    /// clearance is NaN.
     ///
     /// # Errors
     /// As [`CollisionModel::clearances_batch`].
     pub fn least_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, ConfigurationError> {
         self.batch(configurations, |clearances, out| {
-            // `f64::min` would pass over NaN, and what is not known would be clear.
+            // `f64::min` would ignore NaN, and an unknown clearance would count as clear.
             let least = |least: f64, clearance: f64| match least < clearance || least.is_nan() {
                 true => least,
                 false => clearance,
@@ -201,7 +200,7 @@ impl CollisionModel {
         })
     }
 
-    /// Asks `take` for what is wanted of each configuration's clearances.
+    /// Evaluates configurations in batches; `take` appends the result for each configuration's clearances.
     fn batch<T: Send>(
         &self,
         configurations: &[f64],
@@ -245,7 +244,7 @@ impl CollisionModel {
         ConfigurationError::check(configuration, self.num_dofs)
     }
 
-    /// What the network is told of a configuration.
+    /// The network's inputs for a configuration.
     fn told(&self, configuration: &[f64]) -> Vec<f64> {
         let width = self.inputs.iter().map(Input::width).sum();
         let mut told = vec![0.0; width];

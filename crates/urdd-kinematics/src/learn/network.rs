@@ -1,4 +1,4 @@
-//! A network of layers: SPEC 8.8.4.
+//! A fully connected network: SPEC 8.8.4.
 
 use fearless_simd::{Level, Simd, dispatch};
 
@@ -9,26 +9,26 @@ use urdd_format::self_collision_model::ModelLayer;
 /// A layer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
-    /// Row by row, one row an output.
+    /// Row-major, one row per output.
     pub weights: Vec<f64>,
     pub biases: Vec<f64>,
 }
 
 impl Layer {
-    /// Number of values before it.
+    /// Number of inputs.
     pub fn num_inputs(&self) -> usize {
         self.weights.len() / self.biases.len().max(1)
     }
 }
 
-/// Layers of which each takes what the one before gives; between two of them is a hyperbolic tangent.
+/// Consecutive layers, with a hyperbolic tangent between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Network {
     pub layers: Vec<Layer>,
 }
 
 impl Network {
-    /// Reads the layers of a network that takes `num_inputs` values and gives `num_outputs`.
+    /// Reads the layers of a network with `num_inputs` inputs and `num_outputs` outputs.
     pub fn read(
         layers: &[ModelLayer],
         num_inputs: usize,
@@ -86,8 +86,8 @@ impl Network {
         }
     }
 
-    /// The values after each layer, of configurations side by side: those of layer k are at place k + 1, those at place 0
-    /// are what the network is told.
+    /// Computes the values after each layer for several configurations. Layer k writes to index k + 1; index 0 contains
+    /// the inputs.
     pub fn values(&self, level: Level, values: &mut [Vec<Lanes>]) {
         dispatch!(level, simd => self.values_with(simd, values));
     }
@@ -105,7 +105,7 @@ impl Network {
         }
     }
 
-    /// Room for [`Network::values`].
+    /// Buffers for [`Network::values`].
     pub fn room(&self) -> Vec<Vec<Lanes>> {
         let zeros = |count: usize| vec![[0.0; LANES]; count];
         let first = self.layers.first().map_or(0, Layer::num_inputs);
@@ -113,7 +113,7 @@ impl Network {
         std::iter::once(zeros(first)).chain(rest).collect()
     }
 
-    /// The values after each layer, of one configuration: the same bits as [`Network::values`] gives.
+    /// The values after each layer for one configuration, bit-identical to [`Network::values`].
     pub fn values_of_one(&self, inputs: Vec<f64>) -> Vec<Vec<f64>> {
         let last = self.layers.len().saturating_sub(1);
         let mut values = vec![inputs];
@@ -135,7 +135,7 @@ impl Network {
         values
     }
 
-    /// The derivative of an output by what the network is told, from the values after each layer.
+    /// The gradient of an output with respect to the inputs, from the values after each layer.
     pub fn derivative(&self, values: &[Vec<f64>], output: usize) -> Vec<f64> {
         let last = self.layers.len().saturating_sub(1);
         let mut by_values: Vec<f64> = Vec::new();

@@ -1,18 +1,19 @@
-//! Finding elements of a COLLADA document.
+//! Element lookup in a COLLADA document.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
 
 use roxmltree::Node;
 
-/// A document whose elements can be found by tag and id.
+/// A document with its elements indexed by tag and id.
 pub(super) struct Document<'a> {
     pub(super) root: Node<'a, 'a>,
     by_id: HashMap<(&'a str, &'a str), Node<'a, 'a>>,
 }
 
 impl<'a> Document<'a> {
-    /// Of elements with the same tag and id, the first is found. Names of different kinds do clash in real files.
+    /// Of elements with the same tag and id, the first counts. The tag is part of the key because real files reuse ids
+    /// across tags.
     pub(super) fn new(root: Node<'a, 'a>) -> Self {
         let mut by_id = HashMap::new();
         for node in root.descendants().filter(Node::is_element) {
@@ -23,15 +24,15 @@ impl<'a> Document<'a> {
         Self { root, by_id }
     }
 
-    /// The element with this tag that a URL within the document names.
+    /// The element with this tag that a document-internal URL references.
     pub(super) fn find(&self, tag: &str, url: &str) -> Option<Node<'a, 'a>> {
         let url = url.trim();
         let id = url.strip_prefix('#').unwrap_or(url);
-        // The lifetimes of the keys are those of the document, hence the search by a shorter one.
+        // The keys have the document's lifetime; look up with a shorter one.
         self.by_id.get(&(tag, id) as &(&str, &str)).copied()
     }
 
-    /// Every image file, as a name relative to the document.
+    /// The names of all image files, relative to the document.
     pub(super) fn images(&self) -> Vec<String> {
         children(self.root, "library_images")
             .flat_map(|library| children(library, "image"))
@@ -42,7 +43,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// The children with this tag, whatever the namespace (1.4 and 1.5 differ in it).
+/// The children with this tag, in any namespace (1.4 and 1.5 have different ones).
 pub(super) fn children<'a>(node: Node<'a, 'a>, tag: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {
     node.children()
         .filter(move |child| child.is_element() && child.tag_name().name() == tag)
@@ -53,7 +54,7 @@ pub(super) fn child<'a>(node: Node<'a, 'a>, tag: &'a str) -> Option<Node<'a, 'a>
     children(node, tag).next()
 }
 
-/// All text of an element: comments may split it.
+/// All text of an element; comments may split it.
 pub(super) fn text<'a>(node: Node<'a, 'a>) -> Cow<'a, str> {
     let mut texts = node
         .children()
@@ -72,7 +73,7 @@ pub(super) fn text<'a>(node: Node<'a, 'a>) -> Cow<'a, str> {
     }
 }
 
-/// A file name from a relative URL: `%20` becomes a space, a backslash a slash.
+/// Converts a relative URL to a file name: decodes `%20` and the like, and replaces backslashes by slashes.
 pub(crate) fn path_of_url(url: &str) -> String {
     let bytes = url.as_bytes();
     let mut path = Vec::with_capacity(bytes.len());

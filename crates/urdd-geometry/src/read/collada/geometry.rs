@@ -16,7 +16,7 @@ pub(super) struct Primitive<'a> {
     pub(super) mesh: Mesh,
 }
 
-/// What geometries share while they are read.
+/// State that geometries share while they are read.
 #[derive(Default)]
 pub(super) struct Tools {
     picker: Picker,
@@ -94,7 +94,7 @@ enum Shape {
     Strips,
 }
 
-/// How the indices of a primitive lie: `stride` for each corner, the vertex at `offset`.
+/// Index layout of a primitive: `stride` indices per corner, the vertex at `offset`.
 #[derive(Clone, Copy)]
 struct Layout<'a> {
     source: &'a str,
@@ -102,7 +102,7 @@ struct Layout<'a> {
     stride: usize,
 }
 
-/// A corner has at most so many indices; real files have up to 6.
+/// Maximum number of indices per corner; real files have up to 6.
 const MOST_INPUTS: usize = 1024;
 
 impl<'a> Layout<'a> {
@@ -152,7 +152,7 @@ struct Faces<'a> {
     bad: usize,
 }
 
-/// An index that no mesh has: what is no index, until the triangle is dropped.
+/// An index out of range for every mesh. It marks a malformed index until its triangle is dropped.
 const NO_INDEX: u32 = u32::MAX;
 
 impl Faces<'_> {
@@ -194,7 +194,7 @@ impl Faces<'_> {
                         splitter.split(vertices, &self.corners, &mut self.triangles);
                     }
                 }
-                // A polylist without counts is one of triangles in real files.
+                // In real files, a polylist without counts contains triangles.
                 (Shape::PolyList, None) => self.read_triangles(&mut words),
                 (Shape::Polygons, _) => {
                     self.read_corners(&mut words, usize::MAX);
@@ -232,7 +232,7 @@ impl Faces<'_> {
         }
     }
 
-    /// Up to `count` corners, fewer at the end of the text.
+    /// Reads up to `count` corners, fewer at the end of the text.
     fn read_corners(&mut self, words: &mut Words<'_>, count: usize) {
         self.corners.clear();
         while self.corners.len() < count {
@@ -257,7 +257,7 @@ impl Faces<'_> {
     }
 }
 
-/// The triangles of a strip: every second one is turned round.
+/// The triangles of a strip; every second one has its winding reversed.
 pub(crate) fn strip(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     corners.windows(3).enumerate().map(|(at, three)| {
         if at % 2 == 0 {

@@ -8,10 +8,10 @@ use super::super::assembly::Material;
 use super::super::number::Words;
 use super::document::{Document, text};
 
-/// The colour of each effect that was read, by its element.
+/// The colour of each effect that was read.
 pub(super) type Colors = HashMap<NodeId, Option<[f64; 4]>>;
 
-/// What an instance of a geometry binds: from symbol to the material's URL.
+/// The bindings of a geometry instance: from symbol to material URL.
 pub(super) fn bindings<'a>(instance: Option<Node<'a, 'a>>) -> HashMap<&'a str, &'a str> {
     let mut bindings = HashMap::new();
     for node in instance
@@ -29,7 +29,7 @@ pub(super) fn bindings<'a>(instance: Option<Node<'a, 'a>>) -> HashMap<&'a str, &
     bindings
 }
 
-/// The material of a part: what the instance binds to the symbol, else a material with that id.
+/// The material that the instance binds to the symbol, or else the material with that id.
 pub(super) fn of_symbol(
     document: &Document<'_>,
     bindings: &HashMap<&str, &str>,
@@ -55,7 +55,8 @@ pub(super) fn of_symbol(
     }
 }
 
-/// The diffuse colour of an effect; of a `constant` one, which has none, the emission. A texture gives none.
+/// The diffuse colour of an effect, or the emission of a `constant` one, which has no diffuse colour; `None` for a
+/// texture.
 fn diffuse(effect: Node<'_, '_>) -> Option<[f64; 4]> {
     let profile = child_of(effect, "profile_COMMON")?;
     let technique = child_of(profile, "technique")?;
@@ -74,7 +75,7 @@ fn diffuse(effect: Node<'_, '_>) -> Option<[f64; 4]> {
     if let Some(color) = child_of(value, "color") {
         return rgba(color);
     }
-    // A parameter by name, from the profile or the effect.
+    // A named parameter of the technique, profile or effect.
     let name = child_of(value, "param")?.attribute("ref")?;
     [technique, profile, effect]
         .into_iter()
@@ -96,7 +97,7 @@ fn child_of<'a, 'b>(node: Node<'a, 'b>, tag: &str) -> Option<Node<'a, 'b>> {
     node.children().find(|child| child.tag_name().name() == tag)
 }
 
-/// Three or four numbers, brought into 0 to 1.
+/// Three or four numbers, clamped to 0 to 1.
 fn rgba(node: Node<'_, '_>) -> Option<[f64; 4]> {
     let text = text(node);
     let mut words = Words::new(text.as_bytes());

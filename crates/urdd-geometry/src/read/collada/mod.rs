@@ -14,7 +14,7 @@ pub(super) use document::path_of_url;
 use document::{Document, child, children};
 pub(super) use geometry::strip;
 
-/// Reads a document: the visual scene that it shows, every geometry where its nodes place it.
+/// Reads a document: adds every geometry of its visual scene where the nodes place it.
 pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
     let text = decode(bytes, assembly)?;
     let xml = urdd_xml::parse(&text, urdd_xml::Kind::Other).map_err(|error| {
@@ -38,8 +38,8 @@ pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure>
     scene::walk(&document, unit, assembly)
 }
 
-/// UTF-8 with or without a byte order mark, or UTF-16 with one; other bytes, as in an author's name in Latin-1, become
-/// replacement characters.
+/// Decodes UTF-8 with or without a byte order mark, or UTF-16 with one. Invalid UTF-8, such as an author's name in
+/// Latin-1, becomes replacement characters.
 fn decode<'a>(
     bytes: &'a [u8],
     assembly: &mut Assembly,
@@ -71,7 +71,7 @@ fn decode<'a>(
     Ok(text)
 }
 
-/// Metres in one unit of the document.
+/// Length of one unit of the document, metres.
 fn unit(root: roxmltree::Node<'_, '_>, assembly: &mut Assembly) -> f64 {
     let meter = child(root, "asset")
         .and_then(|asset| child(asset, "unit"))

@@ -1,4 +1,4 @@
-//! The visual scene: nodes, and what they place.
+//! The visual scene: nodes, and the geometries that they place.
 
 use std::collections::HashMap;
 
@@ -12,16 +12,16 @@ use super::geometry::{self, Primitive, Tools};
 use super::material::{self, Colors};
 use super::transform;
 
-/// Nodes may lie so deep in one another.
+/// Maximum nesting depth of nodes.
 const DEEPEST: usize = 200;
-/// So many nodes are visited: `instance_node` can name more than a file holds.
+/// Maximum number of node visits: `instance_node` can multiply the nodes of a file.
 const MOST_NODES: usize = 100_000;
-/// So many bytes of nodes are gone through, each time that they are placed.
+/// Maximum number of node bytes processed, counted for each placement.
 const MOST_TEXT: usize = 1 << 28;
 
-/// Adds every geometry that the scene shows, at its place.
+/// Adds every geometry of the scene with its placement.
 ///
-/// Without a scene the first visual scene is taken, and without any of these every geometry as it stands.
+/// Without a `scene` element, takes the first visual scene; without a visual scene, adds every geometry unplaced.
 pub(super) fn walk(
     document: &Document<'_>,
     unit: f64,
@@ -71,11 +71,10 @@ struct Walker<'a, 'd> {
     document: &'d Document<'a>,
     assembly: &'d mut Assembly,
     tools: Tools,
-    /// Each geometry is read once, however often it is placed.
+    /// Geometries by element, so that each is read once.
     geometries: HashMap<roxmltree::NodeId, Vec<Primitive<'a>>>,
-    /// The nodes around the present one.
-    /// The colour of each effect.
     colors: Colors,
+    /// The ancestors of the current node.
     path: Vec<roxmltree::NodeId>,
     visited: usize,
     text: usize,
@@ -149,7 +148,7 @@ impl<'a> Walker<'a, '_> {
         Ok(())
     }
 
-    /// A skin's geometry in its bind shape, or a morph's base, without the motion of joints.
+    /// Adds a skin's geometry in its bind shape, or a morph's base, without joint motion.
     fn controller(
         &mut self,
         instance: Node<'a, 'a>,
@@ -158,7 +157,7 @@ impl<'a> Walker<'a, '_> {
     ) -> Result<(), Failure> {
         let mut url = url;
         let mut matrix = *matrix;
-        // A skin may deform a morph, which deforms a geometry; longer chains do not exist.
+        // A skin may deform a morph, which deforms a geometry. Longer chains do not occur.
         for _ in 0..4 {
             if let Some(geometry) = self.document.find("geometry", url) {
                 self.assembly.notes.add(
@@ -182,7 +181,7 @@ impl<'a> Walker<'a, '_> {
             {
                 matrix *= transform::rows(transform::numbers::<16>(shape)?);
             }
-            // 1.5 calls morph's attribute `method`, and both `source`.
+            // Both `skin` and `morph` reference what they deform by `source`.
             url = deformer.attribute("source").unwrap_or("");
         }
         self.missing("controller", url);

@@ -8,7 +8,7 @@ use super::super::error::{Failure, Fault};
 use super::super::number::{Words, float};
 use super::document::{Document, child, children, text};
 
-/// The positions of each source that was read, whatever meshes share it.
+/// The positions of each source that was read, shared between meshes.
 pub(super) type Read = HashMap<NodeId, Vec<[f64; 3]>>;
 
 /// Vertex positions of one mesh.
@@ -35,7 +35,7 @@ impl<'a, 'd> Positions<'a, 'd> {
         }
     }
 
-    /// The positions that an input names, which is a `vertices` element or a `source`.
+    /// The positions that an input references through a `vertices` element or a `source`.
     pub(super) fn of(&mut self, url: &'a str) -> Result<&[[f64; 3]], Failure> {
         let id = match self.sources.get(url) {
             Some(id) => *id,
@@ -44,7 +44,7 @@ impl<'a, 'd> Positions<'a, 'd> {
         Ok(&self.read[&id])
     }
 
-    /// Finds a source, and reads it where it was not read before.
+    /// Finds a source, and reads it unless it was read before.
     fn find_source(&mut self, url: &'a str) -> Result<NodeId, Failure> {
         let source = match self.find("vertices", url) {
             Some(vertices) => children(vertices, "input")
@@ -62,7 +62,7 @@ impl<'a, 'd> Positions<'a, 'd> {
         Ok(source.id())
     }
 
-    /// In this mesh first: some exporters use the same ids in each.
+    /// Searches this mesh first: some exporters reuse the same ids in each mesh.
     fn find(&self, tag: &str, url: &str) -> Option<Node<'a, 'a>> {
         let id = url.trim().strip_prefix('#').unwrap_or(url.trim());
         self.own
@@ -105,7 +105,7 @@ impl<'a, 'd> Positions<'a, 'd> {
         if words.by_ref().take(offset).count() < offset {
             return Ok(Vec::new());
         }
-        // The counts that the file gives are not needed: the text has an end.
+        // The file's counts are only capacity hints: the end of the text ends the list.
         let mut positions = Vec::with_capacity(
             array
                 .attribute("count")
@@ -136,7 +136,7 @@ impl<'a, 'd> Positions<'a, 'd> {
     }
 }
 
-/// Which of an accessor's parameters are x, y and z; `None` if it has fewer than three.
+/// The indices of an accessor's x, y and z parameters; `None` if it has fewer than three.
 fn axes(accessor: Option<Node<'_, '_>>) -> Option<[usize; 3]> {
     let Some(accessor) = accessor else {
         return Some([0, 1, 2]);
@@ -149,7 +149,7 @@ fn axes(accessor: Option<Node<'_, '_>>) -> Option<[usize; 3]> {
     let of = |name: &str| names.iter().position(|found| *found == Some(name));
     match (of("X"), of("Y"), of("Z")) {
         (Some(x), Some(y), Some(z)) => Some([x, y, z]),
-        // Parameters without names are to be skipped by the letter; files without names mean the first three.
+        // By the specification, parameters without names are skipped. Files without any names mean the first three.
         _ if names.is_empty() || names.len() >= 3 => Some([0, 1, 2]),
         _ => None,
     }

@@ -7,7 +7,7 @@ use super::super::error::{Failure, Fault};
 use super::super::number::Words;
 use super::document::text;
 
-/// The node's transforms in the order in which they stand: the first is outermost.
+/// The product of the node's transforms in document order: the first is outermost.
 pub(super) fn of_node(node: Node<'_, '_>) -> Result<Matrix4<f64>, Failure> {
     let mut matrix = Matrix4::identity();
     for element in node.children().filter(Node::is_element) {
@@ -27,15 +27,15 @@ pub(super) fn of_node(node: Node<'_, '_>) -> Result<Matrix4<f64>, Failure> {
     Ok(matrix)
 }
 
-/// A matrix of 16 numbers, row by row.
+/// A matrix from 16 numbers, row by row.
 pub(super) fn rows(values: [f64; 16]) -> Matrix4<f64> {
     let mut matrix = Matrix4::from_row_slice(&values);
-    // Its last row is 0 0 0 1 by definition; some files hold rounding errors there.
+    // The last row is 0 0 0 1 by definition; some files contain rounding errors there.
     matrix.set_row(3, &nalgebra::RowVector4::new(0.0, 0.0, 0.0, 1.0));
     matrix
 }
 
-/// Exactly `N` finite numbers.
+/// Parses exactly `N` finite numbers.
 pub(super) fn numbers<const N: usize>(element: Node<'_, '_>) -> Result<[f64; N], Failure> {
     let text = text(element);
     let mut words = Words::new(text.as_bytes());
@@ -60,7 +60,7 @@ fn wrong(element: Node<'_, '_>, count: usize) -> Failure {
     ))
 }
 
-/// About an axis by an angle in degrees. An axis of length 0 turns nothing.
+/// Rotation about an axis, in degrees; the identity for an axis of length 0.
 fn rotation([x, y, z, degrees]: [f64; 4]) -> Matrix4<f64> {
     match Unit::try_new(Vector3::new(x, y, z), 0.0) {
         Some(axis) => Rotation3::from_axis_angle(&axis, degrees.to_radians()).to_homogeneous(),
@@ -68,7 +68,7 @@ fn rotation([x, y, z, degrees]: [f64; 4]) -> Matrix4<f64> {
     }
 }
 
-/// Shears along the second axis, by an angle away from the first: as in RenderMan, whose operator COLLADA cites.
+/// Shear along the second axis by an angle away from the first, as in RenderMan, whose operator COLLADA cites.
 fn skew([degrees, fx, fy, fz, tx, ty, tz]: [f64; 7]) -> Matrix4<f64> {
     let (from, along) = (Vector3::new(fx, fy, fz), Vector3::new(tx, ty, tz));
     let Some(along) = along.try_normalize(0.0) else {
@@ -77,7 +77,7 @@ fn skew([degrees, fx, fy, fz, tx, ty, tz]: [f64; 7]) -> Matrix4<f64> {
     let Some(across) = (from - along * from.dot(&along)).try_normalize(0.0) else {
         return Matrix4::identity();
     };
-    // The angle of `from` above `across` grows by the skew's.
+    // The skew increases the angle of `from` above `across`.
     let angle = from.dot(&along).atan2(from.dot(&across));
     let shear = (angle + degrees.to_radians()).tan() - angle.tan();
     if !shear.is_finite() {
@@ -90,7 +90,7 @@ fn skew([degrees, fx, fy, fz, tx, ty, tz]: [f64; 7]) -> Matrix4<f64> {
     matrix
 }
 
-/// The pose of a camera at the eye that looks along its -z to the interest, with its y upward.
+/// The pose of a camera at the eye that looks along its -z towards the interest, with +y up.
 fn look_at(values: [f64; 9]) -> Option<Matrix4<f64>> {
     let [eye, interest, up] =
         [0, 3, 6].map(|at| Vector3::new(values[at], values[at + 1], values[at + 2]));

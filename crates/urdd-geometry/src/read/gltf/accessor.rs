@@ -1,4 +1,4 @@
-//! Accessors of a glTF: positions and indices.
+//! Accessors of a glTF file: positions, normals and indices.
 
 use super::super::assembly::Assembly;
 use super::super::error::{Failure, Fault, NoteCode};
@@ -12,7 +12,7 @@ const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
 
-/// An accessor without data of its own, for sparse values, has at most so many elements.
+/// Maximum number of elements of an accessor without a buffer view, as sparse accessors may have.
 const MOST_ZEROS: usize = 1 << 20;
 
 /// The vertex positions of an accessor.
@@ -91,7 +91,7 @@ pub(super) fn positions(
     Ok(positions)
 }
 
-/// Whether the bounds that an accessor gives are those of its positions, as binary32 has them.
+/// Whether an accessor's `min` and `max` match its positions in binary32.
 fn bounds_are(accessor: &Accessor, positions: &[[f64; 3]]) -> bool {
     type Pick = fn(f64, f64) -> f64;
     let sides: [(&Vec<f64>, Pick); 2] = [(&accessor.min, f64::min), (&accessor.max, f64::max)];
@@ -105,7 +105,7 @@ fn bounds_are(accessor: &Accessor, positions: &[[f64; 3]]) -> bool {
     })
 }
 
-/// Checks the normals of an accessor: finite, of unit length, one for each of the positions.
+/// Checks an accessor's normals: finite, of unit length, one per position.
 pub(super) fn check_normals(
     root: &Root,
     index: usize,
@@ -116,7 +116,7 @@ pub(super) fn check_normals(
     let accessor = get(root, index)?;
     let float = accessor.component_type == FLOAT && accessor.shape == "VEC3";
     let (Some(view), true, None) = (accessor.buffer_view, float, &accessor.sparse) else {
-        // Quantized or sparse: what a glTF of a robot's part does not have.
+        // Quantized or sparse normals are not checked: meshes of robots do not have them.
         return Ok(());
     };
     let (bytes, stride) = buffers.view(view, assembly)?;
@@ -145,7 +145,7 @@ pub(super) fn check_normals(
     Ok(())
 }
 
-/// How far the length of a normal may be from 1.
+/// Tolerance for the length of a normal, which must be 1.
 const UNIT_NORMAL: f64 = 1e-3;
 
 /// The vertex indices of an accessor.
@@ -202,7 +202,7 @@ fn get(root: &Root, index: usize) -> Result<&Accessor, Failure> {
         .ok_or_else(|| Fault::malformed("there is no such accessor"))
 }
 
-/// `count` elements of `size` bytes, `stride` apart; all of them lie in `bytes`, or it is an error.
+/// `count` elements of `size` bytes, `stride` bytes apart. Fails unless all are inside `bytes`.
 fn elements(
     bytes: &[u8],
     offset: usize,
@@ -226,7 +226,7 @@ fn elements(
     let bytes = end.and_then(|end| bytes.get(offset..end));
     let bytes = bytes
         .ok_or_else(|| Fault::Truncated(format!("{count} elements do not fit the buffer view")))?;
-    // The last chunk may lack the bytes between elements, but holds an element.
+    // The last chunk may lack the padding between elements, but contains a whole element.
     Ok(bytes.chunks(stride))
 }
 
@@ -238,8 +238,8 @@ fn size(component: u32) -> usize {
     }
 }
 
-/// How to read a component. Integers occur as positions with `KHR_mesh_quantization`; normalized ones are fractions of
-/// their greatest value, as the specification of glTF has it.
+/// The function that reads a component. `KHR_mesh_quantization` allows integer positions. Normalized integers are
+/// fractions of their maximum, as the glTF specification defines.
 fn reader(component: u32, normalized: bool) -> Option<fn(&[u8]) -> f64> {
     Some(match (component, normalized) {
         (FLOAT, _) => {

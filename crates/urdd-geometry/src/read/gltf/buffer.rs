@@ -1,4 +1,4 @@
-//! The buffers of a glTF: in the GLB, in data URIs, in files.
+//! The buffers of a glTF file: the GLB chunk, data URIs and files.
 
 use base64::Engine as _;
 use base64::engine::DecodePaddingMode;
@@ -10,7 +10,7 @@ use super::super::error::{Failure, Fault};
 use super::Fetch;
 use super::json::Root;
 
-/// Buffers, each loaded when it is first needed.
+/// Buffers, loaded on first use.
 pub(super) struct Buffers<'r, 'f> {
     root: &'r Root,
     data: Option<&'r [u8]>,
@@ -18,7 +18,7 @@ pub(super) struct Buffers<'r, 'f> {
     loaded: Vec<Option<Vec<u8>>>,
 }
 
-/// Padding is left out by some writers.
+/// Some writers omit the padding.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &base64::alphabet::STANDARD,
     GeneralPurposeConfig::new()
@@ -63,7 +63,7 @@ impl<'r, 'f> Buffers<'r, 'f> {
             .get(index)
             .ok_or_else(|| Fault::malformed(format!("there is no buffer {index}")))?;
         let Some(uri) = &buffer.uri else {
-            // Only the first buffer may be the chunk of the GLB.
+            // Only the first buffer may be the GLB chunk.
             let data = self.data.filter(|_| index == 0);
             return data.ok_or_else(|| {
                 Fault::malformed(format!("buffer {index} has neither a file nor data"))
@@ -92,7 +92,7 @@ impl<'r, 'f> Buffers<'r, 'f> {
     }
 }
 
-/// Whether a URI holds its data in itself.
+/// Whether a URI is a data URI.
 pub(super) fn is_data(uri: &str) -> bool {
     uri.get(..5)
         .is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))

@@ -1,4 +1,4 @@
-//! The parts of a glTF document that have to do with geometry. Everything else in the JSON is passed over.
+//! The geometry-related parts of a glTF document. Deserialization ignores everything else.
 
 use serde::Deserialize;
 use serde_json::Value;
@@ -38,7 +38,7 @@ pub(super) struct Node {
     pub(super) mesh: Option<usize>,
     pub(super) skin: Option<usize>,
     pub(super) children: Vec<usize>,
-    /// Column by column.
+    /// Column-major.
     pub(super) matrix: Option<[f64; 16]>,
     pub(super) translation: Option<[f64; 3]>,
     /// Quaternion x, y, z, w.

@@ -22,8 +22,8 @@ pub(super) fn read_json(
     read_document(skip_byte_order_mark(bytes), None, fetch, up, assembly)
 }
 
-/// Reads a .glb: a header of 12 bytes, a chunk of JSON, and perhaps one of data. Lengths that reach beyond the end of
-/// the file are cut to it with a note; what is missing then shows where it is used.
+/// Reads a .glb: a 12-byte header, a JSON chunk, and optionally a binary chunk. Clamps lengths beyond the end of the
+/// file. A wrong total length adds a note; missing data fails where it is used.
 pub(super) fn read_binary(
     bytes: &[u8],
     fetch: Fetch<'_>,
@@ -108,7 +108,7 @@ fn read_document(
                     Fault::NotSupported(format!("the mesh is compressed ({extension})")).into(),
                 );
             }
-            // These change no position, or are read.
+            // These do not change positions, or are supported.
             "KHR_mesh_quantization"
             | "KHR_texture_transform"
             | "KHR_texture_basisu"

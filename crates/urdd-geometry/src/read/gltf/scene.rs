@@ -1,4 +1,4 @@
-//! The nodes of a glTF, and the meshes that they place.
+//! The nodes of a glTF file, and the meshes that they place.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -21,7 +21,7 @@ const TRIANGLES: u32 = 4;
 const STRIP: u32 = 5;
 const FAN: u32 = 6;
 
-/// Adds every mesh of the default scene; without scenes, of every node that is no child.
+/// Adds every mesh of the default scene; without scenes, of all root nodes.
 pub(super) fn walk<'r>(
     root: &'r Root,
     buffers: &mut Buffers<'r, '_>,
@@ -35,7 +35,7 @@ pub(super) fn walk<'r>(
                 NoteCode::TurnedToZUp,
                 "the y-up axes of glTF were turned to z-up, as RViz 2 does",
             );
-            // Exact, where a rotation by 90 degrees would leave rounding errors.
+            // This matrix is exact; a computed rotation by 90 degrees would have rounding errors.
             Matrix4::new(
                 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0,
             )
@@ -102,13 +102,13 @@ struct Walker<'r, 'b, 'f, 'a> {
     buffers: &'b mut Buffers<'r, 'f>,
     assembly: &'a mut Assembly,
     picker: Picker,
-    /// Each mesh is read once, however often it is placed.
+    /// Meshes by index, so that each is read once.
     meshes: HashMap<usize, Vec<(Mesh, Material)>>,
-    /// Each accessor of positions is read once, however many primitives share it.
+    /// Positions by accessor, so that each is read once even if primitives share it.
     positions: HashMap<usize, Vec<[f64; 3]>>,
-    /// For each of these, which positions a triangle uses.
+    /// For each of these accessors, which positions a triangle uses.
     used: BTreeMap<usize, Vec<bool>>,
-    /// Vertices and triangles that were read, placed or not: accessors may all name the same bytes.
+    /// Numbers of vertices and triangles read, placed or not: many accessors may reference the same bytes.
     num_positions: usize,
     num_triangles: usize,
     path: Vec<usize>,
@@ -229,7 +229,7 @@ impl Walker<'_, '_, '_, '_> {
         let vertices = &self.positions[&position];
         if let Some(normal) = primitive.attributes.normal {
             let count = vertices.len();
-            // The surface does not hang on them.
+            // The surface does not depend on the normals.
             if accessor::check_normals(self.root, normal, count, self.buffers, self.assembly)
                 .is_err()
             {
@@ -273,7 +273,7 @@ impl Walker<'_, '_, '_, '_> {
     }
 }
 
-/// The node's own transform.
+/// The node's local transform.
 fn local(node: &Node) -> Result<Matrix4<f64>, Failure> {
     let matrix = if let Some(matrix) = node.matrix {
         let mut matrix = Matrix4::from_column_slice(&matrix);
@@ -281,7 +281,7 @@ fn local(node: &Node) -> Result<Matrix4<f64>, Failure> {
         matrix
     } else {
         let [x, y, z, w] = node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
-        // A quaternion of length 0 turns nothing.
+        // A quaternion of length 0 becomes the identity.
         let rotation =
             UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 0.0).unwrap_or_default();
         let translation = node.translation.map_or(Vector3::zeros(), Vector3::from);
@@ -297,7 +297,7 @@ fn local(node: &Node) -> Result<Matrix4<f64>, Failure> {
     }
 }
 
-/// Name and base colour. A texture gives none; without a material there is none either.
+/// Name and base colour; no colour with a texture or without a material.
 fn material(root: &Root, index: Option<usize>) -> Material {
     let Some(material) = index.and_then(|index| root.materials.get(index)) else {
         return Material::default();
@@ -320,7 +320,7 @@ fn material(root: &Root, index: Option<usize>) -> Material {
     }
 }
 
-/// Four numbers brought into 0 to 1; white where there are none.
+/// Four numbers, clamped to 0 to 1; 1 for missing ones.
 fn rgba(factor: Option<&Value>) -> [f64; 4] {
     std::array::from_fn(|at| {
         factor
