@@ -24,7 +24,7 @@ pub use sarif::sarif;
 /// The report as JSON, indented, with a newline at its end.
 ///
 /// # Errors
-/// Never for a report that [`Report::new`] made: every number in it is finite.
+/// Never for a report that [`Run::report`](crate::Run::report) made: every number in it is finite.
 pub fn json(report: &Report) -> serde_json::Result<String> {
     let text = serde_json::to_string_pretty(report)?;
     Ok(escape::json(&text).into_owned() + "\n")

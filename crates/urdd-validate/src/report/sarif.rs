@@ -40,7 +40,7 @@ const KEPT: &AsciiSet = &NON_ALPHANUMERIC
 /// `exit_code` the status with which the program ends.
 ///
 /// # Errors
-/// Never for a report that [`Report::new`] made.
+/// Never for a report that [`Run::report`](crate::Run::report) made.
 pub fn sarif(
     run: &Run,
     report: &Report,
