@@ -7,7 +7,7 @@ pub mod cli;
 pub mod conformance;
 pub mod view;
 
-/// The Rust code in README.md is compiled and run with the tests.
+/// The Rust code in docs/rust.md is compiled and run with the tests.
 #[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-pub struct Readme;
+#[doc = include_str!("../docs/rust.md")]
+pub struct RustPage;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the picture of the README from the modules of a URDD: the plain mesh, the hulls, the convex
+"""Draws the picture of docs/generate.md from the modules of a URDD: the plain mesh, the hulls, the convex
 pieces and the spheres of one robot, side by side.
 
     urdd generate conformance/robots/welding_arm.urdf -o target/welding_arm

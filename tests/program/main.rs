@@ -11,6 +11,7 @@ mod export;
 mod fuzz_findings;
 mod generate;
 mod large_inputs;
+mod links;
 mod page_bundle;
 mod printing;
 mod producers_agree;

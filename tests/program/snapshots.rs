@@ -1,5 +1,5 @@
 //! What people see, kept as it was read and approved: the list of rules, and the report on the
-//! examples, which README shows too.
+//! examples, which docs/validate.md shows too.
 
 use std::fs;
 use std::process::Command;
@@ -42,11 +42,11 @@ fn the_list_of_rules() {
 fn the_report_on_the_examples() {
     let report = urdd(&["validate", "examples/urdds"]);
     insta::assert_snapshot!("examples", report);
-    let readme =
-        fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).expect("README.md");
+    let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/validate.md"))
+        .expect("docs/validate.md");
     assert!(
-        readme.contains(report.trim_end()),
-        "README.md does not show what `urdd validate examples/urdds` prints"
+        page.contains(report.trim_end()),
+        "docs/validate.md does not show what `urdd validate examples/urdds` prints"
     );
 }
 
