@@ -1,4 +1,4 @@
-//! Stopping what takes long: `generate`, [`urdd_validate`], and questions about many configurations in [`urdd_robot`].
+//! Stopping what takes long: `generate`, `urdd-validate`, and questions about many configurations in `urdd-robot`.
 //!
 //! Whoever wants to stop keeps a clone of a [`Cancellation`]; whoever works asks it now and then, stops where nothing is
 //! half done, and says so by an error. The library installs no signal handlers: `urdd generate` does.

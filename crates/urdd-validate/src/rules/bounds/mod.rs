@@ -1,11 +1,11 @@
 //! BND: `bounds_module`.
 
-pub mod bound_count_wrong;
-pub mod bound_differs_from_limit;
-pub mod bounds_columns_differ;
-pub mod limited_flag_wrong;
-pub mod speed_or_effort_differs;
-pub mod unlimited_bounds_wrong;
+mod bound_count_wrong;
+mod bound_differs_from_limit;
+mod bounds_columns_differ;
+mod limited_flag_wrong;
+mod speed_or_effort_differs;
+mod unlimited_bounds_wrong;
 
 use crate::rule::Rule;
 use crate::tolerance::numbers_agree;

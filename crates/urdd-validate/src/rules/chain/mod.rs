@@ -3,16 +3,16 @@
 //! Every table is compared with the tree that follows from `urdf_module`, and none with another, so
 //! that one wrong value gives one finding.
 
-pub mod chain_joint_wrong;
-pub mod chain_link_wrong;
-pub mod children_wrong;
-pub mod hierarchy_wrong;
-pub mod joint_axis_wrong;
-pub mod joint_origin_differs;
-pub mod joint_type_differs;
-pub mod parent_wrong;
-pub mod quaternion_not_canonical;
-pub mod root_wrong;
+mod chain_joint_wrong;
+mod chain_link_wrong;
+mod children_wrong;
+mod hierarchy_wrong;
+mod joint_axis_wrong;
+mod joint_origin_differs;
+mod joint_type_differs;
+mod parent_wrong;
+mod quaternion_not_canonical;
+mod root_wrong;
 
 use crate::rule::Rule;
 

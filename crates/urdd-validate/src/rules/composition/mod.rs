@@ -1,11 +1,11 @@
 //! CMP: how a robot was put together from others.
 
-pub mod attachment_wrong;
-pub mod frozen_joint_moves;
-pub mod index_out_of_range;
-pub mod not_one_to_one;
-pub mod part_ids;
-pub mod renamed_otherwise;
+mod attachment_wrong;
+mod frozen_joint_moves;
+mod index_out_of_range;
+mod not_one_to_one;
+mod part_ids;
+mod renamed_otherwise;
 
 use crate::context::Context;
 use crate::rule::Rule;

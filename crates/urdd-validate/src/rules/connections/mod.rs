@@ -4,12 +4,12 @@
 //! what is written in it: the table of lowest common ancestors is made row by row, and paths are
 //! walked without being made.
 
-pub mod common_ancestor_wrong;
-pub mod connection_table_size;
-pub mod descendant_path_wrong;
-pub mod explicit_paths_missing;
-pub mod link_to_link_path_wrong;
-pub mod root_path_wrong;
+mod common_ancestor_wrong;
+mod connection_table_size;
+mod descendant_path_wrong;
+mod explicit_paths_missing;
+mod link_to_link_path_wrong;
+mod root_path_wrong;
 mod walk;
 
 use crate::finding::{Finding, Findings, KEPT_PLACES};

@@ -1,12 +1,12 @@
 //! DOF: `dof_module`.
 
-pub mod dof_count_differs;
-pub mod dof_mappings_disagree;
-pub mod dof_misdescribed;
-pub mod dofs_out_of_order;
-pub mod joint_dof_count_wrong;
-pub mod joint_lists_length;
-pub mod mimic_resolved_wrong;
+mod dof_count_differs;
+mod dof_mappings_disagree;
+mod dof_misdescribed;
+mod dofs_out_of_order;
+mod joint_dof_count_wrong;
+mod joint_lists_length;
+mod mimic_resolved_wrong;
 
 use crate::rule::Rule;
 

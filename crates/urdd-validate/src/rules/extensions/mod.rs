@@ -1,7 +1,7 @@
 //! EXT: extension modules.
 
-pub mod document_invalid;
-pub mod schema_unusable;
+mod document_invalid;
+mod schema_unusable;
 
 use crate::rule::Rule;
 

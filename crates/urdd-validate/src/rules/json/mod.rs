@@ -1,11 +1,11 @@
 //! JSN: JSON as text.
 
-pub mod json_byte_order_mark;
-pub mod json_not_utf8;
-pub mod json_too_deep;
-pub mod not_json;
-pub mod number_not_finite;
-pub mod repeated_key;
+mod json_byte_order_mark;
+mod json_not_utf8;
+mod json_too_deep;
+mod not_json;
+mod number_not_finite;
+mod repeated_key;
 
 use crate::rule::Rule;
 

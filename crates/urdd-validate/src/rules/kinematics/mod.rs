@@ -1,10 +1,10 @@
 //! KIN: poses.
 
-pub mod poses_disagree;
-pub mod sample_configuration_wrong;
-pub mod sample_list_wrong;
-pub mod sample_pose_wrong;
-pub mod samples_missing;
+mod poses_disagree;
+mod sample_configuration_wrong;
+mod sample_list_wrong;
+mod sample_pose_wrong;
+mod samples_missing;
 
 use crate::rule::Rule;
 

@@ -1,17 +1,17 @@
 //! LRN: the learned self-collision model.
 
-pub mod counts_differ;
-pub mod counts_few;
-pub mod counts_impossible;
-pub mod index_out_of_range;
-pub mod input_wrong;
-pub mod other_geometry;
-pub mod output_differs;
-pub mod overflow;
-pub mod pairs_differ;
-pub mod rates_not_met;
-pub mod too_large;
-pub mod wrong_shape;
+mod counts_differ;
+mod counts_few;
+mod counts_impossible;
+mod index_out_of_range;
+mod input_wrong;
+mod other_geometry;
+mod output_differs;
+mod overflow;
+mod pairs_differ;
+mod rates_not_met;
+mod too_large;
+mod wrong_shape;
 
 use crate::context::Context;
 use crate::rule::Rule;

@@ -1,11 +1,11 @@
 //! LEG: conventions of URDDs that were published before version 1.
 
-pub mod adjusted_mappings_wrong;
-pub mod folder_name_differs;
-pub mod locked_bound_widened;
-pub mod mesh_file_shared_alike;
-pub mod parent_relative_paths;
-pub mod without_root_metadata;
+mod adjusted_mappings_wrong;
+mod folder_name_differs;
+mod locked_bound_widened;
+mod mesh_file_shared_alike;
+mod parent_relative_paths;
+mod without_root_metadata;
 
 use crate::rule::Rule;
 

@@ -1,30 +1,30 @@
 //! MSH: the mesh modules, and what their files hold.
 
-pub mod carried_files_mismatch;
+mod carried_files_mismatch;
 mod convexity;
-pub mod glb_not_binary;
-pub mod hull_leaves_out_mesh;
-pub mod hull_not_convex;
-pub mod hull_vertex_off_mesh;
-pub mod link_without_mesh;
-pub mod mesh_file_missing;
-pub mod mesh_file_name;
-pub mod mesh_file_shared;
-pub mod mesh_format_mismatch;
-pub mod mesh_formats_differ;
-pub mod mesh_list_length;
-pub mod mesh_misplaced;
-pub mod mesh_presence_differs;
-pub mod mesh_references_differ;
-pub mod mesh_unsound;
-pub mod original_misdescribed;
+mod glb_not_binary;
+mod hull_leaves_out_mesh;
+mod hull_not_convex;
+mod hull_vertex_off_mesh;
+mod link_without_mesh;
+mod mesh_file_missing;
+mod mesh_file_name;
+mod mesh_file_shared;
+mod mesh_format_mismatch;
+mod mesh_formats_differ;
+mod mesh_list_length;
+mod mesh_misplaced;
+mod mesh_presence_differs;
+mod mesh_references_differ;
+mod mesh_unsound;
+mod original_misdescribed;
 mod outreach;
-pub mod piece_barely_leaves_hull;
-pub mod piece_count_mismatch;
-pub mod piece_leaves_hull;
-pub mod piece_not_convex;
-pub mod pieces_leave_surface;
-pub mod wrong_geometry_used;
+mod piece_barely_leaves_hull;
+mod piece_count_mismatch;
+mod piece_leaves_hull;
+mod piece_not_convex;
+mod pieces_leave_surface;
+mod wrong_geometry_used;
 
 use crate::rule::Rule;
 

@@ -1,6 +1,6 @@
 //! SCH: documents against their schemas.
 
-pub mod breaks_schema;
+mod breaks_schema;
 
 use crate::rule::Rule;
 

@@ -1,15 +1,15 @@
 //! SRC: odd robots, whose URDD may be right all the same.
 
-pub mod crossed_limits;
-pub mod inertia_breaks_triangle;
-pub mod inertia_not_positive_definite;
-pub mod mass_not_positive;
-pub mod mesh_not_carried;
-pub mod mimic_leaves_limits;
+mod crossed_limits;
+mod inertia_breaks_triangle;
+mod inertia_not_positive_definite;
+mod mass_not_positive;
+mod mesh_not_carried;
+mod mimic_leaves_limits;
 mod moments;
-pub mod no_effort_and_no_speed;
-pub mod no_limits;
-pub mod repeated_element;
+mod no_effort_and_no_speed;
+mod no_limits;
+mod repeated_element;
 
 use crate::rule::Rule;
 

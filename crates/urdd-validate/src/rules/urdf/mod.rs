@@ -1,21 +1,21 @@
 //! URD: `urdf_module` against the carried URDF, and as a tree.
 
-pub mod cycle;
-pub mod duplicate_joint_name;
-pub mod duplicate_link_name;
-pub mod joints_not_the_urdfs;
-pub mod links_not_the_urdfs;
-pub mod materials_not_the_urdfs;
-pub mod mimic_circle;
-pub mod mimic_of_many_dofs;
-pub mod not_one_root;
+mod cycle;
+mod duplicate_joint_name;
+mod duplicate_link_name;
+mod joints_not_the_urdfs;
+mod links_not_the_urdfs;
+mod materials_not_the_urdfs;
+mod mimic_circle;
+mod mimic_of_many_dofs;
+mod not_one_root;
 mod parts;
 mod source_differences;
-pub mod two_parents;
-pub mod unknown_link;
-pub mod unknown_mimic_driver;
-pub mod unreadable_urdf;
-pub mod zero_axis;
+mod two_parents;
+mod unknown_link;
+mod unknown_mimic_driver;
+mod unreadable_urdf;
+mod zero_axis;
 
 use crate::rule::Rule;
 

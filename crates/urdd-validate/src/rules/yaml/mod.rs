@@ -1,13 +1,13 @@
 //! YML: the YAML mirrors.
 
-pub mod not_yaml;
-pub mod yaml_ambiguous;
-pub mod yaml_anchor;
-pub mod yaml_differs;
-pub mod yaml_merge_key;
-pub mod yaml_repeated_key;
-pub mod yaml_tag;
-pub mod yaml_too_deep;
+mod not_yaml;
+mod yaml_ambiguous;
+mod yaml_anchor;
+mod yaml_differs;
+mod yaml_merge_key;
+mod yaml_repeated_key;
+mod yaml_tag;
+mod yaml_too_deep;
 
 use crate::rule::Rule;
 
