@@ -235,7 +235,7 @@ mod tests {
             assert_eq!(written, n * n + (n * n * n - n) / 3);
             assert_eq!(links_in_pairs(&line_chain(n)), written);
         }
-        // A star: 1 for a link to itself, 2 from or to the center, otherwise 3.
+        // A star: 1 for a link to itself, 2 from or to the centre, otherwise 3.
         assert_eq!(links_in_pairs(&star(10)), 10 + 2 * 9 * 2 + 9 * 8 * 3);
     }
 }

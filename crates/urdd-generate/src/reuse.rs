@@ -313,7 +313,7 @@ pub(super) fn link_keys(
     links.collect()
 }
 
-/// The colors of all materials that an element may refer to: those of the same name, and its own.
+/// The colours of all materials that an element may refer to: those of the same name, and its own.
 fn look(material: Option<&Material>, robot: &UrdfModule) -> Value {
     let Some(material) = material else {
         return Value::Null;
