@@ -1,4 +1,4 @@
-//! The user's edits of the skip matrix, which are kept when a URDD is regenerated.
+//! The user's edits of the skip matrix (MoveIt's allowed collision matrix), which are kept when a URDD is regenerated.
 //!
 //! They are read before any module is built. If they cannot be read, generation fails: a syntax error must not discard
 //! a user's work.

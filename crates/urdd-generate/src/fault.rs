@@ -130,7 +130,7 @@ pub enum Fault {
     /// Link poses overflow binary64.
     #[error("the numbers are so large that no 64-bit number holds where the links are ({0})")]
     NoPoses(String),
-    /// The robot has more links than a URDD may have.
+    /// The robot has more links than the generator accepts.
     #[error(
         "the robot has {found} links, and URDDs are made of up to {limit}: lists over all pairs of links grow with the square"
     )]
@@ -140,7 +140,7 @@ pub enum Fault {
         /// How many it may have.
         limit: usize,
     },
-    /// The robot has more elements than a URDD may have.
+    /// The robot has more elements than the generator accepts.
     #[error(
         "the robot has {found} elements (shapes, materials, and elements that URDF does not know), and URDDs are made of up to {limit}"
     )]
@@ -150,7 +150,7 @@ pub enum Fault {
         /// How many it may have.
         limit: usize,
     },
-    /// A link has more triangles than a URDD allows.
+    /// A link has more triangles than the generator accepts.
     #[error(
         "the shapes of link `{link}` have {found} triangles, and URDDs are made of up to {limit} a link; make its meshes coarser, or leave them out: `--modules core`"
     )]
@@ -162,7 +162,7 @@ pub enum Fault {
         /// How many it may have.
         limit: usize,
     },
-    /// All links together have more triangles than a URDD allows.
+    /// All links together have more triangles than the generator accepts.
     #[error(
         "the shapes of all links have more than {limit} triangles, which is the most that URDDs are made of; make the meshes coarser, or leave them out: `--modules core`"
     )]

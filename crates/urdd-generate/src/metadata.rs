@@ -14,7 +14,7 @@ use urdd_format::root_metadata::{
 pub(super) const GENERATOR: &str = "urdd";
 /// Key in a module's entry: the hash of all its inputs.
 pub(super) const INPUTS_KEY: &str = "x_urdd_inputs";
-/// Key in the source: the file as found, where a repaired text is stored.
+/// Key in the source: the file as found, if the stored text differs.
 pub(super) const FOUND_KEY: &str = "x_urdd_found";
 
 /// A module of the new URDD.

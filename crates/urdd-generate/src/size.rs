@@ -22,7 +22,7 @@ pub const MOST_LINK_TRIANGLES: usize = 3_000_000;
 pub const MOST_TRIANGLES: usize = 10_000_000;
 
 /// Minimum ratio of a shape's width to its largest coordinate. Files store coordinates as binary32, and readers assume
-/// an error of eight steps of that, some 1e-6. A thinner shape has no width for them.
+/// an accuracy of eight steps of that, some 1e-6. A thinner shape has no width for them.
 const LEAST_WIDTH: f64 = 4e-6;
 
 /// Refuses a robot whose URDD would be too large for its readers.
