@@ -14,7 +14,7 @@ use urdd_geometry::read::{Format, NoteCode, Scene, read};
 /// A mesh file after inspection. A file is opened only once: the inspected bytes are those that are stored.
 #[derive(Debug, Clone)]
 pub(crate) struct Inspected {
-    /// The file's bytes, or `None` if it is not a mesh and not stored.
+    /// The file's bytes; `None` if it cannot be read or is not a mesh, and is thus not stored.
     pub bytes: Option<Arc<Vec<u8>>>,
     /// The stored files that the mesh references (`.mtl`, `.bin`, textures).
     pub side_files: BTreeMap<PathBuf, SideFile>,

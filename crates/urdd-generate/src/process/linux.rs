@@ -48,7 +48,7 @@ impl Tree {
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let mark = format!("URDD_RUN_{}_{number}", std::process::id());
         command.env(&mark, "1").process_group(0);
-        // The lock keeps others that search for orphans from taking this child for one.
+        // Under the lock, so that no concurrent search takes this child for an orphan.
         let child = running(|running| {
             let child = command.spawn()?;
             running.insert(child.id().cast_signed());

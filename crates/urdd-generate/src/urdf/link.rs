@@ -14,7 +14,7 @@ impl Reader {
             .only(link, "inertial")
             .map(|inertial| self.inertial(inertial));
         let unknown_elements = self.unknown(link, &["inertial", "visual", "collision"]);
-        // Visual before collision, in the order of the mesh counts.
+        // Visual before collision: the order in which meshes are counted.
         let of = |kind| xml::children(link).filter(move |(name, _)| *name == kind);
         let visual = of("visual")
             .map(|(_, element)| v1::Visual {
