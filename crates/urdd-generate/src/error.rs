@@ -161,7 +161,7 @@ pub enum EditsFault {
     /// `edits` is not a list.
     #[error("`edits` must be a list")]
     NotAList,
-    /// One edit is wrong.
+    /// An edit is invalid.
     #[error("this edit cannot be used: {0}")]
     Edit(String),
     /// An edit names a link that the URDD does not have.

@@ -91,7 +91,7 @@ pub enum Fault {
         /// The joint that comes first.
         first: String,
     },
-    /// No link.
+    /// The robot has no links.
     #[error("there is no `<link>` in `<robot>`")]
     NoLinks,
     /// Several root links.
@@ -99,9 +99,9 @@ pub enum Fault {
         "{count} links are no joint's child, and a URDF has one root: {names}. Join them with `fixed` joints, or take the loose ones out"
     )]
     ManyRoots {
-        /// How many.
+        /// The number of root links.
         count: usize,
-        /// The first of them.
+        /// The names of the first ones.
         names: String,
     },
     /// The joints form a cycle.
@@ -135,9 +135,9 @@ pub enum Fault {
         "the robot has {found} links, and URDDs are made of up to {limit}: lists over all pairs of links grow with the square"
     )]
     TooManyLinks {
-        /// How many it has.
+        /// The number found.
         found: usize,
-        /// How many it may have.
+        /// The maximum number.
         limit: usize,
     },
     /// The robot has more elements than the generator accepts.
@@ -145,9 +145,9 @@ pub enum Fault {
         "the robot has {found} elements (shapes, materials, and elements that URDF does not know), and URDDs are made of up to {limit}"
     )]
     TooManyElements {
-        /// How many it has.
+        /// The number found.
         found: usize,
-        /// How many it may have.
+        /// The maximum number.
         limit: usize,
     },
     /// A link has more triangles than the generator accepts.
@@ -157,9 +157,9 @@ pub enum Fault {
     TooManyTriangles {
         /// The link.
         link: String,
-        /// How many it has.
+        /// The number found.
         found: usize,
-        /// How many it may have.
+        /// The maximum number.
         limit: usize,
     },
     /// All links together have more triangles than the generator accepts.

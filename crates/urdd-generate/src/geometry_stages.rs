@@ -1,4 +1,4 @@
-//! The stages that make meshes and link shapes.
+//! The stages that build meshes and link shapes.
 
 use std::sync::Arc;
 

@@ -28,12 +28,12 @@ pub(super) enum Content {
     Shared(Arc<Vec<u8>>),
 }
 
-/// A module without files of its own.
+/// A module without additional files.
 pub(super) fn document(module: &impl Serialize) -> Result<Made, GenerateError> {
     streamed(serde_json::to_value(module).map(Document::Whole))
 }
 
-/// A module without files of its own, as its document.
+/// A module without additional files, from its document.
 pub(super) fn streamed(
     document: Result<Document, serde_json::Error>,
 ) -> Result<Made, GenerateError> {

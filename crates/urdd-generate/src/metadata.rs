@@ -23,7 +23,7 @@ pub(super) struct Entry {
     pub inputs: Option<String>,
 }
 
-/// The version of every module that this program makes.
+/// The version of every module that this program generates.
 pub(super) const MODULE_VERSION: &str = "1.0.0";
 
 fn version(text: &str) -> Version {

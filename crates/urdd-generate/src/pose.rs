@@ -58,7 +58,7 @@ mod tests {
         let origin = Origin {
             xyz: None,
             rpy: None,
-            // A quarter turn about z, of length 2 sqrt 2 e-200.
+            // A quarter turn about z, with norm 2 sqrt(2) e-200.
             quat_xyzw: Some([0.0, 0.0, 2e-200, 2e-200]),
         };
         for version in ["1.1", "1.2", " 2.0 ", "01.10", "99999999999999999999.0"] {

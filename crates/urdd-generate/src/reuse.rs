@@ -172,7 +172,7 @@ impl Reusable {
         Some(())
     }
 
-    /// Whether there is nothing to take over.
+    /// Whether there is nothing to reuse.
     pub fn is_empty(&self) -> bool {
         self.donors.is_empty()
     }

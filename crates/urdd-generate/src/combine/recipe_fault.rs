@@ -86,7 +86,7 @@ pub enum RecipeFault {
     /// More text in the parts than a robot may have.
     #[error("{what} of the parts have more than {} MiB together: use fewer parts, or shorter ones", limit >> 20)]
     TooLong {
-        /// What: `the URDFs`, `the composition modules`, `the edits of skips`.
+        /// The kind of text: `the URDFs`, `the composition modules`, `the edits of skips`.
         what: &'static str,
         /// Maximum number of bytes.
         limit: u64,
@@ -94,7 +94,7 @@ pub enum RecipeFault {
     /// A name or prefix that cannot be written in a URDF.
     #[error("{what} `{}` {why}", escape::line(&shortened(found)))]
     BadWord {
-        /// What it is: `the name`, `the prefix`.
+        /// The kind of word: `the name`, `the prefix`, `the link`, `the joint`.
         what: &'static str,
         /// The word.
         found: String,
