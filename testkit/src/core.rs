@@ -1,4 +1,4 @@
-//! Robot -> the core modules and the kinematics samples, by SPEC, with 4x4 matrices.
+//! Robot -> core modules and kinematics samples, implemented from SPEC with 4x4 matrices.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -14,9 +14,9 @@ use urdd_format::urdf::{Joint, JointType};
 
 use super::robot::{Robot, num_dofs};
 
-/// A rotation, row by row.
+/// A rotation matrix in row-major order.
 pub type Rotation = [[f64; 3]; 3];
-/// A rigid transform, row by row.
+/// A rigid transform in row-major order.
 pub type Transform = [[f64; 4]; 4];
 
 pub const IDENTITY: Transform = [
@@ -86,7 +86,7 @@ pub fn dof_module(robot: &Robot) -> DofModule {
         of_joint.push((first..dofs.len()).map(|i| DofIdx(i as u32)).collect());
     }
     let mimics = robot.urdf.joints.iter().map(|joint| {
-        // Position of the joint = factor * position of the joint that `at` stands on + shift.
+        // Position of the joint = factor * position of joint `at` + shift.
         let (mut at, mut factor, mut shift) = (joint, 1.0, 0.0);
         while is_mimic(at) {
             let mimic = at.mimic.as_ref()?;
@@ -177,7 +177,7 @@ fn origin(robot: &Robot, joint: &Joint) -> Transform {
     let origin = joint.origin.as_ref();
     let xyz = origin.and_then(|o| o.xyz).unwrap_or_default();
     let rpy = origin.and_then(|o| o.rpy).unwrap_or_default();
-    // The versions that robots for tests have.
+    // The URDF versions of test robots in which `quat_xyzw` applies.
     let counts = matches!(robot.urdf.version.as_deref(), Some("1.1" | "1.2"));
     let quaternion = origin.and_then(|o| o.quat_xyzw);
     let quaternion = quaternion.filter(|q| counts && q.iter().any(|c| *c != 0.0));
@@ -185,7 +185,7 @@ fn origin(robot: &Robot, joint: &Joint) -> Transform {
     transform(rotation, xyz)
 }
 
-/// The rotation of a quaternion x, y, z, w of any length.
+/// The rotation of a quaternion (x, y, z, w) of any nonzero length.
 fn rotation_of_quaternion([x, y, z, w]: [f64; 4]) -> Rotation {
     let s = 2.0 / (x * x + y * y + z * z + w * w);
     [
@@ -211,7 +211,7 @@ fn rotation_of_quaternion([x, y, z, w]: [f64; 4]) -> Rotation {
 
 pub fn connections_module(chain: &ChainModule) -> ConnectionsModule {
     let every: Vec<LinkIdx> = chain.links_in_chain.iter().map(|l| l.link_idx).collect();
-    // From a link up to the root: the links, and the joint above each of them.
+    // From a link up to the root: each link with its parent joint.
     let climb = |from: LinkIdx| {
         let mut up = vec![(from, chain.links_in_chain[from.get()].parent_joint_idx)];
         while let Some(parent) = chain.links_in_chain[up[up.len() - 1].0.get()].parent_link_idx {
@@ -243,7 +243,7 @@ pub fn connections_module(chain: &ChainModule) -> ConnectionsModule {
         () => None,
     };
     let root_paths: Vec<LinkPath> = every.iter().map(|i| path(chain.root_idx, *i)).collect();
-    // The depth of a link: the joints above it.
+    // The depth of a link: the number of joints above it.
     let depth = |link: LinkIdx| root_paths[link.get()].joints.len();
     let lowest_common_ancestors = table(&every, ancestor);
     let of_pair = |i: usize, j: usize| {
@@ -405,8 +405,8 @@ pub fn sampled_configuration(robot: &Robot, core: &Core, k: u32) -> Vec<f64> {
     q
 }
 
-/// The default configuration (9.4): 0, or the bound nearest to 0 where 0 is not between the bounds,
-/// in whatever order they are; rotation vectors 0.
+/// The default configuration (9.4): 0, or the bound nearest to 0 if 0 is not between the bounds, in either order; 0 for
+/// rotation vectors.
 pub fn default_configuration(robot: &Robot, core: &Core) -> Vec<f64> {
     let bounds = core.bounds.bounds.iter();
     let mut q: Vec<f64> = bounds
@@ -422,10 +422,10 @@ pub fn default_configuration(robot: &Robot, core: &Core) -> Vec<f64> {
     q
 }
 
-/// The transform of every link in the root's frame (9.1), straight from the URDF.
+/// The transform of every link in the root's frame (9.1), computed from the URDF.
 pub fn link_transforms(robot: &Robot, core: &Core, q: &[f64]) -> Vec<Transform> {
     let place = |mut at: usize| {
-        // From the link up to the root, each joint's transform set before what is there.
+        // From the link up to the root, premultiply by each joint's transform.
         let mut total = IDENTITY;
         while let Some(joint) = core.chain.links_in_chain[at].parent_joint_idx {
             let moved = product(&origin(robot, &robot.urdf.joints[joint.get()]), &{
@@ -476,7 +476,7 @@ pub fn norm(v: [f64; 3]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
-/// The unit vector along v; v itself where it is zero.
+/// The unit vector along v; v itself if it is zero.
 pub fn unit(v: [f64; 3]) -> [f64; 3] {
     let length = norm(v);
     if length > 0.0 {
@@ -501,7 +501,7 @@ fn rotation_by_vector(v: [f64; 3]) -> Rotation {
     rotation_about(unit(v), norm(v))
 }
 
-/// R = Rz(yaw) Ry(pitch) Rx(roll), written out.
+/// R = Rz(yaw) Ry(pitch) Rx(roll), expanded.
 pub fn rotation_of_rpy([roll, pitch, yaw]: [f64; 3]) -> Rotation {
     let ((sr, cr), (sp, cp), (sy, cy)) = (roll.sin_cos(), pitch.sin_cos(), yaw.sin_cos());
     [
@@ -511,8 +511,8 @@ pub fn rotation_of_rpy([roll, pitch, yaw]: [f64; 3]) -> Rotation {
     ]
 }
 
-/// The rotation that takes +z to n by the shortest arc; half a turn about x for n = -z, and what is
-/// too near to the z axis counts as on it (5.9).
+/// The rotation that takes +z to n by the shortest arc; half a turn about x for n = -z. An n too near to the z axis
+/// counts as being on it (5.9).
 pub fn shortest_arc_from_z([x, y, z]: [f64; 3]) -> Rotation {
     let sine = x.hypot(y);
     if sine < 1e-10 {
@@ -541,13 +541,12 @@ pub fn product(a: &Transform, b: &Transform) -> Transform {
     out
 }
 
-/// The transform applied to a point.
+/// Applies the transform to a point.
 pub fn apply(t: &Transform, p: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|row| (0..3).map(|k| t[row][k] * p[k]).sum::<f64>() + t[row][3])
 }
 
-/// Position and quaternion of a transform: from the largest of the four components on, for
-/// accuracy.
+/// Position and quaternion of a transform, computed from the largest quaternion component for accuracy.
 pub fn pose(t: &Transform) -> Pose {
     let [xx, yy, zz] = [t[0][0], t[1][1], t[2][2]];
     let mut q = [

@@ -1,4 +1,4 @@
-//! Builds chain and dof modules for tests, by its own short path.
+//! Builds chain and DOF modules for tests, independently of the generator.
 #![allow(dead_code)] // Each test crate uses a part.
 
 use urdd_format::chain::{ChainModule, JointInChain, LinkInChain};
@@ -7,7 +7,7 @@ use urdd_format::index::{Count, DofIdx, JointIdx, LinkIdx};
 use urdd_format::pose::Pose;
 use urdd_format::urdf::JointType;
 
-/// A joint as URDF writes it, its mimic resolved.
+/// A joint as in a URDF, with its mimic resolved.
 #[derive(Debug, Clone)]
 pub struct Joint {
     pub name: String,
@@ -22,7 +22,7 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// A joint from `parent` to the link after it, at its origin.
+    /// A joint from link `parent` to the next link, at the parent's origin.
     pub fn after(parent: usize, joint_type: JointType, axis: [f64; 3]) -> Self {
         Joint {
             name: format!("joint_{parent}"),
@@ -88,12 +88,12 @@ pub fn unit(v: [f64; 3]) -> [f64; 3] {
     v.map(|x| x / norm)
 }
 
-/// The two modules of a robot with these links.
+/// The two modules of a robot with these links and joints.
 pub fn core_modules(links: &[String], joints: &[Joint]) -> (ChainModule, DofModule) {
     (chain_module(links, joints), dof_module(joints))
 }
 
-/// The two modules of a robot without branches: link i + 1 hangs on link i.
+/// The two modules of a robot without branches: link i + 1 is a child of link i.
 pub fn chain_of(joints: &[Joint]) -> (ChainModule, DofModule) {
     let links: Vec<String> = (0..=joints.len()).map(|i| format!("link_{i}")).collect();
     core_modules(&links, joints)

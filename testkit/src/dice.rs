@@ -1,6 +1,6 @@
-//! Choices of a seeded test.
+//! Reproducible choices of a seeded test.
 
-/// Numbers that are the same in every run.
+/// A pseudorandom generator with the same numbers in every run.
 pub struct Dice(pub u64);
 
 impl Dice {

@@ -1,12 +1,12 @@
-//! Comparing what two producers say of one robot.
+//! Compares the documents of two producers for one robot.
 
 use std::collections::BTreeSet;
 
 use serde_json::Value;
 
-/// The first difference between two documents, with its JSON Pointer. Poses agree within 1e-9, a
-/// quaternion up to its sign, which rounding decides at half a turn; other numbers within 1e-12 of
-/// their size (sums that cancel: 1e-14).
+/// The first difference between two documents, with its JSON Pointer. Poses agree within 1e-9; quaternions up to the
+/// sign, which depends on rounding at half a turn. Other numbers agree within 1e-12 of their size (plus 1e-14 for
+/// cancelling sums).
 pub fn difference(ours: &Value, theirs: &Value, at: &str) -> Option<String> {
     match (ours, theirs) {
         (Value::Object(a), Value::Object(b)) => {

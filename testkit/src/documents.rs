@@ -1,8 +1,8 @@
-//! Documents of the part of JSON Schema that this project writes.
+//! Generates documents for the subset of JSON Schema that this project uses.
 
 use serde_json::{Map, Value, json};
 
-/// A list of decisions. When it runs out, every decision is the first.
+/// A list of choices. After its end, every choice is the first alternative.
 pub struct Choices<'a> {
     rest: std::slice::Iter<'a, u16>,
 }
@@ -132,13 +132,13 @@ fn number(choices: &mut Choices) -> Value {
         _ => {
             let bits = (0..4).fold(0, |bits, _| (bits << 16) | choices.pick(1 << 16) as u64);
             let number = f64::from_bits(bits);
-            // A number that is not finite has no JSON text.
+            // JSON cannot represent a number that is not finite.
             json!(if number.is_finite() { number } else { -0.0 })
         }
     }
 }
 
-/// Any JSON at all.
+/// An arbitrary JSON value.
 pub fn arbitrary_json(choices: &mut Choices, depth: usize) -> Value {
     match choices.pick(if depth == 0 { 6 } else { 8 }) {
         0 => Value::Null,

@@ -1,5 +1,5 @@
-//! JSON and YAML text of a document. Everything goes through [`json`] and [`yaml`], so that
-//! another emission is a matter of two lines.
+//! JSON and YAML text of a document. All output goes through [`json`] and [`yaml`], so that the format is easy to
+//! change.
 
 use serde_json::{Number, Value};
 
@@ -23,7 +23,7 @@ pub fn yaml(document: &Value) -> Vec<u8> {
     out.into_bytes()
 }
 
-/// A list of scalars, or nothing at all inside: fits one line.
+/// Whether a value fits on one line: a scalar, a list of scalars, or an empty object.
 fn is_flat(value: &Value) -> bool {
     match value {
         Value::Array(items) => !items.iter().any(|i| i.is_array() || i.is_object()),
@@ -111,7 +111,7 @@ fn yaml_flow(value: &Value, out: &mut String) {
     }
 }
 
-/// Keys of the format stand plain; any other is quoted.
+/// Keys of the format are plain; any other key is quoted.
 fn yaml_key(key: &str) -> String {
     let plain = key.len() > 1
         && key.bytes().all(|b| b.is_ascii_alphabetic() || b == b'_')
@@ -124,7 +124,7 @@ fn yaml_key(key: &str) -> String {
     }
 }
 
-/// Always in double quotes, which mean the same to every reader.
+/// Always in double quotes, which every reader interprets the same way.
 fn yaml_string(text: &str) -> String {
     let mut out = String::from('"');
     for c in text.chars() {
@@ -145,7 +145,7 @@ fn yaml_string(text: &str) -> String {
     out
 }
 
-/// YAML 1.1 wants a point before an exponent, and a sign in it: `1.0e-7`.
+/// YAML 1.1 requires a decimal point before an exponent, and a sign in it: `1.0e-7`.
 fn yaml_number(number: &Number) -> String {
     let text = number.to_string();
     let Some((mantissa, exponent)) = text.split_once(['e', 'E']) else {

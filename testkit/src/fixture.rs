@@ -1,4 +1,4 @@
-//! A whole URDD in memory: built valid, edited, sealed, written.
+//! A whole URDD in memory: built valid, then edited, sealed and written.
 //!
 //! ```ignore
 //! let mut urdd = Fixture::toy();
@@ -24,23 +24,23 @@ use super::meshes::Meshes;
 use super::robot::*;
 use super::shapes::Shapes;
 
-/// The root metadata, as a document.
+/// Name of the root metadata, which is also a document.
 pub const ROOT: &str = "urdd.json";
-/// The carried URDF.
+/// Path of the URDF in the URDD.
 pub const URDF: &str = "robot.urdf";
 
 /// A URDD in memory.
 #[derive(Debug, Clone)]
 pub struct Fixture {
-    /// Every file, by its path. Those that [`Fixture::seal`] writes are up to date after it.
+    /// Every file by its path. [`Fixture::seal`] updates those that it writes.
     pub files: BTreeMap<String, Vec<u8>>,
-    /// Documents by module folder, and the root metadata under [`ROOT`].
+    /// Documents by module folder; the root metadata is under [`ROOT`].
     pub documents: BTreeMap<String, Value>,
-    /// Files that `seal` leaves as they are (or absent): those that a test has put, removed or kept.
+    /// Files that `seal` leaves unchanged (or absent) because a test has put, removed or kept them.
     by_hand: BTreeSet<String>,
-    /// Entries of `urdd.json` that `seal` does not bring up to date.
+    /// Entries of `urdd.json` that `seal` does not update.
     kept_hashes: Kept,
-    /// Whether `seal` writes the canonical emission of SPEC instead of that of [`emit`].
+    /// Whether `seal` writes the canonical format of SPEC instead of that of [`emit`].
     pub canonical: bool,
 }
 
@@ -51,21 +51,20 @@ enum Kept {
 }
 
 impl Fixture {
-    /// A URDD of class Core, with kinematics samples.
+    /// A URDD of class Core with kinematics samples.
     pub fn core(robot: &Robot) -> Fixture {
         Fixture::build(robot, Vec::new(), BTreeMap::new(), "Core")
     }
 
-    /// A URDD of class Core with a module of no class besides.
+    /// A URDD of class Core with one more module that belongs to no class.
     pub fn core_with(robot: &Robot, kind: ModuleKind, document: Value) -> Fixture {
         Fixture::build(robot, vec![(kind, document)], BTreeMap::new(), "Core")
     }
 
-    /// A URDD of class Shapes: all modules. The first and the last link with a shape are skipped by
-    /// an edit.
+    /// A URDD of class Shapes with all modules. An edit skips the pair of the first and the last link with a shape.
     ///
     /// # Panics
-    /// Where [`Meshes::new`] does.
+    /// Like [`Meshes::new`].
     pub fn full(robot: &Robot) -> Fixture {
         let meshes = Meshes::new(robot);
         let shaped = robot.urdf.links.iter().zip(&meshes.solids);
@@ -80,7 +79,7 @@ impl Fixture {
         Fixture::full_with_edits(robot, edits)
     }
 
-    /// As [`Fixture::full`], with these edits of the skips.
+    /// Like [`Fixture::full`], with these skip edits.
     pub fn full_with_edits(robot: &Robot, edits: Vec<SkipEdit>) -> Fixture {
         let core = Core::new(robot);
         let meshes = Meshes::new(robot);
@@ -111,8 +110,8 @@ impl Fixture {
         Fixture::build(robot, documents, meshes.files, "Shapes")
     }
 
-    /// A small fixed robot with every joint type, mimics of mimics, meshes, and all modules. It has
-    /// nothing that a validator could object to, as a URDD or as a robot.
+    /// A small fixed robot with every joint type, chained mimic joints, meshes, and all modules. A validator has
+    /// nothing to report about it, neither as a URDD nor as a robot.
     pub fn toy() -> Fixture {
         static TOY: std::sync::OnceLock<Fixture> = std::sync::OnceLock::new();
         let make = || {
@@ -180,7 +179,7 @@ impl Fixture {
 
     // ---- Documents
 
-    /// The key of a document in `documents`: for a module's name or folder its folder.
+    /// The key of a document in `documents`, found by a module's name or folder.
     fn key(&self, name: &str) -> String {
         let is_it = |key: &&String| *key == name || key.ends_with(&format!("/{name}"));
         let found = self.documents.keys().find(is_it);
@@ -199,20 +198,20 @@ impl Fixture {
         &self.documents[&self.key(name)]
     }
 
-    /// The same, to change it.
+    /// Like [`Fixture::doc`], mutable.
     pub fn doc_mut(&mut self, name: &str) -> &mut Value {
         let key = self.key(name);
         self.documents.get_mut(&key).expect("just found")
     }
 
-    /// What stands at a JSON Pointer of a document.
+    /// The value at a JSON Pointer of a document.
     pub fn get(&self, name: &str, pointer: &str) -> &Value {
         let found = self.doc(name).pointer(pointer);
         found.unwrap_or_else(|| panic!("{name} has nothing at {pointer:?}"))
     }
 
-    /// Puts a value at a JSON Pointer: in place of what is there, as a new key of an object, or at
-    /// the end of a list (`-`, or its length).
+    /// Sets the value at a JSON Pointer: replaces an existing value, adds a key to an object, or appends to a list
+    /// (`-`, or its length).
     pub fn set(&mut self, name: &str, pointer: &str, new: Value) {
         let document = self.doc_mut(name);
         if let Some(old) = document.pointer_mut(pointer) {
@@ -230,7 +229,7 @@ impl Fixture {
         }
     }
 
-    /// Takes out what stands at a JSON Pointer, and returns it.
+    /// Removes the value at a JSON Pointer and returns it.
     pub fn remove(&mut self, name: &str, pointer: &str) -> Value {
         let removed = match parent_of(self.doc_mut(name), pointer) {
             (Some(Value::Object(map)), last) => map.shift_remove(&last),
@@ -243,7 +242,7 @@ impl Fixture {
         removed.unwrap_or_else(|| panic!("{name} has nothing at {pointer:?}"))
     }
 
-    /// Takes a whole module out: its document, its files, its entry in `urdd.json`.
+    /// Removes a whole module: its document, its files, its entry in `urdd.json`.
     pub fn remove_module(&mut self, module: &str) {
         let folder = self.key(module);
         self.documents.remove(&folder);
@@ -253,7 +252,7 @@ impl Fixture {
         modules.retain(|entry| entry["path"] != json!(folder));
     }
 
-    /// Puts a module in, at the end of `urdd.json`; its files are listed.
+    /// Adds a module at the end of `urdd.json` and lists its files.
     pub fn add_module(&mut self, folder: &str, document: Value) {
         let name = folder.rsplit('/').next().unwrap_or_default();
         let entry = json!({ "name": name, "version": "1.0.0", "path": folder,
@@ -270,7 +269,7 @@ impl Fixture {
 
     // ---- Files
 
-    /// The carried URDF, to change it: `urdd.urdf_mut(|xml| *xml = xml.replace("a", "b"))`.
+    /// Edits the URDF in the URDD: `urdd.urdf_mut(|xml| *xml = xml.replace("a", "b"))`.
     pub fn urdf_mut(&mut self, change: impl FnOnce(&mut String)) {
         let bytes = self.files.remove(URDF).expect("a URDF");
         let mut xml = String::from_utf8(bytes).expect("UTF-8");
@@ -278,7 +277,7 @@ impl Fixture {
         self.files.insert(URDF.to_owned(), xml.into_bytes());
     }
 
-    /// Replaces the first `from` in the carried URDF, which must be there.
+    /// Replaces the first `from` in the URDF; panics if there is none.
     pub fn urdf_replace(&mut self, from: &str, to: &str) {
         self.urdf_mut(|xml| {
             assert!(xml.contains(from), "the URDF has no {from:?}");
@@ -286,20 +285,20 @@ impl Fixture {
         });
     }
 
-    /// Bytes of a file.
+    /// The bytes of a file.
     pub fn file(&self, path: &str) -> &[u8] {
         let found = self.files.get(path);
         found.unwrap_or_else(|| panic!("no file {path:?}"))
     }
 
-    /// Adds or replaces a file, for good: `seal` does not write it again. It is not listed in
-    /// `urdd.json` where it was not: see [`Fixture::list`].
+    /// Adds or replaces a file permanently: `seal` does not write it again. A new file is not listed in `urdd.json`:
+    /// see [`Fixture::list`].
     pub fn put_file(&mut self, path: &str, bytes: impl Into<Vec<u8>>) {
         self.by_hand.insert(path.to_owned());
         self.files.insert(path.to_owned(), bytes.into());
     }
 
-    /// Removes a file, for good: `seal` does not write it again. It stays listed in `urdd.json`: see
+    /// Removes a file permanently: `seal` does not write it again. It remains listed in `urdd.json`: see
     /// [`Fixture::unlist`].
     pub fn remove_file(&mut self, path: &str) {
         self.by_hand.insert(path.to_owned());
@@ -307,7 +306,7 @@ impl Fixture {
         assert!(removed.is_some(), "no file {path:?}");
     }
 
-    /// Adds a file to the list of its module in `urdd.json`, in its place.
+    /// Adds a file to its module's list in `urdd.json`, at the sorted position.
     pub fn list(&mut self, path: &str) {
         let entry = json!({ "path": path, "size": 0, "sha256": "0".repeat(64) });
         let inside = |module: &&mut Value| {
@@ -321,7 +320,7 @@ impl Fixture {
         files.insert(files.partition_point(before), entry);
     }
 
-    /// Takes a file out of the list of its module in `urdd.json`.
+    /// Removes a file from its module's list in `urdd.json`.
     pub fn unlist(&mut self, path: &str) {
         for module in self.modules_mut() {
             let files = module["files"].as_array_mut().expect("a list");
@@ -329,7 +328,7 @@ impl Fixture {
         }
     }
 
-    /// Makes every list of files in `urdd.json` anew: what is there, and what `seal` will write.
+    /// Rebuilds all file lists in `urdd.json`: existing files and those that `seal` will write.
     pub fn relist(&mut self) {
         let mut paths: BTreeSet<String> = self.files.keys().cloned().collect();
         let sealed = self.documents.keys().filter(|key| *key != ROOT);
@@ -346,27 +345,27 @@ impl Fixture {
 
     // ---- Sealing
 
-    /// Leaves `module.yaml` of a module as it is at the next [`Fixture::seal`].
+    /// Keeps `module.yaml` of a module unchanged in [`Fixture::seal`].
     pub fn keep_mirror(&mut self, module: &str) {
         let path = format!("{}/module.yaml", self.key(module));
         self.by_hand.insert(path);
     }
 
-    /// Leaves size and hash of a file in `urdd.json` as they are.
+    /// Keeps size and hash of a file in `urdd.json` unchanged.
     pub fn keep_hash(&mut self, path: &str) {
         if let Kept::These(kept) = &mut self.kept_hashes {
             kept.insert(path.to_owned());
         }
     }
 
-    /// Leaves all sizes and hashes in `urdd.json` as they are.
+    /// Keeps all sizes and hashes in `urdd.json` unchanged.
     pub fn keep_hashes(&mut self) {
         self.kept_hashes = Kept::All;
     }
 
-    /// Writes `VERSION`, `module.json` and `module.yaml` of every module from its document, brings
-    /// the sizes and hashes in `urdd.json` up to date, and writes that. Files put or removed by hand
-    /// stay so; entries of files that are not there stay as they are.
+    /// Writes `VERSION`, `module.json` and `module.yaml` of every module from its document, updates the sizes and
+    /// hashes in `urdd.json`, and writes it. Files put or removed by hand, and entries of missing files, remain
+    /// unchanged.
     pub fn seal(&mut self) {
         let documents = self.documents.iter().filter(|(key, _)| *key != ROOT);
         for (folder, document) in documents {
@@ -430,7 +429,7 @@ impl Fixture {
         }
     }
 
-    /// Writes every file under a folder, which is made where it is not there.
+    /// Writes every file below `root`, which is created if it does not exist.
     pub fn write_to(&self, root: &Path) {
         std::fs::create_dir_all(root).expect("folder of the URDD");
         for (path, bytes) in &self.files {
@@ -441,26 +440,26 @@ impl Fixture {
     }
 }
 
-/// The files that `seal` writes for a module, in byte order.
+/// The files that `seal` writes for a module, in byte order of their names.
 fn sealed_files(folder: &str) -> [String; 3] {
     ["VERSION", "module.json", "module.yaml"].map(|file| format!("{folder}/{file}"))
 }
 
-/// Size and SHA-256 of a file, as `urdd.json` has them.
+/// Size and SHA-256 of a file in the format of `urdd.json`.
 pub fn size_and_hash(bytes: &[u8]) -> (usize, String) {
     let digest = Sha256::digest(bytes);
     let digits = digest.iter().map(|byte| format!("{byte:02x}"));
     (bytes.len(), digits.collect())
 }
 
-/// What holds the last token of a pointer, and that token.
+/// The parent of the value at a pointer, and the last token.
 fn parent_of<'a>(document: &'a mut Value, pointer: &str) -> (Option<&'a mut Value>, String) {
     let (parent, last) = pointer.rsplit_once('/').unwrap_or(("", ""));
     let last = last.replace("~1", "/").replace("~0", "~");
     (document.pointer_mut(parent), last)
 }
 
-/// A document, without negative zeros.
+/// A module as a document without negative zeros.
 pub fn value(module: &impl Serialize) -> Value {
     fn clean(value: &mut Value) {
         match value {
@@ -486,9 +485,9 @@ fn edit(link_a: &str, link_b: &str, skip: bool) -> SkipEdit {
     }
 }
 
-/// The robot of [`Fixture::toy`]. Every joint type; mimics: of a driver declared later, of a mimic,
-/// of a fixed joint; a locked joint; odd names; links with a visual mesh, a visual box, both kinds of
-/// geometry, collision geometry alone, and none; all five reasons of skips.
+/// The robot of [`Fixture::toy`]. It has every joint type; mimic joints of a driver declared later, of a mimic joint,
+/// and of a fixed joint; a locked joint; unusual names; links with a visual mesh, a visual box, both kinds of geometry,
+/// only collision geometry, and none; and all five skip reasons.
 pub fn toy_robot() -> Robot {
     let mut robot = Robot::new("toy robot");
     robot.urdf.version = Some("1.2".to_owned());
@@ -576,7 +575,7 @@ pub fn toy_robot() -> Robot {
     };
     use JointType::*;
     let mut joints = vec![
-        // Declared before its driver, which is itself a mimic.
+        // Declared before its driver, which is itself a mimic joint.
         Joint {
             origin: origin([0.0, 0.0, 0.08], [0.0; 3]),
             axis: axis([0.0, 1.0, 0.0]),
@@ -606,7 +605,7 @@ pub fn toy_robot() -> Robot {
             }),
             ..joint("shoulder", Revolute, "turret", "arm")
         },
-        // The second element of the origin is left out, and the axis.
+        // The rotation of the origin is missing, and so is the axis.
         Joint {
             origin: Some(Origin {
                 xyz: Some([0.4, 0.0, 0.0]),
@@ -661,7 +660,7 @@ pub fn toy_robot() -> Robot {
             ..joint("right", Prismatic, "tool/ü 1", "finger_right")
         },
         Joint {
-            // URDF 1.1: half a turn about z, not of length 1.
+            // URDF 1.1: half a turn about z, not normalised.
             origin: Some(Origin {
                 xyz: Some([-0.22, 0.0, 0.0]),
                 rpy: None,
@@ -675,7 +674,7 @@ pub fn toy_robot() -> Robot {
             limit: limit(0.25, 0.25),
             ..joint("locked", Revolute, "base", "lock")
         },
-        // Follows a fixed joint: stands at its offset.
+        // Follows a fixed joint: its position is its offset.
         Joint {
             origin: origin([0.0, 0.0, 0.1], [0.0; 3]),
             limit: limit(-1.0, 1.0),

@@ -1,4 +1,4 @@
-//! A folder that holds one URDD after the other.
+//! A folder that contains one URDD after another.
 
 use std::collections::BTreeMap;
 
@@ -6,8 +6,8 @@ use tempfile::TempDir;
 
 use super::fixture::Fixture;
 
-/// A folder on disk. What two URDDs share is written once, so that thousands of URDDs that differ in
-/// a file or two take little time.
+/// A folder on disk. Files that two consecutive URDDs share are written once, so that thousands of URDDs with few
+/// differences take little time.
 pub struct Folder {
     folder: TempDir,
     holds: BTreeMap<String, Vec<u8>>,
@@ -22,7 +22,7 @@ impl Folder {
         }
     }
 
-    /// Makes the folder hold this URDD and nothing else.
+    /// Replaces the content of the folder by this URDD.
     pub fn put(&mut self, urdd: &Fixture) -> &std::path::Path {
         let root = self.folder.path();
         self.holds.retain(|path, _| {

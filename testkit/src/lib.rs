@@ -1,19 +1,19 @@
-//! What tests share. First, a second, simple producer of URDDs, which makes the valid bases of tests: it shares nothing
-//! with the generator but the types of `urdd_format`.
+//! Helpers shared by tests. Most of them form a second, simple producer of URDDs for the valid base cases of tests. It
+//! shares only the types of `urdd_format` with the generator.
 //!
-//! - [`robot`]: a robot as its URDF has it, its XML, and arbitrary robots for proptest
+//! - [`robot`]: a robot as in its URDF, its XML, and arbitrary robots for proptest
 //! - [`core`]: robot -> documents of the core modules and the kinematics samples
 //! - [`meshes`], [`shapes`]: robot of boxes -> documents and files of the other modules
-//! - [`model`]: a robot with a self-collision model that is written down
-//! - [`fixture`]: a whole URDD in memory, to be edited, sealed and written
-//! - [`folder`]: a folder on disk, for many URDDs one after the other
-//! - [`dice`]: choices of a seeded test
+//! - [`model`]: a robot with a handwritten self-collision model
+//! - [`fixture`]: a whole URDD in memory, to edit, seal and write
+//! - [`folder`]: a folder on disk for many URDDs in succession
+//! - [`dice`]: reproducible choices of a seeded test
 //! - [`emit`]: JSON and YAML text
 //! - [`documents`]: documents that fit a JSON Schema
 //! - [`difference`]: comparing two producers' documents
-//! - [`core_modules`], [`urdf_to_core`]: joints and robots as the core modules of a URDD
+//! - [`core_modules`], [`urdf_to_core`]: joints and robots -> core modules of a URDD
 //!
-//! Then [`robots`]: URDDs of our robots, made by the generator.
+//! [`robots`] generates URDDs of the project's robots.
 
 pub mod core;
 pub mod core_modules;
@@ -30,7 +30,7 @@ pub mod robots;
 pub mod shapes;
 pub mod urdf_to_core;
 
-/// The folder of the repository.
+/// The root folder of the repository.
 pub fn repository() -> &'static std::path::Path {
     std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }

@@ -1,4 +1,4 @@
-//! Robot of boxes -> the mesh modules and their files.
+//! Robot of boxes -> mesh modules and their files.
 
 use std::collections::BTreeMap;
 
@@ -17,8 +17,8 @@ use super::robot::Robot;
 
 pub type Point = [f64; 3];
 
-/// The twelve triangles of a box, counter-clockwise seen from outside. Of a corner's number, bit 0
-/// says on which side it is along x, bit 1 along y, bit 2 along z.
+/// The twelve triangles of a box, counter-clockwise seen from outside. Bits 0, 1 and 2 of a corner's index select its
+/// side along x, y and z.
 pub const TRIANGLES: [[u16; 3]; 12] = [
     [0, 4, 2],
     [2, 4, 6],
@@ -34,12 +34,12 @@ pub const TRIANGLES: [[u16; 3]; 12] = [
     [5, 7, 6],
 ];
 
-/// A box somewhere in a link's frame.
+/// A box in a link's frame.
 #[derive(Debug, Clone)]
 pub struct Solid {
     pub centre: Point,
     pub rpy: [f64; 3],
-    /// The corners as they stand in the files: rounded to binary32.
+    /// The corners as in the files: rounded to binary32.
     pub corners: [Point; 8],
 }
 
@@ -71,13 +71,13 @@ impl Solid {
 /// The meshes of a link.
 #[derive(Debug, Clone)]
 pub struct LinkSolids {
-    /// From which elements.
+    /// The kind of elements that they come from.
     pub geometry: GeometryKind,
-    /// The colour, where the URDF says one.
+    /// The colour, if the URDF has one.
     pub color: Option<[f64; 4]>,
-    /// The plain mesh, which is its own hull.
+    /// The plain mesh, which is also the hull.
     pub whole: Solid,
-    /// The whole again on links of odd index, its two halves on the others.
+    /// The whole box for links with an odd index, otherwise its two halves.
     pub pieces: Vec<Solid>,
 }
 
@@ -87,15 +87,15 @@ pub struct Meshes {
     pub plain: PlainMeshesModule,
     pub hulls: ConvexHullMeshesModule,
     pub pieces: ConvexDecompositionMeshesModule,
-    /// Every file that these name.
+    /// Every file that these modules reference.
     pub files: BTreeMap<String, Vec<u8>>,
-    /// What the files hold, per link.
+    /// The geometry in the files, per link.
     pub solids: Vec<Option<LinkSolids>>,
 }
 
 impl Meshes {
     /// # Panics
-    /// Where a link has more than one visual or collision element, or a round one.
+    /// If a link has more than one visual or collision element, or a round one.
     pub fn new(robot: &Robot) -> Meshes {
         let mut files = BTreeMap::new();
         let originals = original_meshes_module(robot, &mut files);
@@ -232,7 +232,7 @@ fn original_meshes_module(
     }
 }
 
-/// A mesh file of a box, by the extension of its name, and the file that it names in turn.
+/// A mesh file of a box in the format of its file extension, and the file that it references, if any.
 fn original(name: &str, size: [f64; 3]) -> (Vec<u8>, Option<(String, Vec<u8>)>) {
     let (low, high) = sides(size);
     let corners = Solid::new([0.0; 3], [0.0; 3], low, high).corners;
@@ -248,7 +248,7 @@ fn original(name: &str, size: [f64; 3]) -> (Vec<u8>, Option<(String, Vec<u8>)>) 
     }
 }
 
-/// The corners of a mesh file of a box, which are binary32.
+/// The extreme corners of a box in a mesh file, rounded to binary32.
 fn sides(size: [f64; 3]) -> (Point, Point) {
     let high = size.map(|side| f64::from((side / 2.0) as f32));
     (high.map(|side| -side), high)
@@ -334,7 +334,7 @@ pub fn stl(corners: &[Point; 8]) -> Vec<u8> {
     out
 }
 
-/// Wavefront OBJ. Each number is the binary32 in full, so that a reader of any precision has the same.
+/// Wavefront OBJ. Each binary32 is written exactly, so that readers of any precision get the same value.
 pub fn obj(corners: &[Point; 8], material: Option<&str>) -> Vec<u8> {
     let mut out = String::new();
     if let Some(material) = material {
@@ -349,7 +349,7 @@ pub fn obj(corners: &[Point; 8], material: Option<&str>) -> Vec<u8> {
     out.into_bytes()
 }
 
-/// Binary glTF 2.0: one mesh of one primitive on one node without a transform.
+/// Binary glTF 2.0: one mesh with one primitive, on one node without a transform.
 pub fn glb(corners: &[Point; 8], color: Option<[f64; 4]>) -> Vec<u8> {
     let mut data: Vec<u8> = Vec::new();
     for x in corners.as_flattened() {

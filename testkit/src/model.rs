@@ -1,5 +1,5 @@
-//! A robot with a self-collision model that is written down, not trained: what it says is compared with contacts of
-//! boxes, computed here.
+//! A robot with a handwritten, untrained self-collision model. Its predictions are compared with contacts of boxes that
+//! are computed here.
 
 use std::sync::{Arc, Mutex};
 
@@ -18,16 +18,16 @@ use super::meshes::{Meshes, Point};
 use super::robot::{Robot, collision, cuboid, joint, limit, link, origin, solid_box};
 use super::shapes::boxes_touch;
 
-/// The module, by name.
+/// Name of the module.
 pub const MODEL: &str = "self_collision_model_module";
 
-/// What the network is told: numbers of all four DOFs that are not of the ball, and the ball's matrix.
+/// Number of network inputs: four per angle of the arm, one for the slide, nine for the ball's rotation matrix.
 const WIDTH: usize = 4 + 4 + 1 + 9;
 
-/// How far the arm's joints turn, rad, and how high the slider goes, metres.
+/// Range of the arm's joints, rad, and upper limit of the slider, metres.
 const REACH: [f64; 2] = [2.5, 0.6];
 
-/// A post with an arm of two links that can fold back onto it, a slider beside it, and a ball on that.
+/// A post with a two-link arm that can fold back onto it, a slider next to it, and a ball on the slider.
 fn robot_with([turn, high]: [f64; 2]) -> Robot {
     let mut robot = Robot::new("folding arm");
     for (name, size, at) in [
@@ -88,14 +88,14 @@ fn robot_with([turn, high]: [f64; 2]) -> Robot {
     robot
 }
 
-/// What the model is of, and what is made of it.
+/// Parameters of the model and its robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Said {
     /// Added to the margin of each pair, metres.
     pub margin: f64,
-    /// How far the arm's two joints turn to each side, rad, and how high the slider goes, metres.
+    /// Range of the arm's two joints to each side, rad, and upper limit of the slider, metres.
     pub reach: [f64; 2],
-    /// Whether the network has learned by heart which configurations of the evaluation it would miss.
+    /// Whether the network has memorised the configurations of the evaluation that it would otherwise miss.
     pub by_heart: bool,
 }
 
@@ -114,7 +114,7 @@ pub fn fixture() -> Fixture {
     fixture_with(Said::default())
 }
 
-/// The robot with such a model; the counts are what comes of it.
+/// The robot with a model of these parameters and the resulting counts.
 pub fn fixture_with(said: Said) -> Fixture {
     let robot = robot_with(said.reach);
     let mut fixture = Fixture::full_with_edits(&robot, Vec::new());
@@ -140,7 +140,7 @@ pub fn fixture_with(said: Said) -> Fixture {
     fixture
 }
 
-/// The digest of SPEC 8.8.7.
+/// The digest defined in SPEC 8.8.7.
 pub fn trained_on(fixture: &Fixture) -> String {
     let documents = [
         "dof_module",
@@ -165,15 +165,15 @@ pub fn trained_on(fixture: &Fixture) -> String {
     digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The pairs that are not skipped: by hand. Neighbours are, by `Adjacent`; nothing else touches at rest.
+/// The pairs that are not skipped, listed by hand. Neighbours are skipped as `Adjacent`; no other pair touches at rest.
 const PAIRS: [[usize; 2]; 5] = [[0, 2], [1, 3], [1, 4], [2, 3], [2, 4]];
-/// The post and the ball are apart always.
+/// The post and the ball never touch.
 const OTHER: [usize; 2] = [0, 4];
 
 /// Weights, row by row, and biases.
 type Layer = (Vec<Vec<f64>>, Vec<f64>);
 
-/// The layers: three values of the angles and the slide, and one that nothing depends on, then a distance for each pair.
+/// The layers: three hidden values of the inputs and an unused one, then one distance per pair.
 fn layers() -> [Layer; 2] {
     let row = |at: &[(usize, f64)]| {
         let mut row = vec![0.0; WIDTH];
@@ -201,7 +201,7 @@ fn layers() -> [Layer; 2] {
     ]
 }
 
-/// What a model is: its two layers, and the margin of each pair.
+/// A model: its two layers and the margin of each pair.
 struct Network {
     layers: [Layer; 2],
     margins: Vec<f64>,
@@ -217,15 +217,15 @@ impl Network {
         }
     }
 
-    /// With a value more for each of some configurations, which holds that one, and what is very near, to be in contact.
+    /// Adds a hidden value for each given configuration. It reports contact in that configuration and very near it.
     ///
-    /// Sines, cosines and a matrix are a vector of one length: no other is as far along it as it is itself.
+    /// Sines, cosines and a matrix form a vector of constant length. No other configuration projects as far onto it.
     fn knowing<'a>(mut self, by_heart: impl Iterator<Item = &'a Vec<f64>>) -> Self {
         const STEEP: f64 = 3e4;
         let [(hidden, biases), (outputs, _)] = &mut self.layers;
         for q in by_heart {
             let mut direction = inputs(q);
-            // A length is none of them.
+            // The slide input is not part of that vector.
             direction[8] = 0.0;
             let along: f64 = direction.iter().map(|x| x * x).sum();
             hidden.push(direction.iter().map(|x| STEEP * x).collect());
@@ -235,7 +235,7 @@ impl Network {
             }
         }
         let known = hidden.len() - 4;
-        // Of each that is not meant, the hyperbolic tangent is -1.
+        // Compensates for the hyperbolic tangents of -1 of all other configurations.
         self.layers[1].1[0] -= 5.0 * known as f64;
         self
     }
@@ -262,7 +262,7 @@ impl Network {
     }
 }
 
-/// The numbers of SPEC 8.8.3.
+/// The network inputs of SPEC 8.8.3.
 fn inputs(q: &[f64]) -> Vec<f64> {
     let mut values: Vec<f64> = Vec::new();
     for angle in [q[0], q[1]] {
@@ -283,7 +283,7 @@ fn inputs(q: &[f64]) -> Vec<f64> {
     values
 }
 
-/// What contact is judged by.
+/// The ground truth for contacts.
 struct Exact {
     robot: Robot,
     core: Core,
@@ -337,7 +337,7 @@ impl Exact {
 
 type Judged = Vec<(Vec<f64>, bool, bool)>;
 
-/// The configurations of the evaluation (SPEC 8.8.9), of the robot of such a reach.
+/// The configurations of the evaluation (SPEC 8.8.9) for a robot with this reach.
 fn evaluation(reach: [f64; 2]) -> Arc<Judged> {
     static KNOWN: Mutex<Vec<([f64; 2], Arc<Judged>)>> = Mutex::new(Vec::new());
     let mut known = KNOWN.lock().expect("no test failed in here");

@@ -1,4 +1,4 @@
-//! A robot as its URDF has it, its XML, and arbitrary robots.
+//! A robot as in its URDF, its XML, and arbitrary robots.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -8,19 +8,19 @@ use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use urdd_format::urdf::*;
 
-/// A robot: what its URDF says, how the file is laid out, and which of its meshes exist.
+/// A robot: the content of its URDF, the layout of the file, and the available meshes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robot {
-    /// All of the URDF. Links and joints stand in the order of the file.
+    /// The content of the URDF. Links and joints are in the order of the file.
     pub urdf: UrdfModule,
-    /// How links and joints follow each other in the file.
+    /// The order of links and joints in the file.
     pub layout: Layout,
-    /// The meshes that can be found: file name as in the URDF -> side lengths of the box that the
-    /// mesh file holds, about its origin. References to other meshes cannot be carried.
+    /// The available meshes: file name in the URDF -> side lengths of the box in the mesh file, which is centred at its
+    /// origin. Other mesh references have no file.
     pub meshes: BTreeMap<String, [f64; 3]>,
 }
 
-/// How links and joints follow each other in the file.
+/// The order of links and joints in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layout {
     LinksFirst,
@@ -57,19 +57,19 @@ impl Robot {
         found.unwrap_or_else(|| panic!("no joint {name:?}"))
     }
 
-    /// The link, to change it.
+    /// A link, mutable.
     pub fn link_mut(&mut self, name: &str) -> &mut Link {
         let idx = self.link_idx(name);
         &mut self.urdf.links[idx]
     }
 
-    /// The joint, to change it.
+    /// A joint, mutable.
     pub fn joint_mut(&mut self, name: &str) -> &mut Joint {
         let idx = self.joint_idx(name);
         &mut self.urdf.joints[idx]
     }
 
-    /// The URDF file.
+    /// The text of the URDF file.
     pub fn to_urdf_xml(&self) -> String {
         let urdf = &self.urdf;
         let mut xml = Xml(String::from(
@@ -107,7 +107,7 @@ impl Robot {
     }
 }
 
-/// A link with nothing but a name.
+/// A link with only a name.
 pub fn link(name: &str) -> Link {
     Link {
         name: name.to_owned(),
@@ -118,7 +118,7 @@ pub fn link(name: &str) -> Link {
     }
 }
 
-/// A joint with nothing but what every joint has.
+/// A joint with only the required parts.
 pub fn joint(name: &str, joint_type: JointType, parent: &str, child: &str) -> Joint {
     let link_name = |link: &str| LinkName {
         link: link.to_owned(),
@@ -139,7 +139,7 @@ pub fn joint(name: &str, joint_type: JointType, parent: &str, child: &str) -> Jo
     }
 }
 
-/// A whole `<origin>`.
+/// An `<origin>` with position and rotation.
 pub fn origin(xyz: [f64; 3], rpy: [f64; 3]) -> Option<Origin> {
     Some(Origin {
         xyz: Some(xyz),
@@ -148,7 +148,7 @@ pub fn origin(xyz: [f64; 3], rpy: [f64; 3]) -> Option<Origin> {
     })
 }
 
-/// A whole `<limit>`.
+/// A `<limit>` with both limits, effort and velocity.
 pub fn limit(lower: f64, upper: f64) -> Option<Limit> {
     Some(Limit {
         lower: Some(lower),
@@ -161,7 +161,7 @@ pub fn limit(lower: f64, upper: f64) -> Option<Limit> {
     })
 }
 
-/// A `<visual>` of this geometry.
+/// A `<visual>` with this geometry.
 pub fn visual(origin: Option<Origin>, geometry: Geometry) -> Visual {
     Visual {
         name: None,
@@ -171,7 +171,7 @@ pub fn visual(origin: Option<Origin>, geometry: Geometry) -> Visual {
     }
 }
 
-/// A `<collision>` of this geometry.
+/// A `<collision>` with this geometry.
 pub fn collision(origin: Option<Origin>, geometry: Geometry) -> Collision {
     Collision {
         name: None,
@@ -443,15 +443,15 @@ impl Xml {
 
 // ---- Arbitrary robots
 
-/// Any robot that a URDF can say: a tree of 1 to 30 links in any order, all joint types, mimics of
-/// mimics, odd names, missing parts, every kind of geometry. Its URDD is valid; as a robot it may be
-/// odd (limits missing or crossed, mimics that leave their range).
+/// An arbitrary robot that a URDF can describe: a tree of 1 to 30 links in any order, all joint types, chained mimic
+/// joints, unusual names, missing parts, every kind of geometry. Its URDD is valid; the robot itself may be
+/// questionable (missing or crossed limits, mimic joints that leave their range).
 pub fn arbitrary_robot() -> impl Strategy<Value = Robot> {
     robots(any_geometry(true).boxed(), 2, 30)
 }
 
-/// As [`arbitrary_robot`], but with what [`super::shapes`] can make meshes of: at most one visual and
-/// one collision element a link, each a box or a mesh; and at most 8 links, since shapes go in pairs.
+/// Like [`arbitrary_robot`], restricted to the geometry that [`super::shapes`] supports: at most one visual and one
+/// collision element per link, each a box or a mesh; and at most 8 links, since shapes are paired.
 pub fn arbitrary_box_robot() -> impl Strategy<Value = Robot> {
     robots(any_geometry(false).boxed(), 1, 8)
 }
@@ -506,7 +506,7 @@ fn robots(
         )
 }
 
-/// What a joint is before it has its place in a tree.
+/// A joint before it has its position in a tree.
 #[derive(Debug, Clone)]
 struct LooseJoint {
     place: u32,
@@ -515,8 +515,8 @@ struct LooseJoint {
     mimic: Option<(Index, Option<f64>, Option<f64>)>,
 }
 
-/// Makes a tree of the parts: joint i carries link i and sits on an earlier link; joint 0 is left
-/// out. Then links and joints are put in the order of their places.
+/// Builds a tree: joint i connects link i to an earlier link; joint 0 is dropped. Then sorts links and joints by their
+/// places.
 fn assemble(links: Vec<(u32, Link)>, joints: Vec<LooseJoint>) -> (Vec<Link>, Vec<Joint>) {
     let mut links = links;
     make_unique(links.iter_mut().map(|(_, link)| &mut link.name));
@@ -596,7 +596,7 @@ fn arbitrary_link(
     )
         .prop_map(
             move |(place, name, inertial, visual, mut collision, unknown_elements)| {
-                // Which geometry stands in for a mesh that cannot be found, SPEC leaves open.
+                // SPEC leaves open which geometry replaces a mesh that cannot be found.
                 let missing = |g: &Option<Geometry>| matches!(g, Some(Geometry::Mesh(m)) if m.filename == MISSING);
                 if lone_missing && visual.iter().any(|v| missing(&v.geometry)) {
                     collision.clear();
@@ -744,7 +744,7 @@ fn arbitrary_origin() -> impl Strategy<Value = Origin> {
     })
 }
 
-/// Of a joint: with a rotation in one way or the other, or none.
+/// The origin of a joint: with a rotation in one of the two forms, or none.
 fn joint_origin() -> impl Strategy<Value = Origin> {
     let quaternion = prop::array::uniform4(number())
         .prop_filter("a length", |q| q.iter().any(|c| c.abs() > 1e-3))
@@ -794,7 +794,7 @@ fn arbitrary_limit() -> impl Strategy<Value = Option<Limit>> {
     ))
 }
 
-/// Valid: the tensor of a cloud of points, turned anyhow.
+/// Physically valid: the inertia of a point cloud, in an arbitrary rotation.
 fn inertial() -> impl Strategy<Value = Inertial> {
     let spread = prop::array::uniform3(0.01..1.0f64);
     (option(arbitrary_origin()), positive(), spread, vector()).prop_map(
@@ -856,7 +856,7 @@ fn material() -> impl Strategy<Value = Material> {
     })
 }
 
-/// Elements that URDF does not define, as XML.
+/// Elements that URDF does not define, as XML text.
 fn unknown() -> impl Strategy<Value = Vec<String>> {
     let elements = [
         "<gazebo/>",

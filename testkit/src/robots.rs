@@ -1,4 +1,4 @@
-//! URDDs of our robots, and of URDFs that a test writes.
+//! URDDs of the project's robots, and of URDFs written by tests.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use urdd_generate::{Settings, generate};
 
-/// The URDFs of our robots.
+/// The URDFs of the project's robots.
 pub fn our_robots() -> Vec<(String, PathBuf)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../conformance/robots");
     let entries = std::fs::read_dir(folder).expect("our robots");
@@ -34,7 +34,7 @@ pub fn our_robots() -> Vec<(String, PathBuf)> {
 /// The files of a URDD, by their paths in it.
 type Files = Vec<(PathBuf, Vec<u8>)>;
 
-/// A URDD of one of our robots, in a folder of its own that lasts as long as what is returned. It is generated once.
+/// A URDD of one of these robots, generated once, in a temporary folder that is removed with the returned guard.
 pub fn made(urdf: &Path) -> (tempfile::TempDir, PathBuf) {
     static MADE: Mutex<BTreeMap<PathBuf, Arc<OnceLock<Files>>>> = Mutex::new(BTreeMap::new());
     let mut all = MADE.lock().unwrap_or_else(PoisonError::into_inner);
@@ -69,7 +69,7 @@ fn files_below(folder: &Path, root: &Path) -> Files {
     entries.flat_map(below).collect()
 }
 
-/// A URDD of a URDF's text.
+/// A URDD generated from the text of a URDF.
 pub fn made_of(urdf: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("robot.urdf");

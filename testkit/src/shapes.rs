@@ -1,5 +1,5 @@
-//! Robot of boxes -> the link shape modules. Distances between boxes are computed from their corners,
-//! edges and faces, with no library.
+//! Robot of boxes -> link shape modules. Distances between boxes are computed from their corners, edges and faces,
+//! without a library.
 
 use urdd_format::index::{Count, LinkIdx, PieceIdx};
 use urdd_format::link_shapes_approximations::*;
@@ -59,7 +59,7 @@ impl Shapes {
     }
 }
 
-/// Solids per link: the whole ones, or the pieces.
+/// Solids per link: the whole boxes or the pieces.
 struct Group {
     of_link: Vec<Vec<Solid>>,
 }
@@ -86,7 +86,7 @@ impl Group {
             .collect()
     }
 
-    /// What the shape indices stand for: link, piece, solid.
+    /// The link, piece and solid of each shape index.
     fn shapes(&self) -> Vec<(usize, usize, &Solid)> {
         let links = self.of_link.iter().enumerate();
         links
@@ -151,7 +151,7 @@ fn sphere_reach(solid: &Solid) -> f64 {
     norm(solid.centre) + sphere(solid).radius
 }
 
-/// Not more than those of box and sphere, in the last digit either.
+/// At most the reach of the box and of the sphere, even in the last digit.
 fn hull_reach(solid: &Solid) -> f64 {
     farthest(&solid.corners)
         .min(obb_reach(solid))
@@ -251,7 +251,7 @@ fn over_poses<S, T>(
             for (i, j) in [(i, j), (j, i)] {
                 min[i][j] = least;
                 max[i][j] = most;
-                mean[i][j] = average.clamp(least, most); // Rounding must not take it out.
+                mean[i][j] = average.clamp(least, most); // Rounding must not move it outside the range.
             }
         }
     }
@@ -289,7 +289,7 @@ pub fn box_distance(a: &[Point; 8], b: &[Point; 8]) -> f64 {
     best
 }
 
-/// Whether two boxes touch: no axis separates them.
+/// Whether two boxes touch: no separating axis exists.
 pub fn boxes_touch(a: &[Point; 8], b: &[Point; 8]) -> bool {
     let sides = |c: &[Point; 8]| [1, 2, 4].map(|i| unit(minus(c[i], c[0])));
     let (sides_a, sides_b) = (sides(a), sides(b));
@@ -309,7 +309,7 @@ pub fn boxes_touch(a: &[Point; 8], b: &[Point; 8]) -> bool {
         let ((low_a, high_a), (low_b, high_b)) = (range(a), range(b));
         low_a > high_b || low_b > high_a
     };
-    // Nearly parallel sides give no axis of their own.
+    // The cross product of nearly parallel sides is not a usable axis.
     !axes.filter(|axis| norm(*axis) > 1e-9).any(apart)
 }
 
@@ -333,12 +333,12 @@ fn segment_to_segment(p: Point, q: Point, r: Point, s: Point) -> f64 {
     norm(between)
 }
 
-/// Distance of a point from a triangle where its foot lies inside the triangle; else no less than
-/// the distances that edges give.
+/// Distance of a point from a triangle if its projection is inside the triangle; infinity otherwise, where edges give
+/// the distance.
 fn point_to_inside(p: Point, [a, b, c]: [Point; 3]) -> f64 {
     let normal = unit(cross(minus(b, a), minus(c, a)));
     if norm(normal) == 0.0 {
-        return f64::INFINITY; // A side of a flat box.
+        return f64::INFINITY; // A degenerate side of a flat box.
     }
     let inside = [(a, b), (b, c), (c, a)]
         .into_iter()
@@ -352,7 +352,7 @@ fn point_to_inside(p: Point, [a, b, c]: [Point; 3]) -> f64 {
 
 // ---- Skips
 
-/// Nearer than this is contact.
+/// Distances up to this count as contact, metres.
 const CONTACT: f64 = 0.001;
 
 fn simple_skips(

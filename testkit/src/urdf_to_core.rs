@@ -1,5 +1,4 @@
-//! Reads what forward kinematics needs from a URDF, for tests: strict, small, and no code of the
-//! generator's.
+//! Reads the kinematics of a URDF for tests: strict, small, and independent of the generator.
 
 use roxmltree::{Document, Node};
 use urdd_format::dof::ResolvedMimic;
@@ -8,7 +7,7 @@ use urdd_format::urdf::JointType;
 
 use crate::core_modules::{Joint, dof_count, first_dofs};
 
-/// The links' names and the joints, both in the order of the text.
+/// The names of the links, and the joints, both in the order of the text.
 pub fn read(text: &str) -> (Vec<String>, Vec<Joint>) {
     let document = Document::parse(text).unwrap();
     let robot = document.root_element();
@@ -25,7 +24,7 @@ pub fn read(text: &str) -> (Vec<String>, Vec<Joint>) {
             xyz: numbers(child(node, "origin"), "xyz", [0.0; 3]),
             rpy: numbers(child(node, "origin"), "rpy", [0.0; 3]),
             axis: numbers(child(node, "axis"), "xyz", [1.0, 0.0, 0.0]),
-            // So that the joint has no DOF; the drivers' DOFs are known below.
+            // A placeholder, so that the joint has no DOF; resolved below once the drivers' DOFs are known.
             mimic: child(node, "mimic").map(|_| ResolvedMimic {
                 dof_idx: None,
                 multiplier: 0.0,
@@ -43,7 +42,7 @@ pub fn read(text: &str) -> (Vec<String>, Vec<Joint>) {
     (links, joints)
 }
 
-/// How joint `idx` follows a DOF, its own or that at the end of its chain of mimics.
+/// How joint `idx` follows a DOF: its own, or the one at the end of its chain of mimic joints.
 fn resolve(nodes: &[Node], joints: &[Joint], idx: usize) -> ResolvedMimic {
     let Some(mimic) = child(nodes[idx], "mimic") else {
         let moves = dof_count(&joints[idx]) > 0;

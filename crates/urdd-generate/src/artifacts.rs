@@ -1,5 +1,5 @@
-//! What stages of meshes and shapes hand on to later ones: made in this run, or taken up from the
-//! files of an earlier one that still hold.
+//! The meshes and shapes that stages pass on to later ones: built in this run, or loaded from files of an earlier run
+//! that are still valid.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use urdd_format::link_shapes_skips::LinkShapesSkipsModule;
 use urdd_format::plain_meshes::PlainMeshesModule;
 use urdd_format::registry::ModuleKind;
 
-/// What was made so far.
+/// The results so far.
 pub(super) struct Artifacts {
     root: PathBuf,
     pub plain: Option<LinkMeshes>,
@@ -33,8 +33,7 @@ pub(super) struct Artifacts {
 }
 
 impl Artifacts {
-    /// Of a new URDD that is written to `root`: the files of modules that were made, or kept, are
-    /// there already.
+    /// For a new URDD that is written to `root`. The files of modules that were built or kept are already in it.
     pub fn new(root: &Path) -> Self {
         Artifacts {
             root: root.to_owned(),
@@ -93,7 +92,7 @@ impl Artifacts {
         )
     }
 
-    /// The hulls and the pieces, of which shapes are made.
+    /// The hulls and the pieces, from which shapes are built.
     pub fn solids(&mut self) -> Result<ConvexMeshes, GenerateError> {
         Ok(ConvexMeshes {
             hulls: self.hulls()?,
@@ -133,7 +132,7 @@ impl Artifacts {
         )
     }
 
-    /// What is at a place: as it was made, or else taken up, once.
+    /// Returns a result; loads it on first use if this run did not build it.
     fn have<T>(
         &mut self,
         place: fn(&mut Artifacts) -> &mut Option<Arc<T>>,

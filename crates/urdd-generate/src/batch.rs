@@ -1,4 +1,4 @@
-//! Many robots: which they are, where each goes, and one bad one never stops the rest.
+//! Generates URDDs for many robots: finds the sources, names the outputs, and continues after a failed robot.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -20,11 +20,11 @@ use urdd_directory::limits::MAX_FOLDER_DEPTH;
 pub struct Job {
     /// The URDF or xacro file.
     pub source: PathBuf,
-    /// The name of its URDD, unlike every other name of the batch in more than case.
+    /// The name of its URDD, unique in the batch regardless of case.
     pub name: String,
 }
 
-/// Why there is no batch.
+/// Why a batch could not be set up.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum BatchError {
     /// No such path.
@@ -38,10 +38,10 @@ pub enum BatchError {
     Unreadable {
         /// The path.
         path: String,
-        /// What the operating system said.
+        /// The operating system's error message.
         reason: String,
     },
-    /// A folder that lies too deep to be searched.
+    /// A folder below the maximum search depth.
     #[error(
         "{path}: deeper than {MAX_FOLDER_DEPTH} folders is not searched; give this folder by itself"
     )]
@@ -57,21 +57,20 @@ pub enum BatchError {
     },
 }
 
-/// Whether these paths make a batch: several, or a folder.
+/// Whether these paths form a batch: several paths, or a folder.
 pub fn is_batch(paths: &[PathBuf]) -> bool {
     paths.len() > 1 || paths.iter().any(|path| path.is_dir())
 }
 
-/// Finds the robots: files as they are given, and of folders every `.urdf`, and every `.urdf.xacro`
-/// that has no `.urdf` beside it. Hidden folders, symbolic links to folders, and URDDs (their URDFs
-/// were carried there) are not searched. Given twice is once.
+/// Finds the robots. A file is used as given. A folder is searched for every `.urdf`, and for every `.urdf.xacro`
+/// without a `.urdf` beside it. The search skips hidden folders, symbolic links to folders, and URDDs, which contain
+/// copies of their URDFs. Duplicate paths count once.
 ///
-/// The name of each is that of its file without extension. Where several would have one name, as
-/// many of the folders that they lie in go before it as are needed to tell them apart, joined by
-/// `-`; where that does not help, a number goes after it.
+/// Each robot is named after its file, without the extension. Where names collide, as many parent folder names as
+/// necessary are prepended, joined by `-`. If they still collide, a number is appended.
 ///
 /// # Errors
-/// Where a path is not there, or a folder cannot be searched or holds none.
+/// If a path does not exist, or a folder cannot be searched or contains no robot.
 pub fn jobs(paths: &[PathBuf]) -> Result<Vec<Job>, BatchError> {
     let mut sources = Vec::new();
     for path in paths {
@@ -134,7 +133,7 @@ fn search(folder: &Path, depth: usize, sources: &mut Vec<PathBuf>) -> Result<(),
     Ok(())
 }
 
-/// A name for each source.
+/// A unique name for each source.
 fn names(sources: &[PathBuf]) -> Vec<String> {
     let parts: Vec<Vec<String>> = sources.iter().map(|source| parts(source)).collect();
     let mut used = vec![1; sources.len()];
@@ -174,7 +173,7 @@ fn names(sources: &[PathBuf]) -> Vec<String> {
     names.collect()
 }
 
-/// The folders of a path, and the name of its file without extension, as parts of a file name.
+/// The names of a path's folders and its file name without extension, each safe to use in a file name.
 fn parts(source: &Path) -> Vec<String> {
     let file = source.file_name().unwrap_or_default().to_string_lossy();
     let mut stem: &str = &file;
@@ -197,12 +196,12 @@ fn parts(source: &Path) -> Vec<String> {
     folders.chain([stem.to_owned()]).map(plain).collect()
 }
 
-/// One of `n` parts of a batch: every n-th robot. Names are those of the whole batch.
+/// One of `n` shards of a batch: every n-th robot. The names are those of the whole batch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// Which part, from 1.
+    /// The number of this shard, from 1.
     pub number: usize,
-    /// How many there are.
+    /// The number of shards.
     pub of: usize,
 }
 
@@ -220,7 +219,7 @@ impl std::str::FromStr for Shard {
 }
 
 impl Shard {
-    /// The jobs of this part.
+    /// The jobs of this shard.
     pub fn of(self, jobs: Vec<Job>) -> Vec<Job> {
         let mine = jobs.into_iter().enumerate();
         let mine = mine.filter(|(idx, _)| idx % self.of == self.number - 1);
@@ -228,19 +227,19 @@ impl Shard {
     }
 }
 
-/// Who watches a batch.
+/// Receives the progress and results of a batch.
 pub trait Observer: Sync {
-    /// A robot is begun. What this gives is told of its modules.
+    /// A robot is started. The returned value receives the progress of its modules.
     fn begin(&self, job: &Job) -> Box<dyn Progress>;
-    /// A robot is done; called in the order of the batch.
+    /// A robot is finished. Calls come in the order of the batch.
     fn done(&self, job: &Job, outcome: &Result<Generated, GenerateError>);
 }
 
-/// Makes a URDD of each job, in `folder` under the job's name, on the threads of the current pool.
-/// Gives how many could not be made. A crash (a fault of this program) counts as one, and stops
-/// nothing. Once it is asked to stop, no robot is begun.
+/// Generates a URDD for each job in `folder`, under the job's name, on the threads of the current pool. Returns the
+/// number of failures. A panic (a bug in this program) counts as a failure and does not stop the batch. After
+/// cancellation no further robot is started.
 pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Observer) -> usize {
-    // Outcomes that wait for those before them.
+    // Outcomes that wait for earlier ones.
     let waiting = Mutex::new((0, BTreeMap::new()));
     let failed = jobs.par_iter().enumerate().map(|(idx, job)| {
         if settings.cancellation.is_cancelled() {
@@ -264,10 +263,10 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
     failed.sum()
 }
 
-/// Makes a URDD of a source, with a crash as an error.
+/// Runs `make` for a source and turns a panic into an error.
 ///
 /// # Errors
-/// As `make`; [`GenerateError::Internal`] for a crash.
+/// Those of `make`; [`GenerateError::Internal`] for a panic.
 pub fn caught(
     source: &Path,
     make: impl FnOnce() -> Result<Generated, GenerateError>,

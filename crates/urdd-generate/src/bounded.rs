@@ -1,17 +1,17 @@
-//! Reading files of any size and kind, and not more than is good.
+//! Reads files with a size limit.
 
 use std::io::Read;
 use std::path::Path;
 
 use urdd_directory::regular;
 
-/// Longest URDF that is read, bytes; the validator reads no longer one.
+/// Maximum size of a URDF in bytes. The validator has the same limit.
 pub const MAX_SOURCE_BYTES: u64 = 64 << 20;
 
-/// Reads a regular file of at most `limit` bytes, whatever the file system says of its size.
+/// Reads a regular file of at most `limit` bytes, whatever size the file system reports.
 ///
 /// # Errors
-/// Why it cannot be read, in words.
+/// The reason why it cannot be read.
 pub(super) fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
     if path.is_dir() {
         return Err("it is a folder".to_owned());
@@ -20,10 +20,10 @@ pub(super) fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
     read_up_to(file, limit)
 }
 
-/// Reads at most `limit` bytes of anything.
+/// Reads at most `limit` bytes.
 ///
 /// # Errors
-/// Why it cannot be read, or that there is more, in words.
+/// The reason why it cannot be read, or that it is longer.
 pub(super) fn read_up_to(from: impl Read, limit: u64) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     from.take(limit + 1)

@@ -1,6 +1,5 @@
-//! What a new URDD takes over from the folder that it replaces: every file that the old URDD does not
-//! list and that is not a module's own. A README, a `.git` folder, extension modules and notes that
-//! lie in a module's folder outlive a new run.
+//! Carries files over from the folder that is replaced: every file that the old URDD does not list and that does not
+//! belong to a module. A README, a `.git` folder, extension modules and notes in a module's folder survive a new run.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -21,10 +20,10 @@ use urdd_format::registry::ModuleKind;
 /// The files that every module has.
 const MODULE_FILES: [&str; 3] = ["VERSION", "module.json", "module.yaml"];
 
-/// Links or copies what is to stay from `folder` into `root`.
+/// Links or copies the files to keep from `folder` into `root`.
 ///
 /// # Errors
-/// Where something cannot be read or written, or a file of the user's has a name that the URDD needs.
+/// If something cannot be read or written, or a user's file has a name that the URDD needs.
 pub(super) fn carry_over(
     folder: &Path,
     old: Option<&Old>,
@@ -34,7 +33,7 @@ pub(super) fn carry_over(
     merge(folder, root, "", &listed)
 }
 
-/// Every path that the old URDD says to be of it, but those of extensions.
+/// Every path that the old URDD lists, except those of extension modules.
 fn listed(old: &Old) -> BTreeSet<String> {
     let source = &old.value["source"];
     let sources = [&source["Urdf"]["path"], &source[FOUND_KEY]["path"]];
@@ -50,8 +49,7 @@ fn listed(old: &Old) -> BTreeSet<String> {
         .collect()
 }
 
-/// Takes over the folder at `path`, relative to both roots; what is in a folder that is in both,
-/// one by one.
+/// Carries over the folder at `path`, relative to both roots. Folders of modules are merged entry by entry.
 fn merge(
     folder: &Path,
     root: &Path,
@@ -93,7 +91,7 @@ fn merge(
     Ok(())
 }
 
-/// Makes the folder that something is to lie in.
+/// Creates the parent folder of a path.
 fn make_above(path: &Path) -> Result<(), StagingError> {
     let Some(above) = path.parent() else {
         return Ok(());
@@ -104,7 +102,7 @@ fn make_above(path: &Path) -> Result<(), StagingError> {
     })
 }
 
-/// Whether a folder is a module's, or above or inside one.
+/// Whether a folder is a module's, or contains one, or is inside one.
 fn is_of_modules(path: &str) -> bool {
     let begins = |long: &str, short: &str| {
         long.strip_prefix(short)
@@ -114,7 +112,7 @@ fn is_of_modules(path: &str) -> bool {
     folders.any(|folder| begins(path, folder) || begins(folder, path))
 }
 
-/// Whether a file is the old URDD's: `urdd.json`, one that it lists, or a module's own.
+/// Whether a file belongs to the old URDD: `urdd.json`, a listed file, or a module's own file.
 fn is_ours(path: &str, listed: &BTreeSet<String>) -> bool {
     let of_a_module = || {
         let (folder, file) = path.rsplit_once('/')?;
@@ -129,8 +127,7 @@ fn is_same(one: &Path, other: &Path) -> bool {
     size(one) == size(other) && fs::read(one).ok() == fs::read(other).ok()
 }
 
-/// The entries of extension modules that were carried over, their sizes and hashes brought up to
-/// date.
+/// The entries of extension modules that were carried over, with updated sizes and hashes.
 pub(super) fn extensions(old: Option<&Old>, root: &Path) -> Vec<Value> {
     let modules = old.and_then(|old| old.value["modules"].as_array());
     let Ok(root) = Root::open(root) else {

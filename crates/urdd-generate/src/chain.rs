@@ -8,7 +8,7 @@ use urdd_format::urdf::UrdfModule;
 use urdd_kinematics::pose::from_isometry;
 use urdd_kinematics::rotation::unit_axis;
 
-/// Makes the module.
+/// Builds the module.
 pub(super) fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
     let mut links: Vec<LinkInChain> = (0..)
         .zip(&robot.links)
@@ -44,7 +44,7 @@ pub(super) fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
         });
     }
     for link in &mut links {
-        // Joints come in order; the links that they move may not.
+        // Joints are in order; their child links may not be.
         link.children_link_idxs.sort();
     }
     let kinematic_hierarchy = hierarchy(&links, tree.root);

@@ -1,4 +1,4 @@
-//! A robot that was put together from others: `combine` writes its URDF.
+//! A robot composed of other robots; `combine` writes its URDF.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -13,24 +13,23 @@ use urdd_directory::path::portable;
 use urdd_format::composition::CompositionModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 
-/// What a robot that was put together has besides its URDF.
+/// The inputs of a composed robot besides its URDF.
 #[derive(Debug, Clone)]
 pub struct Composed {
-    /// What stands for the file in notes and errors.
+    /// The file name shown in notes and errors.
     pub shown: String,
-    /// The folder in which relative names of meshes begin.
+    /// The folder that relative mesh file names refer to.
     pub folder: PathBuf,
-    /// Edits of skips that its parts have; edits of the URDD that is replaced come after them.
+    /// The skip edits of its parts. The edits of the URDD that is replaced follow them.
     pub edits: Vec<SkipEdit>,
-    /// The reasons for which pairs are skipped, where there is no URDD that is replaced and the settings say
-    /// nothing.
+    /// The skip reasons to use when no URDD is replaced and the settings give none.
     pub skipped_reasons: Option<Vec<SkippedReason>>,
-    /// How it was put together: what becomes its `composition_module`.
+    /// How the robot was composed: the content of its `composition_module`.
     pub composition: CompositionModule,
 }
 
 impl Composed {
-    /// What people decided about the skips: those of the parts, and those of the URDD that is replaced.
+    /// The user's decisions about skips: those of the parts, then those of the URDD that is replaced.
     pub(super) fn decisions(&self, old: Option<&Old>, mut there: Decisions) -> Decisions {
         if let (None, Some(reasons)) = (old, &self.skipped_reasons) {
             there.skipped_reasons.clone_from(reasons);
@@ -46,11 +45,11 @@ impl Composed {
     }
 }
 
-/// Makes a URDD of a robot that was put together, as [`generate_text`](super::generate_text) does of any;
-/// the URDF is carried under the robot's name.
+/// Generates the URDD of a composed robot, as [`generate_text`](super::generate_text) does for any robot. The URDF is
+/// stored in it under the robot's name.
 ///
 /// # Errors
-/// As [`generate`](super::generate).
+/// Those of [`generate`](super::generate).
 pub fn generate_composed(
     urdf: Vec<u8>,
     composed: &Composed,

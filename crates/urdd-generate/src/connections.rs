@@ -4,13 +4,13 @@ use urdd_format::chain::ChainModule;
 use urdd_format::connections::{ConnectionsModule, LinkPath};
 use urdd_format::index::{JointIdx, LinkIdx};
 
-/// Up to this many links, the path of every pair is written out (SPEC 6.4.6).
+/// Maximum number of links with which the path of every pair is written (SPEC 6.4.6).
 pub const MOST_LINKS_WITH_PAIRS: usize = 300;
 
-/// And up to this many links in all of these paths together.
+/// Maximum total number of links in the paths of all pairs.
 pub const MOST_LINKS_IN_PAIRS: usize = 2_000_000;
 
-/// Makes the module. Its size grows with links times depth and links squared.
+/// Builds the module. Its size grows with links × depth and with links².
 pub(super) fn connections_module(chain: &ChainModule) -> ConnectionsModule {
     let root_paths = root_paths(chain);
     let ancestors = lowest_common_ancestors(chain, &root_paths);
@@ -58,8 +58,8 @@ fn root_paths(chain: &ChainModule) -> Vec<LinkPath> {
     paths
 }
 
-/// The number of links in the paths of all pairs: each path has its first link, and one more for each
-/// joint on it. A joint with s links below it is on the paths between these and the others.
+/// The total number of links in the paths of all pairs. Each path has its first link, and one more for each joint on
+/// it. A joint with s links below it is on every path between one of these and one of the others.
 fn links_in_pairs(chain: &ChainModule) -> usize {
     let all = chain.links_in_chain.len();
     let mut below = vec![1; all];
@@ -74,8 +74,8 @@ fn links_in_pairs(chain: &ChainModule) -> usize {
     links
 }
 
-/// Row i, from the root downwards: of a link on the path to i itself; of another, that of its
-/// parent.
+/// Row i is filled from the root downwards: a link on the path to i is its own common ancestor with i; any other link
+/// has that of its parent.
 fn lowest_common_ancestors(chain: &ChainModule, root_paths: &[LinkPath]) -> Vec<Vec<LinkIdx>> {
     let rows = root_paths.iter().map(|path| {
         let mut row = vec![chain.root_idx; root_paths.len()];
@@ -96,7 +96,7 @@ fn lowest_common_ancestors(chain: &ChainModule, root_paths: &[LinkPath]) -> Vec<
     rows.collect()
 }
 
-/// Up from one link to the common ancestor, down to the other.
+/// The path up from one link to the common ancestor and down to the other.
 fn path(from: &LinkPath, to: &LinkPath, ancestor: LinkIdx) -> LinkPath {
     let depth = from
         .links
@@ -110,7 +110,7 @@ fn path(from: &LinkPath, to: &LinkPath, ancestor: LinkIdx) -> LinkPath {
     LinkPath { links, joints }
 }
 
-/// The published table: the links below i down to j, where j hangs on i.
+/// The published table: the links below i down to j if j is a descendant of i.
 fn descents(root_paths: &[LinkPath]) -> Vec<Vec<Option<Vec<LinkIdx>>>> {
     let row = |from: usize| {
         let to = root_paths.iter().enumerate();
@@ -133,7 +133,7 @@ mod tests {
     use crate::chain::chain_module;
     use crate::urdf;
 
-    /// Links in a line, which stand in the file from the far end to the root.
+    /// Links in a line; the file lists them from the far end to the root.
     fn line(links: usize) -> ConnectionsModule {
         connections_module(&line_chain(links))
     }
@@ -169,7 +169,7 @@ mod tests {
         let pairs = module.link_to_link_paths.unwrap();
         let descents = module.link_connection_paths.unwrap();
         for i in 0..count {
-            // The root is the last.
+            // The root is the last link.
             assert_eq!(module.root_paths[i].links, range(count - 1, i));
             for j in 0..count {
                 assert_eq!(
@@ -194,7 +194,7 @@ mod tests {
         }
     }
 
-    /// Links that hang on the first one.
+    /// Links that are all children of the first one.
     fn star(links: usize) -> ChainModule {
         let link = |i: usize| format!("<link name=\"l{i}\"/>");
         let joint = |i: usize| {
@@ -227,7 +227,7 @@ mod tests {
 
     #[test]
     fn the_links_in_paths_are_counted_without_the_paths() {
-        // A line of n links: 1 + |i - j| each.
+        // A line of n links: each path has 1 + |i - j| links.
         for n in [1_usize, 2, 9] {
             let module = line(n);
             let pairs = module.link_to_link_paths.unwrap();
@@ -235,7 +235,7 @@ mod tests {
             assert_eq!(written, n * n + (n * n * n - n) / 3);
             assert_eq!(links_in_pairs(&line_chain(n)), written);
         }
-        // A star: 1 to itself, 2 from the middle and to it, else 3.
+        // A star: 1 for a link to itself, 2 from or to the centre, otherwise 3.
         assert_eq!(links_in_pairs(&star(10)), 10 + 2 * 9 * 2 + 9 * 8 * 3);
     }
 }

@@ -1,5 +1,5 @@
-//! Work that is done once for each content. Robots show one mesh on many links: the legs of a quadruped, the fingers of
-//! a hand.
+//! Processes identical meshes once. Robots often use one mesh on many links: the legs of a quadruped, the fingers of a
+//! hand.
 
 use std::collections::HashMap;
 use std::hash::{Hash, Hasher};
@@ -9,10 +9,10 @@ use rayon::prelude::*;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_geometry::Mesh;
 
-/// What `work` makes of each mesh. It is asked once about meshes that are the same, bit for bit.
+/// The result of `work` for each mesh. Runs `work` once for meshes that are identical bit for bit.
 ///
 /// # Errors
-/// Where it is asked to stop: before the next mesh.
+/// If cancelled; checked before each mesh.
 pub fn for_each_content<T: Clone + Send>(
     meshes: &[&Mesh],
     cancellation: &Cancellation,
@@ -38,7 +38,7 @@ pub fn for_each_content<T: Clone + Send>(
     Ok(made.collect())
 }
 
-/// A mesh as the bits of its numbers.
+/// A mesh, compared and hashed by the bits of its numbers.
 struct Content<'a>(&'a Mesh);
 
 impl Content<'_> {

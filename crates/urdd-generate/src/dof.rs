@@ -17,7 +17,7 @@ const ROTATIONS: [(&str, Quantity); 3] = [
     ("/rot_z", Quantity::Angle),
 ];
 
-/// What is added to the joint's name, and the quantity, of each DOF of a joint (SPEC 5.8).
+/// The name suffix and the quantity of each DOF of a joint (SPEC 5.8).
 fn dofs_of(joint_type: JointType) -> Vec<(&'static str, Quantity)> {
     match joint_type {
         JointType::Fixed => Vec::new(),
@@ -32,10 +32,10 @@ fn dofs_of(joint_type: JointType) -> Vec<(&'static str, Quantity)> {
     }
 }
 
-/// Makes the module.
+/// Builds the module.
 ///
 /// # Errors
-/// Where the multipliers along a chain of mimics are beyond 64-bit numbers.
+/// If the multipliers or offsets along a chain of mimic joints overflow binary64.
 pub(super) fn dof_module(robot: &UrdfModule, tree: &Tree) -> Result<DofModule, Fault> {
     let mut dofs = Vec::new();
     let mut joint_to_dofs = Vec::with_capacity(robot.joints.len());
@@ -64,7 +64,7 @@ pub(super) fn dof_module(robot: &UrdfModule, tree: &Tree) -> Result<DofModule, F
     })
 }
 
-/// SPEC 5.10: along the chains of mimics to the joints that move by themselves, or not at all.
+/// Follows chains of mimic joints to a joint that is not a mimic joint, or is fixed (SPEC 5.10).
 fn resolve(
     robot: &UrdfModule,
     tree: &Tree,
@@ -89,7 +89,7 @@ fn resolve(
             multiplier: 1.0,
             offset: 0.0,
         });
-        // From the far end: m1 (m2 q + o2) + o1 is (m1 m2) q + (m1 o2 + o1).
+        // From the far end of the chain: m1 (m2 q + o2) + o1 is (m1 m2) q + (m1 o2 + o1).
         for (idx, mimic) in chain.into_iter().rev() {
             let multiplier = mimic.multiplier.unwrap_or(1.0);
             let offset = mimic.offset.unwrap_or(0.0);

@@ -1,7 +1,7 @@
-//! A person's edits of the skips, which outlive a new run.
+//! The user's edits of the skip matrix (MoveIt's allowed collision matrix), which are kept when a URDD is regenerated.
 //!
-//! They are read before anything is made. Where they cannot be read, nothing is: what a person wrote
-//! must not vanish because of a comma.
+//! They are read before any module is built. If they cannot be read, generation fails: a syntax error must not discard
+//! a user's work.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -21,12 +21,12 @@ use urdd_format::chain::ChainModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_format::registry::ModuleKind;
 
-/// The key of the edits.
+/// Key of the edits.
 const EDITS: &str = "edits";
-/// The key of the reasons for which pairs are skipped.
+/// Key of the reasons for which pairs are skipped.
 const SKIPPED_REASONS: &str = "skipped_reasons";
 
-/// What a person decided about the skips of a URDD.
+/// The user's decisions about the skips of a URDD.
 #[derive(Debug, Clone)]
 pub(super) struct Decisions {
     /// The reasons for which pairs are skipped.
@@ -36,7 +36,7 @@ pub(super) struct Decisions {
 }
 
 impl Default for Decisions {
-    /// Where nobody decided anything.
+    /// The defaults: no edits, and the usual reasons.
     fn default() -> Self {
         Decisions {
             skipped_reasons: SkippedReason::USUAL.to_vec(),
@@ -45,19 +45,19 @@ impl Default for Decisions {
     }
 }
 
-/// What a person decided about the skips of a robot.
+/// The user's decisions about the skips, checked against the links of a robot.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Edits {
     /// The reasons for which pairs are skipped.
     pub skipped_reasons: Vec<SkippedReason>,
-    /// Those that name links of the robot.
+    /// Edits whose links the robot has.
     pub kept: Vec<SkipEdit>,
-    /// The others.
+    /// The other edits.
     pub lost: Vec<SkipEdit>,
 }
 
 impl Edits {
-    /// Of a robot with these links.
+    /// Splits the edits by the links of this robot.
     pub fn of(decisions: Decisions, chain: &ChainModule) -> Self {
         let is_link = |name: &str| {
             let mut links = chain.links_in_chain.iter();
@@ -75,10 +75,10 @@ impl Edits {
     }
 }
 
-/// Reads the edits in a folder that is to be replaced, whatever else is wrong with it.
+/// Reads the edits from a folder that is to be replaced, whatever else is wrong with it.
 ///
 /// # Errors
-/// Where there may be edits, and they cannot be read, or the modules asked for do not hold them.
+/// If there may be edits and they cannot be read, or if the selected modules would not hold them.
 pub(super) fn read(
     folder: &Path,
     selection: &Selection,
@@ -130,12 +130,12 @@ pub(super) fn read(
         let at = position::locate(&document.text, &format!("/{EDITS}/{idx}"));
         return Err(refused(&json_path, at, EditsFault::UnknownLink(link)));
     }
-    // Somebody may have edited the YAML file alone; one that is as it was made is merely behind.
+    // The user may have edited only the YAML file. A YAML file that is still as generated is merely out of date.
     if !is_as_made(old, &yaml_path)
         && let Ok(bytes) = root.read(&yaml_path, MAX_DOCUMENT_BYTES)
     {
         let faults = yaml::check_mirror(&bytes, &document.value);
-        // Of many differences only the first are kept, and the edits may be among the others.
+        // Only the first of many differences are kept, and the edits may be among the rest.
         let is_cut = faults.total(TextFaultKind::YamlDiffers) > KEPT_PER_KIND;
         let differs = faults.iter().find(|fault| match fault.kind {
             TextFaultKind::YamlDiffers => {
@@ -160,8 +160,8 @@ pub(super) fn read(
     Ok(decisions)
 }
 
-/// The first edit that names a link which the URDD's own robot does not have, and the link: a name that
-/// was mistyped. One that only the new robot lacks is another matter.
+/// The first edit with a link that the URDD's own robot lacks, and the link: a mistyped name. A link that only the new
+/// robot lacks is handled elsewhere.
 fn unknown_link(root: &Root, edits: &[SkipEdit]) -> Option<(usize, String)> {
     if edits.is_empty() {
         return None;
@@ -179,7 +179,7 @@ fn unknown_link(root: &Root, edits: &[SkipEdit]) -> Option<(usize, String)> {
     })
 }
 
-/// Whether a file is as the metadata of its URDD says.
+/// Whether a file matches the metadata of its URDD.
 fn is_as_made(old: Option<&Old>, path: &str) -> bool {
     let Some(old) = old else {
         return false;
@@ -195,10 +195,10 @@ fn is_of_edits(pointer: &str) -> bool {
     first.is_some_and(|key| key == EDITS || key == SKIPPED_REASONS)
 }
 
-/// The decisions in a document, of any draft; or where one is wrong, and how.
+/// The decisions in a document of any draft, or the JSON Pointer to an invalid one and what is wrong with it.
 fn parse(document: &Value) -> Result<Decisions, (String, EditsFault)> {
     let skipped_reasons = match document.get(SKIPPED_REASONS) {
-        // A draft of the format had no reasons to choose from, and had edits.
+        // An early draft of the format had edits but no choice of reasons.
         None => SkippedReason::USUAL.to_vec(),
         Some(reasons) => serde_json::from_value(reasons.clone()).map_err(|error| {
             let words = format!("{SKIPPED_REASONS}: {error}");

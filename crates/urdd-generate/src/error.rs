@@ -1,4 +1,4 @@
-//! Why a URDD could not be made.
+//! Why a URDD could not be generated.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -12,10 +12,10 @@ use urdd_directory::position::Position;
 use urdd_directory::staging::StagingError;
 use urdd_format::escape;
 
-/// Most faults of a file that are shown one by one.
+/// Maximum number of faults of a file that are shown one by one.
 const MOST_SHOWN: usize = 5;
 
-/// Why a URDD could not be made. Nothing was written then, and what was there before still is.
+/// Why a URDD could not be generated. Nothing was written, and an existing URDD is unchanged.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GenerateError {
@@ -27,7 +27,7 @@ pub enum GenerateError {
         /// Why.
         reason: String,
     },
-    /// The source is no robot.
+    /// The source is not a valid robot description.
     #[error("{}", FaultLines(file, faults))]
     Refused {
         /// The file, as the user named it.
@@ -35,7 +35,7 @@ pub enum GenerateError {
         /// What is wrong with it, in the order of the file; never empty.
         faults: Vec<PlacedFault>,
     },
-    /// The robot names files that lie outside of its folders, and that it may not make us publish.
+    /// The URDF names files outside its folders; it must not make the user publish them.
     #[error("{}", OutsideMeshes(file, meshes))]
     Outside {
         /// The file, as the user named it.
@@ -43,13 +43,13 @@ pub enum GenerateError {
         /// The meshes, in the order of the file; never empty.
         meshes: Vec<OutsideMesh>,
     },
-    /// Something had to be assumed, and nothing may be.
+    /// Something had to be assumed, and `Settings::strict` forbids that.
     #[error("{}", Assumptions(notes))]
     Strict {
         /// What was assumed; never empty.
         notes: Vec<Note>,
     },
-    /// The URDD that is to be replaced holds a person's edits, and they would be lost.
+    /// The user's edits in the URDD that is to be replaced would be lost.
     #[error(
         "{}{}: {fault}; the edits of skips there are a person's, and a new run would lose them. Correct the file, or drop all its edits: `--drop-edits`",
         file.display(),
@@ -58,12 +58,12 @@ pub enum GenerateError {
     Edits {
         /// The file of the module.
         file: PathBuf,
-        /// The place in it.
+        /// The position in the file.
         at: Option<Position>,
         /// Why they would be lost.
         fault: EditsFault,
     },
-    /// A xacro file, and no xacro program.
+    /// A xacro file, but no xacro program on the PATH.
     #[error(
         "{file}: this is to be expanded by xacro, and there is no program `xacro` on the PATH to expand it; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
     )]
@@ -76,10 +76,10 @@ pub enum GenerateError {
     Xacro {
         /// The file, as the user named it.
         file: String,
-        /// The last lines that the program wrote.
+        /// The last lines of the program's output.
         reason: String,
     },
-    /// The URDD would replace its own source.
+    /// The output would replace its own source.
     #[error("{file}: it lies in the output folder {}, which is to be replaced; give another output folder", target.display())]
     SourceInTarget {
         /// The file, as the user named it.
@@ -90,10 +90,10 @@ pub enum GenerateError {
     /// The URDD cannot be written.
     #[error(transparent)]
     Write(StagingError),
-    /// It was asked to stop: `Settings::cancellation`.
+    /// Generation was cancelled: `Settings::cancellation`.
     #[error("stopped before it was done; nothing was changed")]
     Cancelled,
-    /// The robot's geometry is beyond what can be computed.
+    /// The robot's geometry is out of the range that can be computed.
     #[error("{file}: {reason}; fix the mesh, or leave out the distances: `--modules geometry`")]
     Geometry {
         /// The file, as the user named it.
@@ -101,7 +101,7 @@ pub enum GenerateError {
         /// Why.
         reason: String,
     },
-    /// A fault of this program.
+    /// A bug in this program.
     #[error(
         "{file}: the generator failed: {reason}; this is a fault of the program, please report it with the file"
     )]
@@ -129,7 +129,7 @@ impl From<Cancelled> for GenerateError {
 }
 
 impl GenerateError {
-    /// A word for programs: what kind of error it is.
+    /// A machine-readable code for the kind of error.
     pub fn code(&self) -> &'static str {
         match self {
             GenerateError::Read { .. } => "unreadable",
@@ -158,22 +158,22 @@ pub enum EditsFault {
     /// The document has no edits.
     #[error("`edits` is missing")]
     NoEdits,
-    /// The edits are no list.
+    /// `edits` is not a list.
     #[error("`edits` must be a list")]
     NotAList,
-    /// One edit is wrong.
+    /// An edit is invalid.
     #[error("this edit cannot be used: {0}")]
     Edit(String),
     /// An edit names a link that the URDD does not have.
     #[error("this edit names the link `{}`, and the robot of this URDD has no such link", escape::line(.0))]
     UnknownLink(String),
-    /// There is a YAML file, and no JSON file.
+    /// There is a YAML file but no JSON file.
     #[error("there is no module.json beside this file, and it may hold edits")]
     NoJson,
-    /// The YAML file says something else than the JSON file.
+    /// The YAML file differs from the JSON file.
     #[error("this file differs from module.json, which is the one that counts: {0}")]
     Yaml(String),
-    /// The modules that were asked for hold no edits.
+    /// The selected modules do not include the edits.
     #[error(
         "it holds {0} edit{s}, and the modules asked for leave out link_shapes_skips_module; add `link_shapes_skips` to `--modules`",
         s = if *.0 == 1 { "" } else { "s" }
@@ -181,20 +181,20 @@ pub enum EditsFault {
     NotAskedFor(usize),
 }
 
-/// A mesh outside of the folders that files are taken from.
+/// A mesh outside the folders from which files may be read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutsideMesh {
     /// Line of the URDF, from 1.
     pub line: u32,
     /// Column in the line, from 1, in characters.
     pub column: u32,
-    /// The mesh, as the URDF names it.
+    /// The mesh file name as written in the URDF.
     pub name: String,
-    /// The file that this leads to, links followed.
+    /// The file that it resolves to, with symbolic links followed.
     pub path: PathBuf,
 }
 
-/// Meshes outside, as lines.
+/// Formats meshes outside the allowed folders, one per line.
 struct OutsideMeshes<'a>(&'a str, &'a [OutsideMesh]);
 
 impl fmt::Display for OutsideMeshes<'_> {
@@ -225,7 +225,7 @@ impl fmt::Display for OutsideMeshes<'_> {
     }
 }
 
-/// Notes that are errors, as lines.
+/// Formats the notes that are errors, one per line.
 struct Assumptions<'a>(&'a [Note]);
 
 impl fmt::Display for Assumptions<'_> {
@@ -242,13 +242,13 @@ impl fmt::Display for Assumptions<'_> {
     }
 }
 
-/// The faults of a file, as lines.
+/// Formats the faults of a file, one per line.
 struct FaultLines<'a>(&'a str, &'a [PlacedFault]);
 
 impl fmt::Display for FaultLines<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let FaultLines(file, faults) = self;
-        // A line for each: no name may add another.
+        // One line per fault: a name must not add line breaks.
         let file = escape::line(file);
         for (number, placed) in faults.iter().take(MOST_SHOWN).enumerate() {
             if number > 0 {

@@ -1,28 +1,28 @@
-//! What makes a file no robot: it is refused, since any reading of it would be a guess.
+//! Faults for which a file is refused: any interpretation of it would be a guess.
 
 use thiserror::Error;
 
-/// Why a text is no robot.
+/// Why a text is not a valid robot description.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Fault {
     /// Not well-formed XML.
     #[error("not well-formed XML: {0}")]
     NotXml(String),
-    /// It declares entities.
+    /// The file declares XML entities.
     #[error(
         "the file declares XML entities of its own (`<!ENTITY`), which are not read; `xmllint --noent FILE` writes the file without them"
     )]
     Entities,
-    /// The outermost element is another.
+    /// The root element is not `<robot>`.
     #[error("the outermost element is `<{0}>`, and that of a URDF is `<robot>`{hint}", hint = sdf_hint(.0))]
     NotRobot(String),
-    /// Macros that are not expanded make up the robot.
+    /// The robot consists of xacro macros that are not expanded.
     #[error(
         "the file holds xacro macros only, and no link; expand it first: `xacro FILE > robot.urdf`"
     )]
     OnlyMacros,
-    /// A thing without its name.
+    /// A required attribute is missing.
     #[error("`<{element}>` needs the attribute `{attribute}`")]
     MissingAttribute {
         /// The element.
@@ -35,7 +35,7 @@ pub enum Fault {
     MissingElement {
         /// The joint.
         joint: String,
-        /// The element that is not there.
+        /// The missing element.
         element: &'static str,
     },
     /// A joint type that URDF does not define.
@@ -48,10 +48,10 @@ pub enum Fault {
         /// The type.
         found: String,
     },
-    /// A rotation that is given in two ways.
+    /// A rotation given both as `rpy` and as `quat_xyzw`.
     #[error("`rpy` and `quat_xyzw` both say the rotation of an `<origin>`; keep one of them")]
     TwoRotations,
-    /// Two links of one name.
+    /// Two links with the same name.
     #[error("there are two links named `{name}`; the other one is in line {first}")]
     TwoLinks {
         /// The name.
@@ -59,7 +59,7 @@ pub enum Fault {
         /// Line of the first.
         first: u32,
     },
-    /// Two joints of one name.
+    /// Two joints with the same name.
     #[error("there are two joints named `{name}`; the other one is in line {first}")]
     TwoJoints {
         /// The name.
@@ -67,19 +67,19 @@ pub enum Fault {
         /// Line of the first.
         first: u32,
     },
-    /// A joint between links that are not there.
+    /// A joint whose parent or child link does not exist.
     #[error("joint `{joint}` has the {end} link `{link}`, and there is no such link{hint}")]
     UnknownLink {
         /// The joint.
         joint: String,
         /// `parent` or `child`.
         end: &'static str,
-        /// The link that is not there.
+        /// The missing link.
         link: String,
-        /// A name that may be meant, in words.
+        /// A suggestion of a similar name.
         hint: String,
     },
-    /// A link that two joints move.
+    /// A link that is the child of two joints.
     #[error(
         "link `{link}` is the child of joint `{joint}`, and of joint `{first}` already: a URDF is a tree"
     )]
@@ -91,31 +91,31 @@ pub enum Fault {
         /// The joint that comes first.
         first: String,
     },
-    /// No link.
+    /// The robot has no links.
     #[error("there is no `<link>` in `<robot>`")]
     NoLinks,
-    /// Links that no joint holds together.
+    /// Several root links.
     #[error(
         "{count} links are no joint's child, and a URDF has one root: {names}. Join them with `fixed` joints, or take the loose ones out"
     )]
     ManyRoots {
-        /// How many.
+        /// The number of root links.
         count: usize,
-        /// The first of them.
+        /// The names of the first ones.
         names: String,
     },
-    /// Joints in a ring.
+    /// The joints form a cycle.
     #[error("the joints go in a circle: {0}. A URDF is a tree")]
     Cycle(String),
-    /// Mimics in a ring.
+    /// Mimic joints form a cycle.
     #[error("the mimic of joint `{0}` leads back to that joint")]
     MimicCircle(String),
-    /// Mimics whose product is no number.
+    /// The product of mimic multipliers, or an offset, overflows binary64.
     #[error(
         "the multipliers or offsets along the mimics of joint `{0}` are beyond what a 64-bit number holds"
     )]
     MimicOverflow(String),
-    /// An axis without direction.
+    /// A zero axis.
     #[error(
         "joint `{joint}` is {joint_type} about the axis `{axis}`, which has no direction; give it one, or make the joint fixed"
     )]
@@ -127,50 +127,50 @@ pub enum Fault {
         /// The axis as written.
         axis: String,
     },
-    /// Poses beyond 64-bit numbers.
+    /// Link poses overflow binary64.
     #[error("the numbers are so large that no 64-bit number holds where the links are ({0})")]
     NoPoses(String),
-    /// More links than URDDs are made for.
+    /// The robot has more links than the generator accepts.
     #[error(
         "the robot has {found} links, and URDDs are made of up to {limit}: lists over all pairs of links grow with the square"
     )]
     TooManyLinks {
-        /// How many it has.
+        /// The number found.
         found: usize,
-        /// How many it may have.
+        /// The maximum number.
         limit: usize,
     },
-    /// More elements than URDDs are made for.
+    /// The robot has more elements than the generator accepts.
     #[error(
         "the robot has {found} elements (shapes, materials, and elements that URDF does not know), and URDDs are made of up to {limit}"
     )]
     TooManyElements {
-        /// How many it has.
+        /// The number found.
         found: usize,
-        /// How many it may have.
+        /// The maximum number.
         limit: usize,
     },
-    /// A link with more triangles than URDDs are made for.
+    /// A link has more triangles than the generator accepts.
     #[error(
         "the shapes of link `{link}` have {found} triangles, and URDDs are made of up to {limit} a link; make its meshes coarser, or leave them out: `--modules core`"
     )]
     TooManyTriangles {
         /// The link.
         link: String,
-        /// How many it has.
+        /// The number found.
         found: usize,
-        /// How many it may have.
+        /// The maximum number.
         limit: usize,
     },
-    /// More triangles of all links than URDDs are made for.
+    /// All links together have more triangles than the generator accepts.
     #[error(
         "the shapes of all links have more than {limit} triangles, which is the most that URDDs are made of; make the meshes coarser, or leave them out: `--modules core`"
     )]
     TooManyTrianglesInAll {
-        /// How many they may have.
+        /// The maximum number.
         limit: usize,
     },
-    /// A shape that 32-bit numbers do not hold.
+    /// A shape that binary32 cannot resolve.
     #[error(
         "link `{link}`: its shape is too thin, or too far from the link's frame, for the 32-bit numbers of mesh files; check its units and origin, or leave meshes out: `--modules core`"
     )]
@@ -178,7 +178,7 @@ pub enum Fault {
         /// The link.
         link: String,
     },
-    /// More than the format counts.
+    /// More elements than an index of the format can count.
     #[error("there are more than {0} elements")]
     TooMany(u32),
 }
@@ -192,7 +192,7 @@ fn sdf_hint(element: &str) -> &'static str {
     }
 }
 
-/// A fault, and where it is.
+/// A fault and its position.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlacedFault {
     /// Line in the text, from 1.

@@ -1,4 +1,4 @@
-//! The stages that make meshes and link shapes.
+//! The stages that build meshes and link shapes.
 
 use std::sync::Arc;
 
@@ -40,7 +40,7 @@ pub(super) fn plain_settings(work: &Work) -> String {
     format!("{geometry}; smooth normals{}", formats_settings(work))
 }
 
-/// Part of the settings of each stage that writes meshes.
+/// The part of the settings common to all stages that write meshes.
 fn formats_settings(work: &Work) -> &'static str {
     let formats = work.settings.mesh_formats;
     match (formats.stl, formats.obj) {
@@ -119,7 +119,7 @@ pub(super) fn hulls(work: &mut Work) -> Result<Made, GenerateError> {
     let taken = taken_of(work, kind, &plain, |plain, wanted| {
         Some(vec![work.reusable.hull(plain, wanted)?])
     });
-    // A plain mesh has a triangle with an area, and so a hull.
+    // A plain mesh has a triangle with positive area. It therefore has a convex hull.
     let hull = |mesh: &Mesh| {
         ConvexHull::new(&mesh.vertices)
             .ok()
@@ -161,7 +161,7 @@ pub(super) fn hulls(work: &mut Work) -> Result<Made, GenerateError> {
     made(&module, files)
 }
 
-/// The name of our way to decompose; another one where it comes out differently.
+/// Name of the decomposition method; changed whenever its results change.
 const DECOMPOSITION: &str = "urdd cut and merge 2";
 
 fn decomposition(work: &Work) -> decompose::Settings {
@@ -327,7 +327,7 @@ pub(super) fn edited_skips(work: &mut Work) -> Result<Made, GenerateError> {
     streamed(document)
 }
 
-/// The reasons for which pairs are skipped: as asked for, or else as before; each once, in order.
+/// The skip reasons of the settings, otherwise those of the old URDD; sorted, without duplicates.
 fn skipped_reasons(work: &Work) -> Vec<SkippedReason> {
     let asked = work.settings.skipped_reasons.as_deref();
     let mut reasons = asked.unwrap_or(&work.edits.skipped_reasons).to_vec();
@@ -336,10 +336,10 @@ fn skipped_reasons(work: &Work) -> Vec<SkippedReason> {
     reasons
 }
 
-/// The index of a piece, and the mesh.
+/// The index of a piece and its mesh; no index for a hull.
 type Named<'a> = (Option<usize>, &'a Solid);
 
-/// Writes the meshes of each link.
+/// Names and writes the meshes of each link.
 fn write<'a>(
     work: &Work,
     kind: ModuleKind,

@@ -12,11 +12,11 @@ use urdd_format::kinematics_samples::{
 use urdd_kinematics::pose::from_isometry;
 use urdd_kinematics::{ConfigurationError, ConfigurationSpace, ForwardKinematics, KinematicsError};
 
-/// Sampled configurations in the module, besides the four others: enough that a consumer with a
-/// wrong sign or order cannot pass by chance, and few enough to read.
+/// Number of sampled configurations in the module, besides the four others: enough that a consumer with a wrong sign or
+/// order cannot pass by chance, and few enough to read.
 pub const NUM_SAMPLED: u32 = 16;
 
-/// Why there are no samples: numbers beyond what 64 bits hold.
+/// Why there are no samples: numbers overflow binary64.
 #[derive(Debug, Error)]
 pub(super) enum SamplesError {
     #[error(transparent)]
@@ -28,10 +28,10 @@ pub(super) enum SamplesError {
     },
 }
 
-/// Makes the module.
+/// Builds the module.
 ///
 /// # Errors
-/// Where a link's pose is beyond the range of 64-bit numbers.
+/// If a link's pose overflows binary64.
 pub(super) fn kinematics_samples_module(
     dof: &DofModule,
     chain: &ChainModule,

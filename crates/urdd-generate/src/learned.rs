@@ -24,17 +24,17 @@ use urdd_format::urdf::JointType;
 use urdd_geometry::convex::BodyPairs;
 use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
 
-/// Distances count up to this part of the largest between two hulls.
+/// Distances are clipped at this fraction of the largest distance between two hulls.
 const CLIP: f64 = 1.0 / 16.0;
 
-/// Another one where another model comes out.
+/// Version of the training; changed whenever the trained model changes.
 const TRAINING: &str = "2";
 
 pub(super) fn settings(work: &Work) -> String {
     format!("{TRAINING} {:?}", work.settings.model_effort)
 }
 
-/// Trains the model; none where it would be of no use, which is noted.
+/// Trains the model. Returns `None`, with a note, if a model would be of no use.
 pub(super) fn self_collision_model(work: &mut Work) -> Result<Option<Made>, GenerateError> {
     let pieces = work.artifacts.pieces()?;
     let skips = work.artifacts.skips()?;
@@ -81,11 +81,11 @@ pub(super) fn self_collision_model(work: &mut Work) -> Result<Option<Made>, Gene
     }
 }
 
-/// The pairs of links that are not skipped: of which two pieces are not, or, where there are no matrices over pieces,
-/// the hulls.
+/// The pairs of links to check: those with two pieces whose pair is not skipped or, without matrices over pieces, those
+/// whose hulls are not skipped.
 fn pairs(pieces: &LinkPieces, skips: &LinkShapesSkipsModule) -> Result<BodyPairs, String> {
-    // Pieces that were kept come from their files, with vertices in another order, and the last digits of distances
-    // hang on it.
+    // Pieces of an earlier run are read from their files, with vertices in another order. The last digits of distances
+    // depend on that order.
     let in_order = |vertices: &[[f64; 3]]| {
         let mut vertices = vertices.to_vec();
         vertices.sort_by(|a, b| {
@@ -115,7 +115,7 @@ fn pairs(pieces: &LinkPieces, skips: &LinkShapesSkipsModule) -> Result<BodyPairs
     let links = &skips.full_shapes;
     for (i, a) in links.iter().enumerate() {
         for (j, b) in links.iter().enumerate().skip(i + 1) {
-            // Of so many no model is made, however many there are.
+            // Beyond this number no model is trained, so the exact number does not matter.
             if pairs.bodies().len() > MOST_PAIRS {
                 return Ok(pairs);
             }
@@ -135,7 +135,7 @@ fn clip_distance(statistics: &LinkShapesDistanceStatisticsModule) -> f64 {
     train::rounded(CLIP * largest)
 }
 
-/// SHA-256 of the text of the hashes of all files that the model follows from: SPEC 8.8.7.
+/// SHA-256 over the concatenated hashes of all files that the model depends on: SPEC 8.8.7.
 fn trained_on(work: &Work, skips: &LinkShapesSkipsModule) -> Sha256 {
     let kinds = [
         ModuleKind::Dof,
@@ -151,14 +151,14 @@ fn trained_on(work: &Work, skips: &LinkShapesSkipsModule) -> Sha256 {
     });
     let mut text = String::new();
     for path in documents.into_iter().chain(pieces) {
-        // Every one of them was written or kept before.
+        // Each of these files was written or kept by an earlier stage.
         text += work.digests.get(&path).map_or("", String::as_str);
         text.push('\n');
     }
     sha256(&Hash::digest(text))
 }
 
-/// What the network is told: of each DOF that moves the links of a pair against each other.
+/// The network's inputs: the DOFs that move the links of a pair relative to each other.
 fn inputs(work: &Work, pairs: &BodyPairs) -> Result<Vec<ModelInput>, Useless> {
     let dofs: BTreeSet<usize> = pairs
         .bodies()
@@ -207,7 +207,7 @@ fn inputs(work: &Work, pairs: &BodyPairs) -> Result<Vec<ModelInput>, Useless> {
     Ok(inputs)
 }
 
-/// The joints between two links.
+/// The joints on the path between two links.
 fn between(chain: &ChainModule, [a, b]: [usize; 2]) -> Vec<usize> {
     let up = |link: usize| {
         let joint = move |link: &usize| {

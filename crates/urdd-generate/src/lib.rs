@@ -1,7 +1,7 @@
-//! The reference generator: a URDF becomes a URDD, each module a pure function of those before it.
+//! The reference generator: builds a URDD from a URDF. Each module is a pure function of the modules before it.
 //!
-//! [`generate`] makes one URDD, [`batch`] many. It imports nothing from `validate`, nor the other
-//! way about: both are written from SPEC.md.
+//! [`generate`] builds one URDD, [`batch`] many. The generator and the validator are each written from SPEC.md and
+//! import nothing from each other.
 
 mod artifacts;
 pub mod batch;

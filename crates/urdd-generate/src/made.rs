@@ -1,4 +1,4 @@
-//! A module that was made: its document, and its files.
+//! A module that was built: its document and its files.
 
 use std::sync::Arc;
 
@@ -7,10 +7,10 @@ use serde::Serialize;
 use super::error::GenerateError;
 use urdd_directory::document::Document;
 
-/// A module that was made.
+/// A module that was built.
 pub(super) struct Made {
     pub document: Document,
-    /// The files that the document names.
+    /// The files that the document references.
     pub files: Vec<MadeFile>,
 }
 
@@ -21,19 +21,19 @@ pub(super) struct MadeFile {
     pub content: Content,
 }
 
-/// What a file holds.
+/// The content of a file.
 pub(super) enum Content {
     Bytes(Vec<u8>),
-    /// Of a mesh, which a reader looks at too.
+    /// A mesh file, whose bytes a mesh reader shares.
     Shared(Arc<Vec<u8>>),
 }
 
-/// A module without files of its own.
+/// A module without additional files.
 pub(super) fn document(module: &impl Serialize) -> Result<Made, GenerateError> {
     streamed(serde_json::to_value(module).map(Document::Whole))
 }
 
-/// A module without files of its own, as its document.
+/// A module without additional files, from its document.
 pub(super) fn streamed(
     document: Result<Document, serde_json::Error>,
 ) -> Result<Made, GenerateError> {

@@ -1,4 +1,4 @@
-//! `urdd.json`, and what this program adds to it.
+//! `urdd.json`, and this program's extensions of it.
 
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -10,11 +10,11 @@ use urdd_format::root_metadata::{
     ConformanceClass, FileEntry, Generator, ModuleEntry, RootMetadata, Source, Version,
 };
 
-/// The name by which a URDD of this program is known.
+/// The generator name in the URDDs of this program.
 pub(super) const GENERATOR: &str = "urdd";
-/// In the entry of a module: the hash of all that it was made of.
+/// Key in a module's entry: the hash of all its inputs.
 pub(super) const INPUTS_KEY: &str = "x_urdd_inputs";
-/// In the source: the file as it was found, where another text is carried.
+/// Key in the source: the file as found, if the stored text differs.
 pub(super) const FOUND_KEY: &str = "x_urdd_found";
 
 /// A module of the new URDD.
@@ -23,14 +23,14 @@ pub(super) struct Entry {
     pub inputs: Option<String>,
 }
 
-/// The version of every module that this program makes.
+/// The version of every module that this program generates.
 pub(super) const MODULE_VERSION: &str = "1.0.0";
 
 fn version(text: &str) -> Version {
     Version::new(text).unwrap_or_else(|| unreachable!("a constant of this program"))
 }
 
-/// The entry of a module. `files` may stand in any order.
+/// The entry of a module. `files` may be in any order.
 pub(super) fn entry(kind: ModuleKind, mut files: Vec<FileEntry>, inputs: Option<String>) -> Entry {
     files.sort_by(|a, b| a.path.cmp(&b.path));
     Entry {
@@ -49,8 +49,8 @@ pub(super) fn entry(kind: ModuleKind, mut files: Vec<FileEntry>, inputs: Option<
     }
 }
 
-/// The hash of all that a module is made of: this program's version, the module and its settings,
-/// and the files of the modules that it is derived from.
+/// The hash of all inputs of a module: the program version, the module and its settings, and the files of the modules
+/// that it depends on.
 pub(super) fn inputs(kind: ModuleKind, settings: &str, made: &[Entry]) -> String {
     let mut text = format!(
         "{GENERATOR} {}\n{} {MODULE_VERSION}\n{settings}\n",
@@ -67,7 +67,7 @@ pub(super) fn inputs(kind: ModuleKind, settings: &str, made: &[Entry]) -> String
     sha256(&Sha256::digest(text)).as_str().to_owned()
 }
 
-/// The highest class all of whose modules were made.
+/// The highest conformance class whose modules are all present.
 pub(super) fn class(made: &[Entry]) -> ConformanceClass {
     let has = |kind: ModuleKind| made.iter().any(|entry| entry.module.name == kind.name());
     let whole = |class: ConformanceClass| {
@@ -86,7 +86,7 @@ pub(super) fn class(made: &[Entry]) -> ConformanceClass {
     }
 }
 
-/// The document. `extensions` are entries of modules that this program knows nothing of.
+/// Builds the document. `extensions` are the entries of modules unknown to this program.
 pub(super) fn document(
     robot_name: &str,
     source: FileEntry,

@@ -1,51 +1,51 @@
-//! What a source has that is not as URDF should be, and what was made of it.
+//! Deviations of a source from URDF, and how they were interpreted.
 
 use std::fmt;
 
 use urdd_format::escape;
 
-/// What kind of oddity a note is about.
+/// The kind of deviation that a note reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum NoteKind {
     /// The file is not UTF-8.
     Encoding,
-    /// XML that readers refuse, with one possible meaning.
+    /// XML that readers reject but that has only one possible meaning.
     Xml,
-    /// A name that is written in another case.
+    /// A name in a different case.
     Case,
-    /// Macros that nothing has expanded.
+    /// Xacro macros that are not expanded.
     XacroLeftOver,
     /// The robot has no name.
     RobotName,
-    /// An attribute that is not the numbers it should be.
+    /// An attribute without the expected numbers.
     Numbers,
-    /// A number that is infinite, or none.
+    /// A number that is infinite or NaN.
     NotFinite,
-    /// A shape that lacks its size, or a mesh its file name.
+    /// A shape without its size, or a mesh without its file name.
     Shape,
-    /// The type of a joint, written as URDF does not write it.
+    /// A joint type in a nonstandard spelling.
     JointType,
-    /// A mimic that follows nothing it could follow.
+    /// A mimic element that cannot be resolved.
     Mimic,
     /// A revolute or prismatic joint without limits.
     NoLimits,
-    /// An element that is there again, and does not count.
+    /// A repeated element that is ignored.
     Repeated,
-    /// A material that is declared twice, in two ways.
+    /// Two declarations of a material that differ.
     Material,
-    /// A mesh that was not found, or a file that is no mesh.
+    /// A mesh file that was not found, or is not a mesh.
     MeshNotFound,
-    /// A mesh that is carried and cannot be read.
+    /// A mesh that is stored but cannot be read.
     MeshNotUsable,
-    /// A mesh that was repaired, or lacks a file that it names.
+    /// A mesh that was repaired, or lacks a file that it references.
     Mesh,
-    /// A file that is carried, and lies outside of the URDF's folder and package.
+    /// A stored file from outside the URDF's folder and package.
     Outside,
-    /// A part of a module that is not made of this robot.
+    /// A part of a module that is left out for this robot.
     LeftOut,
-    /// A table that is left out, as the specification allows for a robot of this size.
+    /// A table that is left out because the robot is large, as the specification allows.
     TooLarge,
-    /// A module that was asked for and would be of no use.
+    /// A selected module that would be of no use.
     OfNoUse,
 }
 
@@ -74,13 +74,13 @@ impl NoteKind {
         NoteKind::OfNoUse,
     ];
 
-    /// Whether what was assumed may make another robot of it than the author meant.
+    /// Whether the assumption may change the robot from what the author meant.
     pub fn changes_robot(self) -> bool {
         use NoteKind::{Encoding, OfNoUse, Outside, TooLarge, Xml};
         !matches!(self, Encoding | Xml | Outside | TooLarge | OfNoUse)
     }
 
-    /// Its word, for programs.
+    /// The machine-readable name.
     pub fn as_str(self) -> &'static str {
         match self {
             NoteKind::Encoding => "encoding",
@@ -107,26 +107,26 @@ impl NoteKind {
     }
 }
 
-/// An oddity of the source, and what was made of it.
+/// A deviation in the source, and how it was interpreted.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
-    /// What kind of oddity it is.
+    /// The kind of deviation.
     pub kind: NoteKind,
     /// The file, as the user named it.
     pub file: String,
-    /// Line in the file, from 1; 0 where it is about the file as a whole.
+    /// Line in the file, from 1; 0 for the file as a whole.
     pub line: u32,
-    /// Column in the line, from 1, in characters; 0 where it is about the file as a whole.
+    /// Column in the line, from 1, in characters; 0 for the file as a whole.
     pub column: u32,
     /// What is wrong.
     pub problem: String,
-    /// What was assumed, or done.
+    /// What was assumed or done.
     pub assumed: String,
 }
 
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // One line: no name may add another.
+        // One line: a name must not add line breaks.
         f.write_str(&escape::line(&self.file))?;
         if self.line > 0 {
             write!(f, ":{}:{}", self.line, self.column)?;
@@ -136,7 +136,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// A note as the readers make it: at a byte offset of the text that they read.
+/// A note from a reader, at a byte offset of the text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Remark {
     pub kind: NoteKind,

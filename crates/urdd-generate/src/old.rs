@@ -1,4 +1,4 @@
-//! The URDD that a new one replaces.
+//! The URDD that is replaced.
 
 use std::path::{Path, PathBuf};
 
@@ -14,18 +14,18 @@ use urdd_directory::root::Root;
 use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::{FileEntry, RootMetadata};
 
-/// A URDD with root metadata that can be read.
+/// A URDD whose root metadata is readable.
 #[derive(Debug)]
 pub(super) struct Old {
     pub folder: PathBuf,
     pub root: Root,
     pub metadata: RootMetadata,
-    /// The same as a value, with the keys that are an addition to the format.
+    /// The root metadata as a value, including keys that extend the format.
     pub value: Value,
 }
 
 impl Old {
-    /// Reads the root metadata of a folder, where there is any that fits the format.
+    /// Reads the root metadata of a folder; `None` if it is missing or does not fit the format.
     pub fn read(folder: &Path) -> Option<Self> {
         let root = Root::open_folder(folder).ok()?;
         let bytes = root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES).ok()?;
@@ -45,7 +45,7 @@ impl Old {
         generator.is_some_and(|generator| generator.name == GENERATOR)
     }
 
-    /// The files of a module that was made of the same inputs, where each is as it was.
+    /// The files of a module that was built from the same inputs, if they are all unchanged.
     pub fn kept(&self, kind: ModuleKind, version: &str, inputs: &str) -> Option<&[FileEntry]> {
         let mut entries = self
             .metadata
@@ -60,7 +60,7 @@ impl Old {
         intact.then_some(entry.files.as_slice())
     }
 
-    /// Whether a file is as the metadata says.
+    /// Whether a file matches its entry in the metadata.
     pub fn is_intact(&self, file: &FileEntry) -> bool {
         digest::of(&self.root, &file.path).is_ok_and(|(size, sha256)| {
             size == u64::from(file.size.0) && sha256 == file.sha256.as_str()
@@ -68,7 +68,7 @@ impl Old {
     }
 }
 
-/// The document of a module of a URDD that is ours and intact, or in words why there is none.
+/// The document of a module of an intact URDD by this program, or the reason why it cannot be read.
 pub(super) fn document<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Result<T, String> {
     let path = format!("{}/module.json", kind.folder());
     let bytes = root.read(&path, MAX_DOCUMENT_BYTES);

@@ -5,12 +5,12 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use urdd_format::urdf::Origin;
 use urdd_kinematics::rotation::from_rpy;
 
-/// Whether `quat_xyzw` counts in a URDF of this version: from 1.1 on. Absent, or no two numbers with
-/// a dot between them, is 1.0.
+/// Whether `quat_xyzw` applies in a URDF of this version: from 1.1 on. A missing version, or one that is not two
+/// numbers separated by a dot, counts as 1.0.
 pub fn has_quaternions(version: Option<&str>) -> bool {
     let number = |text: &str| -> Option<u64> {
         let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-        // What is beyond 64 bits is later than any version.
+        // A number beyond 64 bits is later than any version.
         digits.then(|| text.parse().unwrap_or(u64::MAX))
     };
     let white_space = |c: char| matches!(c, ' ' | '\t' | '\r' | '\n');
@@ -19,7 +19,7 @@ pub fn has_quaternions(version: Option<&str>) -> bool {
     numbers.is_some_and(|version| version >= (1, 1))
 }
 
-/// The pose of an origin; what is absent is zero. `quaternions` says whether `quat_xyzw` counts.
+/// The pose of an origin; missing parts are zero. `quaternions` says whether `quat_xyzw` applies.
 pub fn of(origin: Option<&Origin>, quaternions: bool) -> Isometry3<f64> {
     let xyz = origin.and_then(|origin| origin.xyz).unwrap_or_default();
     let quaternion = origin
@@ -33,9 +33,9 @@ pub fn of(origin: Option<&Origin>, quaternions: bool) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::from(xyz), rotation)
 }
 
-/// The rotation of a quaternion of any length but zero.
+/// The rotation of a quaternion of any nonzero length.
 pub(super) fn from_xyzw(xyzw: [f64; 4]) -> Option<UnitQuaternion<f64>> {
-    // First to components near 1: the squares of huge or tiny ones overflow or vanish.
+    // Scale first: the squares of huge or tiny components overflow or vanish.
     let largest = xyzw
         .iter()
         .fold(0.0, |largest: f64, x| largest.max(x.abs()));
@@ -58,7 +58,7 @@ mod tests {
         let origin = Origin {
             xyz: None,
             rpy: None,
-            // A quarter turn about z, of length 2 sqrt 2 e-200.
+            // A quarter turn about z, with norm 2 sqrt(2) e-200.
             quat_xyzw: Some([0.0, 0.0, 2e-200, 2e-200]),
         };
         for version in ["1.1", "1.2", " 2.0 ", "01.10", "99999999999999999999.0"] {

@@ -1,9 +1,8 @@
-//! What other URDDs hold of links of the same content: a link's mesh, hull, pieces, boxes and spheres
-//! are made of its geometry alone, and are taken over where a URDD was made by this very program, with
-//! the same settings, of the same bytes.
+//! Reuses results from other URDDs. The mesh, hull, pieces, boxes and spheres of a link depend only on its geometry.
+//! They are reused from a URDD that this version of the program generated with the same settings from identical bytes.
 //!
-//! A module of such a URDD counts where its `x_urdd_inputs` is what this program would write there; a
-//! file, where its bytes are as `urdd.json` says.
+//! A module of such a URDD is used if its `x_urdd_inputs` is what this program would write. A file is used if its bytes
+//! match `urdd.json`.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -34,13 +33,13 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::{FileEntry, RootMetadata};
 use urdd_format::urdf::{Geometry, Material, UrdfModule};
 
-/// A box and a sphere about a hull or a piece.
+/// The oriented bounding box and the bounding sphere of a hull or a piece.
 pub(super) type Shape = (Obb, BoundingSphere);
 
-/// Which text of settings each module has now: what it depends on besides other modules.
+/// The settings text of each module: what it depends on besides other modules.
 pub(super) type SettingsTexts = HashMap<ModuleKind, String>;
 
-/// A mesh of another URDD, with its files.
+/// A mesh of another URDD and its files.
 pub(super) struct Taken {
     pub mesh: WrittenMesh,
     pub files: TakenFiles,
@@ -54,7 +53,7 @@ pub(super) struct TakenFiles {
 }
 
 impl TakenFiles {
-    /// As files of these names.
+    /// The files under these names.
     pub fn named(&self, names: &MeshFiles) -> Vec<MadeFile> {
         let stl = names.stl.as_ref().zip(self.stl.as_ref());
         let obj = names.obj.as_ref().zip(self.obj.as_ref());
@@ -67,13 +66,13 @@ impl TakenFiles {
     }
 }
 
-/// A URDD whose results may be taken over.
+/// A URDD whose results may be reused.
 struct Donor {
     root: Root,
     files: HashMap<String, FileEntry>,
 }
 
-/// All that may be taken over, by what it was made of.
+/// All reusable results, by their input.
 #[derive(Default)]
 pub(super) struct Reusable {
     donors: Vec<Donor>,
@@ -87,7 +86,7 @@ pub(super) struct Reusable {
 }
 
 impl Reusable {
-    /// Of URDDs; what cannot be read of them is not taken over.
+    /// Collects the results of URDDs; ignores what cannot be read.
     pub fn of(roots: &[Root], settings: &SettingsTexts) -> Self {
         let mut all = Reusable::default();
         for root in roots {
@@ -173,12 +172,12 @@ impl Reusable {
         Some(())
     }
 
-    /// Whether there is nothing to take over.
+    /// Whether there is nothing to reuse.
     pub fn is_empty(&self) -> bool {
         self.donors.is_empty()
     }
 
-    /// The plain mesh of a link whose geometry has this key: `wanted` are the files that it needs.
+    /// The plain mesh of a link with this geometry key, with the files in `wanted`.
     pub fn plain(&self, key: &str, wanted: &MeshFiles) -> Option<(PlainMesh, Taken)> {
         let (donor, mesh) = self.plain.get(key)?;
         let taken = self.donors.get(*donor)?.take(&mesh.files, wanted)?;
@@ -199,14 +198,14 @@ impl Reusable {
         taken.collect()
     }
 
-    /// The box and the sphere about a hull or a piece.
+    /// The box and the sphere of a hull or a piece.
     pub fn shape(&self, mesh: &str) -> Option<Shape> {
         self.shapes.get(mesh).cloned()
     }
 }
 
 impl Donor {
-    /// A mesh with the files that are wanted, where all are as they were made.
+    /// A mesh with the wanted files, if all of them are unchanged.
     fn take(&self, files: &MeshFiles, wanted: &MeshFiles) -> Option<Taken> {
         let beside = |there: &Option<String>, wanted: &Option<String>| match (there, wanted) {
             (_, None) => Some(None),
@@ -249,7 +248,7 @@ struct Modules<'a> {
 }
 
 impl Modules<'_> {
-    /// The document of a module that this program would make just so.
+    /// The document of a module whose inputs are those that this program would use now.
     fn same<T: DeserializeOwned>(&self, kind: ModuleKind) -> Option<T> {
         let would_be = metadata::inputs(kind, self.settings.get(&kind)?, &self.entries);
         let is_same = self.inputs.get(kind.name()) == Some(&would_be);
@@ -267,9 +266,8 @@ impl Modules<'_> {
     }
 }
 
-/// For each link, a text that is the same where the plain mesh is: what its elements say, with the
-/// content of mesh files instead of their names. `digest` gives the SHA-256 of a file of the URDD;
-/// `None` where a file is not known.
+/// For each link, a key that is equal for equal plain meshes: the contents of its elements, with the content of mesh
+/// files instead of their names. `digest` returns the SHA-256 of a file of the URDD. `None` if a file is unknown.
 pub(super) fn link_keys(
     robot: &UrdfModule,
     original: &OriginalMeshesModule,
@@ -315,7 +313,7 @@ pub(super) fn link_keys(
     links.collect()
 }
 
-/// The colours of all materials that an element may mean: those of its name, and its own.
+/// The colours of all materials that an element may refer to: those of the same name, and its own.
 fn look(material: Option<&Material>, robot: &UrdfModule) -> Value {
     let Some(material) = material else {
         return Value::Null;

@@ -1,4 +1,4 @@
-//! One robot: from its file to its URDD.
+//! Generates the URDD of one robot.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -26,16 +26,16 @@ use urdd_directory::writer::Writer;
 use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::{ConformanceClass, FileEntry};
 
-/// Sizes and hashes are of bytes: Git must not convert line ends.
+/// Sizes and hashes refer to bytes: Git must not convert line endings.
 const GIT_ATTRIBUTES: &str = "# The hashes in urdd.json are of these very bytes.\n* -text\n";
 const GIT_ATTRIBUTES_FILE: &str = ".gitattributes";
 
-/// Who wants to know how far it is.
+/// Receives the progress of a run.
 pub trait Progress: Sync {
-    /// A module is begun; `done` of `total` are done.
+    /// A module is started; `done` of `total` modules are finished.
     fn module(&self, kind: ModuleKind, done: usize, total: usize);
 
-    /// Part of the work on a module that takes long: `done` of `total` steps are done.
+    /// Progress within a slow module: `done` of `total` steps are finished.
     fn part(&self, _kind: ModuleKind, _done: usize, _total: usize) {}
 }
 
@@ -43,7 +43,7 @@ impl Progress for () {
     fn module(&self, _: ModuleKind, _: usize, _: usize) {}
 }
 
-/// A URDD that was made.
+/// A generated URDD.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Generated {
     /// Name of the robot.
@@ -54,32 +54,32 @@ pub struct Generated {
     pub num_joints: usize,
     /// Number of DOFs.
     pub num_dofs: usize,
-    /// The class that it claims.
+    /// The conformance class that it claims.
     pub class: ConformanceClass,
     /// Its modules.
     pub modules: Vec<MadeModule>,
-    /// Whether anything is different from what was there before; if not, nothing was written.
+    /// Whether it differs from the old URDD. If not, nothing was written.
     pub changed: bool,
-    /// What came of the names of meshes; nothing is named where no meshes were asked for.
+    /// How the mesh references were resolved; empty if no meshes were selected.
     pub meshes: MeshCount,
-    /// What was odd in the source, and what was made of it.
+    /// Deviations in the source, and how they were interpreted.
     pub notes: Vec<Note>,
 }
 
-/// A module of a URDD that was made.
+/// A module of a generated URDD.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MadeModule {
-    /// Which.
+    /// Which module.
     pub kind: ModuleKind,
-    /// Whether it was taken over from the URDD before, since nothing that it is made of changed.
+    /// Whether it was kept from the old URDD because none of its inputs changed.
     pub kept: bool,
 }
 
-/// Makes a URDD in the folder `target` of the URDF (or xacro file) `source`. The folder is there as
-/// a whole when this returns, or is as it was.
+/// Generates the URDD of the URDF (or xacro file) `source` in the folder `target`. The folder is replaced atomically;
+/// it is unchanged on error.
 ///
 /// # Errors
-/// Where the source is no robot, or the URDD cannot be written.
+/// If the source is not a valid robot, or the URDD cannot be generated or written.
 pub fn generate(
     source: &Path,
     target: &Path,
@@ -96,11 +96,11 @@ pub fn generate(
     make(Some(path), &source, None, target, settings, progress)
 }
 
-/// Makes a URDD of a URDF from memory, as it came through a pipe. Relative names of meshes begin in
-/// `folder`; `shown` stands for the file in notes and errors.
+/// Generates the URDD of a URDF in memory, such as from a pipe. Relative mesh file names refer to `folder`. Notes and
+/// errors show `shown` in place of the file name.
 ///
 /// # Errors
-/// As [`generate`].
+/// Those of [`generate`].
 pub fn generate_text(
     urdf: Vec<u8>,
     shown: &str,
@@ -124,7 +124,7 @@ pub(super) fn make(
     size::check(source)?;
     check_place(path, source, target)?;
     check_assumptions(&source.notes, settings)?;
-    // From here on no other run changes what is there.
+    // From here on, no other run changes the target.
     let staging = Staging::begin(target, &settings.cancellation)?;
     let old = Old::read(target);
     let edits = match settings.drop_edits {
@@ -211,7 +211,7 @@ pub(super) fn make(
     })
 }
 
-/// Refuses what had to be assumed, where nothing may be.
+/// Returns an error if something was assumed and the settings are strict.
 fn check_assumptions(notes: &[Note], settings: &Settings) -> Result<(), GenerateError> {
     let notes = notes.iter().filter(|note| note.kind.changes_robot());
     let notes: Vec<Note> = notes.filter(|_| settings.strict).cloned().collect();
@@ -221,7 +221,7 @@ fn check_assumptions(notes: &[Note], settings: &Settings) -> Result<(), Generate
     }
 }
 
-/// Whether the source lies outside of the target.
+/// Checks that the source is outside the target.
 fn check_place(path: Option<&Path>, source: &Source, target: &Path) -> Result<(), GenerateError> {
     let Ok(canonical) = target.canonicalize() else {
         return Ok(());
@@ -236,7 +236,7 @@ fn check_place(path: Option<&Path>, source: &Source, target: &Path) -> Result<()
     Ok(())
 }
 
-/// Whether what is at the target may be replaced.
+/// Checks that the content of the target may be replaced.
 fn check_target(
     target: &Path,
     old: Option<&Old>,
@@ -254,7 +254,7 @@ fn check_target(
     Ok(())
 }
 
-/// Makes a module, or takes over the one that was there; `None` where it is of no use.
+/// Builds a module or keeps the old one; `None` if it is of no use. The flag is true for a kept module.
 fn run(
     stage: &Stage,
     work: &mut Work,
@@ -293,8 +293,8 @@ fn run(
     Ok(Some((metadata::entry(kind, written, inputs), false)))
 }
 
-/// Whether the URDD before is the same to the byte: its metadata, and each file as that says. Those
-/// of modules that were kept were looked at then.
+/// Whether the old URDD is identical to the byte: its metadata, and each file by its hash. The files of kept modules
+/// were checked before.
 fn is_same(old: &Old, text: &str, made: &[MadeModule]) -> bool {
     let path = old.folder.join(ROOT_METADATA);
     if fs::read(path).ok().as_deref() != Some(text.as_bytes()) {

@@ -1,4 +1,4 @@
-//! How URDDs are made.
+//! Settings of the generator.
 
 use std::path::PathBuf;
 
@@ -11,49 +11,49 @@ use urdd_directory::root::Root;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
 
-/// How URDDs are made.
+/// Settings of the generator.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// The modules to make.
+    /// The modules to generate.
     pub selection: Selection,
-    /// Where packages are.
+    /// The folders of packages.
     pub packages: Packages,
-    /// Folders besides the robot's own and its packages from which mesh files may be taken.
+    /// Folders, besides those of the robot and its packages, from which mesh files may be read.
     pub allowed_folders: Vec<PathBuf>,
-    /// Which geometry links are made from; the other one where a link has none of it.
+    /// The geometry that link meshes are built from. A link without it uses the other kind.
     pub preferred_geometry: GeometryKind,
-    /// The files of each derived mesh.
+    /// The file formats of derived meshes.
     pub mesh_formats: MeshFormats,
     /// How finely links are divided into convex pieces.
     pub pieces: Pieces,
     /// Sampled configurations of the distance statistics.
     pub num_samples: u32,
-    /// For which reasons pairs of shapes are skipped; `None` for those of the URDD that is replaced,
-    /// or the usual ones where there is none.
+    /// The reasons for which pairs are skipped. `None` keeps those of the URDD that is replaced, or uses the usual ones
+    /// for a new URDD.
     pub skipped_reasons: Option<Vec<SkippedReason>>,
     /// How xacro files are expanded.
     pub xacro: XacroSettings,
-    /// Whether a mesh that is not found, and all that is assumed and changes the robot, is an error.
+    /// Whether a missing mesh, or any assumption that changes the robot, is an error.
     pub strict: bool,
-    /// Whether edits of skips in the URDD that is replaced may be dropped.
+    /// Whether to drop the skip edits of the URDD that is replaced.
     pub drop_edits: bool,
-    /// Whether to write into a folder that holds something else.
+    /// Whether to write into a folder that has other content.
     pub force: bool,
-    /// URDDs of this program from which the meshes, hulls, pieces, boxes and spheres of links are taken over, where
-    /// the link's geometry is the same to the byte, and so are the settings. The URDD that is made is the same as
-    /// without them, but for the last digits of distances, in less time. They are believed: give none that a validator
-    /// refuses.
+    /// URDDs of this program from which the meshes, hulls, pieces, boxes and spheres of links are reused. A link's
+    /// results are reused if its geometry is identical to the byte and the settings are the same. The result is the
+    /// same as without reuse, except for the last digits of distances, and takes less time. These URDDs are trusted:
+    /// pass only URDDs that a validator accepts.
     pub reuse: Vec<Root>,
-    /// How much work training a self-collision model is.
+    /// The effort for training a self-collision model.
     pub model_effort: Effort,
-    /// Where it is asked to stop: before the next module or mesh, with [`GenerateError::Cancelled`], and nothing is
-    /// changed.
+    /// Cancellation, checked before each module and mesh. A cancelled run returns [`GenerateError::Cancelled`] and
+    /// changes nothing.
     ///
     /// [`GenerateError::Cancelled`]: super::GenerateError::Cancelled
     pub cancellation: Cancellation,
 }
 
-/// Which files a derived mesh has besides its .glb, which is always made: SPEC 7.1.
+/// The files of a derived mesh besides its .glb, which is always written: SPEC 7.1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MeshFormats {
     /// Binary STL.
@@ -63,7 +63,7 @@ pub struct MeshFormats {
 }
 
 impl Default for MeshFormats {
-    /// All of them.
+    /// Both formats.
     fn default() -> Self {
         MeshFormats {
             stl: true,
@@ -75,10 +75,10 @@ impl Default for MeshFormats {
 /// How finely links are divided into convex pieces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pieces {
-    /// Most pieces of a link, 1 to 64; what is outside of that counts as the nearer end.
+    /// Maximum number of pieces of a link, clamped to 1 to 64.
     pub most: u8,
-    /// The mean distance from the pieces' outside to the link's surface, metres, for which no more pieces are made
-    /// than it needs (as the search estimates it); `None` for as many as save enough, in proportion to the link.
+    /// Mean distance, metres, from the pieces' outside to the link's surface. The search uses no more pieces than this
+    /// needs, by its estimate. `None` uses as many pieces as save enough, in proportion to the link.
     pub tolerance: Option<f64>,
 }
 
@@ -93,8 +93,8 @@ impl Default for Pieces {
 }
 
 impl Default for Settings {
-    /// Every module but what has to be trained, from visual geometry, with at most 7 pieces for a link, 1,000 samples, and no packages but those
-    /// around the URDF.
+    /// Every module except those that have to be trained, from visual geometry, with at most 7 pieces per link, 1,000
+    /// samples, and only the packages around the URDF.
     fn default() -> Self {
         Settings {
             selection: Selection::all(),

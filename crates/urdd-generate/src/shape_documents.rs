@@ -1,4 +1,4 @@
-//! The documents of modules with matrices over shapes, written row by row: of a thousand links they hold millions of
+//! The documents of modules with matrices over shapes, written row by row: for a thousand links they have millions of
 //! elements.
 
 use std::sync::Arc;
@@ -150,7 +150,7 @@ fn value(of: &impl Serialize) -> Result<Member, serde_json::Error> {
     serde_json::to_value(of).map(Member::Value)
 }
 
-/// A matrix of a module, or null.
+/// A matrix of a module; null if it is missing.
 fn matrix<M: Send + Sync + 'static, T: Serialize + 'static>(
     module: &Arc<M>,
     matrix: fn(&M) -> Option<&Vec<Vec<T>>>,
@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(yaml, canonical::yaml_string(&whole));
     }
 
-    /// Each matrix another one.
+    /// Returns different matrices, one per call.
     fn matrices<T>(element: impl Fn(usize) -> T) -> impl FnMut() -> Vec<Vec<T>> {
         let mut next = 0;
         move || {

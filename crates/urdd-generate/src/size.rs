@@ -1,4 +1,4 @@
-//! How large a robot may be.
+//! Size limits of a robot.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -9,27 +9,26 @@ use super::fault::Fault;
 use super::source::Source;
 use urdd_geometry::read::Part;
 
-/// Most links. The matrix of common ancestors grows with their square.
+/// Maximum number of links. The matrix of lowest common ancestors grows with its square.
 pub const MOST_LINKS: usize = 2_000;
 
-/// Most elements besides links and joints; 2,000 links have some 10,000.
+/// Maximum number of elements besides links and joints; 2,000 links have some 10,000.
 pub const MOST_ELEMENTS: usize = 100_000;
 
-/// Most triangles of a link: its .obj stays below what readers of URDDs read, 512 MiB.
+/// Maximum number of triangles of a link: its .obj stays below the 512 MiB that URDD readers accept.
 pub const MOST_LINK_TRIANGLES: usize = 3_000_000;
 
-/// Most triangles of all links together.
+/// Maximum number of triangles of all links together.
 pub const MOST_TRIANGLES: usize = 10_000_000;
 
-/// A shape is wider than this part of its largest coordinate. Files hold coordinates as binary32, and
-/// their readers hold them to be known to eight steps of that, some 1e-6: below it a shape has no
-/// width for them.
+/// Minimum ratio of a shape's width to its largest coordinate. Files store coordinates as binary32, and readers assume
+/// an accuracy of eight steps of that, some 1e-6. A thinner shape has no width for them.
 const LEAST_WIDTH: f64 = 4e-6;
 
-/// Refuses a robot of which the URDD would be too large for its readers.
+/// Refuses a robot whose URDD would be too large for its readers.
 ///
 /// # Errors
-/// Where it has too many links, or too many elements.
+/// If it has too many links or too many elements.
 pub(super) fn check(source: &Source) -> Result<(), GenerateError> {
     let robot = &source.reading.robot;
     let links = robot.links.len();
@@ -58,16 +57,15 @@ pub(super) fn check(source: &Source) -> Result<(), GenerateError> {
     Err(source.refused(fault))
 }
 
-/// Counts the triangles of links before they are made: a URDF of some bytes names a mesh, or a
-/// sphere, as often as it likes.
+/// Counts the triangles of links before they are built: even a tiny URDF can reference a mesh or a sphere many times.
 #[derive(Debug, Default)]
 pub(super) struct TriangleBudget(AtomicUsize);
 
 impl TriangleBudget {
-    /// Takes the triangles of a link. Whether all links so far are within the budget.
+    /// Adds the triangles of a link. Returns whether all links so far are within the budget.
     ///
     /// # Errors
-    /// Where the link by itself has too many.
+    /// If this link alone has too many.
     pub fn take(&self, link: &str, triangles: usize) -> Result<bool, Fault> {
         if triangles > MOST_LINK_TRIANGLES {
             return Err(Fault::TooManyTriangles {
@@ -81,7 +79,7 @@ impl TriangleBudget {
     }
 
     /// # Errors
-    /// Where the links together have too many.
+    /// If all links together have too many.
     pub fn check(&self) -> Result<(), Fault> {
         if self.0.load(Ordering::Relaxed) > MOST_TRIANGLES {
             return Err(Fault::TooManyTrianglesInAll {
@@ -92,10 +90,10 @@ impl TriangleBudget {
     }
 }
 
-/// Refuses a link whose shape would have no width in the files of its mesh.
+/// Refuses a link whose shape would have no width in its mesh files.
 ///
 /// # Errors
-/// Where it has none.
+/// If it has none.
 pub(super) fn check_resolved(link: &str, parts: &[Part]) -> Result<(), Fault> {
     let vertices = || parts.iter().flat_map(|part| &part.mesh.vertices);
     let mut largest = 0.0_f64;
@@ -111,7 +109,7 @@ pub(super) fn check_resolved(link: &str, parts: &[Part]) -> Result<(), Fault> {
     })
 }
 
-/// How far points lie from a line through two of them that are far apart; 0 where there are none.
+/// The largest distance of a point from a line through two distant points; 0 without points.
 fn width(points: impl Iterator<Item = Vector3<f64>> + Clone) -> f64 {
     let Some(first) = points.clone().next() else {
         return 0.0;

@@ -1,8 +1,7 @@
-//! How each module is made of those before it.
+//! How each module is built from the modules before it.
 //!
-//! A stage that takes long says what it depends on besides other modules; it is passed over where
-//! that, and the files of those modules, are as they were. What it made is then taken up from the
-//! files, by whoever needs it.
+//! A slow stage declares its inputs besides other modules. It is skipped if these inputs, and the files of the modules
+//! that it depends on, are unchanged. Later stages then load its results from the files.
 
 use super::connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS, connections_module};
 use super::error::GenerateError;
@@ -15,19 +14,19 @@ use super::work::Work;
 use urdd_directory::document::{Document, Member, Rows};
 use urdd_format::registry::ModuleKind;
 
-/// When a module that was made before is kept, rather than made again.
+/// When a module of the old URDD is kept instead of built again.
 pub(super) enum Reuse {
-    /// Never: to make it takes no time.
+    /// Never: it takes no time to build.
     Never,
-    /// While the modules that it is made of, and this version of the stage, are the same. The text
-    /// changes whenever the stage makes something else of the same.
+    /// If the modules that it depends on and the version of the stage are the same. The text changes whenever the stage
+    /// builds something else from the same inputs.
     SameInputs(&'static str),
-    /// As `SameInputs`, and while these settings are the same too.
+    /// As `SameInputs`, but compares the text that this function returns for the settings.
     SameSettings(fn(&Work) -> String),
 }
 
 impl Reuse {
-    /// What the module depends on besides other modules; `None` where it is always made.
+    /// The inputs of the module besides other modules; `None` if it is always built.
     pub fn inputs(&self, work: &Work) -> Option<String> {
         match self {
             Reuse::Never => None,
@@ -40,18 +39,18 @@ impl Reuse {
 /// One stage.
 pub(super) struct Stage {
     pub kind: ModuleKind,
-    /// When a module that was made before is kept.
+    /// When the module of the old URDD is kept.
     pub reuse: Reuse,
-    /// Makes the module.
+    /// Builds the module.
     pub make: Make,
 }
 
-/// How a module is made.
+/// How a module is built.
 #[derive(Clone, Copy)]
 pub(super) enum Make {
-    /// Of every robot.
+    /// For every robot.
     Always(fn(&mut Work) -> Result<Made, GenerateError>),
-    /// Of robots for which it is of use.
+    /// For robots for which it is useful.
     WhereOfUse(fn(&mut Work) -> Result<Option<Made>, GenerateError>),
 }
 
@@ -74,7 +73,7 @@ const STAGES: &[Stage] = &[
     },
     Stage {
         kind: ModuleKind::Connections,
-        // With hundreds of links it is megabytes of text.
+        // With hundreds of links this is megabytes of text.
         reuse: Reuse::SameInputs("2"),
         make: Make::Always(connections),
     },
@@ -150,7 +149,7 @@ pub(super) fn of(kind: ModuleKind) -> Option<&'static Stage> {
     STAGES.iter().find(|stage| stage.kind == kind)
 }
 
-/// What each module depends on besides other modules.
+/// The inputs of each module besides other modules.
 pub(super) fn settings_texts(work: &Work) -> SettingsTexts {
     let texts = STAGES
         .iter()
@@ -158,7 +157,7 @@ pub(super) fn settings_texts(work: &Work) -> SettingsTexts {
     texts.collect()
 }
 
-/// With 180 links in a line these are 5 million numbers.
+/// With 180 links in a line these tables have 5 million numbers.
 fn connections(work: &mut Work) -> Result<Made, GenerateError> {
     let module = connections_module(&work.chain);
     if module.link_to_link_paths.is_none() {

@@ -1,4 +1,4 @@
-//! What the stages of meshes and shapes take over from other URDDs, link by link.
+//! Per link, the meshes and shapes that are reused from other URDDs.
 
 use rayon::prelude::*;
 
@@ -10,7 +10,7 @@ use urdd_format::meshes::{GeometryKind, MeshFiles};
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 
-/// For each link its plain mesh, where another URDD has it; none where there is no other URDD.
+/// The plain mesh of each link, if another URDD has it. Empty without other URDDs.
 pub(super) fn taken_plain(work: &Work) -> Vec<Option<(GeometryKind, Taken)>> {
     let (Some(original), false) = (&work.original, work.reusable.is_empty()) else {
         return Vec::new();
@@ -25,13 +25,13 @@ pub(super) fn taken_plain(work: &Work) -> Vec<Option<(GeometryKind, Taken)>> {
     taken.collect()
 }
 
-/// A hull or a piece, and its files where another URDD has them.
+/// A hull or a piece, with its files if it is reused.
 pub(super) struct Solid {
     pub mesh: WrittenMesh,
     pub files: Option<TakenFiles>,
 }
 
-/// For each link with a plain mesh, what another URDD holds that was made of the same mesh.
+/// For each link with a plain mesh, the results that another URDD has for the same mesh.
 pub(super) fn taken_of(
     work: &Work,
     kind: ModuleKind,
@@ -52,7 +52,7 @@ pub(super) fn taken_of(
     taken.collect()
 }
 
-/// The meshes that are there and of which nothing is taken over, in order.
+/// The plain meshes for which nothing is reused, in order.
 pub(super) fn meshes_of<'a>(
     plain: &'a [Option<WrittenMesh>],
     taken: &[Option<Vec<Solid>>],
@@ -62,7 +62,7 @@ pub(super) fn meshes_of<'a>(
     to_do.map(|plain| &plain.mesh).collect()
 }
 
-/// The boxes and spheres that other URDDs hold: of all hulls, then of all pieces.
+/// The reusable boxes and spheres: of all hulls, then of all pieces.
 pub(super) fn known_shapes(work: &Work, solids: &ConvexMeshes) -> Vec<Option<Shape>> {
     let hull = |(link, hull): (usize, &Option<WrittenMesh>)| {
         let has = hull.is_some();

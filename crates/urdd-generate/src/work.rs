@@ -1,4 +1,4 @@
-//! What stages work with.
+//! The state that stages share.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -23,7 +23,7 @@ use urdd_format::kinematics_samples::KinematicsSamplesModule;
 use urdd_format::meshes::MeshFiles;
 use urdd_format::registry::ModuleKind;
 
-/// What stages work with.
+/// The state that stages share.
 pub(super) struct Work<'a> {
     pub source: &'a Source,
     pub settings: &'a Settings,
@@ -34,24 +34,24 @@ pub(super) struct Work<'a> {
     pub original: Option<OriginalMeshes>,
     /// Meshes and shapes.
     pub artifacts: Artifacts,
-    /// A person's edits of the skips.
+    /// The user's edits of the skips.
     pub edits: Edits,
     pub notes: Vec<Note>,
-    /// How the robot was put together from others.
+    /// How the robot was composed, if it was.
     pub composition: Option<&'a CompositionModule>,
-    /// The SHA-256 of each file that was written or kept, by its path.
+    /// The SHA-256 of each file that was written or kept, by path.
     pub digests: HashMap<String, String>,
-    /// What other URDDs hold of links of the same content.
+    /// The results of other URDDs for links with the same content.
     pub reusable: Reusable,
-    /// Who wants to know how far it is.
+    /// Receives the progress.
     pub progress: &'a dyn Progress,
 }
 
 impl<'a> Work<'a> {
-    /// With what nearly every stage needs, and takes no time to make.
+    /// Builds what nearly every stage needs and takes no time.
     ///
     /// # Errors
-    /// Where mimics or poses are beyond 64-bit numbers.
+    /// If mimic joints or poses overflow binary64.
     pub fn new(
         source: &'a Source,
         settings: &'a Settings,
@@ -83,23 +83,23 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// The files of a link's mesh, or of one of its pieces.
+    /// The file names of a link's mesh, or of one of its pieces.
     pub fn mesh_files(&self, kind: ModuleKind, link: usize, piece: Option<usize>) -> MeshFiles {
         let name = &self.chain.links_in_chain[link].name;
         mesh_files(kind, link, name, piece, self.settings.mesh_formats)
     }
 
-    /// Notes that something is not made of this robot.
+    /// Notes that a part of a module is left out for this robot.
     pub fn leave_out(&mut self, problem: String, assumed: &str) {
         self.note(NoteKind::LeftOut, problem, assumed);
     }
 
-    /// Notes that a table is left out because it would grow too large, as the specification allows.
+    /// Notes that a table is left out because it would be too large, as the specification allows.
     pub fn too_large(&mut self, problem: String, assumed: &str) {
         self.note(NoteKind::TooLarge, problem, assumed);
     }
 
-    /// Notes that a module that was asked for is not made, since it would be of no use.
+    /// Notes that a selected module is left out because it would be of no use.
     pub fn of_no_use(&mut self, problem: String, assumed: &str) {
         self.note(NoteKind::OfNoUse, problem, assumed);
     }

@@ -1,4 +1,4 @@
-//! Which parts may be taken up.
+//! Checks the parts before they are used.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -9,12 +9,12 @@ use super::sources::SourceKind;
 use crate::Settings;
 use urdd_directory::cancellation::Cancelled;
 
-/// Asks of each part that is a URDD which errors a validator finds in it, in words. Returns the ids of those in which it
-/// finds any and that are taken all the same, with [`Settings::force`]: nothing of their URDDs is to be taken over.
+/// Validates each part that is a URDD: `find_errors` returns its errors as text. With [`Settings::force`], parts with
+/// errors are accepted; their ids are returned, and their URDDs must not be reused.
 ///
 /// # Errors
-/// [`CombineError::Part`] for a part that is not there or may not be taken, and without `force` for one with errors;
-/// where it is asked to stop.
+/// [`CombineError::Part`] for a part that is missing or may not be used, and without `force` for one with errors; an
+/// error if cancelled.
 pub fn check_parts(
     recipe: &Recipe,
     settings: &Settings,

@@ -1,4 +1,4 @@
-//! One URDF of all parts.
+//! Composes one URDF from all parts.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -14,27 +14,27 @@ use super::trim::Trim;
 use crate::has_quaternions;
 use urdd_format::urdf::Material;
 
-/// Parts as they were taken up, with what of them comes along.
+/// A loaded part and the selection of what is kept of it.
 pub(super) struct Taken<'a> {
     pub part: &'a Part,
-    /// Shared by the parts of one source.
+    /// Shared by all parts with the same source.
     pub loaded: Rc<Loaded>,
     pub trim: Trim,
 }
 
 impl Taken<'_> {
-    /// A name of the part as it is in the robot that is made.
+    /// A name of the part as it appears in the combined robot.
     pub fn renamed(&self, name: &str) -> String {
         format!("{}{name}", self.part.prefix.text)
     }
 
-    /// The name of its root link in the robot that is made.
+    /// The name of its root link in the combined robot.
     pub fn root(&self) -> String {
         self.renamed(&self.loaded.robot.links[self.trim.root].name)
     }
 }
 
-/// The version that the URDF of all parts states: the highest.
+/// The URDF version of the combined robot: the highest of all parts.
 pub(super) fn version(parts: &[Taken]) -> Option<String> {
     let number = |version: &str| -> Option<(u64, u64)> {
         let (major, minor) = version.trim().split_once('.')?;
@@ -46,11 +46,11 @@ pub(super) fn version(parts: &[Taken]) -> Option<String> {
     versions.max_by_key(|version| (has_quaternions(Some(version)), number(version)))
 }
 
-/// Finds the first name that two things have, and materials at the top that one before them has too, alike:
-/// for each part their places.
+/// Checks that names are unique. Returns, for each part, the indices of top-level materials that an earlier part also
+/// has.
 ///
 /// # Errors
-/// The name.
+/// The first name that occurs twice.
 pub(super) fn check_names(
     recipe: &Recipe,
     parts: &[Taken],
@@ -125,7 +125,7 @@ fn clash(
     Err(recipe.refused(at, fault))
 }
 
-/// Materials of one name look alike in all parts, as in each part by itself the first counts.
+/// Materials with the same name must look the same in all parts. Within a part, the first counts.
 fn materials(
     recipe: &Recipe,
     parts: &[Taken],
@@ -174,10 +174,10 @@ fn materials(
     Ok(repeated)
 }
 
-/// The text of the URDF.
+/// Writes the text of the URDF.
 ///
 /// # Errors
-/// Where parts mean different things by a prefix of XML names, or name things of their own alike.
+/// If parts use one XML prefix for different namespaces, or the same name for transmissions and the like.
 pub(super) fn urdf(
     recipe: &Recipe,
     parts: &[Taken],
@@ -200,7 +200,7 @@ pub(super) fn urdf(
         }
         for name in &text.own {
             let before = own.insert(name, taken);
-            // A part may have two of one name by itself.
+            // Duplicates within one part are allowed.
             let before = before.filter(|before| before.part.id != taken.part.id);
             let first = before.map(|before| format!("part `{}`", before.part.id.text));
             let second = format!("part `{}`", taken.part.id.text);

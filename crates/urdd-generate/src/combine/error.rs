@@ -1,4 +1,4 @@
-//! Why robots cannot be put together.
+//! Why robots cannot be combined.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use crate::GenerateError;
 use urdd_directory::position::Position;
 use urdd_format::escape;
 
-/// Why robots cannot be put together. Nothing was written then, and what was there before still is.
+/// Why robots cannot be combined. Nothing was written, and an existing URDD is unchanged.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CombineError {
@@ -30,30 +30,30 @@ pub enum CombineError {
         /// Why.
         reason: String,
     },
-    /// The recipe cannot be followed.
+    /// The recipe is invalid.
     #[error("{}{}: {fault}", escape::line(file), Place(*at))]
     Recipe {
         /// The file of the recipe.
         file: String,
-        /// The place in it; `None` where the recipe came from the command line, or it is about the whole.
+        /// The position in it; `None` for a recipe from the command line, or for the recipe as a whole.
         at: Option<Position>,
         /// What is wrong.
         fault: Box<RecipeFault>,
     },
-    /// A part cannot be taken up.
+    /// A part cannot be used.
     #[error("{}{}: {fault}", About(&(!id.is_empty()).then(|| id.clone())), escape::line(source_path))]
     Part {
         /// The part.
         id: String,
-        /// Its source, as the recipe names it.
+        /// Its source as written in the recipe.
         source_path: String,
         /// What is wrong.
         fault: PartFault,
     },
-    /// The URDD of a part, or that of all, cannot be made.
+    /// The URDD of a part, or of the combined robot, cannot be generated.
     #[error("{}{error}", About(id))]
     Generate {
-        /// The part; `None` for what was put together.
+        /// The part; `None` for the combined robot.
         id: Option<String>,
         /// Why.
         error: GenerateError,
@@ -72,7 +72,7 @@ impl fmt::Display for About<'_> {
 }
 
 impl CombineError {
-    /// A word for programs: what kind of error it is.
+    /// A machine-readable code for the kind of error.
     pub fn code(&self) -> &'static str {
         match self {
             CombineError::Unreadable { .. } => "unreadable",
@@ -88,16 +88,16 @@ impl CombineError {
     }
 }
 
-/// Why a part cannot be taken up.
+/// Why a part cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PartFault {
-    /// Nothing there that could be a part.
+    /// The source does not exist, or is not a possible part.
     #[error(
         "there is no such URDD or URDF: {0}; a source is a folder or zip archive of a URDD, or a URDF or xacro file, relative to the recipe"
     )]
     Missing(String),
-    /// It is outside of the folders from which a recipe may take parts.
+    /// The source is outside the folders from which a recipe may use parts.
     #[error(
         "this is {}, outside of {}, the folder of the recipe; to take parts from there too: --allow-folder {}",
         escape::line(found),
@@ -105,19 +105,19 @@ pub enum PartFault {
         escape::line(allow)
     )]
     Outside {
-        /// The file or folder, links resolved.
+        /// The file or folder, with symbolic links resolved.
         found: String,
-        /// The folder that parts are taken from.
+        /// The folder from which parts may be used.
         folder: String,
-        /// The folder that would have to be allowed.
+        /// The folder to allow.
         allow: String,
     },
-    /// A legacy module names a part that is not beside it.
+    /// A legacy module references a part that is not in a sibling folder.
     #[error(
         "a legacy module names the folder of a part beside its own, and this is not the name of one: correct it, or write a recipe"
     )]
     NotBeside,
-    /// A xacro file that the user did not name.
+    /// A xacro file that is named by the recipe, not by the user.
     #[error(
         "this is a xacro file, which runs as a program, and the recipe names it; where you trust it, allow that: --xacro"
     )]
@@ -130,25 +130,25 @@ pub enum PartFault {
         /// Why.
         reason: String,
     },
-    /// It carries no URDF.
+    /// The URDD contains no URDF.
     #[error(
         "this URDD carries no URDF, and parts are put together as URDFs; give the URDF itself as the source"
     )]
     NoUrdf,
-    /// It is no URDD of before version 1 that was put together.
+    /// It is not a combined URDD from before version 1.
     #[error(
         "this URDD has no combined_robot_module, adjusted_robot_module or creator_module, which say how it was put together"
     )]
     NotComposed,
-    /// What it says of how it was put together is nothing that a recipe can say.
+    /// Nothing in its composition can be expressed as a recipe.
     #[error("nothing of how it was put together can be said in a recipe: {}", .0.join("; "))]
     SaysNothing(Vec<String>),
-    /// It is not valid.
+    /// The part has validation errors.
     #[error(
         "it does not pass `urdd validate`: {}; correct it, or take it as it is: --force", codes.join(", ")
     )]
     Fails {
-        /// The rules that found errors, and how many findings each.
+        /// The codes of the rules that found errors, with the number of findings.
         codes: Vec<String>,
     },
 }

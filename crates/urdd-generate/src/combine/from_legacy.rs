@@ -1,4 +1,4 @@
-//! How a published URDD of before version 1 was put together, as a recipe, as far as it says it.
+//! Converts the composition of a published URDD from before version 1 to a recipe, as far as it is recorded.
 
 use std::collections::HashSet;
 use std::path::{Component, Path};
@@ -19,14 +19,14 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::{JointType, Limit};
 use urdd_kinematics::rotation::canonical;
 
-/// The link that stands for the world, as the published robots call it.
+/// The name of the world link in the published robots.
 const WORLD: &str = "combined_robot_world";
 
 impl Recipe {
-    /// The recipe of a published URDD that was combined, adjusted or created, in `folder`; its parts lie beside it.
+    /// The recipe of a combined, adjusted or created published URDD in `folder`, whose parts are in sibling folders.
     ///
     /// # Errors
-    /// Where it was none of these, or says nothing that a recipe can say.
+    /// If it is none of these, or contains nothing that a recipe can express.
     pub fn of_legacy(folder: &Path) -> Result<(Recipe, Vec<Note>), CombineError> {
         let shown = folder.display().to_string();
         let refused = |fault: PartFault| CombineError::Part {
@@ -82,7 +82,7 @@ impl Recipe {
     }
 }
 
-/// Whether a source is a folder directly in `beside`, or nothing yet; not a file, which might be a program.
+/// Whether a source is a folder directly in `beside`, or does not exist; not a file, which could be a program.
 fn is_folder_name(source: &Path, beside: &Path) -> bool {
     let name = source.strip_prefix(beside);
     let mut parts = name.iter().flat_map(|name| name.components());
@@ -93,7 +93,7 @@ fn is_folder_name(source: &Path, beside: &Path) -> bool {
     is_name && !source.is_file()
 }
 
-/// The same type in version 1.
+/// The corresponding type in version 1.
 fn of_legacy(joint_type: urdf::JointType) -> JointType {
     let mut types = JointType::ALL.iter().copied();
     let same = types.find(|of| of.as_str() == joint_type.as_str());
@@ -119,7 +119,7 @@ fn read<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Result<Option<T>,
 struct Reader<'a> {
     recipe: Recipe,
     notes: Vec<Note>,
-    /// The ids of the parts, in lower case.
+    /// The ids of the parts in lower case.
     ids: HashSet<String>,
     beside: &'a Path,
 }
@@ -225,7 +225,7 @@ impl Reader<'_> {
         part.freeze = fixed
             .map(|(joint, values)| (Word::new(joint), values.clone()))
             .collect();
-        // As a file has them.
+        // Sorted, as in a file.
         part.freeze.sort_by(|a, b| a.0.text.cmp(&b.0.text));
     }
 

@@ -1,4 +1,4 @@
-//! A joint that is made fixed: where its child is then.
+//! Frozen joints: computes the fixed origin.
 
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 
@@ -6,7 +6,7 @@ use crate::origin_pose;
 use urdd_format::urdf::{Joint, JointType};
 use urdd_kinematics::rotation::{from_rotation_vector, planar_basis, unit_axis};
 
-/// The `<origin>` of a joint that is fixed at a position: a value for each of its DOFs (SPEC 5.8).
+/// The `<origin>` of a joint that is frozen at a position, given as one value per DOF (SPEC 5.8).
 pub(super) fn origin(joint: &Joint, position: &[f64], quaternions: bool) -> String {
     let pose = origin_pose(joint.origin.as_ref(), quaternions) * motion(joint, position);
     let rpy = roll_pitch_yaw(&pose.rotation);
@@ -14,7 +14,7 @@ pub(super) fn origin(joint: &Joint, position: &[f64], quaternions: bool) -> Stri
     origin_text([xyz.x, xyz.y, xyz.z], rpy)
 }
 
-/// An `<origin>`.
+/// The text of an `<origin>` element.
 pub(super) fn origin_text(xyz: [f64; 3], rpy: [f64; 3]) -> String {
     format!(
         "<origin xyz=\"{}\" rpy=\"{}\"/>",
@@ -23,7 +23,7 @@ pub(super) fn origin_text(xyz: [f64; 3], rpy: [f64; 3]) -> String {
     )
 }
 
-/// Numbers with spaces between them, each the shortest that means the same.
+/// Numbers separated by spaces, each in its shortest exact form.
 pub(super) fn numbers(values: &[f64]) -> String {
     let number = |value: &f64| {
         // Adding 0 turns -0 into 0.
@@ -33,7 +33,7 @@ pub(super) fn numbers(values: &[f64]) -> String {
     values.iter().map(number).collect::<Vec<_>>().join(" ")
 }
 
-/// The pose of the child's frame in the joint's (SPEC 5.8).
+/// The pose of the child's frame in the joint's frame (SPEC 5.8).
 fn motion(joint: &Joint, position: &[f64]) -> Isometry3<f64> {
     let written = joint.axis.as_ref().and_then(|axis| axis.xyz);
     let axis = unit_axis(written.unwrap_or([1.0, 0.0, 0.0]));
@@ -62,15 +62,15 @@ fn motion(joint: &Joint, position: &[f64]) -> Isometry3<f64> {
     }
 }
 
-/// Fixed-axis roll, pitch, yaw. Near a pitch of a right angle, where roll and yaw by themselves are
-/// hardly known, roll is what goes with the yaw that was found, so that the rotation keeps its digits.
+/// Fixed-axis roll, pitch and yaw. Near a pitch of ±90°, roll and yaw are each ill-conditioned. Roll is computed from
+/// the yaw found, so that the rotation keeps its precision.
 pub(super) fn roll_pitch_yaw(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
     let r: Rotation3<f64> = rotation.to_rotation_matrix();
     let yaw = r[(1, 0)].atan2(r[(0, 0)]);
     let pitch = (-r[(2, 0)]).atan2(r[(0, 0)].hypot(r[(1, 0)]));
     let (sin, cos) = yaw.sin_cos();
     let roll = (sin * r[(0, 2)] - cos * r[(1, 2)]).atan2(cos * r[(1, 1)] - sin * r[(0, 1)]);
-    // Not -0.
+    // Avoids -0.
     [roll, pitch, yaw].map(|angle| angle + 0.0)
 }
 

@@ -1,4 +1,4 @@
-//! Which keys a recipe may have.
+//! Checks the keys of a recipe.
 
 use toml::de::{DeTable, DeValue};
 
@@ -15,10 +15,10 @@ const LIMIT: &[&str] = &["lower", "upper", "effort", "velocity"];
 
 type Checked = Result<(), (Option<usize>, RecipeFault)>;
 
-/// Finds the first key that is none of a recipe.
+/// Finds the first unknown key.
 ///
 /// # Errors
-/// The key, and at which byte it stands; or that the text is no TOML.
+/// The key and its byte offset, or a TOML syntax error.
 pub(super) fn check(text: &str) -> Checked {
     let table = DeTable::parse(text).map_err(|error| {
         let fault = RecipeFault::Toml(error.message().to_owned());

@@ -1,6 +1,6 @@
-//! A URDD of before version 1 as a part: its URDF names meshes by packages that are nowhere, and its
-//! `original_meshes_module` holds the files of those that links show. Where one of these is missing, the link's plain mesh
-//! stands for it.
+//! Uses a URDD from before version 1 as a part. Its URDF names meshes in packages that do not exist here; its
+//! `original_meshes_module` contains the meshes of visual elements. If one is missing, the link's plain mesh replaces
+//! it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -18,19 +18,19 @@ use urdd_format::urdf::{Geometry, Link, Mesh};
 use urdd_xml::element::{Edit, apply, attribute, children};
 use urdd_xml::{Kind, parse};
 
-/// The URDF that a legacy URDD carries.
+/// The URDF in a legacy URDD.
 pub(super) struct Carried {
-    /// Its file's name.
+    /// Its file name.
     pub file: String,
-    /// As it was found.
+    /// Its bytes as found.
     pub found: Vec<u8>,
-    /// With the meshes that the URDD holds named where they are, relative to its folder.
+    /// Its text, with mesh names that refer to the URDD's files, relative to its folder.
     pub text: Vec<u8>,
-    /// The links whose plain mesh is named, since the original is missing.
+    /// Links that use their plain mesh because the original is missing.
     pub plain_meshes: Vec<String>,
 }
 
-/// Reads the URDF of the legacy URDD in `folder`. Nothing outside of that is opened.
+/// Reads the URDF of the legacy URDD in `folder`. Opens nothing outside that folder.
 pub(super) fn read(folder: &Path) -> Result<Carried, PartFault> {
     let file = urdf_in(folder).ok_or(PartFault::NoUrdf)?;
     let unreadable = |reason: String| PartFault::Unreadable {
@@ -70,7 +70,7 @@ pub(super) fn read(folder: &Path) -> Result<Carried, PartFault> {
     })
 }
 
-/// The name of the one URDF in the folder of a legacy URDD.
+/// The file name of the only URDF in the folder of a legacy URDD.
 fn urdf_in(folder: &Path) -> Option<String> {
     let entries = fs::read_dir(folder).ok()?;
     let files = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
@@ -83,7 +83,7 @@ fn last_component(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or_default()
 }
 
-/// The mesh of a link that shows nothing else, at its own size: the converter ignored scales.
+/// The mesh of a link with only one visual element and no scale: the converter ignored scales.
 fn only_mesh(link: &Link) -> Option<&Mesh> {
     let [visual] = link.visual.as_slice() else {
         return None;
@@ -96,8 +96,8 @@ fn only_mesh(link: &Link) -> Option<&Mesh> {
     }
 }
 
-/// By link, its plain mesh, in the link's frame. The converter wrote the plain meshes of links that share a name over each
-/// other, so these are left out.
+/// The plain mesh of each link, in the link's frame. Links whose plain meshes share a file name are left out: the
+/// converter overwrote one with the other.
 fn plain_meshes(root: &Root) -> BTreeMap<usize, String> {
     let folder = ModuleKind::PlainMeshes.folder();
     let bytes = root.read(&format!("{folder}/module.json"), MAX_DOCUMENT_BYTES);
@@ -116,7 +116,7 @@ fn plain_meshes(root: &Root) -> BTreeMap<usize, String> {
         .collect()
 }
 
-/// The edits that name the plain meshes of links, whose origins are applied already.
+/// The edits that make links use their plain meshes, in which the origins are already applied.
 fn plain_edits(text: &str, plain: &BTreeMap<usize, String>) -> Result<Vec<Edit>, String> {
     let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
     let links = children(document.root_element()).filter(|(tag, _)| *tag == "link");

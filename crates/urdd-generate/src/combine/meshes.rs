@@ -1,4 +1,4 @@
-//! Where the meshes of parts are carried: each file once, however many parts have it.
+//! Stores the meshes of the parts, each file once.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -14,22 +14,22 @@ use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::registry::ModuleKind;
 
-/// The meshes of all parts. Each is written as soon as it was read, and put in its place at the end: no more than one mesh
-/// with its side files is in memory.
+/// The meshes of all parts. Each is written to `store` after it was read, and moved to its place at the end. No more
+/// than one mesh with its side files is in memory.
 pub(super) struct Meshes<'a> {
-    /// By the content of a mesh and the files that it names, where it is carried: below `meshes`.
+    /// Places below `meshes`, by the content of a mesh and the files that it references.
     places: BTreeMap<String, String>,
-    /// For each place, the file in `store`.
+    /// The file in `store` for each place.
     files: BTreeMap<String, PathBuf>,
     store: PathBuf,
     cancellation: &'a Cancellation,
 }
 
-/// The meshes of a part: by the names in its URDF, where they are carried, below `meshes`.
+/// The meshes of a part: places below `meshes`, by the names in its URDF.
 pub(super) type Placed = BTreeMap<String, String>;
 
 impl<'a> Meshes<'a> {
-    /// None yet; files are kept in the folder `store`, which is there.
+    /// Starts without meshes. `store` is an existing folder for the files.
     pub fn new(store: PathBuf, cancellation: &'a Cancellation) -> Self {
         Meshes {
             places: BTreeMap::new(),
@@ -39,10 +39,10 @@ impl<'a> Meshes<'a> {
         }
     }
 
-    /// Takes in the meshes of a part.
+    /// Adds the meshes of a part.
     ///
     /// # Errors
-    /// Where one cannot be read or written, and where it is asked to stop.
+    /// If one cannot be read or written, or if cancelled.
     pub fn add(
         &mut self,
         part: &Part,
@@ -87,7 +87,7 @@ impl<'a> Meshes<'a> {
         let ending = mesh.path.rsplit_once('.').map_or("", |(_, ending)| ending);
         let mut content = format!("{} {}\n", ending.to_ascii_lowercase(), hash(&own));
         for (side, bytes) in &sides {
-            // They lie where the mesh expects them.
+            // Their relative position matters to the mesh.
             content += &format!("{} {}\n", relative(&mesh.path, side), hash(bytes));
         }
         if let Some(place) = self.places.get(&content) {
@@ -112,11 +112,11 @@ impl<'a> Meshes<'a> {
         Ok(())
     }
 
-    /// Puts the files where the URDF names them, below `folder`, and returns what of a place is left out
-    /// there: the folders that all files share.
+    /// Moves the files to where the URDF names them, below `folder`. Returns the prefix that all places share, which is
+    /// left out of the names.
     ///
     /// # Errors
-    /// Where a file cannot be written.
+    /// If a file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<String, CombineError> {
         let mut shared: Option<Vec<&str>> = None;
         for place in self.files.keys() {
@@ -147,7 +147,7 @@ impl<'a> Meshes<'a> {
     }
 }
 
-/// Where a file is carried in the URDD, and what the URDF calls it, so that it is found from there too.
+/// The path of a file in the URDD. The URDF uses the same name, so that it is found from there too.
 pub(super) fn carried(place: &str, shared: &str) -> String {
     let place = place.strip_prefix(shared).unwrap_or(place);
     format!("{}/meshes/{place}", ModuleKind::OriginalMeshes.folder())
@@ -160,7 +160,7 @@ fn below_meshes(path: &str) -> &str {
     below.unwrap_or(path)
 }
 
-/// A file as seen from the folder of another, both below one root.
+/// The path of a file relative to the folder of another, both below one root.
 fn relative(from: &str, to: &str) -> String {
     let from: Vec<&str> = from.split('/').collect();
     let to: Vec<&str> = to.split('/').collect();

@@ -1,8 +1,8 @@
-//! Several robots become one: their URDFs one URDF, whose URDD carries all meshes, each once, and
-//! takes over what the parts' URDDs hold of their links.
+//! Combines several robots into one. Merges their URDFs, stores each mesh once, and reuses results from the parts'
+//! URDDs.
 //!
-//! A [`Recipe`] says which robots, and how they hang on each other. [`combine`] makes the URDD. It does not judge
-//! the parts: whoever calls it validates those before, by [`check_parts`].
+//! A [`Recipe`] lists the robots and how they are attached. [`combine`] generates the URDD. It does not validate the
+//! parts; the caller does that first, with [`check_parts`].
 
 mod check_parts;
 mod compose;
@@ -53,23 +53,22 @@ pub use recipe::{
 pub use recipe_fault::RecipeFault;
 pub use sources::{SourceKind, source_kind};
 
-/// A robot that was put together.
+/// A combined robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combined {
     /// Its URDD.
     pub generated: Generated,
-    /// How it was put together.
+    /// How it was composed.
     pub composition: CompositionModule,
-    /// What there is to say of it.
+    /// Notes for the user.
     pub notes: Vec<Note>,
 }
 
-/// Puts robots together: makes the URDD of a recipe in the folder `target`, which is there as a whole when this
-/// returns, or is as it was. What the URDDs of parts hold of their links is taken over, but for parts that are
-/// `distrusted`, by their ids.
+/// Combines robots: generates the URDD of a recipe in the folder `target`, which is replaced atomically and is
+/// unchanged on error. Results in the parts' URDDs are reused, except for the part ids in `distrusted`.
 ///
 /// # Errors
-/// Where the recipe cannot be followed, a part is no robot, or the URDD cannot be written.
+/// If the recipe is invalid, a part is not a valid robot, or the URDD cannot be written.
 pub fn combine(
     recipe: &Recipe,
     target: &Path,
@@ -159,7 +158,7 @@ pub fn combine(
     };
     let generated = generate_composed(urdf.into_bytes(), &composed, target, &settings, progress);
     let mut generated = generated.map_err(|error| CombineError::Generate { id: None, error })?;
-    // That was said of the parts.
+    // The notes about the parts already say that.
     let is_said = |note: &generated::Note| note.kind == NoteKind::MeshNotFound;
     generated.notes.retain(|note| !is_said(note));
     Ok(Combined {
@@ -169,7 +168,7 @@ pub fn combine(
     })
 }
 
-/// Reads the parts, each source once, up to the limits of a robot.
+/// Reads the parts, each source once, and checks the size limits of a robot.
 fn take_up<'a>(
     recipe: &'a Recipe,
     workplace: &Path,
@@ -210,7 +209,7 @@ fn take_up<'a>(
     Ok(parts)
 }
 
-/// Refuses parts that together have more text than a URDF may have.
+/// Refuses parts whose total text is longer than a URDF may be.
 fn check_length(
     recipe: &Recipe,
     part: &Part,
@@ -231,7 +230,7 @@ fn cancelled(error: urdd_directory::cancellation::Cancelled) -> CombineError {
     }
 }
 
-/// The meshes that links name which come along.
+/// The meshes of the kept links.
 fn used_meshes(taken: &Taken) -> BTreeSet<String> {
     let links = taken.loaded.robot.links.iter().enumerate();
     let links = links.filter(|(idx, _)| taken.trim.keeps_link(*idx));
@@ -247,7 +246,7 @@ fn used_meshes(taken: &Taken) -> BTreeSet<String> {
     names.collect()
 }
 
-/// The files that materials which come along name as their textures.
+/// The texture files of the kept materials.
 fn textures(taken: &Taken) -> BTreeSet<String> {
     let robot = &taken.loaded.robot;
     let links = robot.links.iter().enumerate();
@@ -259,7 +258,7 @@ fn textures(taken: &Taken) -> BTreeSet<String> {
     textures.map(|texture| texture.filename.clone()).collect()
 }
 
-/// What else names links and joints in a part, as the recipe tells it.
+/// The recipe's `names` of a part: other elements and attributes that name links and joints.
 fn names_told<'a>(recipe: &Recipe, part: &'a Part) -> Result<BTreeSet<&'a str>, CombineError> {
     let mut told = BTreeSet::new();
     for word in &part.names {
@@ -275,7 +274,7 @@ fn names_told<'a>(recipe: &Recipe, part: &'a Part) -> Result<BTreeSet<&'a str>, 
     Ok(told)
 }
 
-/// What there is to say of the parts by themselves.
+/// Notes about each part.
 fn said(parts: &[Taken], notes: &mut Vec<Note>) {
     let is_urdd = |taken: &&Taken| matches!(taken.loaded.source, PartSource::Urdd(_));
     let urdds = parts.iter().filter(is_urdd);
@@ -338,7 +337,7 @@ fn said(parts: &[Taken], notes: &mut Vec<Note>) {
     }
 }
 
-/// What there is to say of a part's text.
+/// Notes about the text of a part.
 fn said_of_text(taken: &Taken, text: &Rewritten, notes: &mut Vec<Note>) {
     let part = &taken.part.id.text;
     let is_renamed = !taken.part.prefix.text.is_empty();

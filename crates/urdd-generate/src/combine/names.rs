@@ -1,4 +1,4 @@
-//! Where a URDF names its links, joints, materials and meshes, in its own elements and in those that it does
+//! Finds the names of links, joints, materials and meshes in a URDF, both in its own elements and in those that it does
 //! not define.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -9,7 +9,7 @@ use urdd_format::urdf::UrdfModule;
 use urdd_xml::element::{Edit, attribute, children, name};
 use urdd_xml::{Kind, parse};
 
-/// Attributes, in elements that URDF does not define, that name a link or joint where their value is one.
+/// Attributes of elements unknown to URDF whose value, if it equals a link or joint name, refers to it.
 const ATTRIBUTES: &[&str] = &[
     "link",
     "link1",
@@ -21,7 +21,7 @@ const ATTRIBUTES: &[&str] = &[
     "mimic_joint",
 ];
 
-/// Elements, among those that URDF does not define, whose text names a link or joint where it is one.
+/// Elements unknown to URDF whose text, if it equals a link or joint name, refers to it.
 const TEXTS: &[&str] = &[
     "bodyName",
     "body_name",
@@ -40,7 +40,7 @@ const TEXTS: &[&str] = &[
     "robot_base_frame",
 ];
 
-/// Elements, among those that URDF does not define, whose `name` is a joint's where it is one.
+/// Elements unknown to URDF whose `name`, if it equals a joint name, refers to that joint.
 const OF_JOINTS: &[&str] = &[
     "joint",
     "flexJoint",
@@ -51,8 +51,7 @@ const OF_JOINTS: &[&str] = &[
     "use_simulated_gripper_joint",
 ];
 
-/// Elements, among those that URDF does not define, whose `name` is their own, and must differ from
-/// those of other parts.
+/// Elements unknown to URDF whose `name` is their own and must be unique among the parts.
 const OWN: &[&str] = &[
     "transmission",
     "actuator",
@@ -63,41 +62,41 @@ const OWN: &[&str] = &[
     "sensor",
 ];
 
-/// Something that bears a name.
+/// The kind of thing that a name refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Named {
     Link,
     Joint,
     Material,
-    /// A link or joint, whichever has the name.
+    /// A link or joint with this name.
     Either,
-    /// A thing of its own.
+    /// The element itself.
     Own,
 }
 
-/// A place in a URDF's text where a name stands.
+/// An occurrence of a name in a URDF's text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct NamePlace {
     /// The name, without entities and white space.
     pub name: String,
     pub named: Named,
-    /// Bytes of the text: the value of the attribute, or the element's text.
+    /// The byte range of the attribute's value or of the element's text.
     pub range: std::ops::Range<usize>,
-    /// The element that stands directly in `<robot>` and holds it.
+    /// The child element of `<robot>` that contains it.
     pub top: std::ops::Range<usize>,
-    /// The innermost element that is gone with the name where that is dropped: a joint of
-    /// `ros2_control`, a whole transmission.
+    /// The innermost element to remove if the named link or joint is dropped: a joint of `ros2_control`, a whole
+    /// transmission.
     pub unit: std::ops::Range<usize>,
-    /// Whether it stands in an element that URDF does not define.
+    /// Whether it is in an element that URDF does not define.
     pub unknown: bool,
 }
 
-/// A place where a link or joint may be named, and it is not known whether it is.
+/// A value that equals the name of a link or joint but may mean something else.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct LeftAlone {
     /// `element`, or `element@attribute`.
     pub place: String,
-    /// The name that stands there.
+    /// The name.
     pub name: String,
 }
 
@@ -108,8 +107,8 @@ pub(super) struct Names {
     pub left_alone: BTreeSet<LeftAlone>,
 }
 
-/// Finds the names in a URDF. `more` says what else names links and joints in elements that URDF does not
-/// define: `element`, or `element@attribute`.
+/// Finds the names in a URDF. `more` lists further places of link and joint names in elements that URDF does not
+/// define: `element` or `element@attribute`.
 pub(super) fn find(document: &Document, robot: &UrdfModule, more: &BTreeSet<&str>) -> Names {
     let mut finder = Finder {
         links: robot.links.iter().map(|link| link.name.as_str()).collect(),
@@ -155,7 +154,7 @@ impl Finder<'_> {
     }
 
     fn attribute<'a>(&mut self, element: Node<'a, 'a>, key: &str, named: Named) {
-        // An empty name is how some programs write that there is none.
+        // Some programs write an empty name for a missing one.
         if let Some(found) = attribute(element, key).filter(|found| !found.value().is_empty()) {
             self.push(found.value(), named, found.range_value(), element);
         }
@@ -199,7 +198,7 @@ impl Finder<'_> {
         }
     }
 
-    /// An element that URDF does not define. `unit` is what goes with a name that is dropped.
+    /// Searches an element that URDF does not define. `unit` is what to remove with a dropped name.
     fn unknown<'a>(&mut self, element: Node<'a, 'a>, unit: std::ops::Range<usize>) {
         let tag = name(element);
         let begins = self.found.places.len();
@@ -236,7 +235,7 @@ impl Finder<'_> {
             place.unknown = true;
         }
         for (inner_tag, inner) in children(element) {
-            // A joint of ros2_control goes by itself; of a transmission, all of it goes.
+            // In ros2_control only the joint is removed; a transmission is removed as a whole.
             let is_own_unit = tag == "ros2_control";
             let unit = match is_own_unit && matches!(inner_tag, "joint" | "sensor" | "gpio") {
                 true => inner.range(),
@@ -264,10 +263,10 @@ impl Finder<'_> {
     }
 }
 
-/// The edits that give meshes other names.
+/// The edits that rename meshes.
 ///
 /// # Errors
-/// Where the text is no XML.
+/// If the text is not well-formed XML.
 pub(super) fn mesh_edits(
     text: &str,
     names: &BTreeMap<String, String>,
@@ -294,7 +293,7 @@ pub(super) fn mesh_edits(
     Ok(edits)
 }
 
-/// Text as it may stand in an attribute or an element.
+/// Escapes text for an attribute or an element.
 pub(super) fn escaped(text: &str) -> String {
     quick_xml::escape::escape(text).into_owned()
 }

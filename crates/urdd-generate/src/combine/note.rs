@@ -1,44 +1,44 @@
-//! What there is to say of robots that were put together.
+//! Notes about combined robots.
 
 use std::fmt;
 
 use crate::note as generated;
 use urdd_format::escape;
 
-/// What there is to say of robots that were put together.
+/// A note about combined robots.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Note {
-    /// Something was odd in the URDF of a part.
+    /// A deviation in the URDF of a part.
     Part {
         /// The part.
         part: String,
-        /// What.
+        /// The note from the generator.
         note: generated::Note,
     },
-    /// The URDD of the part has no file for a mesh that its URDF names.
+    /// The URDD of the part has no file for a mesh in its URDF.
     NoMesh {
         /// The part.
         part: String,
-        /// The mesh, as the URDF names it.
+        /// The mesh file name as written in the URDF.
         name: String,
     },
-    /// A legacy URDD lacks the original mesh of a link, and its plain mesh was taken.
+    /// A legacy URDD lacks the original mesh of a link; the plain mesh is used.
     PlainMesh {
         /// The part.
         part: String,
         /// The link.
         link: String,
     },
-    /// A material names a file of a texture. URDDs carry the textures that meshes name, not those that materials do.
+    /// A material references a texture file. URDDs store the textures of meshes, not those of materials.
     Texture {
         /// The part.
         part: String,
-        /// The texture, as the URDF names it.
+        /// The texture file name as written in the URDF.
         name: String,
     },
-    /// A link's or joint's name in an element that URDF does not define was left as it is: it is not known whether it
-    /// means the link or joint.
+    /// In an element that URDF does not define, a value equals the name of a link or joint. It was not renamed, since
+    /// it may mean something else.
     LeftAlone {
         /// The part.
         part: String,
@@ -47,21 +47,21 @@ pub enum Note {
         /// The name.
         name: String,
     },
-    /// An element went with the link or joint that it names.
+    /// An element was removed with the link or joint that it names.
     Gone {
         /// The part.
         part: String,
-        /// The element, and the name, in words.
+        /// The element and the name.
         what: String,
     },
-    /// A joint was frozen because the joint that it follows was.
+    /// A joint was frozen because the joint that it mimics was frozen.
     Following {
         /// The part.
         part: String,
         /// The joint.
         joint: String,
     },
-    /// An edit of skips names a link that was dropped.
+    /// A skip edit names a dropped link.
     EditLost {
         /// The part.
         part: String,
@@ -70,21 +70,21 @@ pub enum Note {
         /// The other.
         link_b: String,
     },
-    /// A legacy module says something that a recipe cannot, or does not say what one must.
+    /// A legacy module has content that a recipe cannot express, or lacks what a recipe needs.
     NotSaid(String),
     /// The parts skip pairs for different reasons.
     ReasonsDiffer,
-    /// Parts do not hold the same modules.
+    /// The parts have different modules.
     UnequalModules {
         /// The part.
         part: String,
-        /// What it lacks, and others have.
+        /// The modules that it lacks and others have.
         lacks: Vec<String>,
     },
 }
 
 impl Note {
-    /// Its word, for programs.
+    /// A machine-readable name of its kind.
     pub fn kind(&self) -> &'static str {
         match self {
             Note::Part { note, .. } => note.kind.as_str(),

@@ -1,5 +1,4 @@
-//! A part as it is taken up: its URDF, its meshes, what a person decided about its skips, and how it was
-//! put together itself.
+//! Loads a part: its URDF, its meshes, the user's decisions about its skips, and its own composition.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -26,56 +25,56 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::{self, RootMetadata};
 use urdd_format::urdf::UrdfModule;
 
-/// A part that was taken up.
+/// A loaded part.
 #[derive(Debug)]
 pub(super) struct Loaded {
-    /// The URDD: the source, or what was made of it.
+    /// The URDD: the source, or the one generated from it.
     pub root: Root,
     /// The text of its URDF.
     pub text: String,
-    /// What that says.
+    /// The robot in that text.
     pub robot: UrdfModule,
     /// The indices of its links, by name.
     pub links: HashMap<String, usize>,
     /// The indices of its joints, by name.
     pub joints: HashMap<String, usize>,
-    /// Where the files of its meshes are in the URDD, by the names in the URDF.
+    /// The mesh files in the URDD, by the names in the URDF.
     pub meshes: BTreeMap<String, MeshFile>,
-    /// What a person decided about its skips.
+    /// The user's decisions about its skips.
     pub skips: Option<Skips>,
-    /// What it is, and its digest.
+    /// The kind of source and its digest.
     pub source: PartSource,
-    /// How it was put together.
+    /// How it was composed, if it was.
     pub composition: Option<CompositionModule>,
-    /// How long the document is that says so, bytes.
+    /// The length of its composition document in bytes.
     pub composition_length: usize,
-    /// What was odd in a URDF.
+    /// Deviations in its URDF.
     pub notes: Vec<Note>,
-    /// Links whose mesh is the plain one of a legacy URDD, since it lacks the original.
+    /// Links with the plain mesh of a legacy URDD because the original is missing.
     pub plain_meshes: Vec<String>,
-    /// The classes' modules that it has.
+    /// The names of its modules.
     pub modules: Vec<String>,
 }
 
-/// The file of a mesh, and the files that it names; paths in the URDD.
+/// The file of a mesh and the files that it references, as paths in the URDD.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct MeshFile {
     pub path: String,
     pub side_files: Vec<String>,
 }
 
-/// What a person decided about skips.
+/// The user's decisions about skips.
 #[derive(Debug)]
 pub(super) struct Skips {
     pub reasons: Vec<SkippedReason>,
     pub edits: Vec<SkipEdit>,
 }
 
-/// Takes up a part. What has to be made of a URDF is made in `workplace`, a folder that is not there yet. `id` names a
-/// robot that has no name.
+/// Loads a part. A URDD for a URDF source is generated in `workplace`, a folder that must not exist yet. `id` is the
+/// name of a robot without one.
 ///
 /// # Errors
-/// Where it cannot be read, or is no robot.
+/// If it cannot be read or is not a valid robot.
 pub(super) fn load(
     source: &Source,
     id: &str,
@@ -97,7 +96,7 @@ pub(super) fn load(
         return read(root, None, id).map_err(refused);
     }
     let mut settings = settings.clone();
-    // What is made of links is made once, of what is put together.
+    // Derived modules are only generated for the combined robot.
     settings.selection = Selection::parse(["original_meshes"]).unwrap_or_else(|_| Selection::all());
     settings.reuse.clear();
     let (made, digest, plain_meshes) = match source.kind {
@@ -136,7 +135,7 @@ pub(super) fn load(
     })
 }
 
-/// Takes up a URDD of version 1.
+/// Loads a URDD of version 1.
 fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, PartFault> {
     let unreadable = |file: &str, reason: String| PartFault::Unreadable {
         file: file.to_owned(),
@@ -203,7 +202,7 @@ fn indices<'a>(names: impl Iterator<Item = &'a String>) -> HashMap<String, usize
     names.cloned().zip(0..).collect()
 }
 
-/// The files of meshes, by the names in the URDF.
+/// The mesh files by the names in the URDF.
 fn meshes(original: OriginalMeshesModule) -> BTreeMap<String, MeshFile> {
     let files: BTreeMap<&str, &Vec<String>> = (original.files.iter())
         .map(|file| (file.path.as_str(), &file.side_files))
@@ -229,13 +228,13 @@ struct Modules<'a> {
 }
 
 impl Modules<'_> {
-    /// The document of a module, where the URDD lists it.
+    /// The document of a module, if the URDD lists it.
     fn read<T: DeserializeOwned>(&self, kind: ModuleKind) -> Result<Option<T>, PartFault> {
         let document = self.document(kind)?;
         Ok(document.map(|(document, _)| document))
     }
 
-    /// The same, with its length in bytes.
+    /// The document of a module with its length in bytes, if the URDD lists it.
     fn document<T: DeserializeOwned>(
         &self,
         kind: ModuleKind,

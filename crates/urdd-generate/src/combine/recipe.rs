@@ -1,4 +1,4 @@
-//! A recipe: which robots are put together, and how.
+//! A recipe: the robots to combine, and how they are attached.
 
 use std::path::{Path, PathBuf};
 
@@ -9,23 +9,23 @@ use urdd_directory::position::Position;
 use urdd_format::nearest::nearest;
 use urdd_format::urdf::{JointType, Limit};
 
-/// Longest recipe, bytes.
+/// Maximum size of a recipe in bytes.
 pub const MAX_RECIPE_BYTES: u64 = 1 << 20;
 
-/// By what name parts hang on `[base]`: `base/link`.
+/// The id with which parts refer to `[base]`: `base/link`.
 pub(super) const BASE: &str = "base";
 
-/// A word of a recipe, and where it stands in the file; nowhere, where it came from the command line.
+/// A word of a recipe and its position in the file.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Word {
     /// The word.
     pub text: String,
-    /// Where it stands.
+    /// Its position; `None` if it is not from a file, such as on the command line.
     pub at: Option<Position>,
 }
 
 impl Word {
-    /// A word that stands in no file.
+    /// A word without a position.
     pub fn new(text: impl Into<String>) -> Self {
         Word {
             text: text.into(),
@@ -34,67 +34,67 @@ impl Word {
     }
 }
 
-/// Which robots are put together, and how.
+/// The robots to combine, and how they are attached.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recipe {
-    /// Where it stands, for messages; what it came from, where that is no file.
+    /// The name of the recipe in messages: its file, or another origin.
     pub shown: String,
-    /// Name of the robot that is made.
+    /// Name of the combined robot.
     pub name: Word,
-    /// A link of its own below the first part, and the joint between them.
+    /// An additional link below the first part, and the joint between them.
     pub base: Option<Base>,
-    /// The parts, in the order in which they stand in the URDF that is made.
+    /// The parts, in their order in the combined URDF.
     pub parts: Vec<Part>,
-    /// Where the sources of its parts may be.
+    /// The folders in which the sources of its parts may be.
     pub sources: Sources,
 }
 
-/// Where the sources of a recipe's parts may be, which decides whether a xacro file among them runs.
+/// Where the sources of a recipe's parts may be, and whether a xacro file among them may run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Sources {
-    /// The user named each of them: they may be anywhere, and a xacro file is expanded.
+    /// The user named each source. They may be anywhere, and xacro files are expanded.
     Named,
-    /// A file names them: they are in this folder, after links are resolved, or in one of
-    /// [`Settings::allowed_folders`]; a xacro file is expanded only with [`XacroSettings::expand_urdf`].
+    /// A file names the sources. With symbolic links resolved, they must be in this folder or in one of
+    /// [`Settings::allowed_folders`]. Xacro files are expanded only with [`XacroSettings::expand_urdf`].
     ///
     /// [`Settings::allowed_folders`]: crate::Settings::allowed_folders
     /// [`XacroSettings::expand_urdf`]: crate::XacroSettings::expand_urdf
     In(PathBuf),
 }
 
-/// A robot that becomes a part of another.
+/// A robot that becomes a part of another one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// By what name other parts refer to it.
+    /// The id with which other parts refer to it.
     pub id: Word,
     /// A URDD (a folder or a zip archive), or a URDF or xacro file.
     pub source: PathBuf,
-    /// What stands before its names in the robot that is made; empty for nothing.
+    /// The prefix of its names in the combined robot; may be empty.
     pub prefix: Word,
-    /// Links that are left out, each with all that hangs on it.
+    /// Links to drop, each with all its descendants.
     pub drop: Vec<Word>,
-    /// Joints that become fixed, each at a value for each of its DOFs, rad or m.
+    /// Joints to freeze, each at one value per DOF, rad or m.
     pub freeze: Vec<(Word, Vec<f64>)>,
-    /// What it hangs on; `None` for the one part that holds the others.
+    /// Where it is attached; `None` for the one root part.
     pub attach: Option<Attachment>,
-    /// Pairs of links that collision checks skip: a link of this part by its own name, one of another
-    /// part as `part/link`.
+    /// Pairs of links to skip in collision checks: a link of this part by its own name, a link of another part as
+    /// `part/link`.
     pub skip: Vec<[Word; 2]>,
-    /// What names links and joints in elements that URDF does not define: `element` for its text,
+    /// Places of link and joint names in elements that URDF does not define: `element` for its text,
     /// `element@attribute` for an attribute.
     pub names: Vec<Word>,
 }
 
-/// What a part hangs on.
+/// Where a part is attached.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attachment {
-    /// A link of another part: `part/link`, by its name in that part; or `base/link`, that of `[base]`.
+    /// A link of another part as `part/link`, with its name in that part; or the link of `[base]` as `base/link`.
     pub to: Word,
     /// The joint.
     pub joint: JointDescription,
 }
 
-/// A link that carries all parts, and the joint on it.
+/// An additional root link and the joint on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Base {
     /// Name of the link.
@@ -108,23 +108,23 @@ pub struct Base {
 pub struct JointDescription {
     /// Its name.
     pub name: Word,
-    /// How it moves.
+    /// The joint type.
     pub joint_type: JointType,
-    /// Position of its frame in the frame of the link that carries it, metres.
+    /// Position of the joint frame in the frame of its parent link, metres.
     pub xyz: [f64; 3],
-    /// Fixed-axis roll, pitch, yaw of its frame in that frame, radians.
+    /// Fixed-axis roll, pitch and yaw of the joint frame in that frame, radians.
     pub rpy: [f64; 3],
-    /// Its axis in its frame; `None` for URDF's default, (1, 0, 0).
+    /// The axis in the joint frame; `None` for URDF's default, (1, 0, 0).
     pub axis: Option<[f64; 3]>,
     /// Its limits.
     pub limit: Option<Limit>,
 }
 
 impl Recipe {
-    /// The usual case: one robot on a link of another, whose names stay as they are.
+    /// The usual case: one robot on a link of another. The names of the first one remain unchanged.
     ///
     /// # Errors
-    /// Where the two cannot be told apart.
+    /// If the resulting recipe is invalid.
     pub fn of_two(
         holder: &Path,
         held: &Path,
@@ -180,13 +180,13 @@ impl Recipe {
         }
     }
 
-    /// The place of a part.
+    /// The index of a part.
     pub(super) fn part(&self, id: &str) -> Option<usize> {
         self.parts.iter().position(|part| part.id.text == id)
     }
 
-    /// The part and the link that an attachment names, or why there is none such; no part where it is the
-    /// base.
+    /// The part index and the link that an attachment refers to, or an error if they do not exist. The index is `None`
+    /// for the base.
     pub(super) fn target<'a>(
         &self,
         to: &'a Word,
@@ -220,7 +220,7 @@ impl Recipe {
     }
 }
 
-/// An id of the name of a file.
+/// Derives an id from a file name.
 fn id_of(path: &Path) -> String {
     let name = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let name = name.file_name().unwrap_or_default().to_string_lossy();

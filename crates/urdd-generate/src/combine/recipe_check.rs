@@ -1,5 +1,5 @@
-//! What can be said of a recipe before any part is read. Recipes come from anybody: the work is linear in the parts, of
-//! which there are no more than a robot may have links.
+//! Checks a recipe before any part is read. Recipes are untrusted input: the work is linear in the number of parts,
+//! which is limited to the maximum number of links.
 
 use std::collections::HashMap;
 
@@ -8,14 +8,14 @@ use super::recipe::{Attachment, Recipe, Word};
 use super::recipe_fault::RecipeFault;
 use crate::MOST_LINKS;
 
-/// Longest name of a robot, bytes: files are named after it.
+/// Maximum length of a robot's name in bytes: files are named after it.
 const MAX_NAME_BYTES: usize = 200;
 
-/// Longest prefix, bytes: it is written before thousands of names.
+/// Maximum length of a prefix in bytes: it is repeated before thousands of names.
 const MAX_PREFIX_BYTES: usize = 100;
 
 impl Recipe {
-    /// Checks the number of parts, their names, and what each hangs on.
+    /// Checks the number of parts, their names and their attachments.
     pub(super) fn check(&self) -> Result<(), CombineError> {
         if self.parts.is_empty() {
             return Err(self.refused(&Word::default(), RecipeFault::NoParts));
@@ -41,7 +41,7 @@ impl Recipe {
         self.check_attachments()
     }
 
-    /// Names and prefixes that a URDF can hold.
+    /// Checks that names and prefixes can be written in a URDF.
     fn check_words(&self) -> Result<(), CombineError> {
         let unlimited = usize::MAX;
         self.check_word("the name", &self.name, MAX_NAME_BYTES)?;
@@ -67,7 +67,7 @@ impl Recipe {
         limit: usize,
     ) -> Result<(), CombineError> {
         let text = &word.text;
-        // XML holds no other control characters, and turns these into spaces.
+        // XML does not allow other control characters, and turns these into spaces.
         let is_unfit = |c: &char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
         let why = if text.trim().is_empty() {
             "is nothing but white space; write a name".to_owned()
@@ -104,7 +104,7 @@ impl Recipe {
         Ok(())
     }
 
-    /// Follows each part to the one that holds all, no part twice.
+    /// Follows each part to the root part; visits no part twice.
     fn check_attachments(&self) -> Result<(), CombineError> {
         let mut holders: Vec<Option<(usize, &Attachment)>> = Vec::new();
         for part in &self.parts {
@@ -113,7 +113,7 @@ impl Recipe {
                 None => None,
             });
         }
-        // For each part, the part from which it was first reached.
+        // For each part, the start from which it was first reached.
         let mut seen: Vec<Option<usize>> = vec![None; self.parts.len()];
         for start in 0..self.parts.len() {
             let mut now = start;
@@ -132,7 +132,7 @@ impl Recipe {
         Ok(())
     }
 
-    /// The ring that a part is in.
+    /// The cycle that contains a part.
     fn ring(&self, start: usize, holders: &[Option<(usize, &Attachment)>]) -> RecipeFault {
         let (mut ids, mut now) = (Vec::new(), start);
         while let Some((holder, _)) = holders[now] {

@@ -1,4 +1,4 @@
-//! What is wrong with a recipe.
+//! Faults of a recipe.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use urdd_directory::position::Position;
 use urdd_format::escape;
 use urdd_format::urdf::JointType;
 
-/// `:line:column`.
+/// Formats a position as `:line:column`.
 pub(super) struct Place(pub Option<Position>);
 
 impl fmt::Display for Place {
@@ -20,12 +20,12 @@ impl fmt::Display for Place {
     }
 }
 
-/// The word of a joint type, as URDFs and recipes write it.
+/// A joint type as written in URDFs and recipes.
 pub(super) fn joint_type_word(joint_type: JointType) -> String {
     joint_type.as_str().to_ascii_lowercase()
 }
 
-/// The beginning of a word that may be very long.
+/// Shortens a word that may be very long.
 fn shortened(word: &str) -> String {
     const SHOWN: usize = 60;
     match word.char_indices().nth(SHOWN) {
@@ -34,7 +34,7 @@ fn shortened(word: &str) -> String {
     }
 }
 
-/// `, did you mean …?`
+/// Formats a suggestion: `; did you mean …?`
 struct Meant<'a>(&'a Option<String>);
 
 impl fmt::Display for Meant<'_> {
@@ -46,14 +46,14 @@ impl fmt::Display for Meant<'_> {
     }
 }
 
-/// What is wrong with a recipe.
+/// A fault of a recipe.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RecipeFault {
-    /// No TOML, or a value of the wrong type.
+    /// Not valid TOML, or a value of the wrong type.
     #[error("{}", escape::line(.0))]
     Toml(String),
-    /// A key that means nothing.
+    /// An unknown key.
     #[error(
         "there is no key `{}`{}; there are: {known}",
         escape::line(key),
@@ -62,67 +62,67 @@ pub enum RecipeFault {
     UnknownKey {
         /// The key.
         key: String,
-        /// The nearest one that there is.
+        /// The nearest known key.
         nearest: Option<String>,
-        /// Those that there are.
+        /// The known keys.
         known: String,
     },
-    /// A key that must be there.
+    /// A missing key.
     #[error("`{0}` is missing")]
     MissingKey(&'static str),
-    /// Nothing to put together.
+    /// The recipe has no parts.
     #[error("there is no part; write one or more tables `[[part]]`, each with `id` and `source`")]
     NoParts,
-    /// More parts, or links, than a robot may have links.
+    /// More links than a robot may have, or more parts.
     #[error(
         "a robot has at most {limit} links, and the parts have {found} or more: use fewer parts, or drop links"
     )]
     TooManyLinks {
-        /// Links up to the part at which reading stopped.
+        /// Number of links up to the part at which reading stopped.
         found: usize,
-        /// How many there may be.
+        /// Maximum number of links.
         limit: usize,
     },
-    /// Parts with more text than a robot may have.
+    /// More text in the parts than a robot may have.
     #[error("{what} of the parts have more than {} MiB together: use fewer parts, or shorter ones", limit >> 20)]
     TooLong {
-        /// What: `the URDFs`, `the composition modules`, `the edits of skips`.
+        /// The kind of text: `the URDFs`, `the composition modules`, `the edits of skips`.
         what: &'static str,
-        /// Bytes that there may be.
+        /// Maximum number of bytes.
         limit: u64,
     },
-    /// A name or prefix that a URDF cannot hold.
+    /// A name or prefix that cannot be written in a URDF.
     #[error("{what} `{}` {why}", escape::line(&shortened(found)))]
     BadWord {
-        /// What it is: `the name`, `the prefix`.
+        /// The kind of word: `the name`, `the prefix`, `the link`, `the joint`.
         what: &'static str,
         /// The word.
         found: String,
-        /// What is wrong with it, and what to do.
+        /// What is wrong with it and what to do.
         why: String,
     },
-    /// An id that cannot stand in `part/link`.
+    /// An id that cannot be used in `part/link`.
     #[error("`{}` is no id; write letters, digits, `_` and `-`", escape::line(.0))]
     BadId(String),
-    /// Two parts of one id.
+    /// Two parts with the same id.
     #[error(
         "there is another part `{}`{}; ids differ in more than upper and lower case", escape::line(id), Place(*first)
     )]
     IdTwice {
         /// The id.
         id: String,
-        /// Where the first part stands.
+        /// Position of the first part.
         first: Option<Position>,
     },
-    /// An attachment that names no part.
+    /// An attachment that does not name a part.
     #[error("`{}` names no part; write `part/link`", escape::line(.0))]
     NoPartNamed(String),
-    /// A part that is not there.
+    /// A part that does not exist.
     #[error("there is no part `{}`{}", escape::line(name), Meant(nearest))]
     UnknownPart {
         /// Its name.
         name: String,
-        /// The nearest one that there is.
+        /// The nearest existing id.
         nearest: Option<String>,
     },
     /// A link or joint that a part does not have.
@@ -139,10 +139,10 @@ pub enum RecipeFault {
         part: String,
         /// The name.
         name: String,
-        /// The nearest one that there is.
+        /// The nearest existing name.
         nearest: Option<String>,
     },
-    /// Two parts that hang on nothing.
+    /// Two parts without an attachment.
     #[error(
         "parts `{}` and `{}` both hang on nothing, and a robot has one root; give one of them `attach`",
         escape::line(first),
@@ -154,15 +154,15 @@ pub enum RecipeFault {
         /// The second.
         second: String,
     },
-    /// A part on itself.
+    /// A part that is attached to itself.
     #[error("part `{}` hangs on itself; `attach.to` names a link of another part", escape::line(.0))]
     OnItself(String),
-    /// Parts that hang on each other.
+    /// Parts that are attached to each other in a cycle.
     #[error(
         "parts hang on each other in a ring: `{}`; one part must hang on nothing, or on `[base]`", escape::line(&.0.join("` on `"))
     )]
     Ring(Vec<String>),
-    /// A joint of a type that URDF does not have.
+    /// A joint type that URDF does not define.
     #[error(
         "there is no joint type `{}`{}; there are: revolute, continuous, prismatic, fixed, floating, planar, spherical",
         escape::line(found),
@@ -171,15 +171,15 @@ pub enum RecipeFault {
     UnknownJointType {
         /// The word.
         found: String,
-        /// The nearest one that there is.
+        /// The nearest joint type.
         nearest: Option<String>,
     },
-    /// A joint that needs limits.
+    /// A joint without the limits that it needs.
     #[error(
         "a {} joint has limits: `limit = {{ lower = …, upper = …, effort = …, velocity = … }}`", joint_type_word(*.0)
     )]
     NoLimit(JointType),
-    /// Limits that nothing lies between.
+    /// A lower limit above the upper one.
     #[error("the lower limit, {lower}, is above the upper one, {upper}")]
     CrossedLimit {
         /// The lower limit.
@@ -187,13 +187,13 @@ pub enum RecipeFault {
         /// The upper limit.
         upper: f64,
     },
-    /// An axis without direction.
+    /// A zero axis.
     #[error("the axis is 0 0 0, which has no direction")]
     ZeroAxis,
-    /// A number that is infinite, or none.
+    /// A number that is infinite or NaN.
     #[error("a number of `{0}` is not finite")]
     NotFinite(&'static str),
-    /// Dropping the link that all others hang on.
+    /// The root link of a part cannot be dropped.
     #[error(
         "`{}` is the root of part `{}`: without it nothing is left; leave out the part, or drop links further out",
         escape::line(link),
@@ -205,7 +205,7 @@ pub enum RecipeFault {
         /// The link.
         link: String,
     },
-    /// Something needs a link or joint that is dropped.
+    /// A link or joint is needed but dropped.
     #[error(
         "the {what} `{}` of part `{}` is dropped, with `{}`",
         escape::line(name),
@@ -219,10 +219,10 @@ pub enum RecipeFault {
         part: String,
         /// Its name.
         name: String,
-        /// What is dropped.
+        /// The entry in `drop` that removes it.
         with: String,
     },
-    /// A mimic whose driver is dropped.
+    /// A mimic joint whose driver is dropped.
     #[error(
         "joint `{}` of part `{}` follows `{}`, which is dropped with `{}`; freeze the joint, or drop what hangs on it too",
         escape::line(joint),
@@ -233,14 +233,14 @@ pub enum RecipeFault {
     DriverDropped {
         /// The part.
         part: String,
-        /// The joint that follows.
+        /// The mimic joint.
         joint: String,
-        /// The joint that is followed.
+        /// The joint that it mimics.
         driver: String,
-        /// What is dropped.
+        /// The entry in `drop` that removes it.
         with: String,
     },
-    /// Freezing what does not move.
+    /// A fixed joint cannot be frozen.
     #[error(
         "joint `{}` of part `{}` is fixed already",
         escape::line(joint),
@@ -252,7 +252,7 @@ pub enum RecipeFault {
         /// The joint.
         joint: String,
     },
-    /// Freezing with too few or too many numbers.
+    /// A frozen joint with the wrong number of values.
     #[error(
         "joint `{}` of part `{}` has {expected} DOF{}, and there {} {found}", escape::line(joint), escape::line(part), if *expected == 1 { "" } else { "s" }, if *found == 1 { "is" } else { "are" }
     )]
@@ -261,12 +261,12 @@ pub enum RecipeFault {
         part: String,
         /// The joint.
         joint: String,
-        /// Numbers that it takes.
+        /// Number of values that it needs.
         expected: usize,
-        /// Numbers that are there.
+        /// Number of values found.
         found: usize,
     },
-    /// Freezing a joint where it cannot be.
+    /// A joint frozen outside its limits.
     #[error(
         "joint `{}` of part `{}` moves from {lower} to {upper}, and cannot be frozen at {value}",
         escape::line(joint),
@@ -277,29 +277,29 @@ pub enum RecipeFault {
         part: String,
         /// The joint.
         joint: String,
-        /// Where it is to be.
+        /// The given position.
         value: f64,
         /// Its lower limit.
         lower: f64,
         /// Its upper limit.
         upper: f64,
     },
-    /// A name that two parts have.
+    /// A name that occurs twice.
     #[error(
         "the {what} `{}` comes of {first} and of {second}; give one of them a `prefix`, or another name",
         escape::line(name)
     )]
     Clash {
-        /// What bears the name.
+        /// The kind of thing with the name.
         what: &'static str,
-        /// The name in the robot that is made.
+        /// The name in the combined robot.
         name: String,
-        /// Where it comes from first.
+        /// The first origin of the name.
         first: String,
-        /// Where it comes from again.
+        /// The second origin of the name.
         second: String,
     },
-    /// A prefix of XML names that stands for two things.
+    /// An XML prefix with two different namespaces.
     #[error(
         "the XML prefix `{}` stands for `{}` in one part and for `{}` in part `{}`; write one of them otherwise in its URDF",
         escape::line(prefix),
@@ -310,14 +310,14 @@ pub enum RecipeFault {
     Namespace {
         /// The prefix.
         prefix: String,
-        /// What it stands for first.
+        /// Its first namespace.
         first: String,
-        /// What it stands for in the part.
+        /// Its namespace in the part.
         second: String,
         /// The part.
         part: String,
     },
-    /// A word of `names` that is not of its form.
+    /// An entry of `names` in the wrong form.
     #[error(
         "`{}` says not what names links and joints; write `element` for its text, or `element@attribute`", escape::line(.0)
     )]

@@ -1,4 +1,4 @@
-//! A recipe from the text of its file.
+//! Reads a recipe from its file.
 
 use std::fs;
 use std::path::Path;
@@ -16,10 +16,10 @@ use urdd_format::nearest::nearest;
 use urdd_format::urdf::{JointType, Limit};
 
 impl Recipe {
-    /// Reads a recipe from its file. Sources are relative to the folder that the file is in.
+    /// Reads a recipe from its file. Sources are relative to the folder of the file.
     ///
     /// # Errors
-    /// As [`Recipe::from_toml`], and where the file cannot be read.
+    /// Those of [`Recipe::from_toml`], or if the file cannot be read.
     pub fn read(file: &Path) -> Result<Recipe, CombineError> {
         let shown = file.display().to_string();
         let unreadable = |reason: String| CombineError::Unreadable {
@@ -43,10 +43,10 @@ impl Recipe {
         Recipe::from_toml(&text, &shown, &folder)
     }
 
-    /// Reads a recipe from the text of a TOML file in a folder; sources are relative to that, and not outside of it.
+    /// Reads a recipe from the text of a TOML file. Sources are relative to `folder` and must be inside it.
     ///
     /// # Errors
-    /// Where it is no recipe: what, where, and what to do.
+    /// If it is not a valid recipe: what is wrong, where, and what to do.
     pub fn from_toml(text: &str, shown: &str, folder: &Path) -> Result<Recipe, CombineError> {
         let lines = LineIndex::new(text);
         let refused = |offset: Option<usize>, fault: RecipeFault| CombineError::Recipe {
@@ -92,7 +92,7 @@ impl Recipe {
     }
 }
 
-/// What is wrong, and at which byte.
+/// A value, or a fault with its byte offset.
 type Placed<T> = Result<T, (Option<usize>, RecipeFault)>;
 
 struct Reader<'a> {

@@ -1,4 +1,4 @@
-//! How a robot was put together, as its `composition_module` says it.
+//! Builds the `composition_module`, which records how a robot was composed.
 
 use super::compose::Taken;
 use super::error::CombineError;
@@ -10,10 +10,10 @@ use urdd_format::composition::{
 use urdd_format::index::{JointIdx, LinkIdx, RobotIdx};
 use urdd_format::urdf::UrdfModule;
 
-/// Makes the module of a robot that was put together.
+/// Builds the module of a combined robot.
 ///
 /// # Errors
-/// Where an attachment names no part; that was found before.
+/// If an attachment does not name a part; an earlier check rules this out.
 pub(super) fn composition(
     recipe: &Recipe,
     parts: &[Taken],

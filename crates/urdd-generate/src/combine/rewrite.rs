@@ -1,5 +1,5 @@
-//! The text of a part as it stands in the robot that is made: names with the prefix, meshes where they are
-//! carried, without what is dropped, and frozen joints fixed.
+//! Rewrites the text of a part for the combined robot: prefixes names, renames meshes, removes what is dropped, and
+//! fixes frozen joints.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -14,41 +14,41 @@ use crate::has_quaternions;
 use urdd_xml::element::{Edit, apply, attribute, children, name_at};
 use urdd_xml::{Kind, parse};
 
-/// A part's text, and what is to be said of it.
+/// The rewritten text of a part, and what to report about it.
 #[derive(Debug)]
 pub(super) struct Rewritten {
-    /// All that stands within `<robot>`.
+    /// The content of `<robot>`.
     pub inner: String,
-    /// The XML prefixes that `<robot>` declares, and what they stand for; the empty one for none.
+    /// The XML namespaces that `<robot>` declares, by prefix; an empty prefix for the default namespace.
     pub namespaces: Vec<(String, String)>,
-    /// Names of things of their own, besides links, joints and materials, as they are now.
+    /// New names of elements such as transmissions, which are not links, joints or materials.
     pub own: Vec<String>,
-    /// What may name links or joints, and was left as it is.
+    /// Values that may name links or joints and were left unchanged.
     pub left_alone: BTreeSet<LeftAlone>,
-    /// Elements that went with what they name, by name.
+    /// Elements that were removed with what they name.
     pub gone: Vec<String>,
 }
 
-/// What a part's text becomes.
+/// The inputs for rewriting a part's text.
 pub(super) struct Rewrite<'a> {
     pub loaded: &'a Loaded,
     pub trim: &'a Trim,
     pub prefix: &'a str,
-    /// What names links and joints besides what is known to.
+    /// Additional places of link and joint names.
     pub names: &'a BTreeSet<&'a str>,
-    /// For names of meshes, where they are carried.
+    /// New names of meshes.
     pub meshes: &'a BTreeMap<String, String>,
-    /// Materials at the top of the file that another part has too, by their places.
+    /// Indices of top-level materials that an earlier part also has.
     pub repeated_materials: &'a BTreeSet<usize>,
-    /// Whether `quat_xyzw` counts in the robot that is made.
+    /// Whether `quat_xyzw` applies in the combined robot.
     pub quaternions: bool,
 }
 
 impl Rewrite<'_> {
-    /// Makes the text.
+    /// Rewrites the text.
     ///
     /// # Errors
-    /// Where the text cannot be parsed, in words.
+    /// The parser's error as text.
     pub fn run(&self) -> Result<Rewritten, String> {
         let text = self.loaded.text.trim_start_matches('\u{feff}');
         let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
@@ -97,8 +97,8 @@ impl Rewrite<'_> {
         })
     }
 
-    /// Whether what a name stands in goes with what it names. Links and joints themselves go by
-    /// their elements.
+    /// Whether the element around a name is removed with what it names. Links and joints themselves are removed by
+    /// `structure`.
     fn goes(&self, document: &Document, place: &NamePlace) -> bool {
         let tag = name_at(document, &place.top);
         if !place.unknown {
@@ -108,7 +108,7 @@ impl Rewrite<'_> {
         let joint = || self.loaded.joints.get(&place.name).copied();
         let no_link = || link().is_none_or(|link| !self.trim.keeps_link(link));
         let no_joint = || joint().is_none_or(|joint| !self.trim.keeps_joint(joint));
-        // What moves a joint, and one that does not move any more.
+        // Elements that drive a joint go with a frozen joint as well.
         let is_of_motion = matches!(tag, "transmission" | "ros2_control");
         let is_frozen = || joint().is_some_and(|joint| self.trim.frozen.contains_key(&joint));
         match place.named {
@@ -119,8 +119,8 @@ impl Rewrite<'_> {
         }
     }
 
-    /// Links and joints that are dropped, joints that are fixed, materials that are there already. Gives
-    /// where what is dropped begins.
+    /// Removes dropped links and joints and repeated materials, and fixes frozen joints. Returns the offsets of the
+    /// dropped elements.
     fn structure(&self, text: &str, document: &Document, edits: &mut Vec<Edit>) -> BTreeSet<usize> {
         let mut dropped = BTreeSet::new();
         let (mut link_idx, mut joint_idx, mut material_idx) = (0, 0, 0);
@@ -154,7 +154,7 @@ impl Rewrite<'_> {
         }
         let own_version = self.loaded.robot.version.as_deref();
         if self.quaternions && !has_quaternions(own_version) {
-            // They meant nothing, and would now.
+            // Remove quaternions that had no effect before but would have one now.
             for origin in root.descendants().filter(Node::is_element) {
                 let found =
                     attribute(origin, "quat_xyzw").filter(|_| origin.has_tag_name("origin"));
@@ -206,7 +206,7 @@ impl Rewrite<'_> {
     }
 }
 
-/// Takes something out, with the white space before it.
+/// Removes a range and the white space before it.
 fn removal(text: &str, range: &Range<usize>) -> Edit {
     let before = text[..range.start].trim_end().len();
     Edit {
@@ -215,7 +215,7 @@ fn removal(text: &str, range: &Range<usize>) -> Edit {
     }
 }
 
-/// All that stands within `<robot>`.
+/// The content of `<robot>`.
 fn inner(text: &str) -> Result<String, String> {
     let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
     let root = document.root_element();

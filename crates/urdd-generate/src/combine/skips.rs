@@ -1,4 +1,4 @@
-//! What people decided about the skips of the parts, and what the recipe says of pairs across them.
+//! Combines the users' decisions about the skips of the parts with the recipe's skips between parts.
 
 use std::collections::HashMap;
 
@@ -10,13 +10,13 @@ use super::recipe_fault::RecipeFault;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_format::nearest::nearest;
 
-/// Why a pair of the recipe is skipped.
+/// The reason given for a skip from the recipe.
 const REASON: &str = "the recipe skips it";
 
-/// The edits of the robot that is made, and the reasons for which its pairs are skipped.
+/// The skip edits of the combined robot, and the reasons for which its pairs are skipped.
 ///
 /// # Errors
-/// Where the recipe names a link that is not there.
+/// If the recipe names a missing link.
 pub(super) fn decisions(
     recipe: &Recipe,
     parts: &[Taken],
@@ -73,7 +73,7 @@ pub(super) fn decisions(
     Ok((edits, first))
 }
 
-/// The link that a word of the part `own` means, by its name in the robot that is made.
+/// The name, in the combined robot, of the link that a word of the part `own` refers to.
 fn link(
     recipe: &Recipe,
     by_id: &HashMap<&str, &Taken>,
@@ -88,10 +88,10 @@ fn link(
     }
 }
 
-/// The name, in the robot that is made, of a link of a part.
+/// The name of a part's link in the combined robot.
 ///
 /// # Errors
-/// Where the part has no such link, or it is dropped.
+/// If the part has no such link, or it is dropped.
 pub(super) fn existing(
     recipe: &Recipe,
     taken: &Taken,

@@ -1,7 +1,7 @@
-//! Where the parts of a recipe come from, and what of them may run.
+//! The sources of a recipe's parts, and which of them may run as programs.
 //!
-//! A recipe may come from a stranger, with the folder that it is in. So it takes parts from there and no further, and runs
-//! no program, unless the user says so.
+//! A recipe may come from a stranger, together with its folder. It therefore uses only parts in that folder and runs no
+//! program, unless the user allows more.
 
 use std::path::{Path, PathBuf};
 
@@ -11,21 +11,21 @@ use crate::Settings;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::source::{is_archive, is_urdd};
 
-/// What a source is.
+/// The kind of a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SourceKind {
     /// A URDD of version 1: a folder or an archive.
     Urdd,
-    /// A URDD of before version 1, which is taken up by the URDF that it carries.
+    /// A URDD from before version 1, which is used through the URDF in it.
     Legacy,
     /// A URDF or xacro file.
     Urdf,
 }
 
-/// What the source of a part is.
+/// The kind of a part's source.
 ///
 /// # Errors
-/// Where there is nothing.
+/// If there is none.
 pub fn source_kind(path: &Path) -> Result<SourceKind, PartFault> {
     if path.is_dir() {
         return match (is_urdd(path), path.join(ROOT_METADATA).is_file()) {
@@ -41,19 +41,19 @@ pub fn source_kind(path: &Path) -> Result<SourceKind, PartFault> {
     }
 }
 
-/// The source of a part, which may be read.
+/// The source of a part that may be read.
 pub(super) struct Source {
-    /// Where it is; after links are resolved, unless the user named it.
+    /// Its path; symbolic links are resolved unless the user named it.
     pub path: PathBuf,
     pub kind: SourceKind,
 }
 
 impl Recipe {
-    /// The source of one of the parts.
+    /// The source of a part.
     ///
     /// # Errors
-    /// Where there is nothing, where it is outside of the folders that the recipe may take parts from, and where it is a
-    /// xacro file that may not run.
+    /// If it does not exist, is outside the folders from which the recipe may use parts, or is a xacro file that may
+    /// not run.
     pub(super) fn source(&self, part: &Part, settings: &Settings) -> Result<Source, CombineError> {
         self.allowed(&part.source, settings)
             .map_err(|fault| CombineError::Part {

@@ -1,4 +1,4 @@
-//! The recipe's file as TOML has it. Which keys there may be is checked before, by `keys`.
+//! The structure of a recipe file in TOML. `keys` rejects unknown keys beforehand.
 
 use std::collections::BTreeMap;
 
@@ -29,7 +29,7 @@ pub(super) struct PartFile {
     pub names: Vec<Spanned<String>>,
 }
 
-/// One number, or one for each DOF.
+/// One number, or one per DOF.
 #[derive(Deserialize)]
 #[serde(untagged)]
 pub(super) enum FreezeValue {
@@ -37,7 +37,7 @@ pub(super) enum FreezeValue {
     Several(Vec<f64>),
 }
 
-/// `base` has a `link`, `attach` a `to`.
+/// `base` has a `link`, `attach` has a `to`.
 #[derive(Deserialize)]
 pub(super) struct JointFile {
     pub to: Option<Spanned<String>>,

@@ -1,4 +1,4 @@
-//! A recipe as the text of its file.
+//! Writes a recipe as TOML.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use super::recipe_fault::joint_type_word;
 use urdd_format::urdf::JointType;
 
 impl Recipe {
-    /// The text of a file in `folder` that says the same. Sources in or below `folder` are written relative to it.
+    /// The TOML text of this recipe for a file in `folder`. Sources inside `folder` are written relative to it.
     pub fn to_toml(&self, folder: &Path) -> String {
         let mut text = format!("name = {}\n", string(&self.name.text));
         if let Some(base) = &self.base {
@@ -74,7 +74,7 @@ fn numbers(values: &[f64]) -> String {
     }
 }
 
-/// The keys of a joint, with their values.
+/// The keys of a joint and their values.
 fn joint(of: &JointDescription) -> Vec<(&'static str, String)> {
     let mut keys = vec![("name", string(&of.name.text))];
     if of.joint_type != JointType::Fixed {

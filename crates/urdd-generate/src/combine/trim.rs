@@ -1,4 +1,4 @@
-//! What of a part comes along: links and joints that are dropped, joints that are made fixed.
+//! Determines which links and joints of a part are dropped, and which joints are frozen.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -9,15 +9,15 @@ use super::recipe_fault::RecipeFault;
 use urdd_format::nearest::nearest;
 use urdd_format::urdf::{Joint, JointType};
 
-/// What of a part comes along. Lists go with the part's own links and joints.
+/// What is dropped and frozen. Lists are indexed by the part's own links and joints.
 #[derive(Debug)]
 pub(super) struct Trim {
-    /// For each link, the link with which it is dropped, by its place in the part's `drop`.
+    /// For each link, the index of the entry in the part's `drop` that removes it.
     pub dropped_links: Vec<Option<usize>>,
     pub dropped_joints: Vec<Option<usize>>,
-    /// Joints that become fixed, with a value for each of their DOFs.
+    /// Frozen joints, with a value for each of their DOFs.
     pub frozen: BTreeMap<usize, Vec<f64>>,
-    /// Joints that become fixed because the joint that they follow does.
+    /// Joints that are frozen because the joint that they mimic is.
     pub following: Vec<String>,
     /// The root link.
     pub root: usize,
@@ -33,10 +33,10 @@ impl Trim {
     }
 }
 
-/// Finds out what comes along.
+/// Determines what is dropped and frozen.
 ///
 /// # Errors
-/// Where the recipe names what is not there, or what cannot be.
+/// If the recipe names a missing link or joint, or asks for something impossible.
 pub(super) fn trim(recipe: &Recipe, part: &Part, loaded: &Loaded) -> Result<Trim, CombineError> {
     let trimmer = Trimmer {
         recipe,
@@ -86,7 +86,7 @@ impl Trimmer<'_> {
             }
             trim.dropped_links[link].get_or_insert(with);
         }
-        // A joint goes with its child, and all that hangs on a link with the link: from the root outward.
+        // A joint is dropped with its child link, and a link with its parent link: traverse from the root.
         let mut joints_on: Vec<Vec<(usize, usize)>> = vec![Vec::new(); robot.links.len()];
         for (idx, joint) in robot.joints.iter().enumerate() {
             let of = |name: &String| self.loaded.links.get(name).copied();
@@ -150,8 +150,8 @@ impl Trimmer<'_> {
         Ok(())
     }
 
-    /// What follows a joint that is frozen is frozen where it is then; what follows one that is dropped
-    /// has nothing to follow.
+    /// Freezes the mimic joints of frozen joints at the resulting positions. A mimic joint whose driver is dropped is
+    /// an error.
     fn follow(&self, trim: &mut Trim) -> Result<(), CombineError> {
         let joints = &self.loaded.robot.joints;
         let mut followers: Vec<Vec<usize>> = vec![Vec::new(); joints.len()];
@@ -219,7 +219,7 @@ impl Trimmer<'_> {
     }
 }
 
-/// How many numbers say where a joint is.
+/// Number of values that define a joint's position.
 fn num_dofs(joint_type: JointType) -> usize {
     match joint_type {
         JointType::Fixed => 0,
@@ -229,7 +229,7 @@ fn num_dofs(joint_type: JointType) -> usize {
     }
 }
 
-/// The limits of a joint that has some: SPEC 6.5.
+/// The limits of a joint, if it has any: SPEC 6.5.
 fn limits(joint: &Joint) -> Option<[f64; 2]> {
     let is_limited = matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic);
     let limit = joint.limit.as_ref().filter(|_| is_limited)?;

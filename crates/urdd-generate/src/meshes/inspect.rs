@@ -1,4 +1,4 @@
-//! Mesh files: what they hold, and what they need besides themselves.
+//! Inspects mesh files: their content, and the files that they reference.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -11,35 +11,35 @@ use crate::bounded::read_file;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_geometry::read::{Format, NoteCode, Scene, read};
 
-/// What is known of a mesh file. A file is opened once: what was looked at is what is carried.
+/// A mesh file after inspection. A file is opened only once: the inspected bytes are those that are stored.
 #[derive(Debug, Clone)]
 pub(crate) struct Inspected {
-    /// The file itself, or `None` where it is no mesh, and not carried.
+    /// The file's bytes; `None` if it cannot be read or is not a mesh, and is thus not stored.
     pub bytes: Option<Arc<Vec<u8>>>,
-    /// The files that the mesh names (`.mtl`, `.bin`, textures), as far as they are carried.
+    /// The stored files that the mesh references (`.mtl`, `.bin`, textures).
     pub side_files: BTreeMap<PathBuf, SideFile>,
-    /// What it holds, or in words why it is no mesh with a surface.
+    /// Its content, or the reason why it has no usable surface.
     pub scene: Result<Arc<Scene>, String>,
-    /// Files that it names and that are not carried, as it names them, and why.
+    /// Referenced files that are not stored, as written in the mesh, and why.
     pub left_out: Vec<(String, String)>,
-    /// What was repaired or left out in reading it.
+    /// What was repaired or ignored while reading.
     pub remarks: Vec<String>,
 }
 
-/// A file that a mesh names.
+/// A file that a mesh references.
 #[derive(Debug, Clone)]
 pub(crate) struct SideFile {
     pub bytes: Arc<Vec<u8>>,
     pub place: Place,
 }
 
-/// Kinds of files that a mesh may bring along, by their extension: the images last.
+/// File extensions that a mesh may reference; the images are last.
 const SIDE_FILES: &[&str] = &[
     "mtl", "bin", "png", "jpg", "jpeg", "tga", "bmp", "dds", "gif", "tif", "tiff", "webp", "hdr",
     "exr", "ktx2", "ppm", "pgm",
 ];
 
-/// Looks into a mesh file of a place.
+/// Inspects a mesh file.
 pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
     let unusable = |bytes: Option<Vec<u8>>, why: String| Inspected {
         bytes: bytes.map(Arc::new),
@@ -68,7 +68,7 @@ pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
         Err(error) => {
             let words = error.to_string();
             let file = format!("{name}: ");
-            // Whoever prints this names the file.
+            // The caller's message names the file.
             let words = words.strip_prefix(&file).unwrap_or(&words).to_owned();
             let is_mesh = sniff::is_mesh(&bytes, None);
             return unusable(is_mesh.then_some(bytes), words);
@@ -91,8 +91,8 @@ pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
             NoTriangles, NodeTransform, SideFileMissing, TurnedToZUp, UnitApplied, UnusedVertices,
             UpAxisIgnored, WrongBounds, WrongNormals,
         };
-        // The first is said as why the mesh is unusable, the second of each file. The others are how
-        // such files are read; to say so of every mesh helps nobody.
+        // NoTriangles is reported as the reason why the mesh is unusable, SideFileMissing for each file. The others are
+        // normal for such files, and reporting them for every mesh would not help.
         !matches!(
             code,
             NoTriangles
@@ -124,7 +124,7 @@ pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
 
 type Found = Result<(PathBuf, SideFile), String>;
 
-/// The files that a mesh names, each read once.
+/// The files that a mesh references, each read once.
 struct Beside<'a> {
     mesh: &'a Path,
     place: &'a Place,
@@ -133,7 +133,7 @@ struct Beside<'a> {
 }
 
 impl Beside<'_> {
-    /// A file that the mesh names, where it is what a mesh of this format means by it.
+    /// A referenced file whose content fits the mesh format.
     fn carried(&self, side: &str, mesh: Format) -> Found {
         let (path, file) = self.read(side)?;
         let extension = extension(&path).unwrap_or_default();
@@ -143,7 +143,7 @@ impl Beside<'_> {
         }
     }
 
-    /// A file that the mesh names, of whatever content.
+    /// A referenced file with any content.
     fn read(&self, side: &str) -> Found {
         if let Some(found) = self.read.borrow().get(side) {
             return found.clone();
@@ -170,7 +170,7 @@ impl Beside<'_> {
         }
         let folder = self.mesh.parent().ok_or_else(missing)?;
         let file = folder.join(name).canonicalize().map_err(|_| missing())?;
-        // Of what the links lead to: a link of a harmless name may lead to anything.
+        // Check the target of symbolic links: a harmless link name may lead to any file.
         let extension = extension(&file).unwrap_or_default();
         if !file.is_file() || !SIDE_FILES.contains(&extension.as_str()) {
             return Err("which is no kind of file that meshes bring along".to_owned());

@@ -1,9 +1,9 @@
-//! Under which names mesh files are carried.
+//! The names under which mesh files are stored.
 //!
-//! Files keep their places to each other, so that what a mesh names in turn lies where it expects
-//! it: files of a package lie in `meshes/<package>/` as they do in the package, files around the
-//! URDF in `meshes/` below the nearest folder that holds them all, those of other folders in
-//! `meshes/outside_<n>/`. Nothing of a path above these gets into a URDD.
+//! Files keep their relative positions, so that references in a mesh to other files remain valid. Files of a package
+//! keep their paths, below `meshes/<package>/`. Files around the URDF are stored in `meshes/`, relative to their
+//! deepest common folder. Files in other folders are stored in `meshes/outside_<n>/`. Nothing of a path above these
+//! folders gets into a URDD.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
@@ -11,29 +11,28 @@ use std::path::{Component, Path, PathBuf};
 use super::roots::Place;
 use urdd_directory::path::portable;
 
-/// The names of files, relative to `meshes/`, with forward slashes.
+/// File names relative to `meshes/`, with forward slashes.
 pub(crate) struct Layout {
     names: BTreeMap<PathBuf, String>,
 }
 
-/// What files lie together with.
+/// The group of files that are stored together.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 enum Group {
     Package(String, PathBuf),
     Own,
-    /// The n-th folder that the user allowed and a mesh lies in, in the order of the URDF.
+    /// The n-th folder with a mesh among those that the user allowed, in the order of the URDF.
     Outside(usize),
 }
 
 impl Layout {
-    /// Of files in the order in which the URDF brings them up, each with its place, and with the
-    /// mesh that it belongs to.
+    /// Takes the files in the order of the URDF, each with its place and the mesh that it belongs to.
     pub(crate) fn new<'a>(files: impl Iterator<Item = (&'a Path, &'a Place, &'a Path)>) -> Self {
         let mut groups: BTreeMap<Group, Vec<&Path>> = BTreeMap::new();
         let mut outside: Vec<&Path> = Vec::new();
         let mut seen = BTreeSet::new();
         for (file, place, mesh) in files {
-            // The first mesh that brings a file along decides what it lies with.
+            // A file belongs to the group of the first mesh that references it.
             if !seen.insert(file) {
                 continue;
             }
@@ -60,7 +59,7 @@ impl Layout {
                 Group::Outside(idx) => {
                     let meshes = outside[idx];
                     let common = common_folder(&files);
-                    // The mesh's folder and one above it may be named, no more.
+                    // The path may reveal the mesh's folder and its parent, but no more.
                     let near = meshes.parent().filter(|near| near.parent().is_some());
                     let is_near = near.is_some_and(|near| common.starts_with(near));
                     let base = if is_near { common } else { meshes.to_owned() };
@@ -68,7 +67,7 @@ impl Layout {
                 }
             };
             for file in files {
-                // What lies elsewhere goes by its name alone.
+                // A file outside the base folder keeps only its file name.
                 let name = Path::new(file.file_name().unwrap_or_default());
                 let inside = file.strip_prefix(&base).unwrap_or(name);
                 let parts = inside.components().filter_map(|component| match component {
@@ -82,13 +81,13 @@ impl Layout {
         Layout { names }
     }
 
-    /// The name of a file that was given.
+    /// The stored name of one of the files.
     pub(crate) fn name(&self, file: &Path) -> Option<&str> {
         self.names.get(file).map(String::as_str)
     }
 }
 
-/// The deepest folder that holds all of the files.
+/// The deepest folder that contains all of the files.
 fn common_folder(files: &[&Path]) -> PathBuf {
     let mut folders = files.iter().filter_map(|file| file.parent());
     let mut common = folders.next().map(Path::to_owned).unwrap_or_default();
@@ -98,7 +97,7 @@ fn common_folder(files: &[&Path]) -> PathBuf {
     common
 }
 
-/// A path that differs from all others by more than case: not every file system tells case apart.
+/// A path that is unique regardless of case: some file systems ignore case.
 fn unique(parts: Vec<String>, taken: &mut BTreeSet<String>) -> String {
     let path = parts.join("/");
     let mut candidate = path.clone();

@@ -1,4 +1,4 @@
-//! Mesh files that a URDF names: where they are, and how they are carried.
+//! The mesh files that a URDF references: how they are found and stored.
 
 pub(crate) mod inspect;
 pub(crate) mod layout;

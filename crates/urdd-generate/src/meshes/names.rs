@@ -1,13 +1,13 @@
-//! Names of the meshes that are made: SPEC 7.3.
+//! File names of derived meshes: SPEC 7.3.
 
 use crate::settings::MeshFormats;
 use urdd_format::meshes::MeshFiles;
 use urdd_format::registry::ModuleKind;
 
-/// Longest slug, characters.
+/// Maximum length of a slug in characters.
 const LONGEST: usize = 64;
 
-/// The part of a file's name that stands for a link.
+/// The part of a file name that identifies the link.
 fn slug(link: &str) -> String {
     let mut slug = String::new();
     let mut in_gap = false;

@@ -21,32 +21,31 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::{Geometry, UrdfModule};
 use urdd_geometry::read::Scene;
 
-/// The module, and the files that go with it.
+/// The module and its files.
 #[derive(Debug)]
 pub(crate) struct OriginalMeshes {
     pub module: OriginalMeshesModule,
-    /// Each file that is carried, by its path in the URDD.
+    /// Each stored file, by its path in the URDD.
     pub files: BTreeMap<String, Arc<Vec<u8>>>,
-    /// What each usable mesh file holds, by its path in the URDD.
+    /// The content of each usable mesh file, by its path in the URDD.
     pub scenes: BTreeMap<String, Arc<Scene>>,
-    /// What came of the names of meshes.
+    /// How the mesh references were resolved.
     pub count: MeshCount,
     pub notes: Vec<Note>,
 }
 
-/// How many meshes a URDF names, and of how many there is no surface; a name that stands there twice
-/// counts once.
+/// How many different mesh files a URDF references, and how many of them have no usable surface.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct MeshCount {
-    /// Names of mesh files.
+    /// Number of different mesh file names.
     pub named: usize,
-    /// Those of which no file was found, or one that is no mesh.
+    /// Names for which no file was found, or whose file is not a mesh.
     pub not_found: usize,
-    /// Those whose file is carried and cannot be used.
+    /// Names whose file is stored but not usable.
     pub not_usable: usize,
 }
 
-/// A mesh that the URDF names.
+/// A mesh reference in the URDF.
 struct Named<'a> {
     link: usize,
     geometry: GeometryKind,
@@ -54,10 +53,10 @@ struct Named<'a> {
     filename: &'a str,
 }
 
-/// Makes the module.
+/// Builds the module.
 ///
 /// # Errors
-/// Where the URDF names files that it may not make us publish.
+/// If the URDF references files that it must not make the user publish.
 pub(crate) fn original_meshes(
     source: &Source,
     settings: &Settings,
@@ -66,7 +65,7 @@ pub(crate) fn original_meshes(
     let packages = &settings.packages;
     let roots = Roots::new(&source.folder, packages, &settings.allowed_folders);
     let mut found_files: BTreeMap<&str, Result<FoundMesh, NotFound>> = BTreeMap::new();
-    // The names, each once, in the order of the URDF, and where each stands first.
+    // The distinct names in the order of the URDF, each with its first position.
     let mut names: Vec<(&str, (u32, u32))> = Vec::new();
     for (mesh, place) in named.iter().zip(&source.mesh_places) {
         found_files.entry(mesh.filename).or_insert_with(|| {
@@ -170,7 +169,7 @@ pub(crate) fn original_meshes(
     })
 }
 
-/// Refuses a robot that names files which lie in none of the folders that they may be taken from.
+/// Refuses a robot that references files outside the folders from which they may be read.
 fn refuse_outside(
     file: &str,
     names: &[(&str, (u32, u32))],
@@ -193,11 +192,11 @@ fn refuse_outside(
     Err(GenerateError::Outside { file, meshes })
 }
 
-/// What there is to say of meshes.
+/// Collects the notes about meshes.
 struct Notes<'a> {
     file: &'a str,
     roots: &'a Roots,
-    /// Files of which everything was said.
+    /// Files whose notes are complete.
     said: BTreeSet<&'a Path>,
     notes: Vec<Note>,
 }
@@ -271,7 +270,7 @@ impl<'a> Notes<'a> {
         }
     }
 
-    /// Names a file that is carried, and is not the robot's own.
+    /// Notes a stored file that is outside the robot's own folder.
     fn outside(&mut self, what: String, place: (u32, u32), file: &Path, of: &Place) {
         if self.roots.is_own(file) {
             return;
@@ -286,7 +285,7 @@ impl<'a> Notes<'a> {
     }
 }
 
-/// Every mesh of the URDF: links ascending, visual before collision, elements ascending.
+/// All mesh references: links ascending, visual before collision, elements ascending.
 fn named(robot: &UrdfModule) -> Vec<Named<'_>> {
     let mut named = Vec::new();
     for (link, of) in robot.links.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Where ROS packages are.
+//! Finds ROS packages.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -9,20 +9,20 @@ use thiserror::Error;
 
 use crate::bounded::read_file;
 
-/// How deep the folders of `ROS_PACKAGE_PATH` are searched for packages.
+/// Maximum depth of the search for packages below `ROS_PACKAGE_PATH`.
 const CRAWL_DEPTH: usize = 5;
-/// Most folders that are looked into in one search.
+/// Maximum number of folders to visit in one search.
 const MOST_FOLDERS: usize = 20_000;
-/// Longest `package.xml` that is read, bytes.
+/// Maximum size of a `package.xml` in bytes.
 const MAX_PACKAGE_XML: u64 = 1 << 20;
 
 /// A `--package` that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PackagePathError {
-    /// No `=`.
+    /// The `=` is missing.
     #[error("`{0}`: write NAME=PATH, the name of the package and its folder")]
     NoEquals(String),
-    /// No such folder.
+    /// The folder does not exist.
     #[error("package `{name}`: {} is not a folder", path.display())]
     NoFolder {
         /// The package.
@@ -32,7 +32,7 @@ pub enum PackagePathError {
     },
 }
 
-/// Where packages are looked for.
+/// Where to search for packages.
 #[derive(Debug, Clone, Default)]
 pub struct Packages {
     given: BTreeMap<String, PathBuf>,
@@ -42,12 +42,12 @@ pub struct Packages {
 }
 
 impl Packages {
-    /// No packages but those found above the URDF.
+    /// Only the packages around the URDF.
     pub fn none() -> Self {
         Self::default()
     }
 
-    /// What the environment says: `ROS_PACKAGE_PATH`, `AMENT_PREFIX_PATH`, and for `model://`
+    /// The search paths of the environment: `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`; for `model://` also
     /// `GAZEBO_MODEL_PATH`, `GZ_SIM_RESOURCE_PATH` and `IGN_GAZEBO_RESOURCE_PATH`.
     pub fn from_environment(variable: impl Fn(&str) -> Option<OsString>) -> Self {
         let paths = |name: &str| -> Vec<PathBuf> {
@@ -70,10 +70,10 @@ impl Packages {
         }
     }
 
-    /// Adds `NAME=PATH`; a later one of the same name counts.
+    /// Adds `NAME=PATH`. A later entry replaces an earlier one with the same name.
     ///
     /// # Errors
-    /// Where that is not its form, or the path is not a folder.
+    /// If the argument does not have this form, or the path is not a folder.
     pub fn add(&mut self, argument: &str) -> Result<(), PackagePathError> {
         let split = argument
             .split_once('=')
@@ -90,20 +90,19 @@ impl Packages {
         Ok(())
     }
 
-    /// The packages that the user named, and their folders.
+    /// The packages named by the user, and their folders.
     pub(crate) fn given(&self) -> impl Iterator<Item = (&str, &Path)> {
         let given = self.given.iter();
         given.map(|(name, path)| (name.as_str(), path.as_path()))
     }
 
-    /// The folders that may be the package, the likeliest first. Where the user has said where it
-    /// is, nowhere else.
+    /// Candidate folders for a package, the likeliest first. A folder given by the user is the only candidate.
     pub(super) fn folders(&self, name: &str, urdf_folder: &Path, is_model: bool) -> Vec<PathBuf> {
         if let Some(path) = self.given.get(name) {
             return vec![path.clone()];
         }
         let mut folders = Vec::new();
-        // The URDF's own package, by its package.xml or its folder's name, or one beside it.
+        // The URDF's own package, found by its package.xml or its folder name, or a package next to it.
         for above in urdf_folder.ancestors() {
             if package_name(above).as_deref() == Some(name) || is_named(above, name) {
                 folders.push(above.to_owned());
@@ -125,7 +124,7 @@ impl Packages {
         folders
     }
 
-    /// As ROS finds packages deep below `ROS_PACKAGE_PATH`. Slow, so only when all else failed.
+    /// Searches deep below `ROS_PACKAGE_PATH`, as ROS does. Slow, so only used when everything else has failed.
     pub(super) fn crawl(&self, name: &str) -> Option<PathBuf> {
         let mut looked = 0;
         self.ros_package_path

@@ -16,7 +16,7 @@ use urdd_geometry::mesh::placement;
 use urdd_geometry::primitives;
 use urdd_geometry::read::{Part, Scene};
 
-/// What a link looks like: its triangles by colour, in its own frame.
+/// The geometry of a link: its triangles by colour, in the link's frame.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LinkGeometry {
     pub geometry: GeometryKind,
@@ -28,15 +28,15 @@ struct Element<'a> {
     origin: Option<&'a Origin>,
     geometry: Option<&'a Geometry>,
     material: Option<&'a Material>,
-    /// The mesh that it names, where that can be used.
+    /// The referenced mesh, if it is usable.
     scene: Option<&'a Scene>,
 }
 
-/// The geometry of every link; `None` for a link without any. `scenes` are the meshes by their paths
-/// in the URDD. `have` says which links need none made.
+/// The geometry of every link; `None` for a link without any. `scenes` are the meshes by their paths in the URDD.
+/// `have` returns true for links whose geometry is not needed.
 ///
 /// # Errors
-/// Where a link has too many triangles, or too small a shape too far away.
+/// If a link has too many triangles, or a shape too small for its distance from the frame.
 pub(crate) fn link_geometries(
     robot: &UrdfModule,
     original: &OriginalMeshesModule,
@@ -125,7 +125,7 @@ fn elements(link: &Link, kind: GeometryKind) -> Vec<Element<'_>> {
     }
 }
 
-/// Whether an element has a surface with an area.
+/// Whether an element has a surface with positive area.
 fn is_usable(element: &Element) -> bool {
     let extends = |numbers: [f64; 3]| numbers.iter().filter(|number| **number != 0.0).count() >= 2;
     match element.geometry {
@@ -140,7 +140,7 @@ fn is_usable(element: &Element) -> bool {
     }
 }
 
-/// How many triangles a usable element has, before those without an area are dropped.
+/// Number of triangles of a usable element, before those with zero area are dropped.
 fn num_triangles(element: &Element) -> usize {
     match element.geometry {
         None => 0,
@@ -152,7 +152,7 @@ fn num_triangles(element: &Element) -> usize {
     }
 }
 
-/// The parts of an element, in the link's frame, rounded to what files hold.
+/// The parts of an element in the link's frame, rounded to the precision of files.
 fn placed(element: &Element, materials: &[Material], quaternions: bool) -> Vec<Part> {
     let (parts, scale) = match (element.geometry, element.scene) {
         (None, _) | (Some(Geometry::Mesh(_)), None) => return Vec::new(),
@@ -185,8 +185,8 @@ fn placed(element: &Element, materials: &[Material], quaternions: bool) -> Vec<P
         .collect()
 }
 
-/// Parts that look alike made one, in the order in which each look first appears: a link may have many
-/// thousand elements, and a viewer draws each part by itself.
+/// Merges parts of the same look, in the order of first appearance. A link may have many thousands of elements, and a
+/// viewer draws each part separately.
 fn by_look(parts: Vec<Part>) -> Vec<Part> {
     let mut place: HashMap<(Option<[u64; 4]>, Option<String>), usize> = HashMap::new();
     let mut joined: Vec<Part> = Vec::new();
@@ -215,7 +215,7 @@ fn tidy(mut mesh: Mesh, place: &nalgebra::Matrix4<f64>) -> Mesh {
     mesh
 }
 
-/// An element's colour: its own, or that of the robot's material of the same name.
+/// An element's colour: its own, or that of the robot's first coloured material with the same name.
 fn color(material: Option<&Material>, materials: &[Material]) -> Option<[f64; 4]> {
     let material = material?;
     let of = |material: &Material| material.color.as_ref().map(|color| color.rgba);
@@ -226,6 +226,6 @@ fn color(material: Option<&Material>, materials: &[Material]) -> Option<[f64; 4]
     };
     of(material)
         .or_else(named)
-        // What a .glb can hold.
+        // Values must be in the range that a .glb allows.
         .map(|rgba| rgba.map(|part| part.clamp(0.0, 1.0)))
 }

@@ -1,4 +1,4 @@
-//! From the file name in a URDF to a file.
+//! Resolves a mesh file name of a URDF to a file.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -6,28 +6,28 @@ use std::path::{Component, Path, PathBuf};
 use super::package::Packages;
 use super::roots::{Place, Roots};
 
-/// Most places that a message names.
+/// Maximum number of searched places in a message.
 const MOST_TOLD: usize = 4;
 
-/// A mesh file that was found.
+/// A resolved mesh file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct FoundMesh {
-    /// The file, its links followed: a file that has two names is one file.
+    /// The file with symbolic links resolved, so that two names for one file are equal.
     pub file: PathBuf,
-    /// The folder that it lies in, of those that it may be taken from.
+    /// The allowed folder that contains it.
     pub place: Place,
-    /// What had to be assumed to find it.
+    /// The assumption under which it was found, if any.
     pub assumed: Option<String>,
 }
 
-/// Why no mesh was found: where it was looked for.
+/// Why no mesh file was found.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct NotFound {
-    /// Each place that was tried, and why it was not that.
+    /// The places that were tried, each with the reason if it is known.
     pub tried: Vec<String>,
-    /// What else there is to say.
+    /// A hint for the user.
     pub hint: Option<String>,
-    /// A file that is there, and lies in no folder that it may be taken from.
+    /// An existing file outside all allowed folders.
     pub outside: Option<PathBuf>,
 }
 
@@ -63,7 +63,7 @@ impl NotFound {
 /// Finds the file of a mesh.
 ///
 /// # Errors
-/// Where there is none: where it was looked for.
+/// If there is none: the places that were searched.
 pub(crate) fn resolve(
     filename: &str,
     urdf_folder: &Path,
@@ -79,7 +79,7 @@ pub(crate) fn resolve(
     if let Some(found) = found {
         return Ok(found);
     }
-    // Names that are written as no file system has them, but mean one thing.
+    // Nonstandard spellings with only one meaning.
     let others = [
         (trimmed.replace('\\', "/"), "backslashes read as `/`"),
         (
@@ -111,7 +111,7 @@ impl Search<'_> {
         urdf_folder: &Path,
         packages: &Packages,
     ) -> Option<FoundMesh> {
-        // A macro that was left over, which says the same as `package://`.
+        // A macro that was not expanded; it means the same as `package://`.
         let find = name
             .strip_prefix("$(find ")
             .and_then(|rest| rest.split_once(')'));
@@ -153,7 +153,7 @@ impl Search<'_> {
             self.not_found = NotFound::because("the file name is empty");
             return None;
         }
-        // An absolute path replaces the folder.
+        // `join` replaces the folder if the name is an absolute path.
         self.try_file(&urdf_folder.join(name), None)
     }
 
@@ -235,13 +235,13 @@ impl Search<'_> {
     }
 }
 
-/// Whether a word can be the name of a package: not `..`, nor a path.
+/// Whether a word can be a package name: a single normal path component, not `..`.
 fn is_package_name(word: &str) -> bool {
     let mut parts = Path::new(word).components();
     matches!(parts.next(), Some(Component::Normal(_))) && parts.next().is_none()
 }
 
-/// A file of the same folder whose name differs in case only.
+/// A file in the same folder whose name differs only in case.
 fn other_case(path: &Path) -> Option<PathBuf> {
     let name = path.file_name()?.to_str()?.to_lowercase();
     let mut near: Vec<PathBuf> = fs::read_dir(path.parent()?)
@@ -255,7 +255,7 @@ fn other_case(path: &Path) -> Option<PathBuf> {
     near.into_iter().next()
 }
 
-/// `%20` and the like as characters; as it is where that makes no text.
+/// Decodes percent-encoding such as `%20`; returns the name unchanged if the result is not UTF-8.
 fn percent_decoded(name: &str) -> String {
     let bytes = name.as_bytes();
     let mut decoded = Vec::with_capacity(bytes.len());

@@ -1,40 +1,39 @@
-//! From which folders the files of meshes may be taken.
+//! The folders from which mesh files may be read.
 //!
-//! A URDF is a stranger's file, and a URDD is published: what a URDF names must not make us publish
-//! whatever else lies on this machine. So files are taken only from the folders that belong to the
-//! robot, and from those that the user allows.
+//! A URDF may come from a stranger, and a URDD gets published. A URDF must not make the user publish arbitrary files of
+//! this machine. Files are therefore read only from the robot's own folders, and from those that the user allows.
 
 use std::path::{Path, PathBuf};
 
 use super::package::{Packages, package_name};
 
-/// Names of folders that URDFs lie in, beside `meshes`, in a folder of the robot.
+/// Names of folders for URDFs, which are siblings of `meshes` in a robot's folder.
 const URDF_FOLDERS: &[&str] = &["urdf", "urdfs", "robots", "robot", "xacro"];
 
-/// The folders, links followed.
+/// The allowed folders, with symbolic links resolved.
 #[derive(Debug)]
 pub(crate) struct Roots {
-    /// The URDF's folder, or the folder of the robot that holds it.
+    /// The URDF's folder, or the robot's folder that contains it.
     own: PathBuf,
-    /// Packages that the user named.
+    /// Packages named by the user.
     given: Vec<(String, PathBuf)>,
-    /// Folders that the user allowed besides.
+    /// Other folders allowed by the user.
     allowed: Vec<PathBuf>,
 }
 
-/// The folder that a file is taken from.
+/// The folder from which a file is read.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Place {
-    /// A package, by its name and its folder.
+    /// A package: its name and folder.
     Package(String, PathBuf),
     /// The robot's own folder.
     Own,
-    /// A folder that the user allowed.
+    /// A folder allowed by the user.
     Allowed,
 }
 
 impl Roots {
-    /// Of a URDF in a folder (links followed).
+    /// The folders for a URDF in a folder (symbolic links resolved).
     pub(crate) fn new(urdf_folder: &Path, packages: &Packages, allowed: &[PathBuf]) -> Self {
         let canonical = |path: &PathBuf| path.canonicalize().ok();
         let given = packages.given().filter_map(|(name, path)| {
@@ -48,8 +47,8 @@ impl Roots {
         }
     }
 
-    /// Where a file (links followed) is taken from, or `None` where it may not be taken. `package`
-    /// is the package that its name says, and the folder that was found for that.
+    /// The place of a file (symbolic links resolved), or `None` if it may not be read. `package` is the package named
+    /// in the reference, and the folder found for it.
     pub(crate) fn place(&self, file: &Path, package: Option<(&str, &Path)>) -> Option<Place> {
         if let Some((name, folder)) = package
             && let Ok(folder) = folder.canonicalize()
@@ -58,7 +57,7 @@ impl Roots {
             if file.starts_with(&folder) && (is_package || !is_broad(&folder)) {
                 return Some(Place::Package(name.to_owned(), folder));
             }
-            // Installed packages may hold links to the files of their sources.
+            // Installed packages may contain symbolic links to their source files.
             let mut above = file.ancestors().skip(1);
             if let Some(source) = above.find(|above| package_name(above).as_deref() == Some(name)) {
                 return Some(Place::Package(name.to_owned(), source.to_owned()));
@@ -76,13 +75,13 @@ impl Roots {
         is_allowed.then_some(Place::Allowed)
     }
 
-    /// Whether a file lies in the robot's own folder.
+    /// Whether a file is in the robot's own folder.
     pub(crate) fn is_own(&self, file: &Path) -> bool {
         file.starts_with(&self.own)
     }
 }
 
-/// The package that a folder lies in, or else the folder that holds `urdf/`, or else the folder.
+/// The package that contains the folder, otherwise the parent of a folder such as `urdf/`, otherwise the folder itself.
 fn own_folder(urdf_folder: &Path) -> PathBuf {
     let mut above = urdf_folder.ancestors();
     if let Some(package) = above.find(|above| package_name(above).is_some()) {
@@ -100,8 +99,8 @@ fn own_folder(urdf_folder: &Path) -> PathBuf {
     }
 }
 
-/// Whether a folder holds more than robots: the root of the file system or a folder right in it,
-/// the user's folder or one that holds it.
+/// Whether a folder contains more than robots: the file system root or a folder directly in it, the user's home folder
+/// or a folder that contains it.
 fn is_broad(folder: &Path) -> bool {
     let depth = folder.components().count();
     let home = std::env::home_dir().and_then(|home| home.canonicalize().ok());

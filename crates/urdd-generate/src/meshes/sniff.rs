@@ -1,21 +1,21 @@
-//! Whether the bytes of a file are what its use says: nothing else is carried.
+//! Checks that a file's content matches its use; other files are not stored.
 
 use urdd_geometry::read::{Format, Scene};
 
-/// How far into a file the marks of its format are looked for.
+/// How many bytes at the start of a file are searched for format markers.
 const HEAD: usize = 64 << 10;
 
-/// Whether a file is a mesh, given what came of reading it.
+/// Whether a file is a mesh; `scene` is the result of reading it.
 pub(super) fn is_mesh(bytes: &[u8], scene: Option<&Scene>) -> bool {
     match scene {
         Some(scene) if scene.triangle_count() > 0 => true,
-        // STL and COLLADA are known by their marks, which any text lacks.
+        // STL and COLLADA are recognised by markers that arbitrary text does not have.
         Some(scene) if !matches!(scene.format, Format::Obj | Format::Gltf) => true,
         _ => is_marked(bytes),
     }
 }
 
-/// Whether a file begins as a mesh does, also one that cannot be read.
+/// Whether a file starts like a mesh, even if it cannot be read.
 fn is_marked(bytes: &[u8]) -> bool {
     const MAGIC: &[&[u8]] = &[
         b"glTF",
@@ -39,7 +39,7 @@ fn is_marked(bytes: &[u8]) -> bool {
     }
 }
 
-/// `v` and three numbers.
+/// A line of `v` and three numbers.
 fn is_obj_vertex(line: &str) -> bool {
     let mut words = line.split_ascii_whitespace();
     let numbers = |words: std::str::SplitAsciiWhitespace| {
@@ -51,7 +51,7 @@ fn is_obj_vertex(line: &str) -> bool {
     words.next() == Some("v") && numbers(words) == 3
 }
 
-/// Why a file is not what a mesh of some format means by it, in words; `None` where it is.
+/// Why a mesh of this format cannot reference such a file; `None` if it can.
 pub(super) fn fault_of_side_file(
     extension: &str,
     bytes: &[u8],
@@ -61,22 +61,22 @@ pub(super) fn fault_of_side_file(
         "mtl" if mesh == Format::Obj => {
             (!is_mtl(bytes)).then_some("which is not a material library (.mtl)")
         }
-        // Numbers: any bytes are some.
+        // Binary numbers: any bytes are valid.
         "bin" if matches!(mesh, Format::Gltf | Format::Glb) => None,
         "mtl" | "bin" => Some("which is not a file that meshes of this format have"),
         _ => (!is_image(bytes)).then_some("which is not an image that is known here"),
     }
 }
 
-/// Whether a file is an image, by its first bytes and its size in pixels.
+/// Whether a file is an image, by its header and pixel size.
 pub(super) fn is_image(bytes: &[u8]) -> bool {
     imagesize::blob_size(bytes).is_ok_and(|size| size.width > 0 && size.height > 0)
 }
 
-/// Whether a file is a material library: text that declares a material, or nothing but comments.
+/// Whether a file is a material library: text that declares a material or has only comments.
 pub(super) fn is_mtl(bytes: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(bytes) else {
-        // Names of materials may be in an older encoding.
+        // Material names may be in a legacy encoding.
         return !bytes.contains(&0) && declares_material(&String::from_utf8_lossy(bytes));
     };
     let is_comment = |line: &str| line.trim().is_empty() || line.trim().starts_with('#');

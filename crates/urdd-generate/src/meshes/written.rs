@@ -1,4 +1,4 @@
-//! Meshes as files, and from files.
+//! Meshes written to files and read from them.
 
 use std::sync::Arc;
 
@@ -11,21 +11,21 @@ use urdd_geometry::Mesh;
 use urdd_geometry::read::{GltfUp, Options, Part, read_with};
 use urdd_geometry::write;
 
-/// A mesh of a link, or of a piece, as its files have it.
+/// The mesh of a link or a piece, as in its files.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct WrittenMesh {
     pub mesh: Mesh,
-    /// Of the most of its surface.
+    /// The colour with the largest area.
     pub color: Option<[f64; 4]>,
 }
 
-/// For each link its mesh.
+/// The mesh of each link.
 pub(crate) type LinkMeshes = Arc<Vec<Option<WrittenMesh>>>;
-/// For each link its pieces.
+/// The pieces of each link.
 pub(crate) type LinkPieces = Arc<Vec<Vec<WrittenMesh>>>;
 
 impl WrittenMesh {
-    /// Of parts of several colours.
+    /// Merges parts of several colours.
     pub fn of(parts: &[Part]) -> Self {
         let mut mesh = Mesh::default();
         let mut areas: Vec<(Option<[f64; 4]>, f64)> = Vec::new();
@@ -46,7 +46,7 @@ impl WrittenMesh {
         }
     }
 
-    /// As one part.
+    /// The mesh as one part.
     pub fn part(&self) -> Part {
         Part {
             mesh: self.mesh.clone(),
@@ -56,16 +56,16 @@ impl WrittenMesh {
     }
 }
 
-/// How a .glb is shaded.
+/// Shading of a .glb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shading {
-    /// Each face by itself, as hulls and pieces are.
+    /// Flat, for hulls and pieces.
     Flat,
-    /// With normals.
+    /// Smooth, with vertex normals.
     Smooth,
 }
 
-/// The files of a mesh, in the formats that are named.
+/// The files of a mesh in the formats listed in `files`.
 pub(crate) fn files_of(
     parts: &[Part],
     files: &MeshFiles,
@@ -94,7 +94,7 @@ pub(crate) fn files_of(
     Ok(made)
 }
 
-/// Takes up a mesh that was written before.
+/// Reads a mesh from the files of an earlier run.
 pub(crate) fn take_up(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, GenerateError> {
     let bytes = root.read(&files.glb, MAX_DOCUMENT_BYTES);
     let bytes = bytes.map_err(|error| GenerateError::Internal {
@@ -104,7 +104,7 @@ pub(crate) fn take_up(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, Gen
     take_up_bytes(&bytes, &files.glb)
 }
 
-/// Takes up a mesh from the bytes of its .glb.
+/// Reads a mesh from the bytes of its .glb.
 pub(crate) fn take_up_bytes(bytes: &[u8], path: &str) -> Result<WrittenMesh, GenerateError> {
     let options = Options {
         gltf_up: GltfUp::Keep,
@@ -116,7 +116,7 @@ pub(crate) fn take_up_bytes(bytes: &[u8], path: &str) -> Result<WrittenMesh, Gen
         reason: error.to_string(),
     })?;
     for part in &mut scene.parts {
-        // Vertices that have several normals.
+        // Merge vertices that were split for their normals.
         part.mesh.weld();
     }
     Ok(WrittenMesh::of(&scene.parts))

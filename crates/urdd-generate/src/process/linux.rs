@@ -1,4 +1,4 @@
-//! Programs on Linux, and the processes that descend from them, found in `/proc`.
+//! Programs on Linux and their descendants, found in `/proc`.
 
 use std::collections::{BTreeSet, HashSet};
 use std::fs;
@@ -16,28 +16,28 @@ use rustix::process::{
 
 use super::PAUSE;
 
-/// Longest environment that is searched, bytes; Linux has 6 MiB for it and the arguments.
+/// Maximum number of bytes of an environment to search; Linux allows 6 MiB for it and the arguments.
 const MAX_ENVIRONMENT: u64 = 8 << 20;
 
-/// How often what is left is looked for; what cannot be ended by then is left.
+/// Maximum number of rounds that search for remaining processes. After that, processes that cannot be ended are left.
 const MAX_ROUNDS: usize = 400;
 
-/// Whether orphans come to this process.
+/// Whether orphans are reparented to this process.
 static ADOPTS: AtomicBool = AtomicBool::new(false);
 
-/// The programs that run.
+/// The process IDs of the running programs.
 static RUNNING: Mutex<BTreeSet<i32>> = Mutex::new(BTreeSet::new());
 
-/// A program and what it started.
+/// A program and its descendants.
 pub(super) struct Tree {
     child: Child,
-    /// A variable that its environment has, and that of all that it starts.
+    /// An environment variable of the program, which its descendants inherit.
     mark: String,
     is_reaped: bool,
 }
 
 pub(super) fn adopt_orphans() {
-    // Any process but none: the argument is a yes or no.
+    // The process does not matter: `Some` means yes.
     let adopts = set_child_subreaper(Some(getpid())).is_ok();
     ADOPTS.store(adopts, Ordering::Relaxed);
 }
@@ -48,7 +48,7 @@ impl Tree {
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let mark = format!("URDD_RUN_{}_{number}", std::process::id());
         command.env(&mark, "1").process_group(0);
-        // Whoever looks for orphans meanwhile waits until it is known that this is none.
+        // Under the lock, so that no concurrent search takes this child for an orphan.
         let child = running(|running| {
             let child = command.spawn()?;
             running.insert(child.id().cast_signed());
@@ -71,7 +71,7 @@ impl Tree {
         Ok(status)
     }
 
-    /// Ends all of it. Processes are stopped first, so that none starts another while they are counted.
+    /// Ends all processes. They are stopped first, so that none starts another during the search.
     pub fn end(&mut self) {
         if !self.is_reaped {
             let _ = self.child.kill();
@@ -99,7 +99,7 @@ impl Tree {
                 let _ = kill_process(*pid, Signal::KILL);
             }
             thread::sleep(PAUSE);
-            // Those that were adopted.
+            // Reap those that were adopted.
             for pid in &left {
                 let _ = waitpid(Some(*pid), WaitOptions::NOHANG);
             }
@@ -115,7 +115,7 @@ impl Tree {
         self.child.id().cast_signed()
     }
 
-    /// The processes that are left of it, besides itself.
+    /// The remaining descendants of the program, without itself.
     fn left(&self) -> Vec<Pid> {
         let (own, root) = (std::process::id().cast_signed(), self.pid());
         let is_adopted = |process: &Process| {
@@ -136,7 +136,7 @@ impl Tree {
                 found.insert(process.pid);
             }
         }
-        // And all that descend from these.
+        // And all descendants of these.
         loop {
             let before = found.len();
             let children = all.iter().filter(|process| found.contains(&process.parent));
@@ -164,18 +164,18 @@ struct Process {
     pid: i32,
     parent: i32,
     group: i32,
-    /// Ended, and not reaped by its parent yet.
+    /// Ended, but not yet reaped by its parent.
     is_dead: bool,
 }
 
-/// All processes that `/proc` shows.
+/// All processes in `/proc`.
 fn processes() -> Vec<Process> {
     let entries = fs::read_dir("/proc").into_iter().flatten().flatten();
     let pids = entries.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
     pids.filter_map(process).collect()
 }
 
-/// Reads `PID (NAME) STATE PARENT GROUP …`; the name may hold anything.
+/// Reads `PID (NAME) STATE PARENT GROUP …`; the name may contain any characters.
 fn process(pid: i32) -> Option<Process> {
     let bytes = fs::read(format!("/proc/{pid}/stat")).ok()?;
     let text = String::from_utf8_lossy(&bytes);

@@ -1,12 +1,12 @@
-//! Running a program that is not ours: for a limited time, and whatever it started ends with it.
+//! Runs external programs with a time limit. All processes that a program starts end with it.
 //!
-//! What ends with a program, whether it ended by itself or was stopped:
+//! What ends with a program, whether it exits or is stopped:
 //!
-//! - Linux: its process group; all processes that descend from it; all that have its mark in their environment, which
-//!   reaches those that made a session of their own (`setsid`) and whose parents have ended. Where [`adopt_orphans`] was
-//!   called, also those that took the mark away, with the last program that runs.
+//! - Linux: its process group; all its descendants; all processes with its mark in their environment, which includes
+//!   those in a session of their own (`setsid`) whose parents have ended. After [`adopt_orphans`], also those that
+//!   removed the mark; they end with the last running program.
 //! - other Unix systems: its process group.
-//! - Windows: its job object, which holds all that it starts.
+//! - Windows: its job object, which contains all processes that it starts.
 
 #[cfg(target_os = "linux")]
 mod linux;
@@ -24,30 +24,30 @@ use linux::Tree;
 use other::Tree;
 use urdd_directory::cancellation::Cancellation;
 
-/// How often a running program is looked at.
+/// Polling interval for a running program.
 pub const PAUSE: Duration = Duration::from_millis(5);
 
-/// A program that runs. When this is dropped, the program and all that it started ends.
+/// A running program. Dropping this ends the program and all processes that it started.
 pub struct Running(Tree);
 
-/// Why waiting for a program ended. All that it started has ended too.
+/// Why waiting for a program ended. All processes that it started have ended too.
 #[derive(Debug)]
 pub enum Ended {
-    /// It ended by itself.
+    /// The program exited.
     Itself(ExitStatus),
-    /// It was stopped at the time limit.
+    /// The program was stopped at the time limit.
     TimeLimit,
-    /// It was stopped, since the caller has seen enough.
+    /// The program was stopped because `is_enough` returned true.
     Enough,
-    /// It was stopped, since this run is to stop.
+    /// The program was stopped because of a cancellation.
     Cancelled,
 }
 
 impl Running {
-    /// Starts a program, without standard input, and with pipes for what it writes.
+    /// Starts a program without standard input, and with pipes for its output.
     ///
     /// # Errors
-    /// Where it cannot be started.
+    /// If it cannot be started.
     pub fn start(mut command: Command) -> io::Result<Running> {
         command
             .stdin(Stdio::null())
@@ -56,16 +56,16 @@ impl Running {
         Tree::start(command).map(Running)
     }
 
-    /// Its standard output and standard error, the first time.
+    /// Its standard output and standard error; only the first call returns them.
     pub fn streams(&mut self) -> (Option<ChildStdout>, Option<ChildStderr>) {
         self.0.streams()
     }
 
-    /// Waits until it ends, but no longer than `limit`; until `is_enough`, which is asked again and again; and until it is
-    /// asked to stop.
+    /// Waits until the program exits, `limit` is over, `is_enough` (polled repeatedly) returns true, or `cancellation`
+    /// is cancelled.
     ///
     /// # Errors
-    /// What the operating system says.
+    /// The operating system's error.
     pub fn wait(
         mut self,
         limit: Duration,
@@ -95,8 +95,8 @@ impl Drop for Running {
     }
 }
 
-/// Makes this process the one that adopts what its programs leave behind, so that it ends with them too (Linux). For a
-/// program, not for a library: every child of this process that was not started here counts as such.
+/// Makes this process adopt the orphans of its programs, so that they end too (Linux). For executables, not libraries:
+/// every child of this process that was not started here counts as such an orphan.
 pub fn adopt_orphans() {
     #[cfg(target_os = "linux")]
     linux::adopt_orphans();

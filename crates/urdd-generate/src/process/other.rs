@@ -1,4 +1,4 @@
-//! Programs on other systems than Linux: process groups, or job objects.
+//! Programs on systems other than Linux: process groups or job objects.
 
 use std::io;
 use std::process::{ChildStderr, ChildStdout, Command, ExitStatus};
@@ -26,7 +26,7 @@ impl Tree {
     }
 
     pub fn end(&mut self) {
-        // There may be nothing left, which is not an error.
+        // It is not an error if nothing is left.
         let _ = self.0.start_kill();
         let _ = self.0.wait();
     }

@@ -12,11 +12,10 @@ use urdd_geometry::bounding_sphere::BoundingSphere as Ball;
 use urdd_geometry::hull::{ConvexHull, HullError};
 use urdd_geometry::oriented_box::OrientedBox;
 
-/// Makes the module. `known` are the boxes and spheres that need not be computed: of the hulls, then of
-/// the pieces.
+/// Builds the module. `known` are the boxes and spheres that need not be computed: of the hulls, then of the pieces.
 ///
 /// # Errors
-/// Where it is asked to stop; and where a mesh has no hull: a fault of what made it.
+/// If cancelled, or if a mesh has no hull, which is a bug in an earlier stage.
 pub(crate) fn approximations(
     solids: &ConvexMeshes,
     known: Vec<Option<Shape>>,
@@ -40,7 +39,7 @@ pub(crate) fn approximations(
     Ok(found.map(|found| module(solids, &found)))
 }
 
-/// The module of the boxes and spheres about all hulls, then about all pieces.
+/// Builds the module from the boxes and spheres of all hulls, then of all pieces.
 fn module(solids: &ConvexMeshes, found: &[Shape]) -> LinkShapesApproximationsModule {
     let (of_hulls, of_pieces) = found.split_at(solids.hulls.iter().flatten().count());
     let (mut of_hulls, mut of_pieces) = (of_hulls.iter().cloned(), of_pieces.iter().cloned());
@@ -73,7 +72,7 @@ fn of_mesh(mesh: &Mesh) -> Result<Shape, HullError> {
 }
 
 fn of_box(found: &OrientedBox) -> Obb {
-    // No box is turned so far that its pitch is near a right angle.
+    // The rotation of an oriented box never has a pitch near a right angle.
     let (roll, pitch, yaw) = found.rotation.euler_angles();
     Obb {
         half_extents: found.half_extents,

@@ -11,7 +11,7 @@ use urdd_geometry::farthest;
 use urdd_geometry::oriented_box::OrientedBox;
 use urdd_kinematics::rotation::from_rpy;
 
-/// Makes the module.
+/// Builds the module.
 pub(crate) fn max_distances(
     solids: &ConvexMeshes,
     of: &LinkShapesApproximationsModule,

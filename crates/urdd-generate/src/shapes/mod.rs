@@ -10,19 +10,19 @@ use crate::meshes::written::{LinkMeshes, LinkPieces};
 use urdd_format::index::{LinkIdx, PieceIdx};
 use urdd_format::shapes::PieceShape;
 
-/// Most pieces of a robot with matrices over pieces, which grow with the square of their number.
+/// Maximum number of pieces with matrices over pieces, which grow with the square of that number.
 pub(crate) const MOST_PIECES_WITH_MATRICES: usize = 500;
 
-/// The convex meshes that shapes are made of.
+/// The convex meshes from which shapes are built.
 pub(crate) struct ConvexMeshes {
-    /// For each link its hull.
+    /// The hull of each link.
     pub hulls: LinkMeshes,
-    /// For each link its pieces.
+    /// The pieces of each link.
     pub pieces: LinkPieces,
 }
 
 impl ConvexMeshes {
-    /// What index i of a matrix over links stands for.
+    /// The links at the indices of a matrix over links.
     pub fn full_shapes(&self) -> Vec<LinkIdx> {
         let links = (0..)
             .zip(self.hulls.iter())
@@ -30,7 +30,7 @@ impl ConvexMeshes {
         links.map(|(link, _)| LinkIdx(link)).collect()
     }
 
-    /// What index i of a matrix over pieces stands for.
+    /// The pieces at the indices of a matrix over pieces.
     pub fn decomposition_shapes(&self) -> Vec<PieceShape> {
         let links = (0..).zip(self.pieces.iter());
         links

@@ -1,5 +1,5 @@
-//! `link_shapes_simple_skips_module` from the distance statistics, and the distances in the default
-//! configuration: SPEC 8.6.
+//! `link_shapes_simple_skips_module` from the distance statistics and the distances in the default configuration: SPEC
+//! 8.6.
 
 use std::collections::HashSet;
 
@@ -10,13 +10,13 @@ use urdd_format::link_shapes_distance_statistics::{
 };
 use urdd_format::link_shapes_simple_skips::{LinkShapesSimpleSkipsModule, SkipReason, SkipReasons};
 
-/// Shapes are in contact where their distance is at most this, metres (SPEC 8.6).
+/// Shapes are in contact if their distance is at most this, metres (SPEC 8.6).
 const CONTACT: f64 = 0.001;
 
 type Skips = Vec<Vec<bool>>;
 type Reasons = Vec<Vec<SkipReason>>;
 
-/// Makes the module. `default` are the distances in the default configuration.
+/// Builds the module. `default` contains the distances in the default configuration.
 pub(crate) fn simple_skips(
     statistics: &LinkShapesDistanceStatisticsModule,
     default: &Kinds<Vec<Vec<f64>>>,

@@ -25,17 +25,17 @@ use urdd_geometry::convex::{
 use urdd_kinematics::rotation::from_rpy;
 use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
 
-/// Something of each kind of shapes, in the order of the documents: hulls, boxes and spheres of links, then, of a
-/// robot with matrices over pieces, those of pieces.
+/// One value per kind of shape, in the order of the documents: hulls, boxes and spheres of links, then those of pieces
+/// if the robot has matrices over pieces.
 pub(crate) struct Kinds<T> {
     pub full: [T; 3],
     pub pieces: Option<[T; 3]>,
 }
 
-/// Makes the module, or says in words why there is none.
+/// Builds the module, or returns the reason why it cannot be built.
 ///
 /// # Errors
-/// Where it is asked to stop.
+/// If cancelled.
 pub(crate) fn statistics(
     solids: &ConvexMeshes,
     approximations: &LinkShapesApproximationsModule,
@@ -54,7 +54,7 @@ pub(crate) fn statistics(
     Ok(found.map(|found| module(solids, num_samples, found)))
 }
 
-/// The statistics of all pairs; they do not hold where it was asked to stop.
+/// The statistics of all pairs; invalid after a cancellation.
 fn sampled(
     solids: &ConvexMeshes,
     approximations: &LinkShapesApproximationsModule,
@@ -116,7 +116,7 @@ pub(crate) fn at_default_configuration(
     let motion = motion(dof, chain, configuration.into_par_iter())?;
     let never = Cancellation::default();
     let found = over(&motion, solids, approximations, chain, &never)?;
-    // Of one configuration, all three are the distance.
+    // With one configuration, minimum, mean and maximum are all the distance.
     let distances = |pairs: PairStatistics| pairs.min;
     Ok(Kinds {
         full: found.full.map(distances),
@@ -124,10 +124,10 @@ pub(crate) fn at_default_configuration(
     })
 }
 
-/// What sampled configurations and their poses follow from.
+/// The modules from which sampled configurations and link poses are computed.
 pub(crate) type Kinematics<'a> = (&'a DofModule, &'a ChainModule, &'a BoundsModule);
 
-/// The distances of all shapes while the robot moves; they do not hold where it was asked to stop.
+/// The distances of all shapes over a motion; invalid after a cancellation.
 fn over(
     motion: &Motion,
     solids: &ConvexMeshes,
@@ -153,7 +153,7 @@ fn over(
     if let Some((pieces, boxes, spheres)) = &of_pieces {
         kinds.extend::<[&dyn ShapeList; 3]>([pieces, boxes, spheres]);
     }
-    // Every body is one of the chain's links, which the motion is of.
+    // Every body is a link of the chain, and the motion has a pose for each.
     let mut found = statistics_of_kinds(&kinds, motion, &|| cancellation.is_cancelled())
         .unwrap_or_default()
         .into_iter();
@@ -164,7 +164,7 @@ fn over(
     })
 }
 
-/// The links' poses in configurations, each with its name.
+/// The link poses in named configurations.
 fn motion(
     dof: &DofModule,
     chain: &ChainModule,
@@ -180,7 +180,7 @@ fn motion(
     Motion::new(&poses, &rigid_groups(chain)).map_err(|error| error.to_string())
 }
 
-/// For each link the number of its group: links that only fixed joints are between.
+/// The group number of each link: links connected by fixed joints only have the same one.
 fn rigid_groups(chain: &ChainModule) -> Vec<usize> {
     let mut groups: Vec<usize> = (0..chain.links_in_chain.len()).collect();
     for link in chain.kinematic_hierarchy.iter().flatten() {
@@ -195,7 +195,7 @@ fn rigid_groups(chain: &ChainModule) -> Vec<usize> {
     groups
 }
 
-/// The shapes of each link, on it; or why one cannot be used, in words.
+/// The shapes of each link with its index, or the reason why one cannot be used.
 fn placed<L, T, S>(
     links: &[L],
     chain: &ChainModule,

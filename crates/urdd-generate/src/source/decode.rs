@@ -1,12 +1,12 @@
-//! From bytes to text.
+//! Decodes the bytes of a file to text.
 
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
 use crate::error::GenerateError;
 use crate::note::{Note, NoteKind};
 
-/// The text of a file, and whether it is carried as it is. SPEC 6.1.8 asks for UTF-8; a byte order
-/// mark does no harm.
+/// The text of a file, and whether its bytes can be stored unchanged. SPEC 6.1.8 requires UTF-8; a byte order mark is
+/// harmless.
 pub(super) fn decode(
     bytes: &[u8],
     shown: &str,
@@ -23,13 +23,12 @@ pub(super) fn decode(
         if declared.is_none_or(|encoding| encoding == UTF_8) {
             return Ok((text.to_owned(), true));
         }
-        // Declared as another encoding, in which it would be the same characters, or which the
-        // mark denies.
+        // Declared as another encoding, in which the text is the same, or which the byte order mark contradicts.
         if mark.is_some() || text.is_ascii() {
             return Ok((redeclared(text), false));
         }
     }
-    // Two bytes a character without a mark: the first is `<`.
+    // UTF-16 without a byte order mark: the first character is `<`.
     let guessed = match bytes {
         [b'<', 0, ..] => Some(UTF_16LE),
         [0, b'<', ..] => Some(UTF_16BE),
@@ -71,7 +70,7 @@ pub(super) fn decode(
     Ok((redeclared(&text), false))
 }
 
-/// Where the XML declaration names the encoding: the bytes of the name.
+/// The byte range of the encoding name in the XML declaration.
 fn declaration(text: &[u8]) -> Option<std::ops::Range<usize>> {
     let end = text.windows(2).take(200).position(|pair| pair == b"?>")?;
     let declaration = text.get(..end).filter(|text| text.starts_with(b"<?xml"))?;
@@ -91,7 +90,7 @@ fn declared(bytes: &[u8]) -> Option<&'static Encoding> {
     Encoding::for_label(&bytes[declaration(bytes)?])
 }
 
-/// The text with a declaration that is true of it in UTF-8.
+/// The text with its declared encoding set to UTF-8.
 fn redeclared(text: &str) -> String {
     match declaration(text.as_bytes()) {
         Some(range) => format!("{}UTF-8{}", &text[..range.start], &text[range.end..]),

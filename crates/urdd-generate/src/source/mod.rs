@@ -1,4 +1,4 @@
-//! The source: from a file to a robot, and to the text that the URDD carries.
+//! Reads the source file: yields the robot and the text that the URDD stores.
 
 mod decode;
 mod repair;
@@ -20,32 +20,32 @@ use urdd_format::urdf::UrdfModule;
 use urdd_xml::element::apply;
 pub use xacro::XacroSettings;
 
-/// How often a text is repaired at most; once is enough, unless this program is wrong.
+/// Maximum number of repair rounds; one is enough unless this program has a bug.
 const MOST_ROUNDS: usize = 4;
 
-/// A source that was read.
+/// A source after reading.
 #[derive(Debug)]
 pub(crate) struct Source {
     /// The file, as the user named it.
     pub shown: String,
-    /// The folder that the file lies in: relative mesh names begin here.
+    /// The folder of the file; relative mesh names refer to it.
     pub folder: PathBuf,
-    /// The name under which it is carried.
+    /// The file name in the URDD.
     pub file_name: String,
-    /// What is carried: the file as it was found, or repaired, or expanded.
+    /// The stored bytes: the file as found, repaired, or expanded.
     pub carried: Vec<u8>,
-    /// The file as it was found, where something else is carried.
+    /// The file as found, if the stored bytes differ.
     pub found: Option<Vec<u8>>,
     /// The robot.
     pub reading: Reading,
-    /// What is odd in it.
+    /// Deviations in the source.
     pub notes: Vec<Note>,
-    /// Where each mesh is named, as line and column of the file (reading.mesh_offsets).
+    /// The line and column in the file of each mesh in `reading.mesh_offsets`.
     pub mesh_places: Vec<(u32, u32)>,
 }
 
 impl Source {
-    /// An error about the robot as a whole.
+    /// An error that concerns the whole robot.
     pub fn refused(&self, fault: Fault) -> GenerateError {
         GenerateError::Refused {
             file: self.shown.clone(),
@@ -58,10 +58,10 @@ impl Source {
     }
 }
 
-/// Reads a URDF, or a xacro file that makes one.
+/// Reads a URDF, or expands a xacro file to one.
 ///
 /// # Errors
-/// Where it cannot be read, or is no robot.
+/// If it cannot be read or is not a valid robot.
 pub(crate) fn load(
     path: &Path,
     xacro: &XacroSettings,
@@ -83,7 +83,7 @@ pub(crate) fn load(
 
     let mut notes = Vec::new();
     let (mut text, mut is_verbatim) = decode::decode(&bytes, &shown, &mut notes)?;
-    // The user's name for it counts, not the file that a link leads to.
+    // The user's name for the file decides, not the target of a symbolic link.
     let is_xacro_file = path
         .extension()
         .is_some_and(|extension| extension == "xacro");
@@ -103,10 +103,10 @@ pub(crate) fn load(
     })
 }
 
-/// Takes a URDF from memory, as it came through a pipe; relative names begin in `folder`.
+/// Reads a URDF from memory, such as from a pipe. Relative names refer to `folder`.
 ///
 /// # Errors
-/// Where it is no robot.
+/// If it is not a valid robot.
 pub(crate) fn load_text(
     bytes: Vec<u8>,
     shown: &str,
@@ -138,15 +138,15 @@ pub(crate) fn load_text(
     })
 }
 
-/// A source whose text is there.
+/// The inputs of `source`.
 struct Read {
     shown: String,
     folder: PathBuf,
-    /// The file's name without its extensions, and the name under which it is carried.
+    /// The file name without its extensions, and the file name in the URDD.
     names: (String, String),
     bytes: Vec<u8>,
     text: String,
-    /// Whether the text is that of the bytes.
+    /// Whether the text is an exact decoding of the bytes.
     is_verbatim: bool,
     notes: Vec<Note>,
 }
@@ -179,23 +179,23 @@ fn source(read: Read) -> Result<Source, GenerateError> {
     })
 }
 
-/// A robot as [`generate`](super::generate) reads it.
+/// A robot as read by [`generate`](super::generate).
 #[derive(Debug, Clone, PartialEq)]
 pub struct SourceRobot {
-    /// What a `urdf_module` says of it.
+    /// The content of its `urdf_module`.
     pub robot: UrdfModule,
-    /// The URDF that a URDD carries: the one that was read, repaired where it had to be.
+    /// The URDF that a URDD stores: the input, repaired if necessary.
     pub carried: Vec<u8>,
-    /// What is odd in it.
+    /// Deviations in the input.
     pub notes: Vec<Note>,
 }
 
-/// Reads a URDF from memory, and makes nothing. Macros of xacro are not expanded.
+/// Reads a URDF from memory without generating anything. Xacro macros are not expanded.
 ///
-/// `name` names a robot that has no name, and stands for the file in notes and errors.
+/// `name` is the name of a robot without one, and stands for the file in notes and errors.
 ///
 /// # Errors
-/// Where it cannot be read, or is no robot.
+/// If it cannot be read or is not a valid robot.
 pub fn read_urdf(bytes: &[u8], name: &str) -> Result<SourceRobot, GenerateError> {
     let mut notes = Vec::new();
     let (text, is_verbatim) = decode::decode(bytes, name, &mut notes)?;
@@ -210,16 +210,16 @@ pub fn read_urdf(bytes: &[u8], name: &str) -> Result<SourceRobot, GenerateError>
     })
 }
 
-/// A text that says what was read of it.
+/// A text that matches its reading.
 struct Mended {
     text: String,
-    /// Whether nothing had to be repaired.
+    /// Whether no repair was necessary.
     is_verbatim: bool,
     reading: Reading,
     mesh_places: Vec<(u32, u32)>,
 }
 
-/// Reads a robot, and repairs its text until that says what was read.
+/// Reads a robot, and repairs its text until both match.
 fn mend(
     text: String,
     name: &str,
@@ -243,7 +243,7 @@ fn mend(
         };
         let reading = urdf::read(&text, name).map_err(refused)?;
         if mesh_places.is_none() {
-            // Later texts are repaired ones, and their places mean nothing to the user.
+            // Later texts are repaired; positions in them mean nothing to the user.
             place(&reading.remarks, &text, shown, first_line, notes);
             let lines = LineIndex::new(&text);
             let places = reading.mesh_offsets.iter().map(|offset| {
@@ -284,7 +284,7 @@ fn place(remarks: &[Remark], text: &str, file: &str, first_line: u32, notes: &mu
     }));
 }
 
-/// The file's name without its extensions, and the name under which it is carried.
+/// The file name without its extensions, and the file name in the URDD.
 fn names(path: &Path) -> (String, String) {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let mut stem: &str = &name;

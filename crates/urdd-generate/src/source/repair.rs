@@ -1,16 +1,16 @@
-//! Repairs of the text itself.
+//! Repairs that make the text well-formed.
 
 use roxmltree::Error;
 
 use crate::note::{NoteKind, Remark};
 use urdd_xml::XmlError;
 
-/// Most prefixes that are declared for a file.
+/// Maximum number of undeclared prefixes that are declared for a file.
 const MOST_PREFIXES: usize = 32;
 
-/// Makes XML of what nearly is: white space before the declaration, a version in it that is not one of
-/// XML (Bullet writes `0.0`), NUL bytes after the end (of a C string), and prefixes that stand for nothing (in files for old versions of Gazebo). Gives the text, what was done, and how many
-/// lines were taken off its start.
+/// Repairs nearly well-formed XML: white space before the declaration, an invalid XML version in it (Bullet writes
+/// `0.0`), trailing NUL bytes (from C strings), and undeclared prefixes (in files for old versions of Gazebo). Returns
+/// the text, the remarks, and the number of lines removed from its start.
 pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
     let mut remarks = Vec::new();
     let mut first_line = 0;
@@ -69,7 +69,7 @@ pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
     (text, remarks, first_line)
 }
 
-/// A prefix that the parser does not know, where that is what it stumbles over first.
+/// The undeclared prefix, if that is the parser's first error.
 fn unknown_prefix(text: &str) -> Option<String> {
     match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
         Err(XmlError::Parser(Error::UnknownNamespace(prefix, _))) => Some(prefix),

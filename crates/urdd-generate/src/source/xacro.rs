@@ -1,7 +1,7 @@
-//! Expanding xacro files, by the program of that name.
+//! Expands xacro files with the external program `xacro`.
 //!
-//! A xacro file is a program: it may hold any expression, and include any file. So it runs only where
-//! the user says so, by the file's extension or by a flag, and for a limited time.
+//! A xacro file is a program: it may contain any expression and include any file. It therefore runs only if the user
+//! asks for it, by the file extension or by a flag, and with a time limit.
 
 use std::ffi::OsString;
 use std::io::{self, ErrorKind, Read};
@@ -19,27 +19,27 @@ use crate::meshes::package::Packages;
 use crate::process::{Ended, Running};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 
-/// How much of what it says is read, bytes.
+/// Maximum number of bytes to read from its standard error.
 const MAX_WORDS: u64 = 1 << 20;
-/// Most of its last lines that are passed on, and most characters of them.
+/// Maximum number of last lines to report, and of characters in them.
 const MOST_LINES: usize = 3;
 const MOST_CHARACTERS: usize = 1000;
-/// How long its last words are waited for, where something holds its output open.
+/// How long to wait for its last output if another process keeps the pipe open.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 
 /// How xacro files are expanded.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct XacroSettings {
-    /// Whether a `.urdf` that holds macros is expanded too; a `.xacro` always is.
+    /// Whether to expand a `.urdf` that contains macros; a `.xacro` is always expanded.
     pub expand_urdf: bool,
-    /// Arguments of the file, each `name:=value`.
+    /// Arguments for the file, each as `name:=value`.
     pub arguments: Vec<String>,
-    /// How long the program may take.
+    /// Time limit of the program.
     pub time_limit: Duration,
 }
 
 impl Default for XacroSettings {
-    /// Only `.xacro` files, without arguments, for a minute.
+    /// Only `.xacro` files, without arguments, with a limit of one minute.
     fn default() -> Self {
         XacroSettings {
             expand_urdf: false,
@@ -49,10 +49,10 @@ impl Default for XacroSettings {
     }
 }
 
-/// The URDF that a xacro file makes.
+/// Expands a xacro file to a URDF.
 ///
 /// # Errors
-/// Where there is no such program, or it fails, takes too long, or writes too much; where it is asked to stop.
+/// If the program is missing, fails, takes too long, writes too much, or is cancelled.
 pub(super) fn expand(
     path: &Path,
     shown: &str,
@@ -64,7 +64,7 @@ pub(super) fn expand(
         file: shown.to_owned(),
         reason,
     };
-    // An absolute path never begins as an option does.
+    // An absolute path cannot be mistaken for an option.
     let path = path
         .canonicalize()
         .map_err(|error| failed(error.to_string()))?;
@@ -113,7 +113,7 @@ pub(super) fn expand(
     String::from_utf8(written).map_err(|_| failed("what it writes is not UTF-8".to_owned()))
 }
 
-/// Reads a stream beside the program, so that it never waits for us.
+/// Reads a stream in a separate thread, so that the program never blocks on a full pipe.
 fn read_beside(
     stream: impl Read + Send + 'static,
     limit: u64,
@@ -123,7 +123,7 @@ fn read_beside(
     receiver
 }
 
-/// Below a Python traceback, the last lines say what is wrong.
+/// The last lines, which state the error below a Python traceback.
 fn last_lines(words: &[u8]) -> Option<String> {
     let words = String::from_utf8_lossy(words);
     let lines = words.lines().filter(|line| !line.trim().is_empty());
@@ -134,7 +134,7 @@ fn last_lines(words: &[u8]) -> Option<String> {
     (!last.is_empty()).then_some(last)
 }
 
-/// Packages that the user named, laid out as ROS looks for them: `$(find NAME)` finds these first.
+/// The packages named by the user, in a layout that ROS searches: `$(find NAME)` finds these first.
 struct PackageIndex {
     prefix: Option<TempDir>,
 }
@@ -159,7 +159,7 @@ impl PackageIndex {
         Ok(PackageIndex { prefix })
     }
 
-    /// Puts them before those that the environment names.
+    /// Puts them before those from the environment.
     fn tell(&self, command: &mut Command) {
         let Some(prefix) = &self.prefix else {
             return;

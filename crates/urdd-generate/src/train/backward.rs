@@ -1,4 +1,4 @@
-//! The loss of some configurations, and its derivatives by all weights.
+//! The loss of a few configurations and its gradient with respect to all weights.
 
 use fearless_simd::{Level, Simd, dispatch};
 
@@ -7,12 +7,12 @@ use super::settings::{CONTACT_WEIGHT, IN_CONTACT, NEAR_WEIGHT};
 use urdd_kinematics::learn::kernel::{LANES, Lanes};
 use urdd_kinematics::learn::network::{Layer, Network};
 
-/// Room for the work on [`LANES`] configurations.
+/// Buffers for [`LANES`] configurations.
 pub(super) struct Work {
     values: Vec<Vec<Lanes>>,
-    /// Derivatives by the values of the layer at hand, and by those before.
+    /// Derivatives with respect to the values of the current layer, and of the layer before.
     by_values: [Vec<Lanes>; 2],
-    /// Derivatives by weights and biases, of each layer.
+    /// Derivatives with respect to the weights and biases of each layer.
     pub gradients: Vec<Layer>,
     pub loss: f64,
 }
@@ -31,7 +31,7 @@ impl Work {
         }
     }
 
-    /// Takes the loss of at most [`LANES`] configurations, and its derivatives where they are wanted.
+    /// Computes the loss of at most [`LANES`] configurations and, if requested, its gradients.
     pub fn run(
         &mut self,
         level: Level,
@@ -54,7 +54,7 @@ impl Work {
         }
     }
 
-    /// The loss, and its derivative by each output.
+    /// Computes the loss and its derivative with respect to each output.
     fn judge(&mut self, labels: &Labels, configurations: &[u32]) {
         let outputs = self.values.last().map_or(&[][..], Vec::as_slice);
         let by_outputs = &mut self.by_values[0];
@@ -97,7 +97,7 @@ impl Work {
                     }
                 }
             }
-            // Between the layers is a hyperbolic tangent, of which the derivative is 1 - t^2.
+            // The activation between layers is tanh; its derivative is 1 - t^2.
             let both = by_inputs.as_flattened_mut().iter_mut();
             for (by_input, t) in both.zip(before.as_flattened()) {
                 *by_input *= 1.0 - t * t;
@@ -107,7 +107,7 @@ impl Work {
     }
 }
 
-/// The derivatives by a layer's weights and biases.
+/// The derivatives with respect to a layer's weights and biases.
 #[inline(always)]
 fn by_weights(by_outputs: &[Lanes], before: &[Lanes], gradients: &mut Layer) {
     let rows = gradients.weights.chunks_exact_mut(before.len().max(1));
@@ -120,7 +120,7 @@ fn by_weights(by_outputs: &[Lanes], before: &[Lanes], gradients: &mut Layer) {
     }
 }
 
-/// The sum of the products, in an order of its own.
+/// The dot product, summed in a fixed order.
 #[inline(always)]
 fn dot(a: &Lanes, b: &Lanes) -> f64 {
     const SUMS: usize = 8;

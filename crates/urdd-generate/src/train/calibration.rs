@@ -1,42 +1,42 @@
-//! Choosing margins.
+//! Chooses the margins of the pairs.
 
 use super::labels::Labels;
 use super::settings::{FIRST_MISSES, LEVELS, MISSES, TAIL};
 
-/// What is known of one pair.
+/// The state of one pair.
 struct Pair {
-    /// The configurations in which the output is at most the margin, by falling output.
+    /// The configurations in which the output is at most the first margin, by descending output.
     order: Vec<u32>,
-    /// How many of them are above the margin by now.
+    /// How many of them are above the current margin.
     passed: usize,
-    /// Margins that fall, each with the number of misses that is to be expected of it.
+    /// Descending margins, each with its expected number of misses.
     levels: Vec<Level>,
-    /// Which of these is chosen.
+    /// Index of the current level.
     level: usize,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct Level {
     margin: f64,
-    /// Collisions that are missed, among as many configurations as there are here.
+    /// Expected number of missed collisions in the calibration set.
     misses: f64,
 }
 
-/// Going on to another level of a pair.
+/// A step of a pair to another level.
 struct Offer {
     pair: usize,
     level: usize,
-    /// Free configurations that are cleared for each collision that is missed by it.
+    /// Free configurations cleared per collision missed.
     worth: f64,
 }
 
-/// The margin of each pair, in the unit of the outputs: outputs up to it say that the pair may be in contact. `clip` is
-/// the clip distance in that unit.
+/// The margin of each pair, in the unit of the outputs: a pair may be in contact if its output is at most its margin.
+/// `clip` is the clip distance in that unit.
 ///
-/// Few contacts come out high, and a margin that passes just these would be missed by others. So how many are missed
-/// is taken from a tail: of the highest contacts of a pair the excess over the next is taken to be distributed
-/// exponentially. All pairs begin with a margin that hardly misses any; then margins are lowered where that clears
-/// most free configurations for each miss, until as many are to be expected as may be.
+/// Few contacts have high outputs, and a margin fitted to just these would miss others. The expected misses are
+/// therefore estimated from a tail: the excess of a pair's highest contacts over the next one is taken as exponentially
+/// distributed. All pairs start with a margin that misses hardly any. The margin that clears the most free
+/// configurations per miss is then lowered, until the expected misses reach the limit.
 pub(super) fn margins(outputs: &[f64], labels: &Labels, clip: f64) -> Vec<f64> {
     let num_pairs = labels.num_pairs;
     let count = labels.collides.len();
@@ -46,7 +46,7 @@ pub(super) fn margins(outputs: &[f64], labels: &Labels, clip: f64) -> Vec<f64> {
     let contacts_of = |k: u32| labels.row(k as usize).iter().filter(|d| **d == 0.0).count();
     let pair = |pair: usize| {
         let contacts: Vec<u32> = all().filter(|k| is_contact(*k, pair)).collect();
-        // A miss of this pair is none of the configuration where another pair is in contact too.
+        // A miss of this pair does not matter if another pair is in contact too.
         let alone = contacts.iter().filter(|k| contacts_of(**k) == 1).count();
         let alone = alone as f64 / contacts.len().max(1) as f64;
         let mut values: Vec<f64> = contacts.iter().map(|k| output(*k, pair)).collect();
@@ -63,7 +63,7 @@ pub(super) fn margins(outputs: &[f64], labels: &Labels, clip: f64) -> Vec<f64> {
         }
     };
     let mut pairs: Vec<Pair> = (0..num_pairs).map(pair).collect();
-    // By how many pairs a configuration is held to be in collision.
+    // The number of pairs that report a configuration as a possible collision.
     let mut held_by = vec![0_u32; count];
     for k in pairs.iter().flat_map(|pair| &pair.order) {
         held_by[*k as usize] += 1;
@@ -75,7 +75,7 @@ pub(super) fn margins(outputs: &[f64], labels: &Labels, clip: f64) -> Vec<f64> {
         let offers = pairs.iter().enumerate().filter_map(|(at, pair)| {
             let now = pair.levels[pair.level];
             let mut rest = pair.order[pair.passed..].iter().peekable();
-            // A configuration that others hold too is cleared in part.
+            // A configuration that other pairs also report is cleared in part.
             let mut cleared = 0.0;
             let mut best: Option<Offer> = None;
             for (level, next) in pair.levels.iter().enumerate().skip(pair.level + 1) {
@@ -121,12 +121,12 @@ pub(super) fn margins(outputs: &[f64], labels: &Labels, clip: f64) -> Vec<f64> {
     }
 }
 
-/// Of so many misses of a pair at least this part is taken to be missed altogether.
+/// Minimum fraction of a pair's misses that are taken as missed collisions.
 const LEAST_ALONE: f64 = 0.1;
-/// With fewer contacts than this, no tail is seen.
+/// With fewer contacts than this, no tail is fitted.
 const FEW: usize = 4;
 
-/// Margins of a pair whose contacts have these outputs, falling.
+/// The margin levels of a pair whose contacts have these outputs, descending.
 fn levels(contacts: &[f64], alone: f64, clip: f64) -> Vec<Level> {
     if contacts.len() < FEW {
         let highest = contacts.first().copied().unwrap_or(-0.1 * clip);
@@ -144,7 +144,7 @@ fn levels(contacts: &[f64], alone: f64, clip: f64) -> Vec<Level> {
     for _ in 0..LEVELS {
         let margin = match misses <= tail as f64 {
             true => base + mean * libm::log(tail as f64 / misses),
-            // Here there are contacts enough to count them.
+            // Enough contacts to count the misses.
             false if misses < contacts.len() as f64 / 4.0 => contacts[misses as usize],
             false => break,
         };
@@ -164,7 +164,7 @@ fn levels(contacts: &[f64], alone: f64, clip: f64) -> Vec<Level> {
 mod tests {
     use super::*;
 
-    /// Outputs of contacts as they are if the excess is distributed exponentially: a closed form.
+    /// Outputs of contacts with exponentially distributed excess, in closed form.
     fn exponential(count: usize) -> Vec<f64> {
         let value = |k: usize| -((k as f64 + 0.5) / count as f64).ln();
         (0..count).map(value).collect()
@@ -174,7 +174,7 @@ mod tests {
     fn a_tail_is_followed_beyond_the_highest_contact() {
         let contacts = exponential(1000);
         let first = levels(&contacts, 1.0, 1.0)[0];
-        // So high that of 1,000 contacts FIRST_MISSES are beyond: ln(1000 / 0.02) = 10.8.
+        // So high that FIRST_MISSES of 1,000 contacts are above: ln(1000 / 0.02) = 10.8.
         assert!((first.margin - 10.8).abs() < 1.0, "{first:?}");
         assert!(first.margin > contacts[0]);
     }
@@ -187,7 +187,7 @@ mod tests {
         let outputs: Vec<f64> = contacts.into_iter().chain(free).collect();
         let labels = Labels::of_one_pair(1000, 210);
         let margin = margins(&outputs, &labels, 1.0)[0];
-        // 0.5 % of 1,000 are 5: the margin of ln(1000 / 5) = 5.3, or above, as far as that clears any.
+        // 0.5 % of 1,000 is 5: the margin is ln(1000 / 5) = 5.3, or higher if a lower one clears no more.
         assert!((5.0..6.0).contains(&margin), "{margin}");
     }
 

@@ -1,4 +1,4 @@
-//! Counting how often a model is right: SPEC 8.8.9 to 8.8.12.
+//! Measures how often a model is right: SPEC 8.8.9 to 8.8.12.
 
 use nalgebra::Isometry3;
 use rayon::prelude::*;
@@ -12,7 +12,7 @@ use urdd_format::self_collision_model::{
 };
 use urdd_kinematics::learn::model::CollisionModel;
 
-/// Sampled configurations, and what is true of each.
+/// Sampled configurations and the true state of each.
 pub(super) struct Counted {
     configurations: Vec<f64>,
     truths: Vec<Truth>,
@@ -26,12 +26,11 @@ enum Truth {
     NearContact,
 }
 
-/// Configurations that one thread works on at once.
+/// Number of configurations per parallel task.
 const BLOCK: usize = 64;
 
 impl Counted {
-    /// The sampled configurations from `first` on, `count` of them. Whether they are near contact is found out of those
-    /// of the evaluation alone.
+    /// `count` sampled configurations from `first` on. Only those of the evaluation are checked for near contact.
     pub fn new(
         subject: &Subject,
         [first, count]: [u32; 2],
@@ -74,7 +73,7 @@ impl Counted {
         })
     }
 
-    /// Whether there are enough collisions and free configurations to state rates.
+    /// Checks that there are enough collisions and free configurations to state rates.
     pub fn check(&self) -> Result<(), NoModel> {
         let of = self.truths.len();
         let free = self.truths.iter().filter(|truth| **truth == Truth::Free);
@@ -89,7 +88,7 @@ impl Counted {
         }
     }
 
-    /// What comes of a model.
+    /// Counts a model's results.
     pub fn count(&self, model: &CollisionModel) -> Result<ModelEvaluation, NoModel> {
         let may_collide = model.may_collide_batch(&self.configurations)?;
         let mut counts = ModelEvaluation::NOTHING;
@@ -114,7 +113,7 @@ impl Counted {
     }
 }
 
-/// A step towards another configuration, as far as no DOF changes by more than [`NEAR_CONTACT_STEP`].
+/// A step towards another configuration; no DOF changes by more than [`NEAR_CONTACT_STEP`].
 fn stepped(from: &[f64], to: &[f64]) -> Vec<f64> {
     let apart = from.iter().zip(to).map(|(a, b)| (b - a).abs());
     let largest = apart.fold(0.0, f64::max);
@@ -126,7 +125,8 @@ fn stepped(from: &[f64], to: &[f64]) -> Vec<f64> {
     steps.collect()
 }
 
-/// The first configuration of the second confirmation: 29 bits of the SHA-256 of the network's numbers say it.
+/// The first configuration of the second confirmation, from 29 bits of the SHA-256 of the network's weights, biases and
+/// margins.
 pub(super) fn second_confirmation(module: &SelfCollisionModelModule) -> u32 {
     let layers = module.layers.iter();
     let numbers = layers.flat_map(|of| of.weights.iter().flatten().chain(&of.biases));

@@ -1,4 +1,4 @@
-//! What configurations are really like.
+//! The ground truth of configurations.
 
 use nalgebra::Isometry3;
 use rayon::prelude::*;
@@ -7,22 +7,22 @@ use super::{NoModel, Subject, Useless, rows, settings};
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::learn::inputs::Input;
 
-/// Sampled configurations, and the distances in them.
+/// Sampled configurations and the distances of all pairs.
 pub(super) struct Labels {
     pub configurations: Vec<f64>,
     num_dofs: usize,
-    /// Of each configuration one number for each pair: the distance, as a part of the clip distance, 1 from there on.
+    /// One distance per pair and configuration, as a fraction of the clip distance, at most 1.
     pub distances: Vec<f32>,
     pub num_pairs: usize,
     /// Whether any pair is in contact.
     pub collides: Vec<bool>,
 }
 
-/// Configurations that one thread works on at once.
+/// Number of configurations per parallel task.
 const BLOCK: usize = 64;
 
 impl Labels {
-    /// Of the sampled configurations from `first` on, `count` of them.
+    /// Labels of `count` sampled configurations from `first` on.
     pub fn new(
         subject: &Subject,
         [first, count]: [u32; 2],
@@ -55,7 +55,7 @@ impl Labels {
                     }
                     subject.pairs.distances(&poses, clip, &mut of_pairs);
                     for (to, from) in distances.iter_mut().zip(&of_pairs) {
-                        // What is not contact stays more than 0.
+                        // A distance without contact stays above 0.
                         *to = match *from > 0.0 {
                             true => ((from / clip) as f32).max(f32::MIN_POSITIVE),
                             false => 0.0,
@@ -79,7 +79,7 @@ impl Labels {
         })
     }
 
-    /// Whether there is enough to learn from.
+    /// Checks that there are enough collisions and free configurations to learn from.
     pub fn check(&self) -> Result<(), NoModel> {
         let of = self.collides.len();
         let colliding = self.collides.iter().filter(|collides| **collides).count();
@@ -94,7 +94,7 @@ impl Labels {
         }
     }
 
-    /// The pairs that come nearer than a part of the clip distance.
+    /// The pairs that come nearer than `limit`, a fraction of the clip distance.
     pub fn near_pairs(&self, limit: f64) -> Vec<usize> {
         let mut least = vec![f32::INFINITY; self.num_pairs];
         for row in self.distances.chunks(self.num_pairs) {
@@ -108,7 +108,7 @@ impl Labels {
             .collect()
     }
 
-    /// Keeps the distances of some pairs only. Which configurations are in collision stays as it was.
+    /// Keeps the distances of these pairs only. `collides` still covers all pairs.
     pub fn keep(&mut self, pairs: &[usize]) {
         let rows = self.distances.chunks(self.num_pairs);
         let kept = rows.flat_map(|row| pairs.iter().map(|pair| row[*pair]));
@@ -116,7 +116,7 @@ impl Labels {
         self.num_pairs = pairs.len();
     }
 
-    /// What a network is told of each configuration, row by row.
+    /// The network's inputs for each configuration, row by row.
     pub fn told(&self, inputs: &[Input]) -> Vec<f64> {
         rows(&self.configurations, self.num_dofs, inputs)
     }
@@ -126,7 +126,7 @@ impl Labels {
         &self.distances[configuration * self.num_pairs..][..self.num_pairs]
     }
 
-    /// Configurations of a robot with one pair, the first of them in contact.
+    /// Labels of one pair: first the colliding configurations, then the free ones.
     #[cfg(test)]
     pub fn of_one_pair(colliding: usize, free: usize) -> Self {
         let collides = (0..colliding + free).map(|k| k < colliding);

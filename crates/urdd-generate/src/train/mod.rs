@@ -1,12 +1,12 @@
-//! Making a model: SPEC 8.8 says what it is, this how it comes about.
+//! Training of the self-collision model. SPEC 8.8 defines the model; this module trains it.
 //!
-//! Each pair of links that comes near has one output. In training a distance counts up to the clip distance; farther
-//! ones only have to come out at that or more, and contact only at 0 or less by some distance, so that the network may
-//! go on smoothly beyond both ends. Margins are then chosen on configurations of their own, such that few collisions
-//! are missed and as many free configurations as possible are cleared; the counts that are stated come from those that
-//! the specification keeps for that.
+//! Each pair of links that comes near has one output. For training, distances are clipped at the clip distance. Beyond
+//! it an output only has to be at least that large; in contact it only has to lie some distance below 0. The network
+//! can thus continue smoothly beyond both ends. Margins are then chosen on separate configurations, so that few
+//! collisions are missed and as many free configurations as possible are cleared. The stated counts come from the
+//! configurations that the specification reserves for evaluation.
 //!
-//! The result is the same bits for each number of threads.
+//! The result is identical to the bit for any number of threads.
 
 mod backward;
 mod calibration;
@@ -37,64 +37,64 @@ use urdd_kinematics::learn::inputs::{self, Input};
 use urdd_kinematics::learn::network::{Layer, Network};
 use urdd_kinematics::{ConfigurationError, ConfigurationSpace, ForwardKinematics};
 
-/// A robot of which a model is made.
+/// The robot to train a model for.
 pub struct Subject<'a> {
-    /// How it moves.
+    /// Its forward kinematics.
     pub kinematics: &'a ForwardKinematics,
-    /// Its configurations.
+    /// Its configuration space.
     pub space: &'a ConfigurationSpace,
-    /// What the network is told: of each DOF that moves two links of a pair against each other.
+    /// The network's inputs: the DOFs that move the links of a pair relative to each other.
     pub inputs: Vec<ModelInput>,
-    /// The pairs of links that are not skipped, of which the bodies are the links' indices.
+    /// The pairs of links that are not skipped. The bodies are link indices.
     pub pairs: &'a BodyPairs,
-    /// From here on distances are all the same, metres.
+    /// The distance in metres from which all distances count as equal.
     pub clip_distance: f64,
     /// Digest of the shapes and the kinematics.
     pub trained_on: Sha256,
-    /// How much work it is.
+    /// How much to train.
     pub effort: Effort,
 }
 
-/// Why no model was made.
+/// Why no model was trained.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum NoModel {
-    /// A model of this robot is of no use.
+    /// A model would be of no use for this robot.
     #[error("{0}")]
     OfNoUse(Useless),
-    /// A configuration has no poses.
+    /// A configuration without valid link poses.
     #[error(transparent)]
     Configuration(#[from] ConfigurationError),
-    /// It was asked to stop.
+    /// Training was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-/// Why a model of a robot is of no use.
+/// Why a model would be of no use for a robot.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Useless {
-    /// A length that has no limits, and is sampled from a stretch that says nothing about the robot.
+    /// A length DOF without limits: its sampling range is arbitrary.
     #[error("DOF `{}` is a length without limits", escape::line(.dof))]
     NoLimits {
-        /// Its name.
+        /// Name of the DOF.
         dof: String,
     },
-    /// No two links that are not skipped move against each other.
+    /// No two links that are not skipped move relative to each other.
     #[error("no two links that are not skipped move against each other")]
     NothingMoves,
-    /// Too many pairs.
+    /// Too many pairs of links.
     #[error(
         "more than {most} pairs of links are not skipped, and a model of so many is no faster than what it stands for"
     )]
     ManyPairs {
-        /// How many there may be.
+        /// Maximum number of pairs.
         most: usize,
     },
     /// Too many DOFs.
     #[error("the robot has {found} DOFs, and a model is made of {most} at most")]
     ManyDofs {
-        /// How many there are.
+        /// The number of DOFs.
         found: usize,
-        /// How many there may be.
+        /// Maximum number of DOFs.
         most: usize,
     },
     /// Too few collisions among the samples.
@@ -102,9 +102,9 @@ pub enum Useless {
         "of {of} sampled configurations {found} are in collision, which is too few to learn from"
     )]
     FewCollisions {
-        /// How many there are.
+        /// The number of collisions.
         found: usize,
-        /// Among how many.
+        /// The number of sampled configurations.
         of: usize,
     },
     /// Too few free configurations.
@@ -112,23 +112,23 @@ pub enum Useless {
         "of {of} sampled configurations {found} are free of collisions, which is too few to learn from"
     )]
     FewFree {
-        /// How many there are.
+        /// The number of free configurations.
         found: usize,
-        /// Among how many.
+        /// The number of sampled configurations.
         of: usize,
     },
-    /// Its rates came out worse on other configurations, time and again.
+    /// Repeatedly, other configurations did not confirm the model's rates.
     #[error("the rates of {attempts} models were not confirmed on other configurations")]
     NotConfirmed {
-        /// How many were trained.
+        /// The number of trained models.
         attempts: u64,
     },
 }
 
-/// Makes a model. `progress` is told how much of the work is done.
+/// Trains a model. `progress` receives the finished and the total steps.
 ///
 /// # Errors
-/// Where one is of no use, a configuration has no poses, or it is asked to stop.
+/// If a model would be of no use, a configuration has no valid poses, or training is cancelled.
 pub fn train(
     subject: Subject,
     cancellation: &Cancellation,
@@ -147,7 +147,7 @@ pub fn train(
     if num_pairs == 0 || inputs.is_empty() {
         return Err(NoModel::OfNoUse(Useless::NothingMoves));
     }
-    // Labels take about as long as some epochs.
+    // Computing the labels takes about as long as a few epochs.
     let total = subject.effort.epochs as usize + 3;
     let [training, calibration] = subject.effort.ranges();
     let step = |done: usize| progress(done, total);
@@ -192,22 +192,22 @@ pub fn train(
     Err(NoModel::OfNoUse(Useless::NotConfirmed { attempts }))
 }
 
-/// Whether the rates that are found do not contradict those that are stated: SPEC 8.8.12.
+/// Whether the rates found do not contradict the stated ones: SPEC 8.8.12.
 fn confirms(stated: &ModelEvaluation, found: &ModelEvaluation) -> bool {
     let misses_more = found.miss_rate().is_above(&stated.miss_rate());
     !misses_more && !stated.clear_rate().is_above(&found.clear_rate())
 }
 
-/// A network of weights as good as random, of which the outputs begin above 0.
+/// A network with pseudorandom weights whose outputs start above 0.
 fn start(inputs: &[Input], num_outputs: usize, attempt: u64) -> Network {
     let width: usize = inputs.iter().map(Input::width).sum();
     let widths = [width, settings::HIDDEN, settings::HIDDEN, num_outputs];
-    // Beyond the sequences that the order of the examples is drawn from.
+    // Distinct from the sequences that shuffle the examples.
     let sequence = settings::SEED + (attempt << 24);
     let mut drawn = 0;
     let mut layer = |pair: &[usize]| {
         let (before, after) = (pair[0], pair[1]);
-        // Glorot and Bengio (2010): the values of each layer vary as much as those before.
+        // Glorot and Bengio (2010): the values of each layer have the same variance as those before.
         let most = (6.0 / (before + after) as f64).sqrt();
         let mut weight = || {
             drawn += 1;
@@ -225,12 +225,12 @@ fn start(inputs: &[Input], num_outputs: usize, attempt: u64) -> Network {
     Network { layers }
 }
 
-/// Seven significant digits: what a number says in a document.
+/// Rounds to seven significant digits, the precision of numbers in a document.
 pub(crate) fn rounded(number: f64) -> f64 {
     format!("{number:.6e}").parse().unwrap_or(number)
 }
 
-/// The layers as the module has them: numbers rounded, outputs in metres.
+/// The layers as stored in the module: rounded, with outputs in metres.
 fn layers(network: &Network, clip_distance: f64) -> Vec<ModelLayer> {
     let last = network.layers.len().saturating_sub(1);
     let layer = |(place, layer): (usize, &Layer)| {
@@ -245,7 +245,7 @@ fn layers(network: &Network, clip_distance: f64) -> Vec<ModelLayer> {
     network.layers.iter().enumerate().map(layer).collect()
 }
 
-/// The module, without its counts, and the model that it is.
+/// The module without its counts, and the model that it defines.
 fn module(
     subject: &Subject,
     network: &Network,
@@ -288,7 +288,7 @@ fn module(
     };
     let num_dofs = subject.space.num_dofs();
     let of = |module: &SelfCollisionModelModule| CollisionModel::new(module, num_dofs);
-    // The module was made right above.
+    // Valid: the module was built just above.
     let model = of(&module).unwrap_or_else(|error| unreachable!("{error}"));
     let outputs = model.clearances_batch(&calibration.configurations)?;
     let margins = calibration::margins(&outputs, calibration, module.clip_distance);
@@ -308,7 +308,7 @@ fn module(
     Ok((module, model))
 }
 
-/// Values of each configuration for the network, in rows: used in any order.
+/// The network's input values of all configurations, one row per configuration.
 fn rows(configurations: &[f64], num_dofs: usize, inputs: &[Input]) -> Vec<f64> {
     let width: usize = inputs.iter().map(Input::width).sum();
     let mut rows = vec![0.0; configurations.len() / num_dofs.max(1) * width];

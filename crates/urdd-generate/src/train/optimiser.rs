@@ -1,4 +1,4 @@
-//! Finding weights: Adam (Kingma and Ba, 2015) with steps that fall by half a cosine.
+//! Optimises the weights with Adam (Kingma and Ba, 2015) and a half-cosine learning rate schedule.
 
 use std::f64::consts::PI;
 
@@ -13,16 +13,16 @@ use urdd_kinematics::learn::kernel::LANES;
 use urdd_kinematics::learn::network::{Layer, Network};
 use urdd_kinematics::unit;
 
-/// How much of a mean of gradients, and of their squares, stays at each step.
+/// Decay rates of the means of the gradients and of their squares.
 const MEMORY: [f64; 2] = [0.9, 0.999];
-/// Added to the root of the mean of squares.
+/// Added to the root mean square to avoid division by zero.
 const LEAST: f64 = 1e-8;
 
-/// Examples: what the network is told, row by row, and what is true.
+/// Examples: the network's inputs, row by row, and the labels.
 pub(super) type Examples<'a> = (&'a [f64], &'a Labels);
 
-/// Trains a network, and leaves the one that did best on the validation's examples. `progress` is told the number of
-/// passes that are done.
+/// Trains a network and keeps the weights with the lowest validation loss. `progress` receives the number of finished
+/// epochs.
 pub(super) fn train(
     network: &mut Network,
     (told, labels): Examples,
@@ -67,7 +67,7 @@ pub(super) fn train(
     Ok(())
 }
 
-/// Another order for each pass, the same for each run.
+/// Shuffles the order for an epoch; deterministic.
 fn shuffle(order: &mut [u32], epoch: usize) {
     let sequence = SEED + 1 + epoch as u64;
     for last in (1..order.len()).rev() {
@@ -80,14 +80,14 @@ fn flat(network: &Network) -> Vec<f64> {
     numbers(&network.layers).copied().collect()
 }
 
-/// All weights and biases, in one order.
+/// All weights and biases in a fixed order.
 fn numbers(layers: &[Layer]) -> impl Iterator<Item = &f64> {
     layers
         .iter()
         .flat_map(|layer| layer.weights.iter().chain(&layer.biases))
 }
 
-/// One step, by the gradients of all parts of a batch.
+/// One Adam step with the summed gradients of a batch.
 fn advance(network: &mut Network, works: &[Work], means: &mut [Vec<f64>; 2], step: i32, size: f64) {
     let [first, second] = means;
     let corrections = MEMORY.map(|memory| 1.0 - libm::pow(memory, f64::from(step)));
@@ -104,7 +104,7 @@ fn advance(network: &mut Network, works: &[Work], means: &mut [Vec<f64>; 2], ste
     }
 }
 
-/// The loss of the first examples.
+/// The loss over the first [`VALIDATION`] examples.
 fn loss(network: &Network, (told, labels): Examples, level: Level) -> f64 {
     let count = labels.collides.len().min(VALIDATION);
     let all: Vec<u32> = (0..u32::try_from(count).unwrap_or(u32::MAX)).collect();

@@ -1,13 +1,13 @@
-//! How models are trained: the same for every robot. Found on UR5, Panda, xArm7, Z1, H1 and Orca.
+//! Training settings, the same for every robot. Tuned on UR5, Panda, xArm7, Z1, H1 and Orca.
 
-/// How much work training is.
+/// How much to train.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Effort {
-    /// Sampled configurations to train on.
+    /// Number of sampled configurations for training.
     pub training: u32,
-    /// Those to choose margins on, and to say when training ends.
+    /// Number of sampled configurations for choosing margins and for early stopping.
     pub calibration: u32,
-    /// Passes over all configurations, at most.
+    /// Maximum number of epochs.
     pub epochs: u32,
 }
 
@@ -22,56 +22,56 @@ impl Default for Effort {
 }
 
 impl Effort {
-    /// The first of each part's sampled configurations, and their number: they follow each other from 0 on.
+    /// The first sampled configuration of each part and its count. The parts follow each other from 0.
     pub(super) fn ranges(self) -> [[u32; 2]; 2] {
         [[0, self.training], [self.training, self.calibration]]
     }
 }
 
-/// Of so many of the calibration's configurations the loss is taken.
+/// Calibration configurations used for the loss.
 pub(super) const VALIDATION: usize = 5_000;
 
-/// Most pairs of links: labels take 4 bytes for each, in each configuration.
+/// Maximum number of pairs of links: labels take 4 bytes per pair and configuration.
 pub const MOST_PAIRS: usize = 512;
-/// Most DOFs: a configuration takes 8 bytes for each, and what the network is told of it 32.
+/// Maximum number of DOFs: a configuration takes 8 bytes per DOF, and its network inputs 32.
 pub const MOST_DOFS: usize = 100;
-/// Least number of collisions, and of free configurations, among those of training.
+/// Minimum number of collisions, and of free configurations, in the training set.
 pub(super) const LEAST: usize = 50;
-/// A pair has an output where it came nearer than this, as a part of the clip distance.
+/// A pair gets an output if it comes nearer than this, as a fraction of the clip distance.
 pub(super) const NEAR: f64 = 0.5;
 
-/// Values of each of the two hidden layers.
+/// Size of each of the two hidden layers.
 pub(super) const HIDDEN: usize = 64;
-/// What all outputs begin with, as a part of the clip distance.
+/// Initial value of all outputs, as a fraction of the clip distance.
 pub(super) const FIRST_OUTPUT: f64 = 0.7;
-/// Which of the specification's sequences weights are drawn from: one that no sampled configuration is of.
+/// Sampling sequence for the initial weights; no sampled configuration uses it.
 pub(super) const SEED: u64 = 1 << 32;
-/// How many networks are trained at most, from other initial weights each: the rates of about one in a hundred honest
-/// models are not confirmed (SPEC 8.8.12), by chance.
+/// Maximum number of training attempts, each with different initial weights. By chance, the rates of about one in a
+/// hundred honest models are not confirmed (SPEC 8.8.12).
 pub(super) const ATTEMPTS: u64 = 3;
 
-/// Training ends after so many passes that brought nothing.
+/// Epochs without improvement before training stops.
 pub(super) const PATIENCE: usize = 5;
-/// Configurations of one step.
+/// Batch size: configurations per step.
 pub(super) const BATCH: usize = 128;
-/// How far a step goes at first; it falls by half a cosine.
+/// Initial step size; it decays along half a cosine.
 pub(super) const FIRST_STEP: f64 = 0.02;
 
-/// In contact an output has to come out this far below 0, as a part of the clip distance.
+/// Target output in contact: this far below 0, as a fraction of the clip distance.
 pub(super) const IN_CONTACT: f64 = 0.3;
-/// The weight of contact in the loss, where pairs that are far apart have 1.
+/// Weight of contacts in the loss, relative to 1 for distant pairs.
 pub(super) const CONTACT_WEIGHT: f64 = 5.0;
-/// The weight of pairs that are near.
+/// Weight of near pairs in the loss.
 pub(super) const NEAR_WEIGHT: f64 = 2.0;
 
-/// Of the collisions in the calibration's configurations this part may be missed.
+/// The fraction of collisions in the calibration set that may be missed.
 pub(super) const MISSES: f64 = 0.005;
-/// So many of a pair's contacts with the highest outputs are its tail, at most.
+/// Maximum number of a pair's contacts with the highest outputs that form its tail.
 pub(super) const TAIL: usize = 10;
-/// Misses of a pair that are to be expected of its first margin; each following one has twice as many.
+/// Expected misses of a pair at its first margin; each further level doubles them.
 pub(super) const FIRST_MISSES: f64 = 0.02;
-/// How many margins are tried.
+/// Maximum number of margins to try per pair.
 pub(super) const LEVELS: usize = 14;
 
-/// Sampled configurations among the test vectors.
+/// Number of sampled configurations among the test vectors.
 pub(super) const TEST_VECTORS: u32 = 8;

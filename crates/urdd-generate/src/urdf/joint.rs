@@ -19,7 +19,7 @@ const JOINT_ELEMENTS: &[&str] = &[
 ];
 
 impl Reader {
-    /// Reads a joint, and adds it to the robot.
+    /// Reads a joint and adds it to the robot.
     pub(super) fn joint(&mut self, joint: Element<'_>) {
         let at = joint.range().start;
         let mut place = JointPlace {
@@ -127,7 +127,7 @@ impl Reader {
         found
     }
 
-    /// The parent or the child.
+    /// The parent or child link.
     fn end(
         &mut self,
         joint: Element<'_>,

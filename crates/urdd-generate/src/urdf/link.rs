@@ -14,7 +14,7 @@ impl Reader {
             .only(link, "inertial")
             .map(|inertial| self.inertial(inertial));
         let unknown_elements = self.unknown(link, &["inertial", "visual", "collision"]);
-        // Visual before collision, as meshes are counted.
+        // Visual before collision: the order in which meshes are counted.
         let of = |kind| xml::children(link).filter(move |(name, _)| *name == kind);
         let visual = of("visual")
             .map(|(_, element)| v1::Visual {
@@ -60,8 +60,7 @@ impl Reader {
         }
     }
 
-    /// The first shape; one that lacks what it needs is taken out of the text, and the next one
-    /// counts.
+    /// The first valid shape. An incomplete shape is removed from the text, and the next one is used.
     fn geometry(&mut self, parent: Element<'_>) -> Option<v1::Geometry> {
         let geometry = self.only(parent, "geometry")?;
         let mut found = None;
@@ -116,9 +115,9 @@ impl Reader {
         }
     }
 
-    /// Numbers without which a shape is none.
+    /// A required size attribute.
     fn size<const N: usize>(&mut self, shape: Element<'_>, attribute: &str) -> Option<[f64; N]> {
-        // What is to be taken out as a whole is not mended in parts.
+        // The whole shape is removed, so edits of its attributes are dropped.
         let (edits, remarks) = (self.reading.edits.len(), self.reading.remarks.len());
         let size = self.vector(shape, attribute);
         if size.is_none() {

@@ -1,12 +1,12 @@
-//! Materials that are not as URDF should have them. They are kept as they are.
+//! Checks materials. Questionable ones are kept as they are.
 
 use std::collections::{BTreeSet, HashMap};
 
 use super::reader::{Reader, shortened};
 use crate::note::NoteKind;
 
-/// Notes materials of one name and two looks, of no name, and names that no material has. (A link
-/// may name a material that is declared further down.)
+/// Notes conflicting looks under one name, materials without a name, and names without a look. (A link may reference a
+/// material that is declared later.)
 pub(super) fn check(reader: &mut Reader) {
     let materials = std::mem::take(&mut reader.materials);
     let mut looks = HashMap::new();
@@ -21,7 +21,7 @@ pub(super) fn check(reader: &mut Reader) {
     for (offset, material) in &materials {
         let look = (&material.color, &material.texture);
         let has_look = look != (&None, &None);
-        // An empty name is how some programs write that there is none.
+        // Some programs write an empty name for a material without one.
         if material.name.as_deref() == Some("") {
             continue;
         }

@@ -1,9 +1,7 @@
-//! The generator's own reading of a URDF (SPEC 6.1): the XML as it stands, so that what is absent
-//! can be told from what is zero.
+//! The generator's URDF reader (SPEC 6.1). It keeps absent attributes distinct from zero.
 //!
-//! What is not as SPEC 6.1.8 asks for, but has one meaning that any reader would agree on, is
-//! repaired in the text itself: [`read`] gives the edits with the remarks. So the URDD carries a
-//! source that says what its modules say.
+//! A deviation from SPEC 6.1.8 with one meaning that any reader would agree on is repaired in the text: [`read`]
+//! returns the edits with the remarks. The source in the URDD thus says the same as its modules.
 
 mod joint;
 mod link;
@@ -21,20 +19,20 @@ use urdd_format::urdf::UrdfModule;
 pub(crate) use tree::{Tree, has_axis, written_axis};
 pub(crate) use urdd_xml::element::Edit;
 
-/// A robot as it was read.
+/// The result of reading a URDF.
 #[derive(Debug)]
 pub(crate) struct Reading {
-    /// What the text says.
+    /// The robot.
     pub robot: UrdfModule,
-    /// The tree of its links, where there are no faults.
+    /// The link tree; valid if there are no faults.
     pub tree: Tree,
-    /// What is odd, in the order of the text.
+    /// Deviations, in the order of the text.
     pub remarks: Vec<Remark>,
-    /// What makes the text say what was read, where it did not.
+    /// Edits that repair the text where it differs from what was read.
     pub edits: Vec<Edit>,
-    /// Where each mesh is named: links ascending, visual before collision, elements ascending.
+    /// Byte offset of each mesh element: links ascending, visual before collision, elements ascending.
     pub mesh_offsets: Vec<usize>,
-    /// Whether there are elements of xacro.
+    /// Whether there are xacro elements.
     pub has_xacro: bool,
 }
 
@@ -58,10 +56,10 @@ impl Default for Reading {
     }
 }
 
-/// Reads a URDF. `file_stem` names a robot that has no name.
+/// Reads a URDF. A robot without a name is named `file_stem`.
 ///
 /// # Errors
-/// Where the text is no robot: everything that is wrong, in the order of the text.
+/// If the text is not a valid robot: all faults, in the order of the text.
 pub(crate) fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFault>> {
     let document = urdd_xml::parse(text, urdd_xml::Kind::Robot)
         .map_err(|error| vec![xml::fault(&error, text)])?;

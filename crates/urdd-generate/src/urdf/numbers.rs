@@ -1,17 +1,17 @@
 //! Lists of numbers in attributes.
 
-/// What an attribute that should be `N` numbers is.
+/// The result of parsing an attribute of `N` numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Numbers<const N: usize> {
-    /// That.
+    /// `N` finite numbers.
     Finite([f64; N]),
-    /// That, but one of them is infinite, or none.
+    /// `N` numbers, at least one of them infinite or NaN.
     NotFinite,
-    /// Something else.
+    /// Anything else.
     Wrong,
 }
 
-/// The words of an attribute as numbers; `None` where one is none.
+/// The words of an attribute as numbers; `None` if one is not a number.
 pub(super) fn words(text: &str) -> Option<Vec<f64>> {
     text.split_ascii_whitespace()
         .map(|word| word.parse().ok())
@@ -26,7 +26,7 @@ pub(super) fn read<const N: usize>(text: &str) -> Numbers<N> {
     }
 }
 
-/// What a wrong attribute is, in words.
+/// What an attribute of `count` numbers should be.
 pub(super) fn what(count: usize) -> String {
     match count {
         1 => "one number".to_owned(),

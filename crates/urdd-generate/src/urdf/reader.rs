@@ -1,4 +1,4 @@
-//! From the XML to the robot.
+//! Builds the robot from the XML.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -13,17 +13,17 @@ use crate::note::{NoteKind, Remark};
 use crate::pose::{from_xyzw, has_quaternions};
 use urdd_format::urdf as v1;
 
-/// Most links, joints or elements of a kind: indices are of 32 bits.
+/// Maximum number of links, and of joints: indices have 32 bits.
 const MOST: usize = 10_000_000;
 
-/// Reads the robot of a document, and says what makes it none.
+/// Reads the robot of a document, and its faults.
 pub(super) fn read(document: &Document<'_>, file_stem: &str) -> Reader {
     let mut reader = Reader::default();
     reader.robot(document.root_element(), file_stem);
     reader
 }
 
-/// Where the parts of a joint stand.
+/// Byte offsets of the parts of a joint.
 #[derive(Debug, Clone, Default)]
 pub(super) struct JointPlace {
     pub joint: usize,
@@ -39,9 +39,9 @@ pub(super) struct Reader {
     pub(super) faults: Vec<(usize, Fault)>,
     pub(super) link_places: Vec<usize>,
     pub(super) joint_places: Vec<JointPlace>,
-    /// Every material, and where it stands.
+    /// Every material with its byte offset.
     pub(super) materials: Vec<(usize, v1::Material)>,
-    /// Where attributes stand whose names are mended.
+    /// Byte offsets of attributes whose names are repaired.
     mended: HashSet<usize>,
 }
 
@@ -70,14 +70,14 @@ impl Reader {
         self.reading.edits.push(Edit { range, text });
     }
 
-    /// Takes an attribute out of the text, with the white space before it.
+    /// Removes an attribute and the white space before it from the text.
     fn remove_attribute(&mut self, element: Element<'_>, attribute: Range<usize>) {
         let text = element.document().input_text();
         let before = text[..attribute.start].trim_end().len();
         self.edit(before..attribute.end, "");
     }
 
-    /// The first element of a name in another; others do not count.
+    /// The first child element with this name; others are noted and ignored.
     pub(super) fn only<'a>(&mut self, parent: Element<'a>, name: &str) -> Option<Element<'a>> {
         let mut found = xml::children(parent).filter(|(found, _)| *found == name);
         let (_, first) = found.next()?;
@@ -93,7 +93,7 @@ impl Reader {
         Some(first)
     }
 
-    /// An attribute; one that is written in another case is read, and mended.
+    /// An attribute. A name in another case is accepted and repaired.
     pub(super) fn attribute<'a>(
         &mut self,
         element: Element<'a>,
@@ -106,7 +106,7 @@ impl Reader {
         let found = others
             .find(|other| other.namespace().is_none() && other.name().eq_ignore_ascii_case(name))?;
         let offset = found.range().start;
-        // Some attributes are asked for twice.
+        // Some attributes are read twice.
         if self.mended.insert(offset) {
             let element = xml::name(element);
             let problem = format!(
@@ -141,8 +141,8 @@ impl Reader {
         text
     }
 
-    /// An attribute of `N` numbers. One that is something else counts as absent, and is taken out
-    /// of the text; one with a number that is not finite counts as absent too (SPEC 6.1.8).
+    /// An attribute of `N` numbers. A malformed one counts as absent and is removed from the text. One with a
+    /// non-finite number counts as absent too (SPEC 6.1.8).
     pub(super) fn vector<const N: usize>(
         &mut self,
         element: Element<'_>,
@@ -186,7 +186,7 @@ impl Reader {
         self.vector::<1>(element, attribute).map(|[number]| number)
     }
 
-    /// The elements that URDF does not define, as text.
+    /// The source text of elements that URDF does not define.
     pub(super) fn unknown(&mut self, parent: Element<'_>, known: &[&str]) -> Vec<String> {
         let mut unknown = Vec::new();
         for (name, element) in xml::children(parent) {
@@ -255,7 +255,7 @@ impl Reader {
         }
     }
 
-    /// What was read, and what is wrong.
+    /// What was read, and the faults.
     pub(super) fn finish(self) -> (Reading, Vec<(usize, Fault)>) {
         let Reader {
             mut reading,
@@ -292,8 +292,8 @@ impl Reader {
     }
 }
 
-/// Numbers that are not as URDF writes them, where there is one way to read them: commas between all
-/// of them; one factor of a scale, for all axes; a colour without opacity, which is opaque.
+/// Parses numbers in a nonstandard form with only one meaning: commas between all of them; one scale factor for all
+/// axes; a colour without alpha, which is opaque.
 fn completed<const N: usize>(attribute: &str, text: &str) -> Option<[f64; N]> {
     let between_commas = || {
         let words = text.split(',').map(|word| word.trim().parse().ok());
@@ -309,7 +309,7 @@ fn completed<const N: usize>(attribute: &str, text: &str) -> Option<[f64; N]> {
     <[f64; N]>::try_from(numbers).ok().filter(|_| all_finite)
 }
 
-/// What it means that an attribute counts as absent.
+/// The effect of an absent attribute.
 fn absent(element: &str, attribute: &str) -> String {
     let means = match (element, attribute) {
         ("origin", "xyz" | "rpy") => "0 0 0",
@@ -323,7 +323,7 @@ fn absent(element: &str, attribute: &str) -> String {
     format!("taken as absent, which means {means}")
 }
 
-/// Text for a message.
+/// Shortens text for a message.
 pub(super) fn shortened(text: &str) -> String {
     const LONGEST: usize = 60;
     let mut short: String = text.chars().take(LONGEST).collect();

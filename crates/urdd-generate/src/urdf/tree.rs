@@ -1,4 +1,4 @@
-//! Whether links and joints are a tree that moves (SPEC 6.1.3 to 6.1.6).
+//! Checks that links and joints form a valid kinematic tree (SPEC 6.1.3 to 6.1.6).
 
 use std::collections::HashMap;
 
@@ -8,18 +8,18 @@ use crate::note::NoteKind;
 use urdd_format::urdf::{Joint, JointType, UrdfModule};
 use urdd_kinematics::rotation::unit_axis;
 
-/// Links and joints by index.
+/// The kinematic tree, by link and joint indices.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Tree {
     /// The root link.
     pub root: usize,
-    /// For each joint, its parent link and its child link.
+    /// For each joint, its parent link and child link.
     pub ends: Vec<[usize; 2]>,
     /// For each joint, the joint that it mimics.
     pub drivers: Vec<Option<usize>>,
 }
 
-/// Number of DOFs of a joint that is no mimic.
+/// Number of DOFs of a joint type, unless the joint is a mimic joint.
 pub(crate) fn num_dofs(joint_type: JointType) -> usize {
     match joint_type {
         JointType::Fixed => 0,
@@ -29,7 +29,7 @@ pub(crate) fn num_dofs(joint_type: JointType) -> usize {
     }
 }
 
-/// The axis of SPEC 5.7, not yet of length 1.
+/// The axis of SPEC 5.7, not normalised.
 pub(crate) fn written_axis(joint: &Joint) -> [f64; 3] {
     let axis = joint.axis.as_ref().and_then(|axis| axis.xyz);
     axis.unwrap_or([1.0, 0.0, 0.0])
@@ -40,7 +40,7 @@ pub(crate) fn has_axis(joint_type: JointType) -> bool {
     matches!(joint_type, Revolute | Continuous | Prismatic | Planar)
 }
 
-/// Checks the robot that was read, and fills in its tree. `robot_at` is where `<robot>` stands.
+/// Checks the robot and fills in its tree. `robot_at` is the byte offset of `<robot>`.
 pub(super) fn check(reader: &mut Reader, robot_at: usize) {
     same_names(reader);
     if reader.faults.is_empty() {
@@ -77,7 +77,7 @@ fn same_names(reader: &mut Reader) {
         }
     }
     for (offset, first_offset, name, are_links) in faults {
-        // Lines are known where the text is; until then the offset stands in.
+        // Holds the byte offset until `read` in `mod.rs` replaces it by the line.
         let first = u32::try_from(first_offset).unwrap_or(u32::MAX);
         let fault = match are_links {
             true => Fault::TwoLinks { name, first },
@@ -87,7 +87,7 @@ fn same_names(reader: &mut Reader) {
     }
 }
 
-/// Names that are there again: where first, where again.
+/// Repeated names: index of the first, index of the repetition.
 fn twice<'a>(names: impl Iterator<Item = &'a str>) -> Vec<(usize, usize, &'a str)> {
     let mut seen: HashMap<&str, usize> = HashMap::new();
     let mut found = Vec::new();
@@ -149,7 +149,7 @@ fn ends(reader: &mut Reader) {
     reader.faults.extend(faults);
 }
 
-/// The links by their names without case and white space around them; the first of each.
+/// The first link for each name, with case and surrounding white space ignored.
 fn plain_names_of(robot: &UrdfModule) -> HashMap<String, &str> {
     let mut names = HashMap::new();
     for link in &robot.links {
@@ -211,10 +211,9 @@ fn one_root(reader: &mut Reader, robot_at: usize) {
     }
 }
 
-/// Links that go round in a circle, each the parent of the next; the one that comes first in the
-/// file stands first.
+/// Links in a cycle, each the parent of the next, starting with the one that comes first in the file.
 fn ring(parent: &[Option<usize>]) -> Option<Vec<usize>> {
-    // For each link the walk that came by first; a walk that meets itself has found a ring.
+    // For each link, the walk that visited it first. A walk that meets itself has found a cycle.
     let mut walk_of = vec![usize::MAX; parent.len()];
     for start in 0..parent.len() {
         let mut link = start;
@@ -247,7 +246,7 @@ fn axes(reader: &mut Reader) {
     let mut faults = Vec::new();
     for (joint, place) in reader.reading.robot.joints.iter().zip(&reader.joint_places) {
         let axis = written_axis(joint);
-        // As SPEC 6.1.6 has it: the square of its length is a number, and not 0.
+        // As in SPEC 6.1.6: its squared length is finite and not 0.
         let square: f64 = axis.iter().map(|x| x * x).sum();
         let fine = square > 0.0 && square.is_finite() && unit_axis(axis).is_some();
         if has_axis(joint.joint_type) && !fine {
@@ -262,7 +261,7 @@ fn axes(reader: &mut Reader) {
     reader.faults.extend(faults);
 }
 
-/// Finds the joint that each mimic follows; what can follow nothing is no mimic.
+/// Finds the joint that each mimic joint follows. A mimic element that cannot be resolved is dropped.
 fn mimics(reader: &mut Reader) {
     let robot = &reader.reading.robot;
     let names = robot.joints.iter().enumerate();
@@ -309,9 +308,9 @@ fn mimics(reader: &mut Reader) {
     reader.reading.tree.drivers = drivers;
 }
 
-/// The joints that follow themselves, ascending; not those that only lead into a circle.
+/// The joints that are part of a mimic cycle, ascending; without those that only lead into one.
 fn in_circles(drivers: &[Option<usize>]) -> Vec<usize> {
-    // For each joint the walk that came by first; a walk that meets itself has found a circle.
+    // For each joint, the walk that visited it first. A walk that meets itself has found a cycle.
     let mut walk_of = vec![usize::MAX; drivers.len()];
     let mut found = Vec::new();
     for start in 0..drivers.len() {

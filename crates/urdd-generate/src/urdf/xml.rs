@@ -1,4 +1,4 @@
-//! Elements and attributes, by the names that are written.
+//! Elements and attributes by qualified name.
 
 use roxmltree::Node;
 
@@ -8,12 +8,12 @@ pub(super) use urdd_xml::element::{attribute, children, name};
 
 pub(super) type Element<'a> = Node<'a, 'a>;
 
-/// An element's own characters.
+/// The source text of an element.
 pub(super) fn verbatim(element: Element<'_>) -> String {
     element.document().input_text()[element.range()].to_owned()
 }
 
-/// What the parser refused, in words and with its place.
+/// A parser error as a fault with its position.
 pub(super) fn fault(error: &XmlError, text: &str) -> PlacedFault {
     let at = error.pos();
     let fault = match error {
