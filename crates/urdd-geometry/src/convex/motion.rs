@@ -16,16 +16,27 @@ pub struct Motion {
 /// Why poses are not a valid motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MotionError {
+    /// There are no samples.
     #[error("there are no samples; give at least one")]
     NoSamples,
+    /// A sample has another number of poses than there are bodies.
     #[error("sample {sample} has {found} poses; give one for each of the {expected} bodies")]
     Bodies {
+        /// Index of the sample.
         sample: usize,
+        /// Number of bodies.
         expected: usize,
+        /// Number of poses.
         found: usize,
     },
+    /// A pose has a value that is not finite.
     #[error("the pose of body {body} in sample {sample} is not finite")]
-    NotFinite { sample: usize, body: usize },
+    NotFinite {
+        /// Index of the sample.
+        sample: usize,
+        /// Index of the body.
+        body: usize,
+    },
 }
 
 impl Motion {

@@ -31,14 +31,24 @@ pub struct Sphere {
 /// Why a convex shape cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ShapeError {
+    /// There are no vertices.
     #[error("the shape has no vertices; give at least one")]
     Empty,
+    /// A vertex is not finite, or too far from the origin.
     #[error("vertex {vertex} is not finite, or farther than 1e9 m from the origin")]
-    OutOfRange { vertex: usize },
+    OutOfRange {
+        /// Index of the vertex.
+        vertex: usize,
+    },
+    /// The pose is not finite, or too far from the origin.
     #[error("the centre or the axes are not finite, or farther than 1e9 m from the origin")]
     Pose,
+    /// A size is negative, too large or not finite.
     #[error("a half extent or radius is {size}; give one from 0 to 1e9 m")]
-    Size { size: f64 },
+    Size {
+        /// The half extent or radius, metres.
+        size: f64,
+    },
 }
 
 /// Maximum coordinate, metres. Fourth powers of much larger ones would overflow, and no robot is that large.

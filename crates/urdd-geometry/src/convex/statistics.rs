@@ -12,7 +12,9 @@ use super::motion::{Motion, PoseLanes};
 /// A shape and the index of its body.
 #[derive(Clone, Debug)]
 pub struct PlacedShape<T> {
+    /// Index of the body.
     pub body: usize,
+    /// The shape, in the frame of its body.
     pub shape: T,
 }
 
@@ -21,8 +23,11 @@ pub struct PlacedShape<T> {
 /// Each is a symmetric matrix over the shapes, in their order, with zeros on the diagonal.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairStatistics {
+    /// Mean distances.
     pub mean: Vec<Vec<f64>>,
+    /// Minimum distances.
     pub min: Vec<Vec<f64>>,
+    /// Maximum distances.
     pub max: Vec<Vec<f64>>,
 }
 

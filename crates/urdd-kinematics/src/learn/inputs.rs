@@ -9,12 +9,18 @@ use urdd_format::self_collision_model::ModelInput;
 /// An input with valid indices.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Input {
+    /// Cosines and sines of an angle; the index of its DOF.
     Angle(usize),
+    /// A length, scaled by its bounds.
     Length {
+        /// Index of the DOF.
         dof: usize,
+        /// Middle of its bounds, metres.
         middle: f64,
+        /// Half the distance between its bounds, metres.
         half_range: f64,
     },
+    /// The rotation matrix of a rotation vector; the indices of its DOFs.
     RotationVector([usize; 3]),
 }
 

@@ -11,6 +11,7 @@ use urdd_format::self_collision_model::ModelLayer;
 pub struct Layer {
     /// Row-major, one row per output.
     pub weights: Vec<f64>,
+    /// One per output.
     pub biases: Vec<f64>,
 }
 
@@ -24,6 +25,7 @@ impl Layer {
 /// Consecutive layers, with a hyperbolic tangent between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Network {
+    /// The layers, from the inputs to the outputs.
     pub layers: Vec<Layer>,
 }
 

@@ -1,3 +1,3 @@
 //! TST: rules for trying out the validator itself. None of them is ever run unasked.
 
-mod crashing_rule;
+pub mod crashing_rule;
