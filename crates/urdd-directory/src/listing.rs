@@ -37,8 +37,7 @@ pub struct Listing {
     pub entries: Vec<Entry>,
     /// Folders that could not be listed, with the reason.
     pub unreadable: Vec<(String, ReadError)>,
-    /// Whether the listing stopped at [`MAX_FILES`](super::limits::MAX_FILES) entries or
-    /// [`MAX_FOLDER_DEPTH`](super::limits::MAX_FOLDER_DEPTH) levels.
+    /// Whether the listing is incomplete: see [`super::limits::MAX_FILES`] and [`super::limits::MAX_FOLDER_DEPTH`].
     pub cut: bool,
 }
 

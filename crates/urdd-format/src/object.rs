@@ -3,8 +3,8 @@
 //!
 //! serde's own derive is laxer than a JSON Schema in some places (it reads a struct from an array,
 //! a missing `Option` as `None`, a unit variant from an object) and stricter in others (`1.0` is
-//! not an integer). These macros close both gaps. They also allow the keys that SPEC reserves for
-//! extensions: `x_…` in every object, and `$schema` at the top of a document.
+//! not an integer). These macros close both gaps. They also allow the keys that SPEC reserves:
+//! `x_…` in every object, and `$schema` at the top of a document.
 //! [`tagged`](super::tagged) declares choices between kinds.
 
 use std::fmt;

@@ -1,7 +1,7 @@
 //! Numbers formatted for people, the same in every message and report.
 
-/// A number rounded to `digits` significant digits, without trailing zeros. Uses an exponent only below 1e-3 and
-/// from 1e6. Whole numbers below 1e6 keep all their digits.
+/// Rounds to `digits` significant digits, but keeps all digits before the decimal point. Omits trailing zeros.
+/// Uses an exponent only below 1e-3 and from 1e6.
 pub fn number(value: f64, digits: usize) -> String {
     let size = value.abs();
     if size == 0.0 {

@@ -32,8 +32,7 @@ pub enum Subject {
 pub enum Variant {
     /// For producers and validators: rejects unknown keys.
     Strict,
-    /// For code generators: accepts unknown keys, so that documents of later minor versions can be
-    /// read.
+    /// For code generators: accepts unknown keys, to read documents of later minor versions.
     Open,
 }
 

@@ -6,7 +6,7 @@ use super::rate::Rate;
 use super::root_metadata::Sha256;
 use super::tagged::tagged;
 
-/// First sampled configuration that `evaluation` counts (SPEC 8.8.9). Models are trained on earlier ones only.
+/// First sampled configuration that `evaluation` counts (SPEC 8.8.9). Models are made from earlier ones only.
 pub const EVALUATION_FIRST: u32 = 1 << 31;
 /// Number of sampled configurations that `evaluation` counts.
 pub const EVALUATION_COUNT: u32 = 50_000;
@@ -14,8 +14,7 @@ pub const EVALUATION_COUNT: u32 = 50_000;
 pub const EVALUATION_MIN: u32 = 200;
 /// First sampled configuration of the first confirmation (SPEC 8.8.12).
 pub const CONFIRMATION_FIRST: u32 = (1 << 31) + (1 << 20);
-/// Earliest start of the second confirmation. The model's numbers determine an offset of up to 2^29 -
-/// 1.
+/// Earliest start of the second confirmation. The model's numbers determine an offset below 2^29.
 pub const CONFIRMATION_SECOND: u32 = (1 << 31) + (1 << 30);
 /// Number of sampled configurations of each confirmation.
 pub const CONFIRMATION_COUNT: u32 = 25_000;
