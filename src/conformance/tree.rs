@@ -279,7 +279,7 @@ fn link(target: &Path, path: &Path) -> Option<io::Result<()>> {
     Some(std::os::unix::fs::symlink(target, path))
 }
 
-/// Other systems have different links for files and folders, and require a privilege.
+/// On other systems, file links and folder links differ, and creating them requires a privilege.
 #[cfg(not(unix))]
 fn link(_: &Path, _: &Path) -> Option<io::Result<()>> {
     None

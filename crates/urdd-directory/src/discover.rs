@@ -68,7 +68,7 @@ pub enum DiscoverError {
     },
 }
 
-/// Most folder entries visited in one search.
+/// Maximum number of folder entries visited in one search.
 const MAX_VISITED: usize = 10 * MAX_FILES;
 
 /// Finds every URDD at or below a path, at any depth, sorted by name. The path may be a zip archive; archives inside

@@ -3,13 +3,13 @@
 /// Largest document, bytes.
 pub const MAX_DOCUMENT_BYTES: u64 = 512 << 20;
 
-/// Most entries listed in one URDD.
+/// Maximum number of files and folders listed in one URDD.
 pub const MAX_FILES: usize = 100_000;
 
 /// Deepest folder below a URDD's root, and below a searched folder.
 pub const MAX_FOLDER_DEPTH: usize = 32;
 
-/// Deepest nesting of objects and lists in JSON and YAML.
+/// Maximum nesting depth of objects and lists in JSON and YAML.
 pub const DEPTH_LIMIT: usize = 100;
 
 /// Largest zip archive, bytes.

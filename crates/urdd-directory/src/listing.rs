@@ -37,7 +37,7 @@ pub struct Listing {
     pub entries: Vec<Entry>,
     /// Folders that could not be listed, with the reason.
     pub unreadable: Vec<(String, ReadError)>,
-    /// Whether the listing is incomplete: see [`super::limits::MAX_FILES`] and [`super::limits::MAX_FOLDER_DEPTH`].
+    /// Whether a limit cut the listing: [`super::limits::MAX_FILES`] or [`super::limits::MAX_FOLDER_DEPTH`].
     pub cut: bool,
 }
 

@@ -43,7 +43,7 @@ impl DofLayout {
     }
 }
 
-/// Number of a joint's own DOFs: a mimic joint with one DOF has none of its own.
+/// Number of DOFs that a joint contributes to the robot. A mimic joint of a single-DOF type contributes none.
 pub fn own_dofs(joint: &Joint) -> usize {
     match (joint.num_dofs(), &joint.mimic) {
         (1, Some(_)) => 0,

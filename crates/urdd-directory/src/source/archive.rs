@@ -1,4 +1,4 @@
-//! A URDD in a zip archive: at the archive's root, or in its one top-level folder.
+//! A URDD in a zip archive: at the archive's root, or in a top-level folder.
 //!
 //! An archive is untrusted. Its bytes are in memory once, and shared; nothing is unpacked to disk. The stated sizes are
 //! checked against limits first. Opening the archive inflates every file once, in chunks, and verifies its size and

@@ -6,7 +6,7 @@ use crate::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use crate::listing::{Entry, EntryKind, Listing};
 use crate::read_error::ReadError;
 
-/// Most symbolic links followed for one path, as on Linux.
+/// Maximum number of symbolic links followed for one path, as on Linux.
 const MAX_LINKS: usize = 40;
 
 /// The node at a path.
