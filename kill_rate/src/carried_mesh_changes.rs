@@ -1,4 +1,4 @@
-//! Changes of the meshes that a URDD carries as the URDF names them: one coordinate.
+//! Mutations of original meshes (the files that the URDF names): one coordinate each.
 
 use std::ops::Range;
 
@@ -14,14 +14,14 @@ use super::sample;
 
 const MODULE: &str = "original_meshes_module";
 
-/// How much a coordinate is changed, in parts of the mesh's size.
+/// Step sizes, relative to the mesh's size.
 const STEPS: [(&str, f64); 3] = [
     ("a vertex moved by 1e-4 of its size", 1e-4),
     ("a vertex moved by 1e-2 of its size", 1e-2),
     ("a vertex moved by its size", 1.0),
 ];
 
-/// Changes of carried meshes, in one list.
+/// Mutations of original meshes, as one list.
 pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> {
     let files = original
         .document(MODULE)
@@ -66,7 +66,7 @@ fn mutation(path: &str, kind: &'static str, step: f64, drawn: usize) -> Mutation
     }
 }
 
-/// The file with a vertex moved, and what that was and is. What is text stays text, with all else that is in it.
+/// The file with one vertex moved, and the old and new coordinates. Preserves the rest of text files.
 fn edited(
     original: &Original,
     path: &str,
@@ -97,7 +97,7 @@ fn edited(
     Some((after.into_bytes(), from.to_owned(), to))
 }
 
-/// The numbers of a mesh as text that may be coordinates: what follows `v` in OBJ, the arrays of COLLADA.
+/// Ranges of numbers in a text mesh that may be coordinates: after `v` in OBJ, the arrays in COLLADA.
 fn coordinates(text: &str, extension: &str) -> Vec<Range<usize>> {
     let mut pieces: Vec<Range<usize>> = Vec::new();
     if extension == "obj" {

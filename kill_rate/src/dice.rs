@@ -1,11 +1,10 @@
-//! Choices that are the same for the same seed.
+//! Reproducible random choices from a seed.
 
 use sha2::{Digest, Sha256};
 
 use urdd_kinematics::unit;
 
-/// Numbers that follow from a seed and the name of what they are drawn for, so that what is drawn for one field does not
-/// depend on other fields.
+/// Random numbers determined by a seed and a name, so that the choices for one field do not depend on other fields.
 pub(crate) struct Dice {
     stream: u64,
     count: u64,
@@ -24,7 +23,7 @@ impl Dice {
         Dice { stream, count: 0 }
     }
 
-    /// A number below `count`; 0 for a count of 0.
+    /// A number below `count`, or 0 if `count` is 0.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     pub(crate) fn below(&mut self, count: usize) -> usize {
         self.count += 1;
@@ -36,7 +35,7 @@ impl Dice {
         [1.0, -1.0][self.below(2)]
     }
 
-    /// `most` different numbers below `count`, or all of these, in any order.
+    /// `most` distinct numbers below `count`, or all of them, in random order.
     pub(crate) fn choose(&mut self, count: usize, most: usize) -> Vec<usize> {
         let mut all: Vec<usize> = (0..count).collect();
         let most = most.min(count);

@@ -1,4 +1,4 @@
-//! Changes of documents: one value of one field.
+//! Mutations of documents: one value of one field each.
 
 use super::dice::Dice;
 use super::field::Field;
@@ -11,10 +11,10 @@ use super::sample;
 use super::schema;
 use super::value_changes;
 
-/// Of how many changes of both files one is made of the JSON file alone, and one of the mirror alone.
+/// For this many mutations of both files, there is one of the JSON file alone and one of the mirror alone.
 const ALONE: usize = 4;
 
-/// Changes of all documents, a list for each field and target.
+/// Mutations of all documents, one list per field and target.
 pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> {
     let mut lists = Vec::new();
     for document in &original.documents {

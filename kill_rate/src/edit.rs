@@ -5,25 +5,25 @@ use serde_json::{Map, Value};
 use super::pointer;
 use urdd_directory::canonical;
 
-/// Stands for the second of two equal keys until the text is written. No key of the format is so.
+/// Marks the second of two equal keys until the text is written. It occurs in no key of the format.
 const DOUBLED: &str = "\u{e000}doubled";
 
 /// An edit of a document.
 #[derive(Debug, Clone)]
 pub(crate) enum Edit {
-    /// A value is another.
+    /// Replaces a value.
     Set(String, Value),
-    /// A key is another; the pointer is that of its value.
+    /// Renames the key at a pointer.
     Rename(String, String),
-    /// A key is gone, with its value.
+    /// Removes a key with its value.
     Remove(String),
-    /// A key is there twice, with the same value.
+    /// Duplicates a key with its value.
     Double(String),
-    /// A key is there besides the others; the pointer is that of the object.
+    /// Adds a key to the object at a pointer.
     Add(String, String),
 }
 
-/// A document after edits; `None` where one of them has no place.
+/// Applies edits to a document. `None` if one of them does not apply.
 pub(crate) fn apply(document: &Value, edits: &[Edit]) -> Option<Value> {
     let mut document = document.clone();
     for edit in edits {
@@ -74,7 +74,7 @@ pub(crate) fn json(document: &Value) -> Vec<u8> {
 pub(crate) fn yaml(document: &Value) -> Vec<u8> {
     let text = canonical::yaml_string(document);
     match text.contains(DOUBLED) {
-        // In YAML the mark puts the key in quotes, which mean the same.
+        // In YAML the mark forces quotes around the key, which do not change its meaning.
         true => text.replace(DOUBLED, "").into_bytes(),
         false => text.into_bytes(),
     }

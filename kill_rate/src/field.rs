@@ -1,4 +1,4 @@
-//! A field of a document, and a change of one of its values.
+//! A field of a document, and a mutation of one of its values.
 
 use serde_json::Value;
 
@@ -7,29 +7,29 @@ use super::edit::Edit;
 use super::free::Ground;
 use super::original::{Document, Original};
 
-/// How many places are looked at for another value: where very many are equal, most are.
+/// Limit of the search for a different value: if very many places exist, most have equal values.
 const PLACES_LOOKED_AT: usize = 500;
 
-/// A field of a document, with all of its places.
+/// A field of a document, with all its places.
 pub(crate) struct Field<'a> {
     pub original: &'a Original,
     pub document: &'a Document,
     pub field: &'a str,
     pub places: &'a [String],
-    /// What the schema says of it.
+    /// The subschemas that apply to it.
     pub schema: Vec<&'a Value>,
 }
 
-/// A change of one value.
+/// A mutation of one value.
 pub(crate) struct ValueChange {
-    /// What kind of change it is.
+    /// Kind of mutation.
     pub kind: &'static str,
-    /// The edits that make it.
+    /// The edits to apply.
     pub edits: Vec<Edit>,
 }
 
 impl<'a> Field<'a> {
-    /// What applies to numbers here.
+    /// The location that determines the tolerance of numbers.
     pub(crate) fn ground(&self) -> Ground<'a> {
         Ground {
             module: &self.document.name,
@@ -44,7 +44,7 @@ impl<'a> Field<'a> {
         self.document.value.pointer(place).unwrap_or(&Value::Null)
     }
 
-    /// A value of this field at another place that differs from this one, and its place.
+    /// A different value of this field at another place, with that place.
     pub(crate) fn another(
         &self,
         value: &Value,

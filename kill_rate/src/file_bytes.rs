@@ -1,14 +1,14 @@
-//! Damage to the bytes of a file.
+//! Corruption of a file's bytes.
 
 use super::dice::Dice;
 
-/// A damage.
+/// A kind of corruption.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Damage {
     LastByte,
     Half,
     All,
-    /// A bit of a byte is turned over, in one of three parts of the file.
+    /// Flips one bit in a part of the file.
     Flip(Part, usize),
 }
 
@@ -20,11 +20,11 @@ pub(crate) enum Part {
     End,
 }
 
-/// How many bytes are the beginning or the end.
+/// Number of bytes in the first and the last part.
 const EDGE: usize = 96;
 
 impl Damage {
-    /// Every kind of damage, and what it is called.
+    /// Every kind of corruption, with its name in reports.
     pub(crate) fn each(dice: &mut Dice) -> [(&'static str, Damage); 6] {
         let mut flip = |part| Damage::Flip(part, dice.below(1 << 30));
         [
@@ -37,7 +37,7 @@ impl Damage {
         ]
     }
 
-    /// What is left of a file, and what of it is told; `None` where there is nothing to damage.
+    /// The corrupted file and a description. `None` for an empty file.
     pub(crate) fn of(self, bytes: &[u8]) -> Option<(Vec<u8>, String)> {
         let length = bytes.len();
         if length == 0 {

@@ -1,4 +1,4 @@
-//! Changes of files as such: missing, exchanged, damaged.
+//! Mutations of whole files: missing, exchanged, corrupted.
 
 use std::collections::BTreeMap;
 
@@ -16,13 +16,13 @@ use super::plan::Plan;
 use super::sample;
 use urdd_directory::discover::ROOT_METADATA;
 
-/// Versions that a module does not have.
+/// Invalid versions of a module.
 const OTHER_VERSIONS: [&str; 5] = ["0.0.1", "2.0.0", "1.0", "v1.0.0", "1.0.0\n\n"];
 
-/// Versions that are right where `VERSION` and the root metadata agree (SPEC 4.2).
+/// Versions that are valid if `VERSION` and the root metadata agree (SPEC 4.2).
 const NEWER_VERSIONS: [&str; 2] = ["1.0.1", "1.1.0"];
 
-/// Changes of files, a list for each kind of file of each module.
+/// Mutations of files, one list per kind of file and module.
 pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> {
     let mut groups: BTreeMap<(&str, String), Vec<&String>> = BTreeMap::new();
     for path in original.files.keys() {
@@ -49,7 +49,7 @@ pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> 
     lists
 }
 
-/// What kind of file one of a module's folder is: by its name, or a mesh by its format.
+/// Kind of a file in a module's folder: its name, or the format for a mesh.
 fn kind_of(path: &str) -> String {
     match (path.contains('/'), path.rsplit_once('.')) {
         (true, Some((_, extension))) => format!("*.{}", extension.to_ascii_lowercase()),
@@ -87,7 +87,7 @@ fn of_file(
         return out;
     }
     for (kind, listed) in [("missing", true), ("missing, and not listed", false)] {
-        // The mirror may be left out (SPEC 2.4: SHOULD).
+        // The mirror is optional (SPEC 2.4: SHOULD).
         if !listed && path.ends_with("/module.yaml") {
             continue;
         }
@@ -158,7 +158,7 @@ fn exchanged(path: &str, other: &str, both: bool) -> MakeFiles {
     })
 }
 
-/// Another version in `VERSION` alone, and there and in the root metadata.
+/// Another version in `VERSION` only, or also in the root metadata.
 fn versions(
     original: &Original,
     path: &str,

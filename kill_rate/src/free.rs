@@ -1,19 +1,19 @@
-//! What is no change that counts: of fields that SPEC.md leaves free, to another value that is right too, or by less than
-//! ten times the tolerance.
+//! Changes that do not count: to fields that SPEC.md leaves free, to another valid value, or by less than ten times the
+//! tolerance.
 
 use serde_json::Value;
 
-/// A field whose value SPEC.md leaves to the producer or to a person.
+/// A field whose value SPEC.md leaves to the producer or to manual edits.
 pub struct FreeField {
     /// The module, or `urdd.json`.
     pub module: &'static str,
-    /// The field, with all that is below it.
+    /// The field, with everything below it.
     pub field: &'static str,
-    /// The clause that says so.
+    /// The clause that leaves it free.
     pub clause: &'static str,
 }
 
-/// Every free field. (Keys that begin with `x_`, and `$schema`, are free everywhere: 3.1.2.)
+/// Every free field. (Keys that begin with `x_`, and `$schema`, are always free: 3.1.2.)
 pub const FREE_FIELDS: &[FreeField] = &[
     FreeField {
         module: "urdd.json",
@@ -30,7 +30,7 @@ pub const FREE_FIELDS: &[FreeField] = &[
         field: "/edits/*/reason",
         clause: "Annex A",
     },
-    // What the producer says of how it came about.
+    // The producer's description of how the model was made.
     FreeField {
         module: "self_collision_model_module",
         field: "/clip_distance",
@@ -46,7 +46,7 @@ pub const FREE_FIELDS: &[FreeField] = &[
         field: "/calibration",
         clause: "8.8.12",
     },
-    // What the parts were by themselves: this URDD holds nothing of it.
+    // Properties of the original parts, which this URDD does not contain.
     FreeField {
         module: "composition_module",
         field: "/parts/*/name",
@@ -64,20 +64,20 @@ pub const FREE_FIELDS: &[FreeField] = &[
     },
 ];
 
-/// A change of a field to another value that SPEC.md lets it have.
+/// A change of a field to another value that SPEC.md allows.
 pub struct Permitted {
     /// The module, or `urdd.json`.
     pub module: &'static str,
     /// The field.
     pub field: &'static str,
-    /// Which change.
+    /// The change.
     pub change: &'static str,
-    /// The clause that says so.
+    /// The clause that allows it.
     pub clause: &'static str,
     permits: fn(&Value, &Value) -> bool,
 }
 
-/// Every change that is permitted.
+/// Every allowed change.
 pub const PERMITTED: &[Permitted] = &[
     Permitted {
         module: "urdd.json",
@@ -209,25 +209,25 @@ fn are_names(list: &Value) -> bool {
     names.iter().all(Value::is_string) && names.iter().enumerate().all(is_first)
 }
 
-/// Whether a field may as well be something else.
+/// Whether SPEC.md allows this change of a field.
 pub(crate) fn is_permitted(module: &str, field: &str, from: &Value, to: &Value) -> bool {
     PERMITTED.iter().any(|permitted| {
         permitted.module == module && permitted.field == field && (permitted.permits)(from, to)
     })
 }
 
-/// How large a difference a clause allows.
+/// The difference that a clause allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
-    /// Of a number that is copied: this part of the larger absolute value, or 1e-12.
+    /// For a copied number: 1e-9 of the larger absolute value, at least 1e-12.
     Copied,
-    /// This part of the robot's reach.
+    /// Proportion of the robot's reach.
     OfReach(f64),
-    /// This part of the largest shape's size.
+    /// Proportion of the largest shape's size.
     OfShapes(f64),
-    /// This part of twice the reach and twice the largest shape's size: how far apart two points may be.
+    /// Proportion of twice the reach plus twice the largest shape's size, the maximum distance between two points.
     OfSpan(f64),
-    /// So much, in the number's own unit.
+    /// Absolute, in the number's own unit.
     Absolute(f64),
 }
 
@@ -235,15 +235,15 @@ pub enum Tolerance {
 pub struct FieldTolerance {
     /// The module.
     pub module: &'static str,
-    /// The field, with all that is below it.
+    /// The field, with everything below it.
     pub field: &'static str,
     /// The tolerance.
     pub tolerance: Tolerance,
-    /// The clause that says so.
+    /// The clause that specifies it.
     pub clause: &'static str,
 }
 
-/// Every field whose numbers do not simply agree as copies do (5.6).
+/// Every field with a tolerance other than that of copied numbers (5.6).
 pub const FIELD_TOLERANCES: &[FieldTolerance] = &[
     FieldTolerance {
         module: "chain_module",
@@ -313,7 +313,7 @@ pub const FIELD_TOLERANCES: &[FieldTolerance] = &[
     },
 ];
 
-/// What a change must exceed, in tolerances.
+/// Smallest change that counts, in tolerances.
 const LEAST_TOLERANCES: f64 = 10.0;
 
 /// Whether a field is free.
@@ -329,7 +329,7 @@ fn is_within(field: &str, of: &str) -> bool {
         .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
-/// Where a number stands: which tolerance applies to it.
+/// The location of a number, which determines its tolerance.
 #[derive(Clone, Copy)]
 pub(crate) struct Ground<'a> {
     /// The module, or `urdd.json`.
@@ -358,12 +358,12 @@ impl Ground<'_> {
         }
     }
 
-    /// Whether one number instead of another is a change that counts.
+    /// Whether the difference of two numbers is large enough to count.
     pub(crate) fn counts(&self, from: f64, to: f64) -> bool {
         (from - to).abs() >= LEAST_TOLERANCES * self.tolerance(from, to)
     }
 
-    /// Whether one value instead of another is a change that counts.
+    /// Whether the difference of two values is large enough to count.
     pub(crate) fn differs(&self, from: &Value, to: &Value) -> bool {
         match (from, to) {
             (Value::Number(a), Value::Number(b)) => match (a.as_f64(), b.as_f64()) {

@@ -1,23 +1,23 @@
-//! Changes of the transform of a node in a .glb file.
+//! Mutations of a node's transform in a .glb file.
 
 use serde_json::{Value, json};
 
-/// What becomes of the first node with a mesh.
+/// A change of the first node with a mesh.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum NodeChange {
-    /// Moved along x, metres.
+    /// Translation along x, m.
     Moved(f64),
-    /// Turned by a quarter about x.
+    /// Rotation about x by 90°.
     Turned,
     /// Scaled.
     Larger(f64),
 }
 
-/// Of the header, and of the header of each chunk.
+/// Lengths of the file header and of a chunk header, bytes.
 const HEADER: usize = 12;
 const CHUNK_HEADER: usize = 8;
 
-/// The file with another transform of its first node with a mesh; `None` where it is not as a .glb file begins.
+/// The file with another transform of its first node with a mesh. `None` if the file does not begin like a .glb file.
 pub(crate) fn changed(glb: &[u8], change: NodeChange) -> Option<Vec<u8>> {
     let length = glb.get(HEADER..HEADER + 4)?.try_into().ok()?;
     let start = HEADER + CHUNK_HEADER;

@@ -1,4 +1,4 @@
-//! What the keys of an object may become.
+//! Mutations of an object's keys.
 
 use serde_json::{Map, Value};
 
@@ -10,7 +10,7 @@ use super::pointer::{escape, is_field};
 use super::schema;
 use super::text_changes;
 
-/// What becomes of an object: something happens to one of its keys, drawn anew for each kind of change.
+/// Mutations of an object, each of one randomly drawn key.
 pub(crate) fn keys(
     field: &Field,
     place: &str,

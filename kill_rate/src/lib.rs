@@ -1,8 +1,8 @@
-//! The kill rate of `urdd validate`: how many single changes of valid URDDs the validator notices.
+//! The kill rate of `urdd validate`: the proportion of single mutations of valid URDDs that the validator detects.
 //!
-//! Of each URDD one value after the other is changed, nothing else, sizes and hashes in the root metadata are brought up
-//! to date as the producer of that fault would have had them, and the validator looks. A change that it says nothing of
-//! has survived. `conformance/kill_rate.md` says what counts as a change.
+//! Each mutation changes one value of a URDD. Then the sizes and hashes in the root metadata are updated, as a producer
+//! with that fault would write them, and the validator runs. A mutation without findings survives.
+//! `conformance/kill_rate.md` defines which changes count.
 
 mod carried_mesh_changes;
 mod dice;

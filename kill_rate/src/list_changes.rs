@@ -1,11 +1,11 @@
-//! What a list may become: its order and its length.
+//! Mutations of a list: its order and its length.
 
 use serde_json::Value;
 
 use super::field::Field;
 use super::schema;
 
-/// What becomes of a list.
+/// Mutations of a list.
 pub(crate) fn lists(field: &Field, list: &[Value]) -> Vec<(&'static str, Value)> {
     let mut to: Vec<(&'static str, Vec<Value>)> = Vec::new();
     let mut add = |kind: &'static str, change: &dyn Fn(&mut Vec<Value>)| {
@@ -46,7 +46,7 @@ pub(crate) fn lists(field: &Field, list: &[Value]) -> Vec<(&'static str, Value)>
         .collect()
 }
 
-/// The other place of a value off the diagonal of a symmetric matrix, where it stands in one.
+/// The transposed place of an off-diagonal value, if it is in a symmetric matrix larger than 3×3.
 pub(crate) fn mirrored(document: &Value, place: &str) -> Option<String> {
     let mut parts = place.rsplitn(3, '/');
     let (column, row, matrix) = (parts.next()?, parts.next()?, parts.next()?);

@@ -11,9 +11,9 @@ use urdd_kill_rate::{Judge, MeasureError, Plan, measure, present};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 
-/// Exit status: a module is below the least rate, or a URDD has findings as it is.
+/// Exit status: a module is below the minimum rate, or a URDD has findings before any mutation.
 const BELOW: u8 = 1;
-/// Exit status: wrong usage, or there is nothing to measure with.
+/// Exit status: wrong usage, or nothing to measure with.
 const USAGE: u8 = 2;
 
 /// Change valid URDDs one value at a time, and count what the validator notices.
@@ -111,7 +111,7 @@ fn main() -> ExitCode {
         }
         bar.set_position(done as u64);
     };
-    // A crashed rule is caught and reported; the default hook would print besides.
+    // Crashed rules are caught and reported; suppress the output of the default hook.
     std::panic::set_hook(Box::new(|_| {}));
     let measured = measure(&arguments.paths, &judge, &plan, &progress);
     let _ = std::panic::take_hook();

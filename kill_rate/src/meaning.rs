@@ -1,4 +1,4 @@
-//! Whether a file still means the same after its bytes changed.
+//! Checks whether a file keeps its meaning after its bytes changed.
 
 use serde_json::Value;
 
@@ -7,11 +7,11 @@ use super::pointer;
 use urdd_directory::json;
 use urdd_geometry::read::{self, GltfUp, Options, Part, Scene};
 
-/// Vertices that moved by less than this part of the largest coordinate stand where they stood: ten times the resolution
+/// Vertices that moved by less than this proportion of the largest coordinate count as equal: ten times the resolution
 /// of meshes (SPEC 7.6: 8 * 2^-23).
 pub(crate) const SAME_VERTEX: f64 = 10.0 * 8.0 / 8_388_608.0;
 
-/// Whether a file of the URDD would mean the same with other bytes.
+/// Whether a file of the URDD has the same meaning with other bytes.
 pub(crate) fn is_same(original: &Original, path: &str, after: &[u8]) -> bool {
     let Some(before) = original.files.get(path) else {
         return false;
@@ -32,7 +32,7 @@ pub(crate) fn is_same(original: &Original, path: &str, after: &[u8]) -> bool {
     }
 }
 
-/// A document without what is nobody's field.
+/// A document without extension keys and `$schema`.
 fn fields(value: Value) -> Value {
     match value {
         Value::Object(object) => {
@@ -44,8 +44,8 @@ fn fields(value: Value) -> Value {
     }
 }
 
-/// Whether YAML differs in what may well have no meaning: the space at its end, a byte that was or is a space, the case
-/// of a letter (`null` is `Null` too).
+/// Whether YAML differs only in ways that may not matter: trailing white space, bytes that are white space before or
+/// after, and letter case (`Null` is also `null`).
 fn is_same_but_for_space(before: &[u8], after: &[u8]) -> bool {
     let space = |(a, b): (&u8, &u8)| {
         a.eq_ignore_ascii_case(b) || a.is_ascii_whitespace() || b.is_ascii_whitespace()
@@ -78,13 +78,13 @@ fn is_same_mesh(original: &Original, path: &str, after: &[u8]) -> bool {
     let after = scene(original, &mesh, Some((path, after)));
     match (before, after) {
         (Some(before), Some(after)) => are_same(&before, &after),
-        // Not a mesh before or after, as before.
+        // Not a mesh before or after.
         (None, None) => true,
         _ => false,
     }
 }
 
-/// A mesh of the URDD in the axes of its file, read with one file replaced; `None` where it is none.
+/// A mesh of the URDD in the axes of its file, read with one file replaced. `None` if it is not a mesh.
 pub(crate) fn scene(
     original: &Original,
     path: &str,

@@ -1,4 +1,4 @@
-//! Makes the changes of each URDD, one after the other, and lets the validator look.
+//! Applies the mutations of each URDD one by one, and runs the validator on each.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -22,7 +22,7 @@ use urdd_validate::code::Code;
 /// Why nothing can be measured.
 #[derive(Debug, Error)]
 pub enum MeasureError {
-    /// Nothing to measure with under a path.
+    /// No URDD was found at a path.
     #[error(transparent)]
     Discover(#[from] DiscoverError),
     /// A URDD that cannot be read.
@@ -33,7 +33,7 @@ pub enum MeasureError {
         /// What is wrong.
         error: OriginalError,
     },
-    /// A URDD that has findings before anything is changed.
+    /// A URDD has findings before any mutation.
     #[error(
         "{name}: there are findings before anything is changed ({}); `urdd validate` tells them, and only a URDD without \
          any can be measured with", codes.iter().map(|code| code.as_str()).collect::<Vec<_>>().join(", ")
@@ -41,7 +41,7 @@ pub enum MeasureError {
     HasFindings {
         /// The URDD.
         name: String,
-        /// The rules that found something.
+        /// The rules with findings.
         codes: Vec<Code>,
     },
     /// The temporary copy cannot be written.
@@ -49,11 +49,11 @@ pub enum MeasureError {
     Copy(#[from] io::Error),
 }
 
-/// Measures with every URDD at or below each of the paths, in that order. `progress` is told after each change how many
-/// of how many have been looked at, and of which URDD.
+/// Measures every URDD at or below each of the paths, in that order. After each mutation, calls `progress` with the
+/// URDD's name, the number done and the total.
 ///
 /// # Errors
-/// Where there is nothing to measure with, or one of the URDDs has findings as it is.
+/// If there is nothing to measure with, or a URDD has findings before any mutation.
 pub fn measure<P: AsRef<Path>>(
     paths: &[P],
     judge: &Judge,
@@ -116,7 +116,7 @@ fn mutations(original: &Original, others: &[&Original], plan: &Plan) -> Vec<Muta
     let of_module = |lists| sample::in_turn(lists, usize::MAX);
     let modules = by_module.into_values().map(of_module).collect();
     let mut chosen = sample::in_turn(modules, plan.limit.unwrap_or(usize::MAX));
-    // Stable: changes of a field keep the order in which they were drawn.
+    // A stable sort: mutations of a field keep the order in which they were drawn.
     chosen.sort_by(|a, b| {
         let key = |mutation: &Mutation| {
             let description = &mutation.description;
@@ -129,7 +129,7 @@ fn mutations(original: &Original, others: &[&Original], plan: &Plan) -> Vec<Muta
     chosen
 }
 
-/// Every change that changes something, in order, with what became of it.
+/// Every effective mutation, in order, with its outcome.
 fn try_all(
     original: &Original,
     mutations: &[Mutation],
@@ -153,7 +153,7 @@ fn try_all(
             progress(done.fetch_add(1, Ordering::Relaxed) + 1);
         }
     };
-    // A pool of its own for each copy, so that none takes up another's work while it waits.
+    // A separate pool for each copy, so that a waiting worker does not take over another's work.
     let alone = || match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
         Ok(pool) => pool.install(work),
         Err(_) => work(),

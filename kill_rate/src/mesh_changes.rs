@@ -1,4 +1,4 @@
-//! Changes of meshes: a vertex, a triangle, in one format or in all three alike.
+//! Mutations of meshes: a vertex or a triangle, in one format or in all three.
 
 use serde_json::Value;
 
@@ -11,14 +11,14 @@ use super::plan::Plan;
 use super::pointer;
 use super::sample;
 
-/// The modules whose documents name meshes in three formats.
+/// The modules with meshes in three formats.
 const MODULES: [&str; 3] = [
     "plain_meshes_module",
     "convex_hull_meshes_module",
     "convex_decomposition_meshes_module",
 ];
 
-/// A mesh's files by format, and its place in the document.
+/// A mesh's files by format, and its JSON Pointer.
 #[derive(Clone)]
 struct Entry {
     pointer: String,
@@ -27,7 +27,7 @@ struct Entry {
 
 const FORMATS: [&str; 3] = ["stl", "obj", "glb"];
 
-/// Which files are changed alike.
+/// Which formats to change together.
 const SCOPES: [(&str, &[usize]); 4] = [
     ("all formats", &[0, 1, 2]),
     (".stl", &[0]),
@@ -35,7 +35,7 @@ const SCOPES: [(&str, &[usize]); 4] = [
     (".glb", &[2]),
 ];
 
-/// Changes of meshes, a list for each module and each choice of formats.
+/// Mutations of meshes, one list per module and choice of formats.
 pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> {
     let mut lists = Vec::new();
     for document in MODULES.iter().filter_map(|name| original.document(name)) {
@@ -124,12 +124,12 @@ fn edited(
     scope: &[usize],
     edit: &MeshEdit,
 ) -> Option<FileChange> {
-    // What is edited is found in one file, by its place in space, so that it is the same in each.
+    // Select the spot in one file and find it by position in the others, so that all formats get the same edit.
     let first = meaning::scene(original, &entry.files[0], None)?;
     let spot = edit.spot(&first.merged())?;
     let mut files = Files::new();
     for format in scope {
-        // Of all formats alike, .glb alone has colours.
+        // With all formats, colours change in .glb only.
         if !edit.is_possible(FORMATS[*format]) {
             continue;
         }

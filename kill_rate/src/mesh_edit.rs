@@ -1,4 +1,4 @@
-//! Edits of a mesh that can be made alike in files of every format.
+//! Edits of a mesh that are applicable to files of every format.
 
 use super::dice::Dice;
 use super::glb_node::{self, NodeChange};
@@ -6,28 +6,28 @@ use urdd_geometry::Mesh;
 use urdd_geometry::read::Part;
 use urdd_geometry::write;
 
-/// An edit. Numbers are drawn, and become a triangle, a corner or an axis of the mesh at hand.
+/// An edit. Random numbers select a triangle, a corner or an axis of the mesh.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum MeshEdit {
-    /// A vertex is moved along an axis, by this part of the mesh's size.
+    /// Moves a vertex along an axis, by this proportion of the mesh's size.
     MoveVertex(f64, usize),
-    /// A triangle is left out.
+    /// Removes a triangle.
     LeaveOut(usize),
-    /// A triangle is turned round.
+    /// Reverses the winding of a triangle.
     Turn(usize),
-    /// All vertices are moved along an axis, by this part of the mesh's size.
+    /// Moves all vertices along an axis, by this proportion of the mesh's size.
     MoveAll(f64, usize),
-    /// All vertices are this much farther from the origin.
+    /// Scales all vertices about the origin.
     Scale(f64),
-    /// A colour is another. Only .glb has any.
+    /// Changes a colour. Only .glb has colours.
     Colour,
-    /// A vertex that no face uses, this many times as far out as the mesh. Files of .stl have triangles only.
+    /// Adds a vertex that no face uses, at this multiple of the mesh's size. Not for .stl, which only has triangles.
     StrayVertex(f64),
-    /// Its node has a transform. Only .glb has nodes.
+    /// Transforms its node. Only .glb has nodes.
     Node(NodeChange),
 }
 
-/// Where a mesh is edited.
+/// The location of an edit.
 #[derive(Debug, Clone)]
 pub(crate) struct Spot {
     triangle: [[f32; 3]; 3],
@@ -81,7 +81,7 @@ impl MeshEdit {
         ]
     }
 
-    /// Whether files of a format can be changed so.
+    /// Whether files of a format support the edit.
     pub(crate) fn is_possible(&self, format: &str) -> bool {
         match self {
             MeshEdit::Colour | MeshEdit::Node(_) => format == "glb",
@@ -90,14 +90,14 @@ impl MeshEdit {
         }
     }
 
-    /// Whether it is of something besides the triangles and their colours.
+    /// Whether it changes something other than the triangles and their colours.
     pub(crate) fn is_beside_triangles(&self) -> bool {
         matches!(self, MeshEdit::StrayVertex(_))
     }
 
-    /// Where a mesh is edited; `None` for one without triangles.
+    /// Selects the location of the edit; `None` for a mesh without triangles.
     pub(crate) fn spot(&self, mesh: &Mesh) -> Option<Spot> {
-        // The largest coordinate, of which the resolution is a part, and no less than half the extent.
+        // The largest absolute coordinate, to which the resolution is relative. At least half the extent.
         let bounds = mesh.bounds()?;
         let coordinates = bounds.min.iter().chain(&bounds.max);
         let extent = coordinates.fold(0.0_f64, |largest, x| largest.max(x.abs()));
@@ -135,7 +135,7 @@ impl MeshEdit {
         })
     }
 
-    /// A file with the edit, in one of the three formats; `None` where the spot is not in it. `parts` is what it holds.
+    /// Applies the edit to a file in one of the three formats. `None` if the spot is not in it. `parts` is its content.
     pub(crate) fn applied(
         &self,
         spot: &Spot,
@@ -204,13 +204,13 @@ impl MeshEdit {
     }
 }
 
-/// A position as mesh files have it.
+/// A position in the precision of mesh files.
 #[allow(clippy::cast_possible_truncation)]
 fn single(position: [f64; 3]) -> [f32; 3] {
     position.map(|coordinate| coordinate as f32 + 0.0)
 }
 
-/// Whether two triangles are the same, whichever corner comes first.
+/// Whether two triangles are equal up to the choice of the first corner.
 fn is_turned(a: [[f32; 3]; 3], b: [[f32; 3]; 3]) -> bool {
     (0..3).any(|turn| (0..3).all(|corner| a[(corner + turn) % 3] == b[corner]))
 }

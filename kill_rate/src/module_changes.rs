@@ -1,17 +1,17 @@
-//! Changes of whole modules: gone, or another robot's.
+//! Mutations of whole modules: removed, or replaced by another robot's.
 
 use super::edit::Edit;
 use super::mutation::{Change, Description, FileChange, Files, Mutation, Target};
 use super::original::Original;
 use urdd_format::registry::ModuleKind;
 
-/// How many other robots' modules are put in place of a module.
+/// Number of other robots whose modules replace a module.
 const OTHERS: usize = 2;
 
-/// Changes of whole modules, a list for each.
+/// Mutations of whole modules, one list per module.
 pub(crate) fn mutations(original: &Original, others: &[&Original]) -> Vec<Vec<Mutation>> {
     let of = |(name, folder): &(&'static str, &'static str)| {
-        // A module of no class may be left out.
+        // A module that no class requires is optional.
         let needed = ModuleKind::ALL
             .iter()
             .any(|kind| kind.name() == *name && kind.class().is_some());

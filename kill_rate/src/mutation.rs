@@ -1,4 +1,4 @@
-//! A change of a URDD, described, and made when it is its turn.
+//! A mutation of a URDD: its description, and how to apply it.
 
 use std::collections::BTreeMap;
 
@@ -9,16 +9,16 @@ use super::original::{self, Original};
 use urdd_directory::canonical;
 use urdd_directory::discover::ROOT_METADATA;
 
-/// What of a document is changed.
+/// The files that a mutation changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Target {
-    /// The JSON file and its mirror alike; of a document without a mirror, the JSON file.
+    /// The JSON file and its mirror, consistently. Without a mirror, the JSON file.
     Document,
     /// The JSON file alone.
     JsonAlone,
     /// The YAML mirror alone.
     YamlAlone,
-    /// A file as such, or several.
+    /// One or more whole files.
     File,
 }
 
@@ -34,61 +34,61 @@ impl Target {
     }
 }
 
-/// What is changed, and how.
+/// Description of a mutation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Description {
-    /// The module by name, `urdd.json`, or `source` for the carried URDF.
+    /// The module's name, `urdd.json`, or `source` for the source URDF.
     pub module: String,
-    /// The file, relative to the root; of several, the first.
+    /// The file, relative to the root; if several, the first one.
     pub file: String,
-    /// The field: a JSON Pointer with `*` for indices, or what kind of file it is.
+    /// The field: a JSON Pointer with `*` for indices, or the kind of file.
     pub field: String,
-    /// The JSON Pointer of the value, where it is one of a document.
+    /// The JSON Pointer of the value, if it is in a document.
     pub pointer: Option<String>,
-    /// What of it is changed.
+    /// The files that change.
     pub target: Target,
-    /// The kind of change.
+    /// The kind of mutation.
     pub kind: &'static str,
-    /// What was there.
+    /// The old value.
     pub from: String,
-    /// What is there now.
+    /// The new value.
     pub to: String,
 }
 
-/// New content by path; `None` for a file that is gone.
+/// New content by path; `None` for a removed file.
 pub(crate) type Files = BTreeMap<String, Option<Vec<u8>>>;
 
-/// What a change of files comes to.
+/// The effect of a mutation of files.
 pub(crate) struct FileChange {
     pub files: Files,
-    /// Files that are taken off the lists of the root metadata.
+    /// Files to remove from the lists of the root metadata.
     pub unlisted: Vec<String>,
     pub from: String,
     pub to: String,
 }
 
-/// Makes the files of a change; `None` where that would change nothing that has a meaning.
+/// Computes the mutated files. `None` if the meaning would not change.
 pub(crate) type MakeFiles = Box<dyn Fn(&Original) -> Option<FileChange> + Send + Sync>;
 
-/// How a change is made.
+/// How to apply a mutation.
 pub(crate) enum Change {
-    /// Edits of a document, by its name.
+    /// Edits the document of the module in the description.
     Document(Vec<Edit>),
-    /// Files are others; `None` where that would change nothing that has a meaning.
+    /// Replaces files.
     Files(MakeFiles),
-    /// Files are others, and so is something in the root metadata.
+    /// Replaces files, and edits the root metadata.
     FilesAndMetadata(MakeFiles, Vec<Edit>),
 }
 
-/// A change that can be made.
+/// A mutation to apply.
 pub(crate) struct Mutation {
     pub description: Description,
     pub change: Change,
 }
 
 impl Mutation {
-    /// The files that are others after the change, the root metadata among them; what was and what is, in words. `None`
-    /// where nothing changes.
+    /// The files to replace, including the root metadata, and the description with old and new values. `None` if
+    /// nothing changes.
     pub(crate) fn make(&self, original: &Original) -> Option<(Files, Description)> {
         let mut description = self.description.clone();
         let (mut files, metadata) = match &self.change {
@@ -108,7 +108,7 @@ impl Mutation {
         Some((files, description))
     }
 
-    /// The files of an edited document, and the root metadata that is to go with them.
+    /// The files of an edited document, and the matching root metadata.
     fn edited(
         &self,
         original: &Original,
@@ -145,7 +145,7 @@ fn changed(
     Some((change.files, Some(metadata)))
 }
 
-/// How much of a value is shown, characters.
+/// Longest value in reports, characters.
 const SHOWN: usize = 80;
 
 fn in_words(before: &Value, after: &Value, edits: &[Edit], place: &str) -> (String, String) {
@@ -160,7 +160,7 @@ fn in_words(before: &Value, after: &Value, edits: &[Edit], place: &str) -> (Stri
         [Edit::Remove(at)] => (last(at), "nothing".to_owned()),
         [Edit::Double(at)] => (last(at), format!("{} twice", last(at))),
         [Edit::Add(_, key)] => ("nothing".to_owned(), key.clone()),
-        // Of two places, the one that the change is told of, or the first.
+        // With several edits, show the first place; else the described one.
         [Edit::Set(first, _), ..] => {
             let at = if edits.len() == 1 { place } else { first };
             (text(before.pointer(at)), text(after.pointer(at)))
@@ -173,7 +173,7 @@ fn last(pointer: &str) -> String {
     super::pointer::parent(pointer).map_or_else(String::new, |(_, key)| key)
 }
 
-/// A text, cut where it is long.
+/// A text, truncated to [`SHOWN`] characters.
 pub(crate) fn shortened(text: &str) -> String {
     match text.char_indices().nth(SHOWN) {
         None => text.to_owned(),

@@ -1,4 +1,4 @@
-//! What a number may become.
+//! Mutations of a number.
 
 use serde_json::{Value, json};
 
@@ -6,7 +6,7 @@ use super::dice::Dice;
 use super::field::Field;
 use super::free::Ground;
 
-/// Steps in parts of the number.
+/// Relative step sizes.
 const RELATIVE_STEPS: [(&str, f64); 4] = [
     ("a step of 1e-7 of it", 1e-7),
     ("a step of 1e-6 of it", 1e-6),
@@ -14,21 +14,21 @@ const RELATIVE_STEPS: [(&str, f64); 4] = [
     ("a step of 0.1 of it", 0.1),
 ];
 
-/// Steps in the number's own unit.
+/// Absolute step sizes, in the number's own unit.
 const ABSOLUTE_STEPS: [(&str, f64); 3] = [
     ("a step of 1e-6", 1e-6),
     ("a step of 1e-3", 1e-3),
     ("a step of 1", 1.0),
 ];
 
-/// What becomes of a number that is not an integer.
+/// Mutations of a non-integer number.
 pub(crate) fn numbers(ground: &Ground, x: f64, dice: &mut Dice) -> Vec<(&'static str, Value)> {
     let mut to = vec![
         ("the other sign", -x),
         ("twice", 2.0 * x),
         ("zero", 0.0),
         ("huge", 1e12_f64.copysign(x)),
-        // A little more than what counts as a change at all.
+        // Slightly more than the smallest change that counts.
         (
             "eleven tolerances",
             x + dice.sign() * 11.5 * ground.tolerance(x, x),
@@ -44,13 +44,13 @@ pub(crate) fn numbers(ground: &Ground, x: f64, dice: &mut Dice) -> Vec<(&'static
     for (kind, step) in ABSOLUTE_STEPS {
         to.push((kind, x + dice.sign() * step));
     }
-    // Negative zero is zero.
+    // Adding 0.0 turns negative zero into zero.
     to.into_iter()
         .map(|(kind, x)| (kind, json!(x + 0.0)))
         .collect()
 }
 
-/// What becomes of an integer.
+/// Mutations of an integer.
 pub(crate) fn integers(
     field: &Field,
     value: &Value,

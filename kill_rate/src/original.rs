@@ -1,4 +1,4 @@
-//! The URDD that is changed, in memory.
+//! The unmodified URDD in memory.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,7 +15,7 @@ use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::registry::{self, ModuleKind, Profile};
 use urdd_format::root_metadata::RootMetadata;
 
-/// Why a URDD cannot be measured with.
+/// Why a URDD cannot be used for measuring.
 #[derive(Debug, Error)]
 pub enum OriginalError {
     /// A file cannot be read.
@@ -39,11 +39,11 @@ pub enum OriginalError {
 
 /// A document of a URDD: a module's, or the root metadata.
 pub(crate) struct Document {
-    /// What reports call it: the module's name, or `urdd.json`.
+    /// Its name in reports: the module's name, or `urdd.json`.
     pub name: String,
     /// Its JSON file.
     pub file: String,
-    /// Its YAML mirror, where there is one.
+    /// Its YAML mirror, if any.
     pub mirror: Option<String>,
     /// Its value.
     pub value: Value,
@@ -51,17 +51,17 @@ pub(crate) struct Document {
     pub schema: Value,
 }
 
-/// A URDD as it is before any change.
+/// A URDD before any mutation.
 pub(crate) struct Original {
-    /// Every file, by its path.
+    /// Every file by path.
     pub files: BTreeMap<String, Vec<u8>>,
-    /// Folders of the known modules, by name, in the order of the specification.
+    /// Names and folders of the known modules, in the order of the specification.
     pub modules: Vec<(&'static str, &'static str)>,
-    /// The documents of modules in the order of the specification; the root metadata last.
+    /// The documents of modules in the order of the specification, with the root metadata last.
     pub documents: Vec<Document>,
     /// The robot's reach (SPEC 5.6), m.
     pub reach: f64,
-    /// The largest number of the shapes' positions and sizes, m.
+    /// The largest absolute number among the shapes' positions and sizes, m.
     pub shapes: f64,
 }
 
@@ -131,12 +131,12 @@ impl Original {
             .map_or(&Value::Null, |document| &document.value)
     }
 
-    /// The carried URDF's path.
+    /// Path of the source URDF.
     pub(crate) fn source(&self) -> Option<&str> {
         self.metadata().pointer("/source/Urdf/path")?.as_str()
     }
 
-    /// The module that a file lies in, by name and folder.
+    /// Name and folder of the module that contains a file.
     pub(crate) fn module_of(&self, path: &str) -> Option<(&'static str, &'static str)> {
         self.modules.iter().copied().find(|(_, folder)| {
             path.strip_prefix(folder)
@@ -145,7 +145,7 @@ impl Original {
     }
 }
 
-/// The largest absolute number of a document, angles left out.
+/// The largest absolute number in a document, except angles.
 fn largest(value: &Value) -> f64 {
     match value {
         Value::Number(number) => number.as_f64().map_or(0.0, f64::abs),
@@ -177,8 +177,8 @@ fn read_files(path: &Path) -> Result<BTreeMap<String, Vec<u8>>, OriginalError> {
         .collect()
 }
 
-/// Brings the entries of some files in root metadata up to date, as a producer that made them so would have them; those
-/// of files that are gone stay.
+/// Updates the entries of changed files in the root metadata, as a producer would write them. Keeps the entries of
+/// removed files.
 pub(crate) fn rehash(metadata: &mut Value, changed: &BTreeMap<String, Option<Vec<u8>>>) {
     use sha2::{Digest, Sha256};
     let update = |entry: &mut Value| {
@@ -198,7 +198,7 @@ pub(crate) fn rehash(metadata: &mut Value, changed: &BTreeMap<String, Option<Vec
     }
 }
 
-/// Takes files off the lists of root metadata.
+/// Removes files from the lists of the root metadata.
 pub(crate) fn unlist(metadata: &mut Value, gone: &[String]) {
     let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
     for module in modules.into_iter().flatten() {

@@ -1,4 +1,4 @@
-//! What the validator says of a change.
+//! The validator's verdict on a mutation.
 
 use std::path::Path;
 
@@ -9,23 +9,23 @@ use urdd_validate::rule::{Phase, Rule, Severity};
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_with;
 
-/// What became of a change.
+/// Outcome of a mutation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Outcome {
-    /// There is an error; the rules that found one.
+    /// At least one error; the rules that found errors.
     Noticed(Vec<Code>),
-    /// There is a warning or an information, and no error; the rules that found one.
+    /// Warnings or infos but no error; the rules that found them.
     Warned(Vec<Code>),
-    /// Nothing is found.
+    /// No findings.
     Missed,
     /// A rule crashed.
     Crashed(Code),
-    /// The URDD cannot be examined any more, and the validator says so.
+    /// The validator reports that the URDD cannot be read.
     Unreadable,
 }
 
 impl Outcome {
-    /// Whether the validator says anything.
+    /// Whether the validator detects the mutation.
     pub fn is_noticed(&self) -> bool {
         matches!(
             self,
@@ -34,19 +34,19 @@ impl Outcome {
     }
 }
 
-/// A change, and what became of it.
+/// A mutation and its outcome.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Trial {
-    /// The change.
+    /// The mutation.
     pub change: Description,
-    /// What the plain run says.
+    /// Outcome of the plain run.
     pub plain: Outcome,
-    /// What the deep run says, where there is one: of what the plain run notices, the same.
+    /// Outcome of the deep run, if any. For mutations that the plain run detects, the same.
     pub deep: Option<Outcome>,
 }
 
-/// What the validator says of a URDD. Rules of late phases, which may take long, run only where the others find no
-/// error: a rule counts on what earlier ones have found, never the other way about.
+/// Runs the validator on a URDD. Slow rules of late phases run only if the earlier ones find no error: late rules
+/// depend on earlier ones, never the reverse.
 pub(crate) fn judge(path: &Path, rules: &[&'static Rule], settings: &Settings) -> Outcome {
     let early: Vec<&'static Rule> = rules
         .iter()

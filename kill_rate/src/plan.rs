@@ -1,29 +1,29 @@
-//! What is measured, and how much of it.
+//! The scope of a measurement.
 
 use urdd_validate::rule::Rule;
 use urdd_validate::settings::Settings;
 
-/// What to measure.
+/// Which mutations to apply.
 #[derive(Debug, Clone)]
 pub struct Plan {
-    /// What choices follow from.
+    /// Seed of the random choices.
     pub seed: u64,
-    /// How many changes are made of a field; `None` for all.
+    /// Number of mutations per field; `None` for all.
     pub per_field: Option<usize>,
-    /// How many changes are made of a URDD, taken evenly from all fields; `None` for all.
+    /// Maximum number of mutations per URDD, taken evenly from all fields; `None` for all.
     pub limit: Option<usize>,
-    /// Names of the modules to change (`urdd.json` and `source` are such names too); empty for all.
+    /// Names of the modules to mutate, including `urdd.json` and `source`; empty for all.
     pub modules: Vec<String>,
-    /// How many changes are looked at at once; `None` for one a processor. The result is the same.
+    /// Number of mutations to validate in parallel; `None` for the number of processors. It does not affect the result.
     pub threads: Option<usize>,
 }
 
-/// What is measured.
+/// The validator under measurement.
 pub struct Judge<'a> {
     /// The rules.
     pub rules: &'a [&'static Rule],
     /// Settings of the plain run.
     pub plain: Settings,
-    /// Settings of a second run, over what survives the first; `None` for no second run.
+    /// Settings of a second run on the survivors of the first; `None` for no second run.
     pub deep: Option<Settings>,
 }

@@ -1,11 +1,11 @@
-//! JSON Pointers (RFC 6901), and the fields that they belong to.
+//! JSON Pointers (RFC 6901), and the fields that they refer to.
 
 use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-/// The places of a document by field: pointers whose list indices are replaced by `*`. What begins with `x_`, and
-/// `$schema`, is nobody's field (SPEC 3.1.2).
+/// The places of a document by field. A field is a pointer with `*` for list indices. Excludes keys that begin with
+/// `x_`, and `$schema` (SPEC 3.1.2).
 pub(crate) fn fields(document: &Value) -> BTreeMap<String, Vec<String>> {
     let mut fields = BTreeMap::new();
     collect(document, String::new(), String::new(), &mut fields);
@@ -40,22 +40,22 @@ fn collect(value: &Value, pointer: String, field: String, out: &mut BTreeMap<Str
     out.entry(field).or_default().push(pointer);
 }
 
-/// Whether a key is one of the format.
+/// Whether a key is defined by the format.
 pub(crate) fn is_field(key: &str) -> bool {
     !key.starts_with("x_") && key != "$schema"
 }
 
-/// A key as a part of a pointer.
+/// Escapes a key for use in a pointer.
 pub(crate) fn escape(key: &str) -> String {
     key.replace('~', "~0").replace('/', "~1")
 }
 
-/// A part of a pointer as a key.
+/// Unescapes a part of a pointer to a key.
 pub(crate) fn unescape(part: &str) -> String {
     part.replace("~1", "/").replace("~0", "~")
 }
 
-/// The pointer of the object or list that holds a value, and the last part, as a key.
+/// The pointer of the enclosing object or list, and the last part as a key.
 pub(crate) fn parent(pointer: &str) -> Option<(&str, String)> {
     let (parent, last) = pointer.rsplit_once('/')?;
     Some((parent, unescape(last)))

@@ -1,4 +1,4 @@
-//! The result, for people and for programs.
+//! Formats the result as a table or JSON.
 
 use std::collections::BTreeMap;
 
@@ -8,10 +8,10 @@ use super::outcome::{Outcome, Trial};
 use super::plan::Plan;
 use super::result::{Measured, Tally};
 
-/// How many survivors of a field are shown to people.
+/// Number of survivors per field in the table.
 const SHOWN: usize = 3;
 
-/// A table by module for each URDD, and below it the survivors by field.
+/// A table by module for each URDD, followed by the survivors by field.
 pub fn table(measured: &[Measured]) -> String {
     let mut text = String::new();
     for urdd in measured {
@@ -49,7 +49,7 @@ fn row(name: &str, plain: &Tally, deep: Option<&Tally>) -> Vec<String> {
     cells
 }
 
-/// A rate in percent, never rounded up to 100.
+/// A rate in percent, rounded down.
 fn percent(rate: f64) -> String {
     format!("{:.2} %", (rate * 10_000.0).floor() / 100.0)
 }
@@ -82,7 +82,7 @@ fn aligned(rows: &[Vec<String>]) -> String {
     text
 }
 
-/// The survivors by field: how many of which kinds, and the first few.
+/// The survivors by field: their number, their kinds, and the first few.
 fn survivors(urdd: &Measured) -> String {
     let mut by_field: BTreeMap<(&str, &str, &str), Vec<&Trial>> = BTreeMap::new();
     for trial in urdd.survivors() {
@@ -135,7 +135,7 @@ fn in_words(outcome: &Outcome) -> (&'static str, Vec<String>) {
     }
 }
 
-/// Everything that was counted, and every survivor; with `all`, every change.
+/// All counts and every survivor; with `all`, every mutation.
 pub fn json(measured: &[Measured], plan: &Plan, all: bool) -> Value {
     let urdds: Vec<Value> = measured.iter().map(|urdd| of_urdd(urdd, all)).collect();
     json!({

@@ -1,12 +1,11 @@
-//! The robot's reach (SPEC 5.6), from modules alone.
+//! The robot's reach (SPEC 5.6), computed from modules only.
 
 use serde_json::Value;
 
-/// The least reach, m (SPEC 5.6).
+/// Minimum reach, m (SPEC 5.6).
 const LEAST: f64 = 1e-3;
 
-/// The largest sum, over all links, of the lengths of the joint origins along the link's root path and of the travel of
-/// the joints on it.
+/// The maximum, over all links, of the sum of joint origin lengths and joint travels along the path from the root.
 pub(crate) fn reach(chain: Option<&Value>, urdf: Option<&Value>) -> f64 {
     let joints = list(chain, "/joints_in_chain");
     let far: Vec<f64> = joints
@@ -24,7 +23,7 @@ pub(crate) fn reach(chain: Option<&Value>, urdf: Option<&Value>) -> f64 {
     for joint in 0..joints.len() {
         let mut path = Some(joint);
         let mut sum = 0.0;
-        // A tree's paths are no longer than its joints are many.
+        // A path in a tree has at most as many joints as the tree.
         for _ in 0..joints.len() {
             let Some(joint) = path else { break };
             sum += far[joint];

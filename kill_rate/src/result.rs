@@ -1,20 +1,20 @@
-//! What was measured, by module and by field.
+//! The results, by module and by field.
 
 use std::collections::BTreeMap;
 
 use super::mutation::Target;
 use super::outcome::{Outcome, Trial};
 
-/// How many changes were made, and what became of them.
+/// Counts of mutations and their outcomes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// Changes that were made.
+    /// Applied mutations.
     pub changes: usize,
-    /// Those with an error.
+    /// Mutations with an error.
     pub noticed: usize,
-    /// Those with a warning or an information alone.
+    /// Mutations with only warnings or infos.
     pub warned: usize,
-    /// Those with nothing, or with a crashed rule.
+    /// Mutations without findings, or with a crashed rule.
     pub missed: usize,
 }
 
@@ -28,7 +28,7 @@ impl Tally {
         }
     }
 
-    /// The kill rate: the part of all changes with a finding; 1 where there are none.
+    /// The kill rate: the proportion of mutations with findings; 1 without mutations.
     pub fn rate(&self) -> f64 {
         match self.changes {
             0 => 1.0,
@@ -37,38 +37,38 @@ impl Tally {
     }
 }
 
-/// The tallies of a module.
+/// Counts for a module.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ModuleCount {
     /// The module's name, `urdd.json`, or `source`.
     pub module: String,
-    /// By the plain run.
+    /// In the plain run.
     pub plain: Tally,
-    /// By the deep run.
+    /// In the deep run.
     pub deep: Option<Tally>,
 }
 
-/// The tallies of a field.
+/// Counts for a field.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FieldCount {
     /// The module's name, `urdd.json`, or `source`.
     pub module: String,
     /// The field.
     pub field: String,
-    /// What of it was changed.
+    /// The files that were changed.
     pub target: Target,
-    /// By the plain run.
+    /// In the plain run.
     pub plain: Tally,
-    /// By the deep run.
+    /// In the deep run.
     pub deep: Option<Tally>,
 }
 
-/// What came of one URDD.
+/// Results for one URDD.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Measured {
-    /// The URDD.
+    /// The URDD's name.
     pub name: String,
-    /// Every change, in order of module and field.
+    /// Every mutation, in order of module and field.
     pub trials: Vec<Trial>,
 }
 
@@ -77,7 +77,7 @@ impl Measured {
         Measured { name, trials }
     }
 
-    /// The tallies of each module, in the order of the trials.
+    /// Counts for each module, in the order of the trials.
     pub fn modules(&self) -> Vec<ModuleCount> {
         let of = |trial: &Trial| trial.change.module.clone();
         let tallies = tallies(&self.trials, of).into_iter();
@@ -90,7 +90,7 @@ impl Measured {
             .collect()
     }
 
-    /// The tallies of each field, in the order of the trials.
+    /// Counts for each field, in the order of the trials.
     pub fn fields(&self) -> Vec<FieldCount> {
         let of = |trial: &Trial| {
             let change = &trial.change;
@@ -108,7 +108,7 @@ impl Measured {
             .collect()
     }
 
-    /// The changes that the last run says nothing of.
+    /// The mutations that the last run does not detect.
     pub fn survivors(&self) -> impl Iterator<Item = &Trial> {
         self.trials
             .iter()

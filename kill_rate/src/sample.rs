@@ -1,4 +1,4 @@
-//! Which of very many possible changes are made.
+//! Samples from the possible mutations.
 
 use std::collections::BTreeMap;
 
@@ -6,9 +6,9 @@ use super::dice::Dice;
 use super::mutation::Mutation;
 use super::plan::Plan;
 
-/// Changes of one field, drawn so that every kind of change comes up before any comes up again.
+/// Samples mutations of one field, so that every kind occurs once before any kind occurs again.
 ///
-/// `changes` gives those of a place; `count` is how many places there are.
+/// `changes` returns the mutations of a place; `count` is the number of places.
 pub(crate) fn draw(
     plan: &Plan,
     count: usize,
@@ -25,7 +25,7 @@ pub(crate) fn draw(
                 .push(change);
         }
     }
-    // Where few are taken of each field, they are of other kinds in each.
+    // Shuffle the kinds, so that small samples have different kinds in each field.
     let mut kinds: Vec<_> = by_kind.into_values().collect();
     let order = dice.choose(kinds.len(), kinds.len());
     let kinds = order
@@ -34,7 +34,7 @@ pub(crate) fn draw(
     in_turn(kinds.collect(), most)
 }
 
-/// One of each list in turn, up to `most` in all.
+/// Round-robin: one of each list in turn, up to `most` in total.
 pub(crate) fn in_turn<T>(lists: Vec<Vec<T>>, most: usize) -> Vec<T> {
     let mut lists: Vec<_> = lists.into_iter().map(Vec::into_iter).collect();
     let mut out = Vec::new();

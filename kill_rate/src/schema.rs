@@ -1,8 +1,8 @@
-//! What a published schema says of a field: its words, and a value that it allows.
+//! Queries of a published schema for a field: its words, and an example value.
 
 use serde_json::{Map, Value, json};
 
-/// The parts of a schema that may hold for a field (a choice has several).
+/// The subschemas that may apply to a field (a choice has several).
 pub(crate) fn of_field<'a>(schema: &'a Value, field: &str) -> Vec<&'a Value> {
     let mut here = branches(schema, schema);
     for part in field.split('/').skip(1) {
@@ -19,7 +19,7 @@ pub(crate) fn of_field<'a>(schema: &'a Value, field: &str) -> Vec<&'a Value> {
     here
 }
 
-/// A schema without references, each of its choices by itself.
+/// Resolves references and splits choices into their alternatives.
 fn branches<'a>(schema: &'a Value, part: &'a Value) -> Vec<&'a Value> {
     if let Some(name) = part.get("$ref").and_then(Value::as_str) {
         let target = name
@@ -40,7 +40,7 @@ fn branches<'a>(schema: &'a Value, part: &'a Value) -> Vec<&'a Value> {
         .collect()
 }
 
-/// The words that a field may be, where it is one of several words.
+/// The allowed words of an enumeration field.
 pub(crate) fn words<'a>(parts: &[&'a Value]) -> Vec<&'a str> {
     let lists = parts.iter().filter_map(|part| part.get("enum")?.as_array());
     let singles = parts.iter().filter_map(|part| part.get("const"));
@@ -51,7 +51,7 @@ pub(crate) fn words<'a>(parts: &[&'a Value]) -> Vec<&'a str> {
         .collect()
 }
 
-/// The keys that an object of one key may have instead of its own.
+/// The allowed keys of a one-key object.
 pub(crate) fn tags<'a>(parts: &[&'a Value]) -> Vec<&'a str> {
     if parts.len() < 2 {
         return Vec::new();
@@ -63,7 +63,7 @@ pub(crate) fn tags<'a>(parts: &[&'a Value]) -> Vec<&'a str> {
     parts.iter().filter_map(one_key).collect()
 }
 
-/// Whether a field holds integers.
+/// Whether a field contains integers.
 pub(crate) fn is_integer(parts: &[&Value]) -> bool {
     parts
         .iter()
@@ -77,7 +77,7 @@ fn types(part: &Value) -> impl Iterator<Item = &str> {
         .chain(several.into_iter().flatten().filter_map(Value::as_str))
 }
 
-/// A value that a field may have besides null.
+/// A valid value of a field other than null.
 pub(crate) fn example(schema: &Value, parts: &[&Value]) -> Option<Value> {
     if let Some(word) = words(parts).first() {
         return Some(json!(word));

@@ -1,4 +1,4 @@
-//! Changes of the carried URDF: one attribute's value, or one of the numbers in it.
+//! Mutations of the source URDF: one attribute's value, or one number in it.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -13,11 +13,11 @@ use super::plan::Plan;
 use super::sample;
 use super::text_changes;
 
-/// What reports call the carried URDF.
+/// Name of the source URDF in reports.
 const SOURCE: &str = "source";
 
-/// The attributes that `urdf_module` has, by element (SPEC 6.1.1: others are left to the carried file), and whether they
-/// hold numbers.
+/// Element and attribute names that `urdf_module` represents (SPEC 6.1.1: others are only in the source file), and
+/// whether they contain numbers.
 const ATTRIBUTES: &[(&str, &str, bool)] = &[
     ("robot", "name", false),
     ("link", "name", false),
@@ -69,13 +69,13 @@ const ATTRIBUTES: &[(&str, &str, bool)] = &[
     ("calibration", "falling", true),
 ];
 
-/// An attribute in the text.
+/// An attribute of the text.
 struct Attribute {
     value: Range<usize>,
     numbers: bool,
 }
 
-/// Changes of the carried URDF, a list for each attribute.
+/// Mutations of the source URDF, one list per attribute.
 pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> {
     let Some((path, text)) = original.source().and_then(|path| {
         let text = std::str::from_utf8(original.files.get(path)?).ok()?;
@@ -129,7 +129,7 @@ pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> 
     lists
 }
 
-/// The attributes of the text that `urdf_module` has, by the names of the elements around them.
+/// The attributes of the text that `urdf_module` represents, by the names of the enclosing elements.
 fn attributes(text: &str) -> BTreeMap<String, Vec<Attribute>> {
     let mut found: BTreeMap<String, Vec<Attribute>> = BTreeMap::new();
     let Ok(document) = roxmltree::Document::parse(text) else {
@@ -141,7 +141,7 @@ fn attributes(text: &str) -> BTreeMap<String, Vec<Attribute>> {
             .filter(roxmltree::Node::is_element)
             .map(|node| node.tag_name().name())
             .collect();
-        // Elements that URDF does not define are kept as text, whatever is in them.
+        // Elements that URDF does not define are kept as text with all their contents.
         const TOP: [&str; 4] = ["robot", "link", "joint", "material"];
         let near_top = names.iter().rev().take(2).all(|name| TOP.contains(name));
         for attribute in node.attributes() {

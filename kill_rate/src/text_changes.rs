@@ -1,4 +1,4 @@
-//! What a string may become: a name, a word, a path, a version, a text.
+//! Mutations of a string: a name, a word, a path, a version, a text.
 
 use serde_json::{Value, json};
 
@@ -6,7 +6,7 @@ use super::dice::Dice;
 use super::field::Field;
 use super::schema;
 
-/// What becomes of a string.
+/// Mutations of a string.
 pub(crate) fn texts(field: &Field, text: &str, dice: &mut Dice) -> Vec<(&'static str, Value)> {
     let mut to: Vec<(&'static str, Value)> = Vec::new();
     for word in schema::words(&field.schema) {
@@ -39,7 +39,7 @@ pub(crate) fn texts(field: &Field, text: &str, dice: &mut Dice) -> Vec<(&'static
     to
 }
 
-/// How a text may be written wrongly.
+/// Misspellings of a text.
 pub(crate) fn spellings(text: &str, dice: &mut Dice) -> Vec<(&'static str, String)> {
     let mut to = vec![
         ("a space after it", format!("{text} ")),

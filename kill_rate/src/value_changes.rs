@@ -1,4 +1,4 @@
-//! What one value of a document may become.
+//! Mutations of one value of a document.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ use super::field::{Field, ValueChange};
 use super::free;
 use super::{key_changes, list_changes, number_changes, schema, text_changes};
 
-/// Every change that is made of the value at a place.
+/// Every mutation of the value at a place.
 pub(crate) fn changes(field: &Field, place: &str, dice: &mut Dice) -> Vec<ValueChange> {
     let value = field.at(place);
     let mut to: Vec<(&'static str, Value)> = Vec::new();
@@ -44,7 +44,7 @@ pub(crate) fn changes(field: &Field, place: &str, dice: &mut Dice) -> Vec<ValueC
             continue;
         }
         let set = Edit::Set(place.to_owned(), new.clone());
-        // The same value stands in both halves of a symmetric matrix.
+        // In a symmetric matrix, also change both elements together.
         if let Some(other) = &mirrored {
             let edits = vec![set.clone(), Edit::Set(other.clone(), new)];
             out.push(ValueChange {

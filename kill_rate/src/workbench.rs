@@ -1,4 +1,4 @@
-//! A copy of a URDD on disk, in which one change after the other is made and undone.
+//! A copy of a URDD on disk, to apply and undo mutations one by one.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -29,7 +29,7 @@ impl<'a> Workbench<'a> {
         Ok(workbench)
     }
 
-    /// Looks at the URDD with some files changed, and undoes that.
+    /// Calls `look` on the URDD with some files changed, then restores them.
     pub(crate) fn with<T>(&self, changed: &Files, look: impl FnOnce(&Path) -> T) -> io::Result<T> {
         let root = self.folder.path();
         for (path, bytes) in changed {
@@ -56,7 +56,7 @@ impl<'a> Workbench<'a> {
         fs::write(file, bytes)
     }
 
-    /// Takes a file away, and the folders that are empty then: a folder is a module or it is not.
+    /// Removes a file, and parent folders that become empty: an empty folder would still count as a module.
     fn remove(&self, path: &str) -> io::Result<()> {
         let root = self.folder.path();
         let file = root.join(path);

@@ -1,5 +1,5 @@
-//! The suite's files as one compressed archive. `build.rs` packs it with this file too, so nothing
-//! else of the library can be used here.
+//! The suite's files as one compressed archive. `build.rs` also compiles this file, so it must not use the rest of the
+//! library.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,7 +16,7 @@ pub type Files = BTreeMap<String, Vec<u8>>;
 /// Every file below a folder.
 ///
 /// # Errors
-/// Where something cannot be read, or a name is not UTF-8.
+/// If a file cannot be read, or a name is not UTF-8.
 #[allow(
     dead_code,
     reason = "build.rs reads it, and a debug build of the library"
@@ -47,10 +47,10 @@ pub fn read_folder(folder: &Path) -> io::Result<Files> {
     Ok(files)
 }
 
-/// The files as one archive: the same bytes for the same files.
+/// Packs the files into one archive, deterministically.
 ///
 /// # Errors
-/// Where a name is too long.
+/// If a name is too long.
 #[cfg_attr(
     not(test),
     allow(dead_code, reason = "build.rs packs, the library unpacks")
@@ -66,10 +66,10 @@ pub fn pack(files: &Files) -> io::Result<Vec<u8>> {
     archive.into_inner()?.finish()
 }
 
-/// The files of an archive.
+/// Unpacks the files of an archive.
 ///
 /// # Errors
-/// Where it is damaged.
+/// If it is damaged.
 #[allow(dead_code, reason = "build.rs packs, the library unpacks")]
 pub fn unpack(archive: &[u8]) -> io::Result<Files> {
     let mut files = Files::new();

@@ -1,4 +1,4 @@
-//! Cases: a URDD with one fault, or with something that comes near one, and what is expected of it.
+//! Cases: URDDs with one fault or a near miss, and the expected results.
 
 use std::collections::BTreeSet;
 
@@ -7,54 +7,53 @@ use serde::{Deserialize, Serialize};
 
 use super::change::Change;
 
-/// A case.
+/// A test case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// Code of the rule that it is about.
+    /// Code of the rule under test.
     pub code: String,
-    /// Its name, unique among those of the rule.
+    /// Its name, unique within the rule.
     pub name: String,
-    /// In words.
+    /// Its description.
     pub title: String,
     /// Whether there is a fault.
     pub kind: Kind,
-    /// The versions of the specification in which the verdict is right.
+    /// The versions of the specification to which the verdict applies.
     pub spec_versions: VersionReq,
-    /// What a validator should make of it.
+    /// The expected verdict of a validator.
     pub verdict: Verdict,
-    /// What exactly `urdd validate` finds. Informations by other rules are not listed: legacy URDDs
-    /// always have some.
+    /// All findings of `urdd validate`, except infos of other rules: legacy URDDs always have some.
     pub expected: Vec<Expected>,
-    /// The valid URDD (or, for odd robots, faithful one) that is changed.
+    /// The base to change: a valid URDD, or a faithful one of an odd robot.
     pub base: String,
-    /// What is changed, in this order.
+    /// The changes, in order.
     pub changes: Vec<Change>,
-    /// Files whose size and hash in `urdd.json` do not follow the changes. All others do.
+    /// Files whose size and hash in `urdd.json` are not updated after the changes.
     pub hashes_kept: BTreeSet<String>,
 }
 
-/// What a case shows.
+/// The kind of case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// The rule, and only this one, finds something.
+    /// Only the rule under test finds something.
     Invalid,
     /// Nothing is found.
     NearMiss,
 }
 
-/// What a validator makes of a URDD.
+/// A validator's verdict on a URDD.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// A MUST of the specification is not kept.
+    /// The URDD violates a MUST of the specification.
     Reject,
-    /// Every MUST is kept; there may be warnings.
+    /// The URDD satisfies every MUST; there may be warnings.
     Accept,
 }
 
-/// A finding that is expected.
+/// An expected finding.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expected {
@@ -67,7 +66,7 @@ pub struct Expected {
 }
 
 impl Case {
-    /// How it is called: code, slash, name.
+    /// Its id: code, slash, name.
     pub fn id(&self) -> String {
         format!("{}/{}", self.code, self.name)
     }

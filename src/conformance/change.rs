@@ -1,4 +1,4 @@
-//! Changes of a URDD: what a case does to its base.
+//! The changes that a case applies to its base.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -13,57 +13,57 @@ use urdd_directory::json;
 /// A change of one file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Change {
-    /// Which, relative to the URDD's root.
+    /// The file, relative to the URDD's root.
     pub file: FilePath,
-    /// What is done.
+    /// The action.
     #[serde(flatten)]
     pub action: Action,
 }
 
-/// What is done to a file.
+/// An action on a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Action {
-    /// RFC 6902 operations on a JSON document. `module.yaml` beside it follows.
+    /// RFC 6902 operations on a JSON document. Updates `module.yaml` beside it.
     Patch(Patch),
-    /// The same, but `module.yaml` beside it stays as it is.
+    /// As `Patch`, but without updating `module.yaml`.
     PatchAlone(Patch),
-    /// The first place where `from` stands gets `by` instead.
+    /// Replaces the first occurrence of `from` by `by`.
     Replace {
-        /// What is there.
+        /// Text to replace.
         from: String,
-        /// What comes there.
+        /// New text.
         by: String,
     },
-    /// The same, wherever `from` stands.
+    /// Replaces all occurrences of `from` by `by`.
     ReplaceAll {
-        /// What is there.
+        /// Text to replace.
         from: String,
-        /// What comes there.
+        /// New text.
         by: String,
     },
-    /// Bytes are exchanged.
+    /// Replaces bytes.
     Splice {
-        /// From which byte on.
+        /// Offset of the first byte.
         at: usize,
-        /// How many go.
+        /// Number of bytes to remove.
         remove: usize,
-        /// What comes there, in base64.
+        /// Bytes to insert, in base64.
         insert_base64: String,
     },
-    /// The file gets this text.
+    /// Writes this text to the file.
     Write(String),
-    /// The file gets these bytes, in base64.
+    /// Writes these bytes, in base64, to the file.
     WriteBase64(String),
-    /// Of the file only so many bytes stay.
+    /// Truncates the file to this many bytes.
     CutTo(usize),
-    /// The file, or the folder with all that is in it, goes.
+    /// Deletes the file, or the folder with its contents.
     Delete(Yes),
-    /// The file, or the folder, becomes one like another.
+    /// Replaces the file or folder by a copy of another.
     CopyOf(FilePath),
-    /// It becomes a symbolic link that leads there.
+    /// Replaces it by a symbolic link to this path.
     LinkTo(FilePath),
-    /// It becomes an empty folder.
+    /// Replaces it by an empty folder.
     Folder(Yes),
 }
 
@@ -86,49 +86,49 @@ impl<'de> Deserialize<'de> for Yes {
     }
 }
 
-/// Why a change cannot be made.
+/// Why a change cannot be applied.
 #[derive(Debug, thiserror::Error)]
 pub enum ChangeError {
-    /// No such file.
+    /// The file does not exist.
     #[error("{0}: there is no such file to change")]
     Missing(FilePath),
     /// Not a JSON document.
     #[error("{0}: this is not JSON, and cannot be patched")]
     NotJson(FilePath),
-    /// The patch does not fit.
+    /// The patch does not apply.
     #[error("{file}: {error}")]
     Patch {
-        /// Which file.
+        /// The file.
         file: FilePath,
-        /// Why.
+        /// Reason.
         error: json_patch::PatchError,
     },
-    /// The text to be replaced is not there.
+    /// The text to replace does not occur.
     #[error("{file}: the text {from:?} is not there")]
     NotThere {
-        /// Which file.
+        /// The file.
         file: FilePath,
         /// The text.
         from: String,
     },
-    /// The bytes to be exchanged are not there.
+    /// The bytes to replace are beyond the end of the file.
     #[error("{0}: the file is too short for this change")]
     Outside(FilePath),
     /// Not base64.
     #[error("{file}: not base64: {error}")]
     Base64 {
-        /// Which file.
+        /// The file.
         file: FilePath,
-        /// Why.
+        /// Reason.
         error: base64::DecodeError,
     },
 }
 
 impl Change {
-    /// Makes the change.
+    /// Applies the change.
     ///
     /// # Errors
-    /// Where it does not fit what is there.
+    /// If it does not fit the tree.
     pub fn apply(&self, tree: &mut Tree) -> Result<(), ChangeError> {
         let file = || self.file.clone();
         match &self.action {
@@ -242,7 +242,7 @@ impl Change {
         let bytes = self.bytes(tree)?;
         let not_json = |_| ChangeError::NotJson(self.file.clone());
         let mut document = json::read(bytes).map_err(not_json)?.value;
-        // Legacy documents stand on one line: one that does stays so.
+        // Keep a one-line document on one line, as legacy documents are.
         let on_one_line = !bytes.contains(&b'\n');
         json_patch::patch(&mut document, patch).map_err(|error| ChangeError::Patch {
             file: self.file.clone(),
@@ -259,7 +259,7 @@ impl Change {
     }
 }
 
-/// The text of a document: the canonical emission, or all of it on one line.
+/// The text of a document: canonical, or on one line.
 pub fn text_of(document: &Value, on_one_line: bool) -> Vec<u8> {
     match on_one_line {
         true => document.to_string().into_bytes(),

@@ -1,5 +1,5 @@
-//! The suite's files. A release build carries them as one archive; a debug build reads them from the
-//! repository, so that a new case needs no build.
+//! The suite's files. A release build embeds them as an archive; a debug build reads them from the repository, so that
+//! new cases need no rebuild.
 
 #[cfg(any(test, suite_in_repository))]
 use std::path::Path;
@@ -7,35 +7,35 @@ use std::sync::LazyLock;
 
 use super::archive::{self, Files};
 
-/// The suite's files by their paths.
+/// The suite's files by path.
 #[cfg(not(suite_in_repository))]
 fn read() -> Result<Files, String> {
     let archive = include_bytes!(concat!(env!("OUT_DIR"), "/suite.tar.gz"));
     archive::unpack(archive).map_err(|error| error.to_string())
 }
 
-/// The suite's files by their paths.
+/// The suite's files by path.
 #[cfg(suite_in_repository)]
 fn read() -> Result<Files, String> {
     archive::read_folder(Path::new(REPOSITORY))
         .map_err(|error| format!("{error}; a debug build reads it from the repository"))
 }
 
-/// Where the suite is in the repository.
+/// The suite's folder in the repository.
 #[cfg(any(test, suite_in_repository))]
 const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance");
 
-/// The robots that producers are run on: URDF files, and their meshes below.
+/// The robots to run producers on: URDF files, with their meshes below.
 pub const ROBOTS: &str = "robots";
-/// What is kept of the URDDs that `urdd generate` makes of these.
+/// The stored part of the URDDs that `urdd generate` writes for these robots.
 pub const VALID: &str = "valid";
-/// URDDs that cases change: a folder each.
+/// The base URDDs of cases: one folder each.
 pub const BASES: &str = "bases";
-/// Cases, near misses too: a folder for each code.
+/// Cases, including near misses: one folder per code.
 pub const INVALID: &str = "invalid";
-/// The folder of a URDD within that of its case; others may lie beside it.
+/// The URDD's folder within its case's folder; other files may be beside it.
 pub const URDD: &str = "robot";
-/// Numeric truths.
+/// Numeric reference values.
 pub const VECTORS: &str = "vectors";
 
 /// The suite cannot be read.
@@ -45,15 +45,15 @@ pub struct DataError(String);
 
 static SUITE: LazyLock<Result<Files, DataError>> = LazyLock::new(|| read().map_err(DataError));
 
-/// Whether the suite can be read. Where it cannot, [`below`] gives nothing.
+/// Checks that the suite can be read. If it cannot, [`below`] returns nothing.
 ///
 /// # Errors
-/// Why not.
+/// Why it cannot be read.
 pub fn check() -> Result<(), DataError> {
     SUITE.as_ref().map(|_| ()).map_err(Clone::clone)
 }
 
-/// The files of a folder of the suite, each by its path below that folder.
+/// The files in a folder of the suite, with their paths relative to that folder.
 pub fn below(folder: &str) -> impl Iterator<Item = (&'static str, &'static [u8])> {
     let files: &'static Result<Files, DataError> = &SUITE;
     let start = format!("{folder}/");
@@ -79,7 +79,7 @@ mod tests {
         let packed = archive::pack(&files).expect("an archive");
         assert_eq!(archive::unpack(&packed).expect("what was packed"), files);
         assert_eq!(archive::pack(&files).expect("the same again"), packed);
-        // The program grows by this much: some 0.8 MB for the 7 MB of the suite.
+        // The archive adds about 0.8 MB to the program, for the 7 MB of the suite.
         assert!(packed.len() < 1_500_000, "{} bytes", packed.len());
         assert!(archive::unpack(&packed[..packed.len() / 2]).is_err());
     }

@@ -1,4 +1,4 @@
-//! Writing the whole suite into a folder, for programs in any language.
+//! Writes the whole suite into a folder, for programs in any language.
 
 use std::fs;
 use std::io;
@@ -15,60 +15,60 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_format::registry::SPEC_VERSION;
 use urdd_generate::GenerateError;
 
-/// Describes the suite.
+/// Description of the suite.
 const README: &str = "README.md";
 
 /// Why the suite could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    /// Something is there already.
+    /// The folder is not empty.
     #[error("{}: this folder is not empty; give one that is new", .0.display())]
     NotEmpty(PathBuf),
     /// A file or folder cannot be written.
     #[error("{}: cannot be written: {error}", path.display())]
     Write {
-        /// Which.
+        /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         error: io::Error,
     },
-    /// The same.
+    /// A case or robot cannot be written.
     #[error(transparent)]
     Tree(#[from] TreeError),
     /// The suite itself is damaged.
     #[error("the suite is damaged: {0}")]
     Suite(#[from] SuiteError),
-    /// A case of it is.
+    /// A case of the suite is damaged.
     #[error("the suite is damaged: {0}")]
     Case(#[from] CaseError),
-    /// A valid URDD cannot be made.
+    /// A valid URDD cannot be generated.
     #[error("{robot}: {error}")]
     Generate {
-        /// Of which robot.
+        /// The robot.
         robot: String,
-        /// Why.
+        /// Reason.
         error: Box<GenerateError>,
     },
 }
 
-/// What was exported.
+/// Counts of an export.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Exported {
-    /// Valid URDDs.
+    /// Number of valid URDDs.
     pub valid: usize,
-    /// Cases, near misses too.
+    /// Number of cases, including near misses.
     pub cases: usize,
-    /// Cases that this operating system cannot have on disk.
+    /// Cases that this operating system cannot represent on disk.
     pub left_out: Vec<String>,
-    /// Robots whose valid URDD is not, byte for byte, the one that the suite was checked with: numbers
-    /// differ in their last digits between platforms.
+    /// Robots whose valid URDD differs in bytes from the one that the suite was checked with: the last digits of
+    /// numbers vary between platforms.
     pub other_bytes: Vec<String>,
 }
 
-/// Writes the suite into `folder`, which is made where it is not there.
+/// Writes the suite into `folder`, which is created if needed.
 ///
 /// # Errors
-/// Where something is in the folder, or cannot be written.
+/// If the folder is not empty, or cannot be written.
 pub fn export(folder: &Path) -> Result<Exported, ExportError> {
     let failed = |path: &Path| {
         let path = path.to_owned();
@@ -118,8 +118,8 @@ pub fn export(folder: &Path) -> Result<Exported, ExportError> {
     Ok(exported)
 }
 
-/// Makes the valid URDDs of these robots, whose URDFs are in the folder `robots`. Gives those of which it has other bytes
-/// than the suite was checked with.
+/// Generates the valid URDDs of these robots, whose URDFs are in the folder `robots`. Returns the robots whose bytes
+/// differ from those that the suite was checked with.
 pub fn write_valid(
     names: &[String],
     robots: &Path,
@@ -143,7 +143,7 @@ pub fn write_valid(
     Ok(other_bytes)
 }
 
-/// Writes every case. Gives those that cannot be had here.
+/// Writes every case. Returns those that this operating system cannot represent.
 fn write_cases(suite: &Suite, folder: &Path) -> Result<Vec<String>, ExportError> {
     let write = |case: &super::case::Case| -> Result<Option<String>, ExportError> {
         let root = folder.join(INVALID).join(case.id()).join(URDD);

@@ -1,10 +1,10 @@
-//! What a case expects, against what `urdd validate` found.
+//! Compares the findings of `urdd validate` with those that a case expects.
 
 use super::case::{Case, Expected, Verdict};
 use urdd_validate::report::model::{Finding, Severity};
 use urdd_validate::report::{self, Report};
 
-/// What was found that a case of the rule `code` lists: everything but informations by other rules.
+/// The findings that a case of the rule `code` lists: all except infos of other rules.
 pub fn found(code: &str, report: &Report) -> Vec<Expected> {
     let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
     let counts = |finding: &&Finding| finding.severity != Severity::Info || finding.code == code;
@@ -28,7 +28,7 @@ pub fn verdict(report: &Report) -> Verdict {
     }
 }
 
-/// In what a report differs from what the case expects.
+/// Describes how a report differs from what the case expects; `None` if it matches.
 pub fn difference(case: &Case, report: &Report) -> Option<String> {
     let (found, verdict) = (found(&case.code, report), verdict(report));
     if found == case.expected && verdict == case.verdict {

@@ -1,7 +1,7 @@
-//! The conformance suite: its data, which a release build carries, and what is done with it.
+//! The conformance suite: its data, embedded in release builds, and its commands.
 //!
-//! `conformance/README.md` describes the data. A [`case::Case`] is a base with some changes, and
-//! becomes a [`tree::Tree`], which is written to disk to be examined.
+//! `conformance/README.md` describes the data. A [`case::Case`] is a base with changes. It becomes a [`tree::Tree`],
+//! which is written to disk for validation.
 
 mod archive;
 pub mod case;

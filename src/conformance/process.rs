@@ -1,4 +1,4 @@
-//! Running somebody's program: with a time limit, and whatever it started ends with it.
+//! Runs an external command with a time limit, and ends all its child processes with it.
 
 use std::collections::VecDeque;
 use std::io::Read;
@@ -11,21 +11,21 @@ use std::time::{Duration, Instant};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_generate::process::{Ended, PAUSE, Running};
 
-/// How much of what a program prints is kept, from its end, bytes.
+/// Length of the output tail that is kept, bytes.
 const TAIL: usize = 2000;
-/// How long the last words of a program are waited for, where something holds its output open.
+/// How long to wait for the last output if another process keeps the stream open.
 const LAST_WORDS: Duration = Duration::from_millis(500);
 
-/// How a program ended.
+/// How a command ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum End {
     /// With an exit status.
     Status(i32),
-    /// By a signal, as the system writes it.
+    /// By a signal, in the system's notation.
     Signal(String),
-    /// It was stopped at the time limit.
+    /// Stopped at the time limit.
     TimeLimit,
-    /// It could not be started.
+    /// Failed to start.
     NotStarted(String),
 }
 
@@ -40,7 +40,7 @@ impl std::fmt::Display for End {
     }
 }
 
-/// A program that ended, and what it printed last.
+/// A finished command, with the end of its output.
 #[derive(Debug, Clone)]
 pub struct Ran {
     /// How it ended.
@@ -51,28 +51,28 @@ pub struct Ran {
     pub stderr: String,
 }
 
-/// A program with its arguments, in which `{word}`s stand for paths.
+/// A command with arguments, in which each `{word}` is a placeholder for a path.
 #[derive(Debug, Clone)]
 pub struct Template {
     words: Vec<String>,
 }
 
-/// Why a command cannot be used.
+/// Why a command is invalid.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum TemplateError {
-    /// There is none.
+    /// The command is empty.
     #[error("there is no command; give it after `--`")]
     Empty,
-    /// A path is not asked for.
+    /// A placeholder is missing.
     #[error("the command has no {{{0}}}; put it where the path belongs")]
     Missing(&'static str),
 }
 
 impl Template {
-    /// A command in which each of `needed` stands at least once in braces.
+    /// A command whose arguments contain each of `needed` in braces.
     ///
     /// # Errors
-    /// Where there is no command, or one of `needed` is not in it.
+    /// If the command is empty, or a placeholder is missing.
     pub fn new(words: &[String], needed: &[&'static str]) -> Result<Template, TemplateError> {
         if words.is_empty() {
             return Err(TemplateError::Empty);
@@ -87,15 +87,15 @@ impl Template {
         Ok(Template { words })
     }
 
-    /// As it was given.
+    /// The words as given.
     pub fn words(&self) -> &[String] {
         &self.words
     }
 
-    /// Runs the command with these paths, for `limit` at most.
+    /// Runs the command with these paths, for at most `limit`.
     ///
     /// # Errors
-    /// Where it is asked to stop: the command has ended then, and all that it started.
+    /// If cancelled. The command and its child processes have ended then.
     pub fn run(
         &self,
         paths: &[(&str, &Path)],
@@ -144,7 +144,7 @@ fn end(status: ExitStatus) -> End {
     }
 }
 
-/// The end of a stream, read beside the program so that it never waits for us.
+/// The end of a stream, read concurrently so that the command never blocks on a full pipe.
 struct Tail {
     kept: Arc<Mutex<VecDeque<u8>>>,
     reader: JoinHandle<()>,

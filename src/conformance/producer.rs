@@ -1,4 +1,4 @@
-//! Running somebody's producer on our robots, and scoring what it makes.
+//! Runs an external producer on the suite's robots, and scores its URDDs.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -23,33 +23,33 @@ use urdd_format::root_metadata::ConformanceClass;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 
-/// How a producer is run.
+/// Settings of a producer run.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// The command, with `{urdf}` and `{out}`.
     pub command: Template,
-    /// The class to ask for.
+    /// The conformance class to require.
     pub class: ConformanceClass,
-    /// The robots; all of ours where there is none.
+    /// The robots; empty for all of the suite.
     pub robots: Vec<String>,
-    /// For how long it may run on one robot.
+    /// Time limit per robot.
     pub limit: Duration,
-    /// What it is known not to do yet: a robot, or a robot's module.
+    /// Known failures: a robot, or a module of a robot.
     pub skips: Vec<Skip>,
-    /// On how many robots it is run at a time.
+    /// Number of robots to run in parallel.
     pub jobs: usize,
-    /// A new folder in which robots and URDDs stay, a folder for each robot; `None` for temporary ones.
+    /// A new folder that keeps each robot's files and URDD in a subfolder; `None` for temporary folders.
     pub keep: Option<PathBuf>,
-    /// Where it is asked to stop. What runs then ends, and all that it started.
+    /// Cancels the run, with all running commands and their child processes.
     pub cancellation: Cancellation,
 }
 
-/// What happens while a producer runs.
+/// Progress of a producer run.
 #[derive(Debug)]
 pub enum Event<'a> {
-    /// It will be run on so many robots.
+    /// Start, with the number of robots.
     Start(usize),
-    /// A robot is done; on any thread.
+    /// A robot is scored. Called from any thread.
     Scored(&'a RobotScore),
 }
 
@@ -59,33 +59,33 @@ pub enum ProducerError {
     /// The robots cannot be read.
     #[error(transparent)]
     Data(#[from] DataError),
-    /// No such robot.
+    /// The robot does not exist.
     #[error("there is no robot `{0}`; the robots are {1}")]
     UnknownRobot(String, String),
-    /// The skip list names what there is not.
+    /// The skip list names something that does not exist.
     #[error("the skip list: {0}")]
     Skip(#[from] SkipError),
-    /// There is no place to work in.
+    /// The working folder cannot be created.
     #[error(transparent)]
     Folder(#[from] WorkplaceError),
-    /// So many threads cannot be had.
+    /// The thread pool cannot be created.
     #[error("{0} commands at a time cannot be run: {1}")]
     Jobs(usize, rayon::ThreadPoolBuildError),
-    /// The robots cannot be written there.
+    /// The robots cannot be written to the working folder.
     #[error(transparent)]
     Robots(#[from] TreeError),
-    /// It was asked to stop.
+    /// The run was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-/// How a line of a producer's skip list is written.
+/// Form of a line in a producer's skip list.
 pub const SKIP_FORM: &str = "`robot  # reason`, or `robot module  # reason`";
 
-/// Runs a producer on robots. `observe` hears of each as soon as it is done.
+/// Runs a producer on robots, and calls `observe` after each.
 ///
 /// # Errors
-/// Where a robot or a module does not exist, or there is no place to work in; where it is asked to stop.
+/// If a robot or a module does not exist, the working folder cannot be created, or the run is cancelled.
 pub fn run(
     plan: &Plan,
     observe: &(dyn Fn(&Event) + Sync),
@@ -167,12 +167,12 @@ fn check_skips(skips: &[Skip]) -> Result<(), ProducerError> {
     Ok(())
 }
 
-/// Whether a class asks for a module.
+/// Whether a class requires a module.
 fn is_asked_for(kind: ModuleKind, class: ConformanceClass) -> bool {
     kind.class().is_some_and(|first| first <= class)
 }
 
-/// Runs the command on a robot, in a folder of its own. Gives the lines of the skip list that were needed too.
+/// Runs the command on a robot, in its own folder. Also returns the lines of the skip list that took effect.
 fn robot(
     plan: &Plan,
     name: &str,
@@ -197,7 +197,7 @@ fn robot(
     Ok((score, used))
 }
 
-/// What the validator says; the error is why it cannot say anything.
+/// The validator's result, or the reason why there is none.
 fn examine(out: &PathBuf, plan: &Plan) -> Result<Urdd, Option<String>> {
     if !out.is_dir() {
         return Err(Some("the command made no folder at {out}".to_owned()));
@@ -290,7 +290,7 @@ fn codes<'a>(findings: impl Iterator<Item = &'a Finding>) -> Vec<String> {
     codes.into_iter().map(str::to_owned).collect()
 }
 
-/// An error in one line, with its place.
+/// An error on one line, with its location.
 fn told(finding: &Finding) -> String {
     let Finding { code, message, .. } = finding;
     let file = finding.file.as_deref().unwrap_or_default();
@@ -298,8 +298,8 @@ fn told(finding: &Finding) -> String {
     format!("{code} {file} {pointer}: {message}")
 }
 
-/// A robot's skip covers all of it; the skips of its modules cover it where nothing else is wrong.
-/// Gives the lines that were needed.
+/// Applies skips. A skip of the robot covers all its faults. Skips of its modules cover the robot if nothing else is
+/// wrong. Returns the lines that took effect.
 fn apply_skips(plan: &Plan, score: &mut RobotScore) -> BTreeSet<usize> {
     let mut used = BTreeSet::new();
     let own = |skip: &&Skip| skip.words.first() == Some(&score.robot);
@@ -328,7 +328,7 @@ fn apply_skips(plan: &Plan, score: &mut RobotScore) -> BTreeSet<usize> {
         .modules
         .iter()
         .any(|module| module.skipped_since.is_some());
-    // A module that is not there is an error of the directory besides.
+    // A missing module is also an error of the directory.
     let directory = score.codes.iter().all(|code| code == MODULE_MISSING);
     if score.status == ScoreStatus::Failed
         && any
@@ -342,7 +342,7 @@ fn apply_skips(plan: &Plan, score: &mut RobotScore) -> BTreeSet<usize> {
     used
 }
 
-/// The rule that finds that a module of the class is missing.
+/// The rule that reports a missing module of the class.
 const MODULE_MISSING: &str = "DIR019";
 
 fn count(number: usize) -> Count {

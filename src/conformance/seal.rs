@@ -1,4 +1,4 @@
-//! Bringing a URDD in memory up to date: mirrors, and the sizes and hashes in `urdd.json`.
+//! Updates mirrors, and the sizes and hashes in `urdd.json`, of a URDD in memory.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::{canonical, json};
 use urdd_format::hexadecimal::hexadecimal;
 
-/// Gives every `module.json` that has no `module.yaml` beside it one, in the canonical emission.
+/// Adds a canonical `module.yaml` to every `module.json` without one.
 pub fn add_mirrors(tree: &mut Tree) {
     let documents: Vec<FilePath> = tree.nodes.keys().cloned().collect();
     for path in documents {
@@ -29,9 +29,8 @@ pub fn add_mirrors(tree: &mut Tree) {
     }
 }
 
-/// Brings the size and the hash of every file that `urdd.json` lists up to date, but of those in
-/// `kept`, of files that are not there, and of symbolic links. Where `urdd.json` is no JSON, nothing
-/// is done.
+/// Updates the size and hash of every file that `urdd.json` lists, except files in `kept`, missing files and symbolic
+/// links. Does nothing if `urdd.json` is not JSON.
 pub fn rehash(tree: &mut Tree, kept: &BTreeSet<String>) {
     let Some(Ok(document)) = tree.file(ROOT_METADATA).map(json::read) else {
         return;
@@ -53,12 +52,12 @@ pub fn rehash(tree: &mut Tree, kept: &BTreeSet<String>) {
     }
 }
 
-/// Size and SHA-256 of a file, as `urdd.json` has them.
+/// Size and SHA-256 of a file, in the form of `urdd.json`.
 pub fn size_and_hash(bytes: &[u8]) -> (usize, String) {
     (bytes.len(), hexadecimal(&Sha256::digest(bytes)))
 }
 
-/// The entries of `urdd.json` that describe a file.
+/// The file entries of `urdd.json`.
 pub fn entries_mut(metadata: &mut Value) -> Vec<&mut Value> {
     let mut entries = Vec::new();
     let Some(root) = metadata.as_object_mut() else {

@@ -1,26 +1,26 @@
-//! Lists of what somebody's program is known not to do yet.
+//! Lists of known failures of an external program.
 //!
-//! A line is what is skipped, `#`, and why. Empty lines, and lines that begin with `#`, say nothing.
+//! A line has the skipped item, `#`, and the reason. Empty lines and lines that begin with `#` are ignored.
 
-/// What is skipped, and why.
+/// A known failure.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Skip {
     /// Line in the file, from 1.
     pub line: usize,
     /// The words before the reason.
     pub words: Vec<String>,
-    /// Why.
+    /// Reason.
     pub reason: String,
 }
 
 impl Skip {
-    /// As it was written, without the reason.
+    /// The line as written, without the reason.
     pub fn what(&self) -> String {
         self.words.join(" ")
     }
 }
 
-/// What is wrong with a list.
+/// Errors in a skip list.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SkipError {
     /// A line without a reason.
@@ -34,10 +34,10 @@ pub enum SkipError {
     Unknown(usize, String),
 }
 
-/// Reads a list whose lines have at most `most` words; `form` says how a line is written.
+/// Reads a list whose lines have at most `most` words. `form` describes a line, for messages.
 ///
 /// # Errors
-/// At the first line that is not so, or has no reason.
+/// The first line with too many words or without a reason.
 pub fn read(text: &str, most: usize, form: &'static str) -> Result<Vec<Skip>, SkipError> {
     let mut skips = Vec::new();
     for (index, line) in text.lines().enumerate() {

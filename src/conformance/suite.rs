@@ -11,7 +11,7 @@ use super::tree::Tree;
 /// Bases and cases.
 #[derive(Debug, Clone, Default)]
 pub struct Suite {
-    /// URDDs that cases change, by name.
+    /// The base URDDs of cases, by name.
     pub bases: BTreeMap<String, Tree>,
     /// Cases, in order of code and name.
     pub cases: Vec<Case>,
@@ -23,42 +23,42 @@ pub enum SuiteError {
     /// Its files cannot be read.
     #[error(transparent)]
     Data(#[from] DataError),
-    /// A case is not what a case should be.
+    /// A case file is invalid.
     #[error("{path}: {error}")]
     Case {
         /// Its file.
         path: String,
-        /// Why.
+        /// Reason.
         error: serde_json::Error,
     },
 }
 
-/// Why a case cannot be made.
+/// Why a case cannot be built.
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
-    /// No such base.
+    /// The base does not exist.
     #[error("{case}: there is no base {base:?}")]
     NoBase {
-        /// Which case.
+        /// The case.
         case: String,
-        /// The base it names.
+        /// The base that it names.
         base: String,
     },
-    /// A change does not fit.
+    /// A change does not apply.
     #[error("{case}: {error}")]
     Change {
-        /// Which case.
+        /// The case.
         case: String,
-        /// Why.
+        /// Reason.
         error: ChangeError,
     },
 }
 
 impl Suite {
-    /// The suite that the program carries.
+    /// The suite of this build.
     ///
     /// # Errors
-    /// Where a case cannot be read.
+    /// If a case cannot be read.
     pub fn carried() -> Result<Suite, SuiteError> {
         data::check()?;
         let mut suite = Suite::default();
@@ -83,10 +83,10 @@ impl Suite {
         Ok(suite)
     }
 
-    /// The URDD of a case.
+    /// Builds the URDD of a case.
     ///
     /// # Errors
-    /// Where there is no such base, or a change does not fit it.
+    /// If the base does not exist, or a change does not apply.
     pub fn tree(&self, case: &Case) -> Result<Tree, CaseError> {
         let base = self.bases.get(&case.base);
         let mut tree = base.cloned().ok_or_else(|| CaseError::NoBase {

@@ -1,4 +1,4 @@
-//! Files and folders in memory, as a case has them before they are written.
+//! Files and folders in memory, used to build cases before they are written.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 
 use super::data;
 
-/// A path with forward slashes, relative to the URDD's root; `../` leads to what lies beside it. On
-/// most systems a name is any bytes, so that one which is not UTF-8 must be possible.
+/// A path with forward slashes, relative to the URDD's root; `../` leads to files beside the URDD. Stored as bytes,
+/// because most systems allow names that are not UTF-8.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FilePath(Vec<u8>);
 
@@ -62,7 +62,7 @@ impl std::fmt::Display for FilePath {
 }
 
 impl FilePath {
-    /// From the operating system's form of it; `None` where this system cannot say it in bytes.
+    /// Converts a system path; `None` if this system cannot express it as bytes.
     pub fn from_os(path: &Path) -> Option<Self> {
         #[cfg(unix)]
         {
@@ -76,7 +76,7 @@ impl FilePath {
         }
     }
 
-    /// As the operating system has it; `None` where it has no such names.
+    /// The system path; `None` if the system does not allow such names.
     fn to_os(&self) -> Option<PathBuf> {
         #[cfg(unix)]
         {
@@ -89,12 +89,12 @@ impl FilePath {
         }
     }
 
-    /// As text, where it is UTF-8.
+    /// The path as text, if it is UTF-8.
     pub fn as_str(&self) -> Option<&str> {
         std::str::from_utf8(&self.0).ok()
     }
 
-    /// Where it is when `from`, which it is or is below, is moved to `to`.
+    /// The path after moving `from` to `to`. The path must be `from` or below it.
     pub fn moved(&self, from: &FilePath, to: &FilePath) -> FilePath {
         let rest = self.0.get(from.0.len()..).unwrap_or_default();
         FilePath([&to.0, rest].concat())
@@ -109,21 +109,21 @@ impl FilePath {
     }
 }
 
-/// What stands at a path.
+/// The node at a path.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Node {
     /// A file.
     File(Arc<[u8]>),
-    /// A symbolic link, and where it leads.
+    /// A symbolic link with its target.
     Link(FilePath),
-    /// A folder without anything in it. Other folders are there by what they hold.
+    /// An empty folder. Other folders are implied by their contents.
     Folder,
 }
 
-/// A URDD, and what lies beside it.
+/// A URDD and the files beside it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Tree {
-    /// What is there.
+    /// Nodes by path.
     pub nodes: BTreeMap<FilePath, Node>,
 }
 
@@ -133,20 +133,20 @@ pub enum TreeError {
     /// A file or folder could not be written.
     #[error("{}: cannot be written: {error}", path.display())]
     Write {
-        /// Which.
+        /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         error: io::Error,
     },
     /// A file or folder could not be read.
     #[error("{}: cannot be read: {error}", path.display())]
     Read {
-        /// Which.
+        /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         error: io::Error,
     },
-    /// The operating system has no such names, or no symbolic links.
+    /// The operating system does not support such names, or symbolic links.
     #[error("{0}: this operating system cannot have it")]
     Unsupported(String),
 }
@@ -160,17 +160,17 @@ impl Tree {
         }
     }
 
-    /// Puts a file.
+    /// Adds or replaces a file.
     pub fn put(&mut self, path: FilePath, bytes: impl Into<Arc<[u8]>>) {
         self.nodes.insert(path, Node::File(bytes.into()));
     }
 
-    /// The files of a folder of the suite; none where it has no such folder.
+    /// The files in a folder of the suite; empty if it does not exist.
     pub fn carried(folder: &str) -> Tree {
         Tree::carried_around(folder, "")
     }
 
-    /// The same, named as they are from the folder `root`, which lies in it.
+    /// As [`Tree::carried`], with paths relative to `root`, a folder inside it.
     pub fn carried_around(folder: &str, root: &str) -> Tree {
         let mut tree = Tree::default();
         for (path, bytes) in data::below(folder) {
@@ -182,10 +182,10 @@ impl Tree {
         tree
     }
 
-    /// Reads a folder: what lies in it is named as it is from `root`, which lies in it too.
+    /// Reads a folder. Paths are relative to `root`, a folder inside it.
     ///
     /// # Errors
-    /// Where something cannot be read.
+    /// If something cannot be read.
     pub fn read(folder: &Path, root: &Path) -> Result<Tree, TreeError> {
         let mut tree = Tree::default();
         let root_name = root.strip_prefix(folder).unwrap_or(Path::new(""));
@@ -193,7 +193,7 @@ impl Tree {
         Ok(tree)
     }
 
-    /// Gives whether there is anything in the folder.
+    /// Returns whether the folder has any entries.
     fn read_below(&mut self, folder: &Path, inside: &Path, root: &Path) -> Result<bool, TreeError> {
         let path = folder.join(inside);
         let failed = |error| TreeError::Read {
@@ -233,7 +233,7 @@ impl Tree {
     /// Writes everything; `root` becomes the URDD's folder.
     ///
     /// # Errors
-    /// Where something cannot be written, or there can be no such thing on this operating system.
+    /// If something cannot be written, or this operating system does not support it.
     pub fn write(&self, root: &Path) -> Result<(), TreeError> {
         make_folder(root)?;
         for (name, node) in &self.nodes {
@@ -250,7 +250,7 @@ impl Tree {
                 Node::Folder => make_folder(&path)?,
                 Node::File(bytes) => match fs::write(&path, bytes) {
                     Ok(()) => {}
-                    // Some file systems have names in Unicode only.
+                    // Some file systems only support Unicode names.
                     Err(_) if name.as_str().is_none() => return Err(unsupported()),
                     Err(error) => return Err(TreeError::Write { path, error }),
                 },
@@ -266,7 +266,7 @@ impl Tree {
     }
 }
 
-/// A path in the folder in which `root` lies, as it is from there.
+/// Makes a path relative to `root`. Both are relative to the same folder.
 fn from_root(path: &Path, root: &Path) -> PathBuf {
     match path.strip_prefix(root) {
         Ok(below) => below.to_owned(),
@@ -279,7 +279,7 @@ fn link(target: &Path, path: &Path) -> Option<io::Result<()>> {
     Some(std::os::unix::fs::symlink(target, path))
 }
 
-/// Symbolic links of files and of folders differ there, and need a privilege.
+/// On other systems, file links and folder links differ, and creating them requires a privilege.
 #[cfg(not(unix))]
 fn link(_: &Path, _: &Path) -> Option<io::Result<()>> {
     None

@@ -1,5 +1,5 @@
-//! Valid URDDs: those that `urdd generate` makes of our robots. The repository keeps `urdd.json` and
-//! the documents that are not large; sizes and hashes of everything else are in `urdd.json`.
+//! Valid URDDs: those that `urdd generate` writes for the suite's robots. The repository stores `urdd.json` and small
+//! documents; `urdd.json` has the sizes and hashes of all other files.
 
 use std::path::Path;
 
@@ -9,12 +9,12 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_generate::{GenerateError, Settings, generate};
 
-/// Sampled configurations of the distance statistics: few, so that making them takes seconds.
+/// Number of sampled configurations for the distance statistics: small, so that generating takes seconds.
 pub const NUM_SAMPLES: u32 = 20;
-/// Documents up to this size are kept as bytes.
+/// Size limit of stored documents, bytes.
 pub const LARGEST_KEPT: usize = 64 * 1024;
 
-/// Names of our robots, sorted.
+/// Names of the suite's robots, sorted.
 pub fn robots() -> Vec<String> {
     let of_urdf = |(path, _): (&'static str, _)| path.strip_suffix(".urdf");
     let names = data::below(ROBOTS).filter_map(of_urdf);
@@ -22,27 +22,27 @@ pub fn robots() -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 
-/// The id of the valid URDD of a robot, and its folder in the suite.
+/// The id of a robot's valid URDD, which is also its folder in the suite.
 pub fn id(robot: &str) -> String {
     format!("{VALID}/{robot}")
 }
 
-/// Writes the robots into a folder: the URDFs, and what they name.
+/// Writes the robots into a folder: the URDFs and the files that they name.
 ///
 /// # Errors
-/// Where something cannot be written.
+/// If a file cannot be written.
 pub fn write_robots(folder: &Path) -> Result<(), TreeError> {
     let mut tree = Tree::carried(ROBOTS);
-    // Scripts that make them are of no use there.
+    // Leave out the scripts that generate the robots.
     let scripts = FilePath::from("make");
     tree.nodes.retain(|path, _| !path.is_within(&scripts));
     tree.write(folder)
 }
 
-/// Makes the valid URDD of a robot in the folder `target`; the robots are in the folder `robots`.
+/// Generates the valid URDD of a robot in the folder `target`. The robots are in the folder `robots`.
 ///
 /// # Errors
-/// Where the URDD cannot be written, and where it is asked to stop.
+/// If the URDD cannot be written, or the run is cancelled.
 pub fn make(
     robot: &str,
     robots: &Path,
@@ -58,7 +58,7 @@ pub fn make(
     generate(&source, target, &settings, &()).map(|_| ())
 }
 
-/// The part of a URDD that is kept.
+/// The part of a URDD that the repository stores.
 pub fn kept(urdd: &Tree) -> Tree {
     let is_kept = |path: &FilePath, node: &Node| {
         let path = path.as_str().unwrap_or_default();
@@ -70,7 +70,7 @@ pub fn kept(urdd: &Tree) -> Tree {
     kept
 }
 
-/// What is kept of the valid URDD of a robot.
+/// The stored part of a robot's valid URDD.
 pub fn carried(robot: &str) -> Tree {
     Tree::carried(&id(robot))
 }

@@ -1,7 +1,6 @@
-//! Running somebody's validator on the suite, and scoring its verdicts.
+//! Runs an external validator on the suite, and scores its verdicts.
 //!
-//! There is one channel: exit status 0 accepts, 1 (or another that was agreed on) rejects. Everything
-//! else is no verdict.
+//! The verdict is the exit status only: 0 accepts, 1 (or an agreed status) rejects. Any other is not a verdict.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -28,106 +27,106 @@ use urdd_format::index::Count;
 use urdd_format::registry::Profile;
 use urdd_format::report::Tool;
 
-/// How a validator is run.
+/// Settings of a validator run.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// The command, with `{dir}`.
     pub command: Template,
-    /// The version of the specification that it judges by.
+    /// The version of the specification that the validator implements.
     pub spec_version: Version,
-    /// For how long it may look at one URDD.
+    /// Time limit per URDD.
     pub limit: Duration,
-    /// What it is known not to do yet: a case, or all cases of a code or a family.
+    /// Known failures: a case, or all cases of a code or a family.
     pub skips: Vec<Skip>,
-    /// Only cases whose id begins with one of these; all where there is none.
+    /// Id prefixes of the cases to run; empty for all.
     pub only: Vec<String>,
-    /// Whether legacy URDDs are judged too.
+    /// Whether to include legacy URDDs.
     pub legacy: bool,
-    /// The exit status that rejects.
+    /// The exit status for rejection.
     pub reject_status: i32,
-    /// How many URDDs are judged at a time; `None` for one a processor.
+    /// Number of URDDs to judge in parallel; `None` for the number of processors.
     pub jobs: Option<usize>,
-    /// A new folder in which the URDDs stay; `None` for a temporary one.
+    /// A new folder that keeps the URDDs; `None` for a temporary one.
     pub keep: Option<PathBuf>,
-    /// Where it is asked to stop. What runs then ends, and all that it started.
+    /// Cancels the run, with all running commands and their child processes.
     pub cancellation: Cancellation,
 }
 
-/// A URDD that was judged, as it is reported while others still run.
+/// The result for one URDD, reported while others are still running.
 #[derive(Debug, Clone, Serialize)]
 pub struct Judged<'a> {
     /// The case.
     pub id: &'a str,
-    /// What it should have been.
+    /// The expected verdict.
     pub expected: Verdict,
-    /// How it was judged, where that is not right.
+    /// How the verdict is wrong; `None` if it is right.
     pub fault: Option<CaseFault>,
     /// How the command ended.
     pub end: String,
-    /// Whether it looks as if the command crashed, and its exit status is no verdict.
+    /// Whether the command seems to have crashed, so that its exit status is unreliable.
     pub crashed: bool,
-    /// The end of what it printed to standard error.
+    /// The end of its standard error.
     pub stderr: &'a str,
 }
 
-/// What happens while a validator runs.
+/// Progress of a validator run.
 #[derive(Debug)]
 pub enum Event<'a> {
-    /// So many URDDs will be judged.
+    /// Start, with the number of URDDs.
     Start(usize),
-    /// One has been; on any thread.
+    /// A URDD is judged. Called from any thread.
     Judged(Judged<'a>),
-    /// One cannot be had on this operating system.
+    /// A case that this operating system cannot represent.
     NotRun,
 }
 
 /// Why a validator cannot be run.
 #[derive(Debug, thiserror::Error)]
 pub enum ValidatorError {
-    /// No case is of that version, or has such an id.
+    /// No case matches the version and the ids.
     #[error("there is no case to run; `urdd conformance export` writes them all, and their list")]
     NoCase,
-    /// The skip list names what there is not.
+    /// The skip list names something that does not exist.
     #[error("the skip list: {0}")]
     Skip(#[from] SkipError),
-    /// There is no place to work in.
+    /// The working folder cannot be created.
     #[error(transparent)]
     Folder(#[from] WorkplaceError),
-    /// So many threads cannot be had.
+    /// The thread pool cannot be created.
     #[error("{0} commands at a time cannot be run: {1}")]
     Jobs(usize, rayon::ThreadPoolBuildError),
-    /// A URDD cannot be taken away again.
+    /// A URDD cannot be removed.
     #[error("{}: cannot be removed: {error}", path.display())]
     Remove {
-        /// Which.
+        /// Its path.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         error: std::io::Error,
     },
     /// The suite is damaged.
     #[error("the suite is damaged: {0}")]
     Suite(#[from] SuiteError),
-    /// A case of it is.
+    /// A case of the suite is damaged.
     #[error("the suite is damaged: {0}")]
     Case(#[from] CaseError),
-    /// A valid URDD cannot be made.
+    /// A valid URDD cannot be generated.
     #[error(transparent)]
     Valid(#[from] ExportError),
     /// A case cannot be written.
     #[error(transparent)]
     Tree(#[from] TreeError),
-    /// It was asked to stop.
+    /// The run was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-/// How a line of a validator's skip list is written.
+/// Form of a line in a validator's skip list.
 pub const SKIP_FORM: &str = "`case  # reason`, `code  # reason`, or `family  # reason`";
 
-/// Runs a validator, on several URDDs at a time. `observe` hears of each as soon as it is judged.
+/// Runs a validator on several URDDs in parallel, and calls `observe` after each.
 ///
 /// # Errors
-/// Where there is nothing to run, or no place to work in; where it is asked to stop.
+/// If there is nothing to run, the working folder cannot be created, or the run is cancelled.
 pub fn run(
     plan: &Plan,
     observe: &(dyn Fn(&Event) + Sync),
@@ -192,7 +191,7 @@ fn is_legacy(item: &Item) -> bool {
     item.profile == Profile::Legacy.as_str()
 }
 
-/// Runs the command on one URDD; `None` where this operating system cannot have it.
+/// Runs the command on one URDD; `None` if this operating system cannot represent it.
 fn judge(
     plan: &Plan,
     suite: &Suite,
@@ -222,7 +221,7 @@ fn judge(
     Ok(Some(ran))
 }
 
-/// What is wrong with how a URDD was judged.
+/// How the verdict on a URDD is wrong; `None` if it is right.
 fn fault(plan: &Plan, expected: Verdict, end: &End) -> Option<CaseFault> {
     let verdict = match end {
         End::Status(0) => Verdict::Accept,
@@ -236,15 +235,14 @@ fn fault(plan: &Plan, expected: Verdict, end: &End) -> Option<CaseFault> {
     }
 }
 
-/// What interpreters print before they end with status 1, which is then no verdict: Python, Node.js
-/// and the JVM.
+/// Output of crashing interpreters (Python, Node.js, the JVM). They exit with status 1, which is then not a verdict.
 const CRASHES: &[&str] = &[
     "Traceback (most recent call last)",
     "\nNode.js v",
     "Exception in thread \"",
 ];
 
-/// Whether a rejection looks like a crash. It counts as a rejection; a person is warned.
+/// Whether a rejection looks like a crash. It still counts as a rejection, with a warning.
 fn looks_crashed(plan: &Plan, ran: &Ran) -> bool {
     ran.end == End::Status(plan.reject_status)
         && CRASHES.iter().any(|words| ran.stderr.contains(words))
@@ -268,7 +266,7 @@ fn check_skips(skips: &[Skip], items: &[Item]) -> Result<(), SkipError> {
     }
 }
 
-/// Cases while they are counted.
+/// Running counts of case results.
 #[derive(Default, Clone, Copy)]
 struct Tally {
     of: u32,
@@ -348,7 +346,7 @@ fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult
             });
         }
     }
-    // What was not run can be neither right nor wrong.
+    // Skips of cases that were not run are not stale.
     let stale = |skip: &&Skip| relevant.contains(&skip.line) && !used.contains(&skip.line);
     let stale_skips: Vec<String> = plan.skips.iter().filter(stale).map(Skip::what).collect();
     let groups = |tallies: BTreeMap<&str, Tally>| {

@@ -1,4 +1,4 @@
-//! Where URDDs lie while somebody's program is run on them.
+//! The working folder for URDDs while an external program runs on them.
 
 use std::fs;
 use std::io;
@@ -6,38 +6,38 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-/// A temporary folder, or one that stays.
+/// A temporary or a persistent folder.
 pub enum Workplace {
-    /// It goes when this is dropped.
+    /// Removed on drop.
     Temporary(TempDir),
-    /// It stays.
+    /// Persistent.
     Kept(PathBuf),
 }
 
-/// Why there is no place to work in.
+/// Why the working folder cannot be created.
 #[derive(Debug, thiserror::Error)]
 pub enum WorkplaceError {
-    /// A temporary folder cannot be made.
+    /// A temporary folder cannot be created.
     #[error("no temporary folder: {0}")]
     Temporary(io::Error),
-    /// Something is there already.
+    /// The folder is not empty.
     #[error("{}: this folder is not empty; give one that is new", .0.display())]
     NotEmpty(PathBuf),
-    /// The folder cannot be made or read.
+    /// The folder cannot be created or read.
     #[error("{}: cannot be used: {error}", path.display())]
     Folder {
-        /// Which.
+        /// The folder.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         error: io::Error,
     },
 }
 
 impl Workplace {
-    /// A temporary folder; where `keep` names one, that, which must be new or empty.
+    /// A temporary folder, or the folder `keep`, which must be new or empty.
     ///
     /// # Errors
-    /// Where it cannot be made, or holds something.
+    /// If it cannot be created, or is not empty.
     pub fn new(keep: Option<&Path>) -> Result<Workplace, WorkplaceError> {
         let Some(path) = keep else {
             let folder = tempfile::tempdir().map_err(WorkplaceError::Temporary)?;
@@ -51,12 +51,12 @@ impl Workplace {
         if fs::read_dir(path).map_err(failed)?.next().is_some() {
             return Err(WorkplaceError::NotEmpty(path.to_owned()));
         }
-        // The command may change its folder: it gets the whole path.
+        // Absolute, because the command may change its current folder.
         let path = std::path::absolute(path).map_err(failed)?;
         Ok(Workplace::Kept(path))
     }
 
-    /// Where it is.
+    /// Its path.
     pub fn path(&self) -> &Path {
         match self {
             Workplace::Temporary(folder) => folder.path(),

@@ -1,4 +1,4 @@
-//! What contributors run by `cargo xtask`: see CONTRIBUTING.md.
+//! Commands for contributors, run by `cargo xtask`: see CONTRIBUTING.md.
 
 mod new_rule;
 
@@ -39,7 +39,7 @@ fn new_rule(words: &[String]) -> Result<String, String> {
         match word.as_str() {
             "--clause" => clause = Some(value()?),
             "--severity" => severity = value()?,
-            // For tests: another copy of the source.
+            // For tests: the root of another copy of the source.
             "--root" => root = value()?.into(),
             _ if word.starts_with('-') => return Err(format!("{word} is not known\n\n{USAGE}")),
             _ => plain.push(word),

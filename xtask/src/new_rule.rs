@@ -1,4 +1,4 @@
-//! The files of a new rule.
+//! Creates the files of a new rule.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,19 +8,19 @@ const RULES: &str = "crates/urdd-validate/src/rules";
 const SPEC: &str = "SPEC.md";
 const CASES: &str = "tests/rules/main.rs";
 
-/// Families whose cases need no meshes: their base is the small one.
+/// Families whose cases need no meshes; they use the small base.
 const CORE: &[&str] = &["URD", "SRC", "DOF", "CHN", "CON", "BND", "KIN"];
 
-/// A file, and what it becomes.
+/// A file with its new text.
 struct Edit {
     path: PathBuf,
     text: String,
 }
 
-/// Makes a rule. Nothing is written unless everything fits.
+/// Creates a rule. Writes nothing unless all edits are possible.
 ///
 /// # Errors
-/// Where the code or the name cannot be used, or the source is not as it is expected.
+/// If the code or the name is invalid, or the source does not have the expected form.
 pub fn make(
     root: &Path,
     code: &str,
@@ -98,7 +98,7 @@ fn read(root: &Path, path: &str) -> Result<String, String> {
     fs::read_to_string(root.join(path)).map_err(|error| format!("{path}: cannot be read: {error}"))
 }
 
-/// The three letters of a code.
+/// The family of a code: its first three letters.
 fn family(code: &str) -> Result<&str, String> {
     let right = code.len() == 6
         && code.bytes().take(3).all(|byte| byte.is_ascii_uppercase())
@@ -130,7 +130,7 @@ fn check_name(name: &str) -> Result<(), String> {
     }
 }
 
-/// The list of codes with a new one after the last of its family.
+/// Inserts a code into the list of codes, after the last one of its family.
 fn add_code(text: &str, code: &str) -> Result<String, String> {
     let (family, number) = (&code[..3], &code[3..]);
     let (start, end) = text
@@ -175,7 +175,7 @@ fn room_of(root: &Path, family: &str) -> Result<String, String> {
     Err(format!("no rule in {RULES} is of the family {family}"))
 }
 
-/// The family's `mod.rs` with the new rule: among the modules in order, at the end of the rules.
+/// Adds the rule to the family's `mod.rs`: to the sorted modules, and at the end of the rules.
 fn register(text: &str, module: &str, path: &str) -> Result<String, String> {
     let unexpected = || format!("{path} is not as expected: no list of modules and rules");
     let line = format!("pub mod {module};");
@@ -194,12 +194,12 @@ fn register(text: &str, module: &str, path: &str) -> Result<String, String> {
     let end = list + text[list..].find("];").ok_or_else(unexpected)?;
     let (head, tail) = text.split_at(end);
     let head = head.trim_end();
-    // rustfmt writes a short list on one line.
+    // rustfmt writes short lists on one line.
     let comma = if head.ends_with([',', '[']) { "" } else { "," };
     Ok(format!("{head}{comma}\n    &{module}::RULE,\n{tail}"))
 }
 
-/// SPEC.md with a sentence to be written at the end of the clause.
+/// Appends a placeholder sentence to the clause in SPEC.md.
 fn mark_clause(text: &str, clause: &str, code: &str) -> Result<String, String> {
     let start = text
         .find(&format!("\n**{clause}**"))
@@ -215,7 +215,7 @@ fn mark_clause(text: &str, clause: &str, code: &str) -> Result<String, String> {
 }
 
 fn rule(code: &str, name: &str, severity: &str, clause: &str) -> String {
-    // What is odd about a robot is judged by its source.
+    // Rules about odd robots judge the source.
     let judges = if code.starts_with("SRC") {
         "judges Source, "
     } else {
@@ -273,7 +273,7 @@ fn two_cases(code: &str, family: &str, cases: &str) -> String {
     )
 }
 
-/// The list of all cases with those of the rule.
+/// Adds the rule's cases to the list of all cases.
 fn list_cases(text: &str, room: &str, cases: &str) -> Result<String, String> {
     let own = format!("        {room}::cases(),\n");
     match text.contains(&own) {

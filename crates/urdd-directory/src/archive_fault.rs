@@ -5,36 +5,36 @@ use thiserror::Error;
 /// Why a zip archive cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ArchiveFault {
-    /// Not a zip archive, or a damaged one.
+    /// Not a zip archive, or damaged.
     #[error("it is not a whole zip archive ({reason}); pack the URDD again")]
     Broken {
         /// What is wrong.
         reason: String,
     },
-    /// An archive of more than 65,535 entries or 4 GiB.
+    /// An archive with more than 65,535 entries or 4 GiB.
     #[error(
         "it is a zip64 archive, of more than 65,535 entries or 4 GiB; unpack it, and give the folder"
     )]
     Zip64,
-    /// The archive holds more or fewer entries than it states.
+    /// The number of entries differs from the stated one.
     #[error("it states {stated} entries and lists {listed}; pack the URDD again")]
     Count {
-        /// How many it states.
+        /// Stated number of entries.
         stated: usize,
-        /// How many it lists.
+        /// Number of listed entries.
         listed: usize,
     },
-    /// Bytes that belong to no entry, or to two: another program may show other files.
+    /// Bytes that belong to no entry or to two: other programs may extract different files.
     #[error(
         "it holds bytes that belong to none of its entries, or to two of them, as two archives in one file do; pack the URDD again"
     )]
     OtherBytes,
-    /// The archive inflates to more than is read.
+    /// The archive inflates to more than the limit.
     #[error(
         "its files are {size} bytes in all, and at most {limit} are read from an archive of its size; unpack it, and give the folder"
     )]
     Inflates {
-        /// How many bytes it inflates to, by what it states.
+        /// Inflated size by the archive's own statement, bytes.
         size: u64,
         /// The limit, bytes.
         limit: u64,
@@ -47,25 +47,25 @@ pub enum ArchiveFault {
         /// What is wrong with it.
         fault: EntryFault,
     },
-    /// There is no URDD in it.
+    /// The archive does not contain a URDD.
     #[error(
         "it holds no URDD: neither the archive itself nor a folder at its top holds urdd.json or a module folder such as urdf_module"
     )]
     NoUrdd,
-    /// There are several URDDs in it.
+    /// The archive contains several URDDs.
     #[error(
         "it holds several URDDs ({} and {}); unpack it, and give the folder, or pack each by itself",
         first.escape_debug(), second.escape_debug()
     )]
     ManyUrdds {
-        /// A folder.
+        /// A folder with a URDD.
         first: String,
-        /// Another.
+        /// Another folder with a URDD.
         second: String,
     },
 }
 
-/// The beginning of a name: it may have 65,535 bytes.
+/// The first 200 characters of a name: it may have 65,535 bytes.
 fn start(name: &str) -> &str {
     const LONGEST: usize = 200;
     let end = name
@@ -78,7 +78,7 @@ fn start(name: &str) -> &str {
 /// Why an entry of a zip archive cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum EntryFault {
-    /// A name that leads out of the archive, or is no relative path.
+    /// A name that leads out of the archive, or is not a relative path.
     #[error("has a name that is not a path inside the archive")]
     Path,
     /// A name longer than file systems allow.
@@ -86,31 +86,31 @@ pub enum EntryFault {
         "has a name of {length} bytes, and at most {limit} are read, {part} between two slashes; rename it"
     )]
     LongName {
-        /// How long it is, bytes.
+        /// Its length, bytes.
         length: usize,
         /// The limit, bytes.
         limit: usize,
-        /// The limit of each part, bytes.
+        /// The limit of each part of the path, bytes.
         part: usize,
     },
-    /// The list at the archive's end says something else than the entry's own header.
+    /// The central directory disagrees with the entry's local header.
     #[error(
         "is described differently in its own header and in the archive's list; pack the URDD again"
     )]
     Header,
-    /// The name of another entry, or of a folder and a file.
+    /// Two entries have the same name, or a file has the name of a folder.
     #[error("is there twice")]
     Duplicate,
     /// Encrypted.
     #[error("is encrypted; pack the URDD without a password")]
     Encrypted,
-    /// A method of compression that is not read.
+    /// Unsupported compression method.
     #[error("is compressed by method {method} of zip; pack the URDD with deflate")]
     Method {
-        /// Its number.
+        /// Its number in the zip format.
         method: u16,
     },
-    /// Larger than what is read.
+    /// Larger than the limit.
     #[error("is {size} bytes long, and at most {limit} are read")]
     TooLarge {
         /// Its size, bytes.
@@ -118,7 +118,7 @@ pub enum EntryFault {
         /// The limit, bytes.
         limit: u64,
     },
-    /// Its data is not what the archive states.
+    /// The data does not match the archive's statement.
     #[error("is damaged ({reason}); pack the URDD again")]
     Damaged {
         /// What is wrong.

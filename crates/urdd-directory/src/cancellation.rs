@@ -1,42 +1,42 @@
-//! Stopping what takes long: `generate`, `urdd-validate`, and questions about many configurations in `urdd-robot`.
+//! Cancellation of long operations: `generate`, `urdd_validate`, and batch queries in `urdd_robot`.
 //!
-//! Whoever wants to stop keeps a clone of a [`Cancellation`]; whoever works asks it now and then, stops where nothing is
-//! half done, and says so by an error. The library installs no signal handlers: `urdd generate` does.
+//! The caller keeps a clone of a [`Cancellation`]. The worker checks it regularly, stops in a consistent state and
+//! returns an error. The library does not install signal handlers; `urdd generate` does.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use thiserror::Error;
 
-/// A wish to stop, which whoever works asks for now and then. Clones share it. Asking is one read of memory.
+/// A shared cancellation flag. Clones share it. A check is one atomic load.
 #[derive(Debug, Clone, Default)]
 pub struct Cancellation(Arc<AtomicBool>);
 
-/// It was asked to stop.
+/// The operation was cancelled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("stopped before it was done")]
 pub struct Cancelled;
 
 impl Cancellation {
-    /// One that is set elsewhere too, as by a signal.
+    /// A cancellation that uses an existing flag, such as one set by a signal handler.
     pub fn of(flag: Arc<AtomicBool>) -> Self {
         Cancellation(flag)
     }
 
-    /// Asks to stop.
+    /// Requests cancellation.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether to stop.
+    /// Whether cancellation was requested.
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Stops by `?`.
+    /// Returns an error after cancellation, for use with `?`.
     ///
     /// # Errors
-    /// Where it was asked to stop.
+    /// If cancellation was requested.
     pub fn check(&self) -> Result<(), Cancelled> {
         match self.is_cancelled() {
             true => Err(Cancelled),

@@ -1,46 +1,40 @@
-//! The canonical emission of a document, as JSON and as YAML.
+//! The canonical form of a document, as JSON and as YAML.
 //!
-//! There is exactly one, so that a validator can compare bytes, and a producer in any language
-//! can write the same.
+//! It is unique, so that a validator can compare bytes, and producers in any language write the same text.
 //!
 //! # Both languages
 //!
-//! Members keep the order of the document. Indentation is two spaces a level, lines end with
-//! `\n`, and the last line does too. A value is *inline* when it is a scalar, an empty object, or
-//! a list without objects and lists in it (the empty list too). A list in inline form is `[`, its
-//! elements with `, ` between them, and `]`; an empty object is `{}`. Numbers are written as
-//! [`super::number_text::write`] says.
+//! Members keep the order of the document. Indentation is two spaces per level. Every line ends with `\n`, including
+//! the last. A value is *inline* if it is a scalar, an empty object, or a list without objects and lists in it (also
+//! the empty list). An inline list is `[`, its elements separated by `, `, and `]`. An empty object is `{}`. Numbers
+//! follow [`super::number_text::write`].
 //!
 //! # JSON
 //!
-//! An inline value stands on one line. Of any other value, each member (`"key": value`) or
-//! element has lines of its own, one level deeper than the brackets. In strings, `"` and `\` are
-//! escaped with `\`; U+0008, U+0009, U+000A, U+000C and U+000D are `\b`, `\t`, `\n`, `\f`, `\r`;
-//! other characters below U+0020 are `\u` and four lower-case hexadecimal digits; everything else
-//! stands as it is. (Python: `json.dumps(s, ensure_ascii=False)`.)
+//! An inline value is on one line. In any other value, each member (`"key": value`) or element starts on its own line,
+//! one level deeper than the brackets. In strings, `"` and `\` are escaped with `\`; U+0008, U+0009, U+000A, U+000C and
+//! U+000D are `\b`, `\t`, `\n`, `\f`, `\r`; other characters below U+0020 are `\u` and four lower-case hexadecimal
+//! digits. All other characters are unescaped. (Python: `json.dumps(s, ensure_ascii=False)`.)
 //!
 //! # YAML
 //!
-//! No `---`, no comments. The value of the document begins in column one. With *n* the current
-//! indentation (0 for the document):
+//! No `---`, no comments. The value of the document begins in column one. *n* is the current indentation (0 for the
+//! document):
 //!
 //! - An inline value is written in its inline form.
-//! - An object that is not empty: for each member a line of *n* spaces, the key, and `:`. An
-//!   inline value follows after one space; any other value follows on the next lines, with *n* + 2.
-//! - A list that is not inline: for each element a line of *n* spaces and `-`. An inline element
-//!   follows after one space. An object follows after one space with its first member on the same
-//!   line and its other members below that one, with *n* + 2. A list follows on the next lines,
-//!   with *n* + 2: the dash is alone on its line.
-//! - `null`, `true`, `false` are written so.
-//! - A string, as key or as value, is plain when it is an ASCII letter or `_` followed by any
-//!   number of ASCII letters, digits, `_`, `-`, `.` and `/`, and is not one of `y`, `n`, `yes`,
-//!   `no`, `on`, `off`, `true`, `false`, `null` in any mixture of cases. Every other string is
-//!   in double quotes with the escapes of JSON, and besides `\u` and four lower-case hexadecimal
-//!   digits for U+007F to U+009F, U+2028, U+2029, U+FEFF, U+FFFE and U+FFFF. Characters above
-//!   U+FFFF stand as they are, never as a pair of escapes.
-//! - A key whose written form is longer than 1,000 characters (readers give up at 1,024) is
-//!   written as `? ` and the key; then on the next line *n* spaces and `:`, and the value as
-//!   after any other key.
+//! - A non-empty object: for each member a line of *n* spaces, the key, and `:`. An inline value follows after one
+//!   space; any other value follows on the next lines, with *n* + 2.
+//! - A list that is not inline: for each element a line of *n* spaces and `-`. An inline element follows after one
+//!   space. An object follows after one space with its first member on the same line and its other members below that
+//!   one, with *n* + 2. A list follows on the next lines, with *n* + 2: the dash is alone on its line.
+//! - `null`, `true`, `false` are written as such.
+//! - A string, as key or as value, is plain if it is an ASCII letter or `_` followed by any number of ASCII letters,
+//!   digits, `_`, `-`, `.` and `/`, and is not one of `y`, `n`, `yes`, `no`, `on`, `off`, `true`, `false`, `null` in
+//!   any mixture of cases. Every other string is in double quotes with the escapes of JSON, plus `\u` and four
+//!   lower-case hexadecimal digits for U+007F to U+009F, U+2028, U+2029, U+FEFF, U+FFFE and U+FFFF. Characters above
+//!   U+FFFF are unescaped, never a pair of escapes.
+//! - A key whose written form is longer than 1,000 characters (parsers reject simple keys over 1,024) is written as
+//!   `? ` and the key; then on the next line *n* spaces and `:`, and the value as after any other key.
 
 use std::fmt::{self, Write};
 
@@ -49,13 +43,12 @@ use serde_json::{Map, Value};
 use super::number_text;
 use super::string_text::{Language, write_quoted, write_string};
 
-/// Beyond this many characters a YAML key needs the `? ` form.
+/// Longest YAML key without the `? ` form, characters.
 const LONGEST_SIMPLE_KEY: usize = 1000;
 
 /// Writes the canonical JSON of `value`.
 ///
-/// It follows the nesting of `value` with its own stack: keep what comes from outside to
-/// [`super::limits::DEPTH_LIMIT`].
+/// Recursive: limit the nesting of untrusted input to [`super::limits::DEPTH_LIMIT`].
 ///
 /// # Errors
 /// Only those of `out`.
@@ -67,15 +60,14 @@ pub fn json(value: &Value, out: &mut impl Write) -> fmt::Result {
 /// The canonical JSON of `value` as a string.
 pub fn json_string(value: &Value) -> String {
     let mut text = String::new();
-    // A String takes everything.
+    // Writing to a String cannot fail.
     let _ = json(value, &mut text);
     text
 }
 
 /// Writes the canonical YAML of `value`.
 ///
-/// It follows the nesting of `value` with its own stack: keep what comes from outside to
-/// [`super::limits::DEPTH_LIMIT`].
+/// Recursive: limit the nesting of untrusted input to [`super::limits::DEPTH_LIMIT`].
 ///
 /// # Errors
 /// Only those of `out`.
@@ -91,12 +83,12 @@ pub fn yaml(value: &Value, out: &mut impl Write) -> fmt::Result {
 /// The canonical YAML of `value` as a string.
 pub fn yaml_string(value: &Value) -> String {
     let mut text = String::new();
-    // A String takes everything.
+    // Writing to a String cannot fail.
     let _ = yaml(value, &mut text);
     text
 }
 
-/// The inline form of a scalar (or of an inline list) in YAML, for messages.
+/// The inline form of a scalar or an inline list in YAML, for messages.
 pub(super) fn yaml_inline(value: &Value) -> String {
     let mut text = String::new();
     let _ = inline(value, Language::Yaml, &mut text);
@@ -132,7 +124,7 @@ fn inline(value: &Value, language: Language, out: &mut impl Write) -> fmt::Resul
     }
 }
 
-/// A value in JSON, from where it stands.
+/// Writes a value as JSON, starting at the current column.
 pub(super) fn json_node(value: &Value, indent: usize, out: &mut impl Write) -> fmt::Result {
     match value {
         Value::Array(list) if !is_inline(value) => {
@@ -165,7 +157,7 @@ pub(super) fn json_node(value: &Value, indent: usize, out: &mut impl Write) -> f
     }
 }
 
-/// Writes a value that is not inline; `begun` says that the first line has its indentation.
+/// Writes a value that is not inline. With `begun`, the first line is already indented.
 fn yaml_block(value: &Value, indent: usize, begun: bool, out: &mut impl Write) -> fmt::Result {
     match value {
         Value::Object(map) => yaml_members(map, indent, begun, out),
@@ -176,7 +168,7 @@ fn yaml_block(value: &Value, indent: usize, begun: bool, out: &mut impl Write) -
     }
 }
 
-/// An element of a list that is not inline.
+/// Writes an element of a list that is not inline.
 pub(super) fn yaml_element(element: &Value, indent: usize, out: &mut impl Write) -> fmt::Result {
     spaces(indent, out)?;
     out.write_char('-')?;
@@ -204,15 +196,14 @@ fn yaml_members(
     Ok(())
 }
 
-/// The key of a member, in a line of its own, up to its colon.
+/// Writes the key of a member on its own line, up to the colon.
 pub(super) fn yaml_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result {
     spaces(indent, out)?;
     written_key(key, indent, out)
 }
 
 fn written_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result {
-    // Only a key of this many bytes can have a written form of that many characters: an
-    // escape makes six of one.
+    // An escape is up to six characters for one byte, so shorter keys cannot reach the limit.
     if key.len() > LONGEST_SIMPLE_KEY / 6 {
         write_long_key(key, indent, out)?;
     } else {
@@ -233,7 +224,7 @@ fn write_long_key(key: &str, indent: usize, out: &mut impl Write) -> fmt::Result
     spaces(indent, out)
 }
 
-/// What follows the colon of a member or the dash of an element.
+/// Writes the value after the colon of a member or the dash of an element.
 pub(super) fn yaml_rest(value: &Value, indent: usize, out: &mut impl Write) -> fmt::Result {
     if is_inline(value) {
         out.write_char(' ')?;

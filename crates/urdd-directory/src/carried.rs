@@ -1,5 +1,5 @@
-//! Which files below a URDD's root are the URDD's own: only these leave the machine or enter a browser. A person keeps
-//! other files beside them (`.env`, `.git`, notes), and nobody asked for those to be published.
+//! Selects the files below a URDD's root that belong to the URDD. Only these are uploaded or opened in a browser: the
+//! folder may also hold private files (`.env`, `.git`, notes).
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -20,19 +20,19 @@ use super::root::Root;
 use super::source::{OpenFile, Source};
 use urdd_format::registry::ModuleKind;
 
-/// The files that every module has, and that an extension has.
+/// The files of every module and of every extension.
 const OF_MODULE: [&str; 4] = ["VERSION", "module.json", "module.yaml", "schema.json"];
 
-/// A URDD without the other files below its root.
+/// A view of the URDD without unrelated files below its root.
 ///
-/// With `urdd.json`: itself, the source that it names, and the files that it lists for modules. Without it (a legacy
-/// URDD), or where it is not JSON: the URDFs in the root folder, and of each module `VERSION`, its documents, and the files
-/// of modules that its document names. A file inside a module's folder counts where it is listed. The source counts
-/// where its name ends in `.urdf`, or its content is the stated one: `urdd.json` comes from anybody, and must not name a
-/// person's file.
+/// With `urdd.json`: that file, the source that it names, and the files that it lists for modules. Without it (a legacy
+/// URDD), or if it is not JSON: the URDFs in the root folder, and for each module `VERSION`, its documents, and the
+/// module files that its document names. Other files inside a module's folder count only if listed. The source must be
+/// in the root folder, and its name must end in `.urdf` or its hash must match: `urdd.json` is untrusted, and must not
+/// expose a private file.
 ///
 /// # Errors
-/// Where the root cannot be listed.
+/// If the root cannot be listed.
 pub fn carried(root: &Root) -> Result<Root, ReadError> {
     let listing = root.list()?;
     let metadata = root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES).ok();
@@ -56,7 +56,7 @@ pub fn carried(root: &Root) -> Result<Root, ReadError> {
     }))
 }
 
-/// Whether a path is that of a link to a file that is not the URDD's.
+/// Whether a path is a symbolic link to a file outside the URDD's own files.
 fn leads_away(root: &Root, path: &str, named: &BTreeSet<String>) -> bool {
     let Some(folder) = root.folder() else {
         return false;
@@ -75,7 +75,7 @@ fn leads_away(root: &Root, path: &str, named: &BTreeSet<String>) -> bool {
     })
 }
 
-/// The files that `urdd.json` names.
+/// The files that `urdd.json` lists.
 fn listed(root: &Root, mut metadata: Value) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for entry in file_entry::of_modules(&mut metadata) {
@@ -119,7 +119,7 @@ fn named_by_modules(root: &Root, listing: &Listing) -> BTreeSet<String> {
             && let Ok(document) = json::read(&bytes)
         {
             texts(&document.value, &mut |text| {
-                // Before version 1 paths began with the folder's own name.
+                // Before version 1, paths began with the name of the root folder.
                 let path = text.strip_prefix(&own).unwrap_or(text);
                 if is_in_module(path) {
                     found.insert(path.to_owned());
@@ -144,7 +144,7 @@ fn is_urdf(path: &str) -> bool {
     extension.eq_ignore_ascii_case("urdf") && !stem.is_empty()
 }
 
-/// Whether a folder is that of a module of the specification, or of an extension.
+/// Whether this is the folder of a specified module or of an extension.
 fn is_module(folder: &str) -> bool {
     let is_extension = || {
         let middle = folder.strip_prefix("x_")?.strip_suffix("_module")?;
@@ -158,7 +158,7 @@ fn is_in_module(path: &str) -> bool {
     slashes.any(|(slash, _)| is_module(&path[..slash]))
 }
 
-/// The files of a URDD, and no other.
+/// A source restricted to the files of a URDD.
 struct Carried {
     root: Root,
     files: BTreeSet<String>,

@@ -1,4 +1,4 @@
-//! Sizes and hashes of files, and whether a file is the one that was described. In bounded memory.
+//! Sizes and hashes of files, and comparison with stated values, in bounded memory.
 
 use std::io::Read;
 
@@ -7,24 +7,23 @@ use sha2::{Digest, Sha256};
 use super::root::{ReadError, Root};
 use urdd_format::hexadecimal::hexadecimal;
 
-/// How a file differs from what was said of it.
+/// How a file differs from its stated size and hash.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Change {
     /// It is a Git LFS pointer.
     LfsPointer,
-    /// It would be the same with the other line endings.
+    /// Only the line endings differ.
     LineEndings,
-    /// It is of this size, bytes.
+    /// The size differs: the actual size, bytes.
     Size(u64),
-    /// It has this SHA-256.
+    /// The hash differs: the actual SHA-256.
     Hash(String),
 }
 
-/// Size in bytes and SHA-256 (64 lower-case hexadecimal digits) of a file, read in pieces: meshes are
-/// large.
+/// Size in bytes and SHA-256 (64 lower-case hexadecimal digits) of a file. Reads in chunks: meshes are large.
 ///
 /// # Errors
-/// Where it cannot be read.
+/// If the file cannot be read.
 pub fn of(root: &Root, path: &str) -> Result<(u64, String), ReadError> {
     let (mut file, _) = root.open_file(path)?;
     let mut hasher = Sha256::new();
@@ -43,16 +42,14 @@ pub fn of(root: &Root, path: &str) -> Result<(u64, String), ReadError> {
     Ok((size, hexadecimal(&hasher.finalize())))
 }
 
-/// Every Git LFS pointer begins so, and is shorter than this.
+/// Prefix of every Git LFS pointer. Pointers are shorter than [`LONGEST_LFS_POINTER`].
 const LFS_POINTER: &[u8] = b"version https://git-lfs";
 const LONGEST_LFS_POINTER: u64 = 1024;
 
-/// Files larger than this are hardly text whose line endings were converted; of these the size
-/// alone is compared where it differs.
+/// Larger files are unlikely to be text with converted line endings. If their size differs, they are not hashed.
 const LARGEST_TEXT: u64 = 1 << 30;
 
-/// How a file differs from the size and the hash that are stated; `None` where it does not, or
-/// cannot be read.
+/// How a file differs from the stated size and hash. `None` if it does not, or cannot be read.
 pub fn compare(root: &Root, path: &str, size: u64, sha256: &str) -> Option<Change> {
     let (mut file, actual) = root.open_file(path).ok()?;
     if actual != size && actual < LONGEST_LFS_POINTER {
@@ -61,7 +58,7 @@ pub fn compare(root: &Root, path: &str, size: u64, sha256: &str) -> Option<Chang
             return Some(Change::LfsPointer);
         }
     }
-    // A conversion changes each line end, of which there is at most one a byte, by one byte.
+    // A conversion changes the size by at most one byte per line end.
     let could_be_converted =
         actual <= LARGEST_TEXT && size <= actual.saturating_mul(2) && size >= actual / 2;
     if actual != size && !could_be_converted {
@@ -83,9 +80,9 @@ pub fn compare(root: &Root, path: &str, size: u64, sha256: &str) -> Option<Chang
 
 struct Hashes {
     plain: String,
-    /// With every CR LF made LF.
+    /// With every CR LF converted to LF.
     lf: Option<String>,
-    /// With every LF (and CR LF) made CR LF.
+    /// With every LF (and CR LF) converted to CR LF.
     crlf: Option<String>,
 }
 
@@ -111,7 +108,7 @@ fn hashes(file: &mut impl Read, converted: bool) -> Option<Hashes> {
         as_lf.clear();
         as_crlf.clear();
         for &byte in bytes {
-            // A CR is held back until it is known whether it is of a CR LF.
+            // Hold back a CR until the next byte shows whether it belongs to a CR LF.
             if carriage_return && byte != b'\n' {
                 as_lf.push(b'\r');
                 as_crlf.push(b'\r');

@@ -11,20 +11,19 @@ use super::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use super::read_error::ReadError;
 use super::source::{is_archive, is_urdd};
 
-/// A URDD that was found.
+/// A URDD found by [`discover`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Found {
-    /// Where it is.
+    /// Its path.
     pub path: PathBuf,
-    /// How reports call it: its path from the searched folder, with forward slashes, or the
-    /// searched folder's own name.
+    /// Its name in reports: the path relative to the searched folder, with forward slashes, or the searched folder's
+    /// own name.
     pub name: String,
-    /// Why it cannot be looked into, so that URDDs may be missed: a folder that cannot be listed, or
-    /// that lies too deep.
+    /// Why this folder was not searched, so that URDDs may be missing: it cannot be listed, or is too deep.
     pub closed: Option<ReadError>,
 }
 
-/// Why there is nothing to examine under a path.
+/// Why a path yields nothing to examine.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum DiscoverError {
     /// No such path.
@@ -33,7 +32,7 @@ pub enum DiscoverError {
         /// The path as given.
         path: String,
     },
-    /// A file.
+    /// A file that is not a zip archive.
     #[error(
         "{path}: this is a file; a URDD is a folder, or a zip archive of one: give the folder that holds {ROOT_METADATA} or the module folders"
     )]
@@ -41,7 +40,7 @@ pub enum DiscoverError {
         /// The path as given.
         path: String,
     },
-    /// A folder without any URDD in it.
+    /// A folder without a URDD.
     #[error(
         "{path}: no URDD here: no folder at or below it holds {ROOT_METADATA} or a module folder such as urdf_module"
     )]
@@ -54,31 +53,30 @@ pub enum DiscoverError {
     Unreadable {
         /// The path as given.
         path: String,
-        /// What the operating system said.
+        /// The error of the operating system.
         reason: String,
     },
-    /// A folder with more below it than is searched.
+    /// A folder with too many entries below it.
     #[error(
         "{path}: more than {limit} files and folders: give the URDDs themselves, or smaller folders"
     )]
     TooMany {
         /// The path as given.
         path: String,
-        /// How many are looked at.
+        /// The limit.
         limit: usize,
     },
 }
 
-/// Most entries of folders that are looked at in search of URDDs.
+/// Maximum number of folder entries visited in one search.
 const MAX_VISITED: usize = 10 * MAX_FILES;
 
-/// Finds every URDD at or below a path, at any depth, in order of path. The path may be that of a zip
-/// archive; archives in folders are not looked into. A URDD is not searched for more of them;
-/// symbolic links below `path` are not followed, and folders in which a URDD is being written are
-/// passed over. A folder that cannot be searched is among the found, closed.
+/// Finds every URDD at or below a path, at any depth, sorted by name. The path may be a zip archive; archives inside
+/// folders are skipped. Does not search inside a URDD, does not follow symbolic links below `path`, and skips staging
+/// folders. A folder that cannot be searched is in the result with `closed` set.
 ///
 /// # Errors
-/// Where the path holds none, or cannot be searched.
+/// If the path contains no URDD, or cannot be searched.
 pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
     let shown = path.display().to_string();
     let canonical = fs::canonicalize(path).map_err(|error| match error.kind() {
@@ -132,7 +130,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
                     limit: MAX_VISITED,
                 });
             }
-            // Not followed: a link may lead in a circle, or anywhere.
+            // Not followed: a link may form a cycle or lead anywhere.
             if !entry.file_type().is_ok_and(|kind| kind.is_dir()) {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! A document on its way to disk: whole, or row by row where the whole would be much memory.
+//! A document to be written: in memory as a whole, or serialised row by row to save memory.
 
 use std::fmt::{self, Write};
 use std::sync::Arc;
@@ -10,30 +10,30 @@ use super::canonical;
 
 /// A document that can be written.
 pub enum Document {
-    /// Any.
+    /// Any document.
     Whole(Value),
-    /// An object with long lists in it. Names of members need no quotes in YAML.
+    /// An object that contains long lists. Its member names need no quotes in YAML.
     Object(Vec<(&'static str, Member)>),
 }
 
-/// A member of such an object.
+/// A member of a [`Document::Object`].
 pub enum Member {
     /// Any value.
     Value(Value),
     /// A long list.
     Rows(Rows),
-    /// An object with long lists in it: at least one member.
+    /// An object that contains long lists, with at least one member.
     Object(Vec<(&'static str, Member)>),
 }
 
-/// A list of lists and objects, each made when it is written.
+/// A list of lists and objects, each serialised when it is written.
 pub struct Rows {
     length: usize,
     row: Box<dyn Fn(usize) -> Result<Value, serde_json::Error> + Send>,
 }
 
 impl Rows {
-    /// Of things that are written as lists or objects.
+    /// Rows of values that serialise to lists or objects.
     pub fn new<T: Serialize + Send + 'static>(rows: Vec<T>) -> Self {
         Rows {
             length: rows.len(),
@@ -41,7 +41,7 @@ impl Rows {
         }
     }
 
-    /// Of things that are written as lists or objects, and are part of something that others use too.
+    /// Rows that serialise to lists or objects and are part of a shared value.
     pub fn of<M: Send + Sync + 'static, T: Serialize>(
         whole: &Arc<M>,
         rows: impl Fn(&M) -> &[T] + Send + 'static,
@@ -59,7 +59,7 @@ impl Rows {
 }
 
 impl Member {
-    /// A long list, or null.
+    /// A long list, or null for `None`.
     pub fn rows_or_null(rows: Option<Rows>) -> Self {
         rows.map_or(Member::Value(Value::Null), Member::Rows)
     }
@@ -69,7 +69,7 @@ impl Document {
     /// Writes its canonical JSON.
     ///
     /// # Errors
-    /// Those of `out`, and where a row cannot be made a value.
+    /// Those of `out`, or if a row cannot be serialised.
     pub fn json(&self, out: &mut impl Write) -> fmt::Result {
         match self {
             Document::Whole(value) => return canonical::json(value, out),
@@ -81,7 +81,7 @@ impl Document {
     /// Writes its canonical YAML.
     ///
     /// # Errors
-    /// Those of `out`, and where a row cannot be made a value.
+    /// Those of `out`, or if a row cannot be serialised.
     pub fn yaml(&self, out: &mut impl Write) -> fmt::Result {
         match self {
             Document::Whole(value) => canonical::yaml(value, out),

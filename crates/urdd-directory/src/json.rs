@@ -1,4 +1,4 @@
-//! Reading JSON from anybody, with every fault of the text named and placed.
+//! Reads untrusted JSON, and reports every fault of the text with its position.
 
 use std::cell::Cell;
 use std::fmt;
@@ -10,22 +10,21 @@ use super::json_fault::{EncodingKinds, decode, explain, report_repeated_keys};
 use super::limits::DEPTH_LIMIT;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults, UnreadableText};
 
-/// A JSON file that has a value.
+/// A JSON file with a readable value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JsonDocument {
     /// The text, without a byte order mark.
     pub text: String,
-    /// What it says. Of a member that is named twice, the last is kept, in the place of the first.
+    /// The parsed value. For duplicate members, it has the last value at the position of the first.
     pub value: Value,
-    /// Faults that leave the value readable: a byte order mark, members named twice.
+    /// Faults that leave the value readable: a byte order mark, duplicate members.
     pub faults: TextFaults,
 }
 
 /// Reads one JSON document.
 ///
 /// # Errors
-/// When there is no value to go on with: not UTF-8, not JSON, a number that is not finite, or
-/// nesting beyond [`DEPTH_LIMIT`].
+/// If there is no usable value: not UTF-8, not JSON, a number that is not finite, or nesting beyond [`DEPTH_LIMIT`].
 pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
     let mut faults = TextFaults::default();
     let text = match decode(bytes, &JSON_KINDS, &mut faults) {
@@ -66,7 +65,7 @@ fn unreadable(mut faults: TextFaults, fault: TextFault) -> UnreadableText {
     UnreadableText { faults }
 }
 
-/// What the reader notes on its way. Places are found by a second walk, when there is a need.
+/// Faults noted while parsing. A second pass finds their positions if needed.
 #[derive(Default)]
 pub(super) struct State {
     repeated_key: Cell<bool>,
@@ -74,13 +73,13 @@ pub(super) struct State {
 }
 
 impl State {
-    /// Whether a member was named twice.
+    /// Whether an object has duplicate members.
     pub fn has_repeated_key(&self) -> bool {
         self.repeated_key.get()
     }
 }
 
-/// Builds a [`Value`] as serde_json does, and notes what serde_json lets pass.
+/// Builds a [`Value`] like serde_json, and notes faults that serde_json ignores.
 #[derive(Clone, Copy)]
 pub(super) struct Seed<'s> {
     state: &'s State,
@@ -88,12 +87,12 @@ pub(super) struct Seed<'s> {
 }
 
 impl<'s> Seed<'s> {
-    /// For the document.
+    /// The seed for the document.
     pub fn new(state: &'s State) -> Self {
         Seed { state, depth: 0 }
     }
 
-    /// For what is in this value, a list or an object.
+    /// The seed for the elements of this value, a list or an object.
     pub fn inner<E: serde::de::Error>(self) -> Result<Self, E> {
         if self.depth >= DEPTH_LIMIT {
             self.state.too_deep.set(true);

@@ -1,4 +1,4 @@
-//! Why bytes are not text, and text is not JSON: in words, and with the place.
+//! Explains why bytes are not text, or text is not JSON, with the position.
 
 use super::json_scan;
 use super::limits::DEPTH_LIMIT;
@@ -7,13 +7,13 @@ use super::text_fault::{TextFault, TextFaultKind, TextFaults};
 
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
-/// The kinds under which one language reports faults of encoding.
+/// The kinds under which a language reports encoding faults.
 pub struct EncodingKinds {
     pub not_utf8: TextFaultKind,
     pub byte_order_mark: TextFaultKind,
 }
 
-/// The text without a byte order mark, which is reported; or why it is no text.
+/// The text without a byte order mark, which it reports; or the fault that prevents decoding.
 pub fn decode<'a>(
     bytes: &'a [u8],
     kinds: &EncodingKinds,
@@ -45,7 +45,7 @@ pub fn decode<'a>(
     })
 }
 
-/// Finds the keys that stand twice, now that there are some.
+/// Reports the position of every duplicate key.
 pub fn report_repeated_keys(text: &str, faults: &mut TextFaults) {
     let lines = LineIndex::new(text);
     json_scan::repeated_keys(text, |key| {
@@ -63,10 +63,10 @@ pub fn report_repeated_keys(text: &str, faults: &mut TextFaults) {
     });
 }
 
-/// Turns serde_json's error into a fault.
+/// Converts serde_json's error to a fault.
 pub fn explain(text: &str, error: &serde_json::Error, too_deep: bool) -> TextFault {
     let lines = LineIndex::new(text);
-    // serde_json counts lines by `\n` alone and columns in bytes, and names the last byte it read.
+    // serde_json ends lines at `\n` only, counts columns in bytes, and names the last byte it read.
     let offset = if error.is_eof() {
         text.len()
     } else {
@@ -102,7 +102,7 @@ pub fn explain(text: &str, error: &serde_json::Error, too_deep: bool) -> TextFau
     at(offset, TextFaultKind::Syntax, message)
 }
 
-/// serde_json's message without the place, which the fault has in better units.
+/// serde_json's message without the position, which the fault gives in better units.
 fn reason(error: &serde_json::Error) -> String {
     let whole = error.to_string();
     if whole.contains("hex escape") || whole.contains("surrogate") {
@@ -132,7 +132,7 @@ fn offset_of(text: &str, line: usize, column: usize) -> usize {
     offset
 }
 
-/// The run of number and word characters around an offset, and where it begins.
+/// The run of number and word characters around an offset, and its start.
 fn word_around(text: &str, offset: usize) -> (usize, &str) {
     let bytes = text.as_bytes();
     let is_word = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'+' | b'-' | b'.');

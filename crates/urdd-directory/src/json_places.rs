@@ -1,10 +1,10 @@
-//! Many places of one JSON text, found in one walk.
+//! Finds many positions of a JSON text in one pass.
 
 use std::collections::HashMap;
 
 use super::json_scan::{Scan, segments};
 
-/// Byte offsets of the values at many pointers, in one walk through the text.
+/// Byte offsets of the values at many pointers, in one pass through the text.
 pub fn find_values(text: &str, pointers: &[&str]) -> Vec<Option<usize>> {
     let mut wanted = Wanted::default();
     for (number, pointer) in pointers.iter().enumerate() {
@@ -20,7 +20,7 @@ pub fn find_values(text: &str, pointers: &[&str]) -> Vec<Option<usize>> {
     found
 }
 
-/// What is looked for at a value, and below it.
+/// The pointers that end at a value, and those that continue below it.
 #[derive(Default)]
 struct Wanted {
     numbers: Vec<usize>,
@@ -28,7 +28,7 @@ struct Wanted {
 }
 
 impl Wanted {
-    /// Notes the value that begins here, and moves past it.
+    /// Records the value that begins here, and moves past it.
     fn visit(&self, scan: &mut Scan<'_>, found: &mut [Option<usize>]) -> Option<()> {
         scan.skip_space();
         scan.peek()?;
@@ -55,7 +55,7 @@ impl Wanted {
                 }
             };
             match below {
-                // Below a key that comes again, only the last counts.
+                // For a duplicate key, only the last value counts.
                 Some(below) => {
                     below.forget(found);
                     below.visit(scan, found)?;

@@ -1,21 +1,21 @@
-//! A lexical walk over JSON text: places without a tree, without recursion.
+//! A lexical scan of JSON text: finds positions without building a tree and without recursion.
 //!
-//! It is used only when something is to be reported, on text that a parser has already accepted
-//! (or has accepted up to the place in question). On other text it ends early, and never panics.
+//! Used only for reports, on text that a parser has accepted, at least up to the position in question. On other text it
+//! ends early, and never panics.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
 
-/// A key that its object has already.
+/// A duplicate key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RepeatedKey {
-    /// Byte offset of the second (or later) appearance of the key.
+    /// Byte offset of the second or later occurrence of the key.
     pub offset: usize,
     /// RFC 6901 pointer to the member.
     pub pointer: String,
 }
 
-/// Byte offset of the value at `pointer`; of a key that appears twice the last counts.
+/// Byte offset of the value at `pointer`. For duplicate keys, the last one counts.
 pub fn find_value(text: &str, pointer: &str) -> Option<usize> {
     let mut scan = Scan::new(text);
     scan.skip_space();
@@ -26,7 +26,7 @@ pub fn find_value(text: &str, pointer: &str) -> Option<usize> {
     (scan.at < text.len()).then_some(scan.at)
 }
 
-/// Byte offset of the `occurrence`-th (from 0) appearance of the key that `pointer` ends with.
+/// Byte offset of the `occurrence`-th (from 0) occurrence of the key that `pointer` ends with.
 pub fn find_key(text: &str, pointer: &str, occurrence: usize) -> Option<usize> {
     let (parent, key) = pointer.rsplit_once('/')?;
     let at = find_value(text, parent)?;
@@ -34,7 +34,7 @@ pub fn find_key(text: &str, pointer: &str, occurrence: usize) -> Option<usize> {
     scan.enter(&unescape(key)?, Some(occurrence))
 }
 
-/// Calls `found` for every key that appears again in its object.
+/// Calls `found` for every repeated occurrence of a key in its object.
 pub fn repeated_keys(text: &str, mut found: impl FnMut(&dyn Fn() -> RepeatedKey)) {
     let mut walk = Walk::new(text, true);
     while let Some(token) = walk.next() {
@@ -47,7 +47,7 @@ pub fn repeated_keys(text: &str, mut found: impl FnMut(&dyn Fn() -> RepeatedKey)
     }
 }
 
-/// RFC 6901 pointer to the value in which `offset` lies.
+/// RFC 6901 pointer to the value that contains `offset`.
 pub fn pointer_at(text: &str, offset: usize) -> String {
     let mut walk = Walk::new(text, false);
     while walk.scan.at < offset {
@@ -71,7 +71,7 @@ pub fn push_segment(pointer: &mut String, segment: &str) {
     }
 }
 
-/// The unescaped segments of a pointer; an element is `None` where an escape is wrong.
+/// The unescaped segments of a pointer. A segment with an invalid escape is `None`.
 pub(super) fn segments(pointer: &str) -> Option<impl Iterator<Item = Option<Cow<'_, str>>>> {
     let mut parts = pointer.split('/');
     // A pointer is empty or begins with a slash.
@@ -89,7 +89,7 @@ fn unescape(segment: &str) -> Option<Cow<'_, str>> {
 
 pub(super) struct Scan<'a> {
     text: &'a str,
-    /// Byte offset of what comes next.
+    /// Byte offset of the next byte.
     pub(super) at: usize,
 }
 
@@ -108,13 +108,13 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Moves past `byte`, if it is what comes next.
+    /// Skips white space, then moves past `byte` if it is next.
     pub(super) fn eat(&mut self, byte: u8) -> Option<()> {
         self.skip_space();
         (self.peek() == Some(byte)).then(|| self.at += 1)
     }
 
-    /// Moves past the string that begins here; gives it with its quotes.
+    /// Moves past the string that begins here, and returns it with its quotes.
     fn string(&mut self) -> Option<&'a str> {
         let start = self.at;
         let bytes = self.text.as_bytes();
@@ -186,8 +186,8 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// From the start of a container, moves to the start of one of its children. With an
-    /// `occurrence`, gives the offset of that appearance of the key; else that of the child.
+    /// From the start of a container, moves to the start of one of its children. With an `occurrence`, returns the
+    /// offset of that occurrence of the key; else the offset of the child.
     fn enter(&mut self, segment: &str, occurrence: Option<usize>) -> Option<usize> {
         if self.eat(b'[').is_some() {
             return self.enter_list(segment).filter(|_| occurrence.is_none());
@@ -219,7 +219,7 @@ impl<'a> Scan<'a> {
 
     fn enter_list(&mut self, segment: &str) -> Option<usize> {
         let wanted: usize = segment.parse().ok()?;
-        // "01" and "+1" are no indices.
+        // "01" and "+1" are not indices.
         if wanted.to_string() != segment {
             return None;
         }
@@ -247,7 +247,7 @@ struct Token {
     repeats: bool,
 }
 
-/// A walk over all tokens that knows where in the document it is.
+/// A scan over all tokens that tracks its position in the document.
 struct Walk<'a> {
     scan: Scan<'a>,
     open: Vec<Open<'a>>,

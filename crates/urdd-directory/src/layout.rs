@@ -1,12 +1,12 @@
-//! Names of files and folders that have a meaning before anything is read.
+//! Reserved file and folder names.
 
 /// Name of the root metadata file.
 pub const ROOT_METADATA: &str = "urdd.json";
 
-/// What the name of each folder and file begins with that stands beside a URDD while it is written.
+/// Prefix of the files and folders that a run creates beside a URDD while writing it.
 pub const STAGING_PREFIX: &str = ".urdd-";
 
-/// Whether a name is that of a folder in which a URDD is being written, or was when a run died.
+/// Whether this is the name of a staging folder, in use or left behind by a crashed run.
 pub fn is_staging(name: &str) -> bool {
     // Version 0.1.0 wrote `.NAME.urdd-PROCESS-NUMBER`.
     let of_0_1_0 = || {

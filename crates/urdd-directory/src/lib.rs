@@ -1,5 +1,5 @@
-//! A URDD as files, on disk, in memory or in a zip archive: finding it, listing it, reading from it
-//! safely, writing it; JSON and YAML as text; and the folder of published schemas.
+//! The files of a URDD on disk, in memory or in a zip archive: discovery, listing, safe reading and writing. Also JSON
+//! and YAML as text, and the folder of published schemas.
 
 pub mod archive_fault;
 pub mod cancellation;

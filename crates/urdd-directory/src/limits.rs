@@ -1,32 +1,32 @@
-//! Bounds on what is read: a URDD is untrusted input (SPEC 13.1).
+//! Limits on input: a URDD is untrusted (SPEC 13.1).
 
-/// Largest document that is read, bytes.
+/// Largest document, bytes.
 pub const MAX_DOCUMENT_BYTES: u64 = 512 << 20;
 
-/// Most files of one URDD that are looked at.
+/// Maximum number of files and folders listed in one URDD.
 pub const MAX_FILES: usize = 100_000;
 
 /// Deepest folder below a URDD's root, and below a searched folder.
 pub const MAX_FOLDER_DEPTH: usize = 32;
 
-/// How many containers may stand in one another, in JSON and in YAML.
+/// Maximum nesting depth of objects and lists in JSON and YAML.
 pub const DEPTH_LIMIT: usize = 100;
 
-/// Largest zip archive that is read, bytes.
+/// Largest zip archive, bytes.
 pub const MAX_ARCHIVE_BYTES: u64 = 1 << 30;
 
-/// Most bytes that the files of a zip archive are in all.
+/// Largest total inflated size of a zip archive, bytes.
 pub const MAX_INFLATED_BYTES: u64 = 4 << 30;
 
-/// How many times its own size the files of a zip archive may be in all, above
-/// [`SMALL_ARCHIVE_BYTES`]. Modules of long lists of zeros come to some 200.
+/// Largest ratio of total inflated size to archive size, above [`SMALL_ARCHIVE_BYTES`]. Modules with long lists of
+/// zeros reach about 200.
 pub const MAX_INFLATION: u64 = 250;
 
-/// What the files of a zip archive may be in all, however small it is, bytes.
+/// Inflated size that is allowed regardless of archive size, bytes.
 pub const SMALL_ARCHIVE_BYTES: u64 = 64 << 20;
 
-/// Longest name of an entry of a zip archive, bytes: what Linux allows for a path.
+/// Longest name of an entry in a zip archive, bytes: the path limit of Linux.
 pub const MAX_NAME_BYTES: usize = 4096;
 
-/// Longest part of such a name between two slashes, bytes. 255 characters of up to four bytes: what file systems allow.
+/// Longest part of such a name between slashes, bytes: 255 characters of up to four bytes, the limit of file systems.
 pub const MAX_PART_BYTES: usize = 1020;

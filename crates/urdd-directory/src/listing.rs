@@ -1,8 +1,8 @@
-//! What lies below the root of a URDD.
+//! The files and folders below the root of a URDD.
 
 use super::read_error::ReadError;
 
-/// What an entry of a folder is.
+/// Kind of a folder entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EntryKind {
     /// A regular file, or a link to one inside the root.
@@ -11,33 +11,33 @@ pub enum EntryKind {
     Folder,
     /// A symbolic link that leads out of the root.
     LinkOut,
-    /// A symbolic link to nothing, or to a folder inside the root (which is not entered).
+    /// A dangling symbolic link, or one to a folder inside the root (not followed).
     Link,
-    /// Neither file nor folder.
+    /// Neither a file nor a folder.
     Other,
 }
 
 /// A file or folder below the root.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Entry {
-    /// Path relative to the root, with forward slashes; characters that are not UTF-8 replaced.
+    /// Path relative to the root, with forward slashes. Invalid UTF-8 is replaced.
     pub path: String,
-    /// What it is.
+    /// Its kind.
     pub kind: EntryKind,
-    /// Size in bytes, for files.
+    /// Size in bytes; for files only.
     pub size: u64,
-    /// Whether the name is UTF-8.
+    /// Whether the name is valid UTF-8.
     pub utf8: bool,
 }
 
-/// What lies below a root.
+/// All entries below a root.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Listing {
-    /// Every entry, sorted by path.
+    /// Entries, sorted by path.
     pub entries: Vec<Entry>,
     /// Folders that could not be listed, with the reason.
     pub unreadable: Vec<(String, ReadError)>,
-    /// Whether the listing stopped at [`MAX_FILES`](super::limits::MAX_FILES) entries or [`MAX_FOLDER_DEPTH`](super::limits::MAX_FOLDER_DEPTH) levels.
+    /// Whether a limit cut the listing: [`super::limits::MAX_FILES`] or [`super::limits::MAX_FOLDER_DEPTH`].
     pub cut: bool,
 }
 
@@ -50,13 +50,13 @@ impl Listing {
             .map(|place| &self.entries[place])
     }
 
-    /// Whether there is a folder at a path.
+    /// Whether a path is a folder.
     pub fn has_folder(&self, path: &str) -> bool {
         self.get(path)
             .is_some_and(|entry| entry.kind == EntryKind::Folder)
     }
 
-    /// Whether there is a regular file at a path.
+    /// Whether a path is a regular file.
     pub fn has_file(&self, path: &str) -> bool {
         self.get(path)
             .is_some_and(|entry| entry.kind == EntryKind::File)
@@ -70,7 +70,7 @@ impl Listing {
                 .strip_prefix(folder)
                 .is_some_and(|rest| rest.starts_with('/'))
         };
-        // In order of path, what is below a folder stands together.
+        // In path order, all entries below a folder are adjacent.
         let prefix = format!("{folder}/");
         let first = self
             .entries

@@ -1,21 +1,20 @@
-//! The one way to write a number, for JSON and YAML alike.
+//! The canonical form of numbers, for JSON and YAML.
 
 use std::fmt::{self, Write};
 
 use serde_json::Number;
 
-/// Below this magnitude, numbers are written with an exponent. The same bound as Python's `repr`.
+/// Smaller magnitudes have an exponent. The same bound as Python's `repr`.
 const SMALLEST_WITHOUT_EXPONENT: f64 = 1e-4;
-/// From this magnitude on, numbers are written with an exponent. The same bound as Python's `repr`.
+/// Magnitudes from here on have an exponent. The same bound as Python's `repr`.
 const LARGEST_WITHOUT_EXPONENT: f64 = 1e16;
 
-/// Writes a number so that JSON, YAML 1.1 and YAML 1.2 all read the same one.
+/// Writes a number so that JSON, YAML 1.1 and YAML 1.2 read the same value.
 ///
-/// Integers are decimal digits. A float is the shortest decimal that reads back as the same
-/// 64-bit float. Zero, of either sign, is `0.0`. With a magnitude of at least 10^-4 and below
-/// 10^16 it has no exponent and at least one digit on each side of the point (`0.0001`, `3.0`);
-/// otherwise it has one digit before the point, at least one after it, `e`, a sign, and the
-/// exponent without leading zeros (`1.0e-5`, `1.25e+22`).
+/// Integers are decimal digits. A float is the shortest decimal that reads back as the same 64-bit float. Zero, of
+/// either sign, is `0.0`. A magnitude of at least 10^-4 and below 10^16 has no exponent and at least one digit on each
+/// side of the point (`0.0001`, `3.0`). Any other has one digit before the point, at least one after it, `e`, a sign,
+/// and the exponent without leading zeros (`1.0e-5`, `1.25e+22`).
 pub fn write(number: &Number, out: &mut impl Write) -> fmt::Result {
     if let Some(n) = number.as_u64() {
         write!(out, "{n}")
@@ -24,12 +23,12 @@ pub fn write(number: &Number, out: &mut impl Write) -> fmt::Result {
     } else if let Some(x) = number.as_f64() {
         write_float(x, out)
     } else {
-        // Only with serde_json's arbitrary_precision, which we do not enable.
+        // Only with serde_json's arbitrary_precision, which is disabled.
         write!(out, "{number}")
     }
 }
 
-/// Writes a float as [`write()`] does; the caller vouches that it is finite.
+/// Writes a float like [`write()`]. The caller ensures that it is finite.
 pub fn write_float(x: f64, out: &mut impl Write) -> fmt::Result {
     let magnitude = x.abs();
     if magnitude == 0.0 {

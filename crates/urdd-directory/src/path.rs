@@ -1,11 +1,11 @@
-//! Paths as documents write them (SPEC 2.8): relative to the URDD's root, portable, never outside.
+//! Paths in documents (SPEC 2.8): relative to the URDD's root, portable, never outside it.
 
 use thiserror::Error;
 
-/// What is wrong with a path that a document names.
+/// What is wrong with a path in a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum PathFault {
-    /// Nothing at all.
+    /// An empty path.
     #[error("the path is empty")]
     Empty,
     /// Begins with `/`.
@@ -33,7 +33,7 @@ pub enum PathFault {
     Taken,
 }
 
-/// Checks that a path is one that SPEC 2.8 allows.
+/// Checks that SPEC 2.8 allows a path.
 ///
 /// # Errors
 /// The first fault, from the left.
@@ -62,7 +62,7 @@ pub fn check(path: &str) -> Result<(), PathFault> {
     Ok(())
 }
 
-/// A name made one that may stand in a path: what SPEC 2.8 forbids in it becomes `_`.
+/// Makes a name usable as a part of a path: replaces what SPEC 2.8 forbids by `_`.
 pub fn portable(name: &str) -> String {
     let allowed = |c: char| match c {
         '\\' | ':' | '/' => '_',

@@ -1,10 +1,10 @@
-//! Places in a text, as a person counts them.
+//! Positions in a text as 1-based line and column.
 
 use std::fmt;
 
 use super::{json_places, json_scan};
 
-/// A place in a text: 1-based line and 1-based column, the column counted in Unicode scalar values.
+/// A position in a text: 1-based line and column. Columns count Unicode scalar values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Position {
     /// The line, from 1.
@@ -19,20 +19,20 @@ impl fmt::Display for Position {
     }
 }
 
-/// Where the lines of a text begin; made once, it finds any number of positions quickly.
+/// Start offsets of a text's lines, for fast lookup of many positions.
 #[derive(Debug, Clone)]
 pub struct LineIndex<'a> {
     text: &'a str,
     starts: Vec<usize>,
-    /// The scalar values before each block of the text: a whole file may be one line.
+    /// Number of scalar values before each block of the text: a whole file may be one line.
     before_block: Vec<usize>,
 }
 
-/// Bytes of a block.
+/// Size of a block, bytes.
 const BLOCK: usize = 1024;
 
 impl<'a> LineIndex<'a> {
-    /// Finds the lines of `text`. A line ends with `\n`, with `\r\n`, or with a `\r` alone.
+    /// Finds the lines of `text`. A line ends with `\n`, `\r\n`, or a lone `\r`.
     pub fn new(text: &'a str) -> Self {
         let bytes = text.as_bytes();
         let mut starts = vec![0];
@@ -54,7 +54,7 @@ impl<'a> LineIndex<'a> {
         }
     }
 
-    /// The position of a byte offset; an offset beyond the text is the text's end.
+    /// The position of a byte offset. Offsets beyond the text give its end.
     pub fn position(&self, offset: usize) -> Position {
         let offset = offset.min(self.text.len());
         let line = self.starts.partition_point(|&start| start <= offset);
@@ -65,13 +65,13 @@ impl<'a> LineIndex<'a> {
         }
     }
 
-    /// How many scalar values begin before a byte offset.
+    /// Number of scalar values that begin before a byte offset.
     fn scalars_before(&self, offset: usize) -> usize {
         let block = offset / BLOCK;
         self.before_block[block] + scalars(&self.text.as_bytes()[block * BLOCK..offset])
     }
 
-    /// The byte offset at which a 1-based line begins.
+    /// Byte offset of the start of a 1-based line.
     pub fn line_start(&self, line: usize) -> Option<usize> {
         self.starts.get(line.checked_sub(1)?).copied()
     }
@@ -84,13 +84,12 @@ pub fn position(text: &str, offset: usize) -> Position {
 
 /// The position of the value at an RFC 6901 pointer, in text that is valid JSON.
 ///
-/// Where an object has a key twice, the last is the one that counts, as in the value that
-/// [`super::json::read`] gives.
+/// For duplicate keys, the last one counts, as in the value that [`super::json::read`] returns.
 pub fn locate(text: &str, pointer: &str) -> Option<Position> {
     json_scan::find_value(text, pointer).map(|offset| position(text, offset))
 }
 
-/// As [`locate`], for many pointers in one walk through the text.
+/// Like [`locate`], for many pointers in one pass.
 pub fn locate_all(text: &str, pointers: &[&str]) -> Vec<Option<Position>> {
     let index = LineIndex::new(text);
     let offsets = json_places::find_values(text, pointers).into_iter();
@@ -99,7 +98,7 @@ pub fn locate_all(text: &str, pointers: &[&str]) -> Vec<Option<Position>> {
         .collect()
 }
 
-/// The position of the `occurrence`-th (from 0) appearance of the key that a pointer ends with.
+/// The position of the `occurrence`-th (from 0) occurrence of the key that a pointer ends with.
 pub fn locate_key(text: &str, pointer: &str, occurrence: usize) -> Option<Position> {
     json_scan::find_key(text, pointer, occurrence).map(|offset| position(text, offset))
 }
@@ -108,7 +107,7 @@ fn count(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
 }
 
-/// Counts the scalar values in UTF-8: every byte but the continuation bytes.
+/// Counts scalar values: every byte of UTF-8 except continuation bytes.
 fn scalars(bytes: &[u8]) -> usize {
     bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count()
 }

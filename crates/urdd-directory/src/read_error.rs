@@ -1,4 +1,4 @@
-//! Why something of a URDD could not be read.
+//! Errors when reading a URDD.
 
 use std::io;
 
@@ -10,10 +10,10 @@ use super::path::PathFault;
 /// Why a file could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ReadError {
-    /// There is no such file.
+    /// The file does not exist.
     #[error("there is no such file")]
     Missing,
-    /// The path is not one that a URDD may name.
+    /// The path violates SPEC 2.8.
     #[error("{0}")]
     Path(#[from] PathFault),
     /// A symbolic link leads out of the root.
@@ -25,7 +25,7 @@ pub enum ReadError {
     /// Neither a folder nor a zip archive.
     #[error("it is neither a folder nor a zip archive")]
     NotAUrdd,
-    /// Larger than what is read.
+    /// Larger than the limit.
     #[error("it is {size} bytes long, and at most {limit} are read")]
     TooLarge {
         /// Its size, bytes.
@@ -33,7 +33,7 @@ pub enum ReadError {
         /// The limit, bytes.
         limit: u64,
     },
-    /// Longer than what is read; how long is not known.
+    /// Longer than the limit, of unknown length.
     #[error("it is longer than {} MiB", .limit >> 20)]
     TooLong {
         /// The limit, bytes.
@@ -42,13 +42,13 @@ pub enum ReadError {
     /// The zip archive cannot be used.
     #[error("{0}")]
     Archive(#[from] ArchiveFault),
-    /// A folder that lies too deep to be searched.
+    /// A folder too deep to be searched.
     #[error("it lies deeper than {limit} folders; give its path to examine it")]
     TooDeep {
-        /// How many folders deep is searched.
+        /// Maximum search depth, folders.
         limit: usize,
     },
-    /// The operating system refused.
+    /// An error of the operating system.
     #[error("it cannot be read: {0}")]
     Io(String),
 }

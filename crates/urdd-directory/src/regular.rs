@@ -1,4 +1,4 @@
-//! Opening files that somebody names: regular files only, and without waiting.
+//! Opens untrusted paths: regular files only, without blocking.
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read};
@@ -9,21 +9,21 @@ use super::read_error::ReadError;
 /// Opens a regular file.
 ///
 /// # Errors
-/// Where it cannot be opened, or is something else: a folder, a pipe, a device.
+/// If it cannot be opened, or is not a regular file: a folder, a pipe, a device.
 pub fn open(path: &Path) -> Result<File, ReadError> {
     let from_io = |error: io::Error| ReadError::from_io(&error);
-    // Looked at first: opening a device may do something to it.
+    // Check before opening: opening a device may have side effects.
     check_kind(&fs::metadata(path).map_err(from_io)?)?;
     let file = without_waiting(path).map_err(from_io)?;
-    // And again, of what was opened: the path may lead elsewhere by now.
+    // Check the opened file again: the path may have changed in between.
     check_kind(&file.metadata().map_err(from_io)?)?;
     Ok(file)
 }
 
-/// Reads a regular file of at most `limit` bytes, whatever the file system says of its size.
+/// Reads a regular file of at most `limit` bytes, whatever size the file system reports.
 ///
 /// # Errors
-/// As for [`open()`], and where it is longer.
+/// As for [`open()`], or if the file is longer.
 pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     open(path)?
@@ -44,8 +44,7 @@ fn check_kind(metadata: &Metadata) -> Result<(), ReadError> {
     }
 }
 
-/// Opens a file without waiting for anything: a pipe may have taken its place, and some files of the
-/// kernel wait for their next line.
+/// Opens without blocking: a pipe may have replaced the file, and some kernel files block until their next line.
 fn without_waiting(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true);

@@ -1,4 +1,4 @@
-//! Bringing the sizes and hashes in `urdd.json` up to date with the files.
+//! Updates the sizes and hashes in `urdd.json` to match the files.
 
 use std::fs;
 use std::io::{self, Write};
@@ -17,10 +17,10 @@ use super::root::{ReadError, Root};
 use super::target_lock::TargetLock;
 use crate::cancellation::Cancellation;
 
-/// What the name begins with of the file that is to become `urdd.json`.
+/// Prefix of the temporary file that replaces `urdd.json`.
 const TEMPORARY_PREFIX: &str = ".urdd.json.";
 
-/// Why the hashes could not be brought up to date.
+/// Why the hashes could not be updated.
 #[derive(Debug, Error)]
 pub enum RehashError {
     /// `urdd.json` cannot be read.
@@ -32,12 +32,12 @@ pub enum RehashError {
     /// A listed file cannot be read.
     #[error("{path}: {error}; take it off the list in {ROOT_METADATA}, or bring it back")]
     File {
-        /// The path as it is listed.
+        /// The listed path.
         path: String,
         /// What is wrong.
         error: ReadError,
     },
-    /// The URDD lies in an archive.
+    /// The URDD is in an archive.
     #[error("a zip archive is not written to; unpack it, rehash the folder, and pack it again")]
     NotAFolder,
     /// `urdd.json` cannot be written.
@@ -45,17 +45,16 @@ pub enum RehashError {
     Write(#[from] io::Error),
 }
 
-/// Brings size and SHA-256 of every file that `urdd.json` lists up to date, and writes it where
-/// something changed. Gives the paths whose entries changed.
+/// Updates size and SHA-256 of every file that `urdd.json` lists. Writes `urdd.json` only if something changed. Returns
+/// the paths whose entries changed.
 ///
-/// Nothing else is touched, and nothing is judged: whoever calls this vouches for the files.
+/// Changes no other file and validates nothing: the caller vouches for the files.
 ///
 /// # Errors
-/// Where `urdd.json` or a listed file cannot be read, or the new one not written; then nothing is
-/// changed.
+/// If `urdd.json` or a listed file cannot be read, or the new `urdd.json` cannot be written. Nothing is changed then.
 pub fn rehash(root: &Root) -> Result<Vec<String>, RehashError> {
     let folder = root.folder().ok_or(RehashError::NotAFolder)?;
-    // Without one where the folder above cannot be written to: then no run can replace this one.
+    // Without a lock if the parent folder is not writable: then no other run can replace this one.
     let _lock = fs::canonicalize(folder)
         .ok()
         .and_then(|place| TargetLock::acquire(&place, &Cancellation::default()).ok());
@@ -76,8 +75,8 @@ pub fn rehash(root: &Root) -> Result<Vec<String>, RehashError> {
     Ok(changed)
 }
 
-/// Writes `urdd.json` beside itself and renames: whoever reads at this moment sees the old one or the
-/// new one. What cannot be written is taken away, and what a dead run left too.
+/// Writes a temporary file beside `urdd.json` and renames it, so that readers see either the old or the new one.
+/// Removes the temporary file on failure, and those that crashed runs left behind.
 fn replace(folder: &Path, text: &[u8]) -> io::Result<()> {
     let file = folder.join(ROOT_METADATA);
     for entry in fs::read_dir(folder)?.flatten() {

@@ -1,4 +1,4 @@
-//! Some files of a URDD replaced by others, in one step: all of them, or none.
+//! Replaces some files of a URDD atomically: all or none.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -8,10 +8,10 @@ use super::take::take_content;
 use super::writer::Writer;
 use crate::cancellation::Cancellation;
 
-/// Files by path, relative to the root of their URDD.
+/// Files by path relative to the root of their URDD.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
-/// A folder of which files are to be replaced. From [`Replacement::begin`] on no other run of this program writes there.
+/// A pending replacement of files in a folder. It locks out other runs of this program from [`Replacement::begin`] on.
 #[derive(Debug)]
 pub struct Replacement {
     folder: PathBuf,
@@ -19,10 +19,10 @@ pub struct Replacement {
 }
 
 impl Replacement {
-    /// Waits until nobody else writes there.
+    /// Waits until no other run writes to the folder.
     ///
     /// # Errors
-    /// Where the folder cannot be written beside.
+    /// If the parent folder is not writable.
     pub fn begin(folder: &Path) -> Result<Self, StagingError> {
         Ok(Replacement {
             folder: folder.to_owned(),
@@ -30,10 +30,10 @@ impl Replacement {
         })
     }
 
-    /// Makes the new content, with these files instead of those of their names; all others stay.
+    /// Prepares the new content: these files, plus all others unchanged.
     ///
     /// # Errors
-    /// Where something cannot be read or written.
+    /// If a file cannot be read or written.
     pub fn stage(&self, files: &Files) -> Result<(), StagingError> {
         let writer = Writer::new(self.staging.content());
         let instead: BTreeSet<&Path> = files.keys().map(Path::new).collect();
@@ -46,10 +46,10 @@ impl Replacement {
         Ok(())
     }
 
-    /// Puts the new content in its place.
+    /// Moves the new content into place.
     ///
     /// # Errors
-    /// Where it cannot be; what was there before still is.
+    /// If it cannot be moved. The old content is unchanged then.
     pub fn commit(self) -> Result<(), StagingError> {
         self.staging.commit()
     }

@@ -1,5 +1,4 @@
-//! The root of a URDD, wherever its files lie: what lies below it, and reading from it without ever
-//! leaving it.
+//! The root of a URDD in any storage: lists its contents, and reads files without ever leaving the root.
 
 use std::io::Read;
 use std::path::Path;
@@ -20,7 +19,7 @@ impl Root {
     /// Opens a folder or a zip archive.
     ///
     /// # Errors
-    /// Where it does not exist, is neither, or cannot be reached.
+    /// If it does not exist, is neither, or cannot be accessed.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         match is_archive(path) {
             true => Ok(Self::of(Archive::open(path)?)),
@@ -31,31 +30,31 @@ impl Root {
     /// Opens a folder.
     ///
     /// # Errors
-    /// Where it does not exist, is no folder, or cannot be reached.
+    /// If it does not exist, is not a folder, or cannot be accessed.
     pub fn open_folder(path: &Path) -> Result<Self, ReadError> {
         Ok(Self::of(Disk::open(path)?))
     }
 
-    /// The root of what a source holds.
+    /// The root of a source.
     pub fn of(source: impl Source + 'static) -> Self {
         let source = Arc::new(source);
         Root { source }
     }
 
-    /// The folder on disk, where there is one: an archive cannot be written to.
+    /// The folder on disk, if any. An archive has none and is read-only.
     pub fn folder(&self) -> Option<&Path> {
         self.source.folder()
     }
 
-    /// The root folder's own name.
+    /// Name of the root folder.
     pub fn folder_name(&self) -> String {
         self.source.folder_name()
     }
 
-    /// Lists everything below the root; links are not followed.
+    /// Lists everything below the root. Does not follow links.
     ///
     /// # Errors
-    /// Where the root itself cannot be listed.
+    /// If the root itself cannot be listed.
     pub fn list(&self) -> Result<Listing, ReadError> {
         self.source.list()
     }
@@ -63,14 +62,14 @@ impl Root {
     /// Reads a file of at most `limit` bytes.
     ///
     /// # Errors
-    /// Where the path is not one that a URDD may name, leads out of the root, or cannot be read.
+    /// If SPEC 2.8 forbids the path, it leads out of the root, or it cannot be read.
     pub fn read(&self, relative: &str, limit: u64) -> Result<Vec<u8>, ReadError> {
         let (file, size) = self.open_file(relative)?;
         if size > limit {
             return Err(ReadError::TooLarge { size, limit });
         }
         let mut bytes = Vec::with_capacity(size as usize);
-        // The file may grow while it is read: the limit holds all the same.
+        // The file may grow while it is read: enforce the limit again.
         file.take(limit + 1)
             .read_to_end(&mut bytes)
             .map_err(|error| ReadError::from_io(&error))?;
@@ -83,7 +82,7 @@ impl Root {
         Ok(bytes)
     }
 
-    /// Opens a file for reading, and gives its size.
+    /// Opens a file for reading, and returns its size.
     ///
     /// # Errors
     /// As for [`Root::read`].
@@ -92,7 +91,7 @@ impl Root {
         self.source.open(relative)
     }
 
-    /// A URDD beside this one, in the same parent folder: legacy mesh paths may lead there.
+    /// A URDD in the same parent folder: legacy mesh paths may lead there.
     pub fn sibling(&self, folder_name: &str) -> Option<Root> {
         path::check(folder_name).ok()?;
         if folder_name.contains('/') {

@@ -1,4 +1,4 @@
-//! The folder of published schemas on disk: written, and compared with what the types say.
+//! Writes the folder of published schemas, and compares it with the types.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -16,7 +16,7 @@ pub enum SchemaFilesError {
     Io {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// The schemas themselves are broken.
@@ -24,42 +24,42 @@ pub enum SchemaFilesError {
     Schema(#[from] SchemaError),
 }
 
-/// A difference between the folder of schemas and what the types say.
+/// A difference between the folder of schemas and the types.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SchemaFault {
-    /// A schema is not there.
+    /// A schema file is missing.
     Missing {
         /// Its path in the folder.
         path: String,
     },
-    /// A schema's text is not what the types write.
+    /// A schema file differs from the types.
     Outdated {
         /// Its path in the folder.
         path: String,
     },
-    /// A file is no published schema.
+    /// A file is not a published schema.
     Stray {
         /// Its path in the folder.
         path: String,
     },
-    /// A released schema accepts other documents than it did.
+    /// A released schema now accepts different documents.
     Changed {
-        /// Which one.
+        /// Its id.
         id: String,
         /// Hash in the list of released schemas.
         released: String,
-        /// Hash of what the types write.
+        /// Hash of the schema of the current types.
         found: String,
     },
     /// The list of released schemas names a schema that does not exist.
     Removed {
-        /// Which one.
+        /// Its id.
         id: String,
     },
 }
 
 impl SchemaFault {
-    /// Whether `urdd schema export` mends it; where it does not, the message says what does.
+    /// Whether `urdd schema export` fixes it. If not, the message says how to fix it.
     pub fn is_mended_by_export(&self) -> bool {
         matches!(
             self,
@@ -93,11 +93,11 @@ impl fmt::Display for SchemaFault {
     }
 }
 
-/// Writes every schema into `folder`, which is created; what is right already is left alone. Gives
-/// the number of files that were written.
+/// Writes every schema into `folder`, and creates it if needed. Skips files that are up to date. Returns the number of
+/// files written.
 ///
 /// # Errors
-/// Where a file or folder cannot be written.
+/// If a file or folder cannot be written.
 pub fn export(folder: &Path, variant: Variant) -> Result<usize, SchemaFilesError> {
     let mut written = 0;
     for file in schema::files(variant) {
@@ -114,11 +114,11 @@ pub fn export(folder: &Path, variant: Variant) -> Result<usize, SchemaFilesError
     Ok(written)
 }
 
-/// Compares `folder` with what the types write, and the types with what is released. Files whose
-/// names begin with a dot are nobody's business.
+/// Compares `folder` with the types, and the types with the released schemas. Ignores files whose names begin with a
+/// dot.
 ///
 /// # Errors
-/// Where the folder cannot be read.
+/// If the folder cannot be read.
 pub fn check(folder: &Path) -> Result<Vec<SchemaFault>, SchemaFilesError> {
     let mut found = BTreeMap::new();
     read_folder(folder, "", &mut found)?;
@@ -157,7 +157,7 @@ fn frozen_faults() -> Result<Vec<SchemaFault>, SchemaFilesError> {
     Ok(faults)
 }
 
-/// A checkout may have turned the ends of lines.
+/// Ignores line endings: a checkout may have converted them.
 fn same_text(bytes: &[u8], text: &str) -> bool {
     std::str::from_utf8(bytes).is_ok_and(|found| found.replace("\r\n", "\n") == text)
 }

@@ -1,10 +1,10 @@
-//! Writing a whole folder at once: it is made beside its place and put there by one rename.
+//! Replaces a whole folder at once: writes it beside the target, then moves it into place with one rename.
 //!
-//! Beside the target stands, while it is written, a folder `.urdd-<hash of the target's name>` with
-//! the new content in it, and a file `.urdd-<hash>.lock`, which the run holds locked from the first
-//! look at the old content until the new one is in its place (see [`super::target_lock`]). A run that
-//! dies leaves both behind, and the old content in its place; the next run into the same target gets
-//! the lock, so nobody else is at work there, and takes them away. A second run waits for the first.
+//! While a run is at work, two entries are beside the target. The folder `.urdd-<hash of the target's name>` contains
+//! the new content. The run locks the file `.urdd-<hash>.lock` from before it reads the old content until the new
+//! content is in place (see [`super::target_lock`]). A crashed run leaves both behind, and the old content in place.
+//! The next run into the same target gets the lock, so no other run is active, and removes them. A second run waits for
+//! the first.
 
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -18,11 +18,11 @@ mod inside;
 use super::target_lock::{LockError, TargetLock, beside};
 use crate::cancellation::Cancellation;
 
-/// Why a folder could not be written. What stood in its place still does.
+/// Why a folder could not be written. Its old content is unchanged.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StagingError {
-    /// The target cannot be a folder's place.
+    /// The target cannot be a folder.
     #[error("{}: a folder cannot be written here: {reason}", path.display())]
     Place {
         /// The target.
@@ -35,27 +35,27 @@ pub enum StagingError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         error: io::Error,
     },
-    /// A file that is to be copied cannot be read.
+    /// A source file cannot be read.
     #[error("{}: cannot be read: {error}", path.display())]
     Read {
         /// The file.
         path: PathBuf,
-        /// What the operating system said.
+        /// The error of the operating system.
         error: io::Error,
     },
-    /// A file that is not the URDD's is in the place of one that is.
+    /// An unrelated file has the path of a file of the URDD.
     #[error("{}: this file is not of the URDD, and would be overwritten; move it away", path.display())]
     InTheWay {
         /// The file.
         path: PathBuf,
     },
-    /// It was asked to stop.
+    /// The run was cancelled.
     #[error("stopped before it was done; nothing was changed")]
     Cancelled,
-    /// The target holds something else.
+    /// The target has unrelated content.
     #[error(
         "{}: this folder is not empty, and no URDD that `urdd generate` wrote; give another one, or --force to write there (files of other names stay)", path.display()
     )]
@@ -74,17 +74,17 @@ fn in_words(error: &io::Error) -> String {
     }
 }
 
-/// A folder that is being written.
+/// A folder in preparation.
 #[derive(Debug)]
 pub struct Staging {
     target: PathBuf,
-    /// The folder beside the target.
+    /// The working folder beside the target.
     workplace: PathBuf,
-    /// The new content, in it.
+    /// The new content, inside the working folder.
     content: PathBuf,
-    /// Whether the folder itself stays, and what is in it is replaced.
+    /// Whether to replace the contents of the target and keep the folder itself.
     is_inside: bool,
-    /// Let go last. There is none where the file system cannot lock.
+    /// Released last. `None` where the file system does not support locks.
     _lock: Option<TargetLock>,
 }
 
@@ -92,12 +92,12 @@ const CONTENT: &str = "new";
 const OLD: &str = "old";
 
 impl Staging {
-    /// Waits until no other run writes at `target`, takes away what a dead run left there, and makes
-    /// the folder beside it. What stands at `target` stays as it is until [`Staging::commit`].
+    /// Waits until no other run writes to `target`, removes what a crashed run left there, and creates the working
+    /// folder beside it. `target` is unchanged until [`Staging::commit`].
     ///
     /// # Errors
-    /// Where `target` is a file, the current folder or one above it, or cannot be written beside,
-    /// and where the wait was cancelled.
+    /// If `target` is a file, the current folder or one above it, if its parent folder is not writable, or if the wait
+    /// was cancelled.
     pub fn begin(target: &Path, cancellation: &Cancellation) -> Result<Self, StagingError> {
         let target = place(target)?;
         if holds_current(&target) {
@@ -110,9 +110,9 @@ impl Staging {
         Self::at(target, false, cancellation)
     }
 
-    /// As [`Staging::begin`], for a folder that may be the current one, or above it: whoever is at work in such a folder
-    /// would stand in one that is gone if another took its place. Then [`Staging::commit`] replaces what is in it, entry
-    /// by entry: each at once, and all or none of them as long as the program runs.
+    /// As [`Staging::begin`], but also for the current folder or one above it. Replacing that folder itself would leave
+    /// other processes in a deleted folder, so [`Staging::commit`] replaces its entries one by one. Each replacement is
+    /// atomic. All or none take place, unless the program crashes.
     ///
     /// # Errors
     /// As [`Staging::begin`].
@@ -138,7 +138,7 @@ impl Staging {
         };
         let workplace = match lock {
             Some(_) => beside(&target, ""),
-            // Others may be at work: a folder of this run's own, and nothing is taken away.
+            // Without a lock, other runs may be active: use a separate folder, and remove nothing.
             None => beside(&target, &format!("-{}", std::process::id())),
         };
         if lock.is_some() {
@@ -163,22 +163,21 @@ impl Staging {
         }
     }
 
-    /// Where the new content is to be written.
+    /// The folder for the new content.
     pub fn content(&self) -> &Path {
         &self.content
     }
 
-    /// Where the content will be.
+    /// The final path of the content.
     pub fn target(&self) -> &Path {
         &self.target
     }
 
-    /// Puts the new content in its place, with the modes of the folders that were there. On Linux
-    /// and macOS there is no moment without the one or the other; elsewhere there is, between two
-    /// renames.
+    /// Moves the new content into place, with the permissions of the folders and files it replaces. Atomic on Linux and
+    /// macOS if the file system can exchange folders. Else the target is missing for a moment between two renames.
     ///
     /// # Errors
-    /// Where it cannot be renamed; then the old content is in its place.
+    /// If it cannot be renamed. The old content is then in place.
     pub fn commit(self) -> Result<(), StagingError> {
         keep_modes(&self.target, &self.content)
             .and_then(|()| {
@@ -197,14 +196,14 @@ impl Staging {
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        // Where the only copy cannot be put back, it stays for the next run to put back.
+        // If the old content cannot be restored, keep it for the next run to restore.
         if rescue(&self.workplace, &self.target) {
             remove(&self.workplace);
         }
     }
 }
 
-/// The target as a path that renaming works on.
+/// The target as a path that `rename` accepts.
 fn place(target: &Path) -> Result<PathBuf, StagingError> {
     let refuse = |reason: &str| {
         Err(StagingError::Place {
@@ -245,8 +244,7 @@ fn parent(target: &Path) -> PathBuf {
     }
 }
 
-/// Puts the old content back where a run ended between two renames. `false` where that is needed
-/// and cannot be done.
+/// Restores the old content if a run ended between two renames. `false` if that is needed and fails.
 fn rescue(workplace: &Path, target: &Path) -> bool {
     let old = workplace.join(OLD);
     let is_gone = fs::symlink_metadata(target).is_err();
@@ -256,7 +254,7 @@ fn rescue(workplace: &Path, target: &Path) -> bool {
     }
 }
 
-/// Takes a folder away, read-only folders in it too.
+/// Removes a folder, including read-only folders in it.
 fn remove(folder: &Path) {
     if fs::remove_dir_all(folder).is_err() {
         make_writable(folder);
@@ -282,7 +280,7 @@ fn make_writable(folder: &Path) {
     }
 }
 
-/// Gives each folder and file of the new content the mode of what it takes the place of.
+/// Gives each new folder and file the permissions of the one it replaces.
 fn keep_modes(old: &Path, new: &Path) -> io::Result<()> {
     let Ok(before) = fs::symlink_metadata(old) else {
         return Ok(());
@@ -297,7 +295,7 @@ fn keep_modes(old: &Path, new: &Path) -> io::Result<()> {
             keep_modes(&old.join(&name), &new.join(&name))?;
         }
     }
-    // The folder last: it may be read-only.
+    // The folder last: it may become read-only.
     match before.permissions() == after.permissions() {
         true => Ok(()),
         false => fs::set_permissions(new, before.permissions()),
@@ -305,7 +303,7 @@ fn keep_modes(old: &Path, new: &Path) -> io::Result<()> {
 }
 
 fn put(content: &Path, target: &Path, old: &Path) -> io::Result<()> {
-    // Onto nothing, or (on Unix) an empty folder.
+    // Succeeds if the target is missing, or (on Unix) an empty folder.
     let error = match fs::rename(content, target) {
         Ok(()) => return Ok(()),
         Err(error) => error,
@@ -322,14 +320,14 @@ fn put(content: &Path, target: &Path, old: &Path) -> io::Result<()> {
     })
 }
 
-/// Exchanges two folders at once; `false` where that cannot be done here.
+/// Exchanges two folders atomically. `false` if unsupported.
 #[cfg(any(target_os = "linux", target_os = "macos"))]
 fn exchange(one: &Path, other: &Path) -> io::Result<bool> {
     use rustix::fs::{CWD, RenameFlags, renameat_with};
     use rustix::io::Errno;
     match renameat_with(CWD, one, CWD, other, RenameFlags::EXCHANGE) {
         Ok(()) => Ok(true),
-        // Not every file system can.
+        // Not supported by every file system.
         Err(Errno::INVAL | Errno::NOSYS | Errno::NOTSUP) => Ok(false),
         Err(error) => Err(error.into()),
     }

@@ -1,4 +1,4 @@
-//! Replacing what is in a folder that has to stay itself: somebody stands in it.
+//! Replaces the contents of a folder but keeps the folder itself, because it is in use as a current folder.
 
 use std::ffi::OsString;
 use std::fs;
@@ -7,9 +7,9 @@ use std::path::Path;
 
 use crate::discover::ROOT_METADATA;
 
-/// Puts each entry of `content` into `target`, and what stood there into `old`. Where one cannot be put, all are as they
-/// were before. Entries of `target` that `content` does not have go too. `urdd.json` is put last: until then the hashes
-/// say that the folder is not whole.
+/// Moves each entry of `content` into `target`, and the replaced ones into `old`. On failure, restores all of them.
+/// Removes entries of `target` that `content` lacks. Moves `urdd.json` last: until then, the hashes show that the
+/// folder is incomplete.
 pub(super) fn put(content: &Path, target: &Path, old: &Path) -> io::Result<()> {
     fs::create_dir(old)?;
     put_into(content, target, old)
@@ -33,7 +33,7 @@ fn put_into(content: &Path, target: &Path, old: &Path) -> io::Result<()> {
         return fs::remove_dir_all(old);
     };
     for name in &names {
-        // New ones go back first, so that old ones have their place.
+        // Move new entries back first, to make room for the old ones.
         if fs::symlink_metadata(content.join(name)).is_err() {
             fs::rename(target.join(name), content.join(name))?;
         }
@@ -42,7 +42,7 @@ fn put_into(content: &Path, target: &Path, old: &Path) -> io::Result<()> {
     Err(error)
 }
 
-/// Puts back what a run that ended in the middle has taken out of `target` and not replaced.
+/// Restores entries of `target` that an interrupted run removed and did not replace.
 pub(super) fn put_back(old: &Path, target: &Path) -> io::Result<()> {
     if !old.is_dir() || !target.is_dir() {
         return Ok(());
@@ -55,7 +55,7 @@ pub(super) fn put_back(old: &Path, target: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// The names in a folder, `urdd.json` last.
+/// The names in a folder, with `urdd.json` last.
 fn names(folder: &Path) -> io::Result<Vec<OsString>> {
     let entries = fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name()));
     let mut names = entries.collect::<io::Result<Vec<OsString>>>()?;
@@ -115,7 +115,7 @@ mod tests {
         let target = folder(&[("a/x", "1"), ("b/x", "1"), ("urdd.json", "1")]);
         let before = content(target.path());
         let new = folder(&[("a/x", "2"), ("b/x", "2"), ("urdd.json", "2")]);
-        // A folder that is not empty is in the place to which the old `b` would go.
+        // A non-empty folder occupies the path to which the old `b` would move.
         let old = folder(&[("b/occupied", "")]);
         let taken = old.path().to_owned();
         let done = put_into(new.path(), target.path(), &taken);

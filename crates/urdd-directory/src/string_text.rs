@@ -1,8 +1,8 @@
-//! The one way to write a string; [`super::canonical`] has the rule in words.
+//! The canonical form of strings. [`super::canonical`] specifies it.
 
 use std::fmt::{self, Write};
 
-/// The language that is written.
+/// The output language.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Language {
     /// JSON.
@@ -11,14 +11,14 @@ pub enum Language {
     Yaml,
 }
 
-/// A string in double quotes, as YAML reads it.
+/// A string in double quotes, as YAML.
 pub fn yaml_quoted(text: &str) -> String {
     let mut quoted = String::new();
     let _ = write_quoted(text, Language::Yaml, &mut quoted);
     quoted
 }
 
-/// Writes a string: plain where the language has that and it is safe, else quoted.
+/// Writes a string: plain if the language allows it and it is safe, else quoted.
 pub fn write_string(text: &str, language: Language, out: &mut impl Write) -> fmt::Result {
     if language == Language::Yaml && is_plain(text) {
         out.write_str(text)
@@ -27,7 +27,7 @@ pub fn write_string(text: &str, language: Language, out: &mut impl Write) -> fmt
     }
 }
 
-/// Whether a string may stand in YAML without quotes and be a string to everyone.
+/// Whether every YAML reader takes the unquoted text for a string.
 fn is_plain(text: &str) -> bool {
     const WORDS: [&str; 9] = ["y", "n", "yes", "no", "on", "off", "true", "false", "null"];
     let mut bytes = text.bytes();
@@ -65,7 +65,7 @@ pub fn write_quoted(text: &str, language: Language, out: &mut impl Write) -> fmt
 fn must_escape(c: char, language: Language) -> bool {
     match c {
         '"' | '\\' | '\0'..='\u{1f}' => true,
-        // Not printable to YAML, or a line break to YAML 1.1.
+        // Not printable in YAML, or a line break in YAML 1.1.
         '\u{7f}'..='\u{9f}' | '\u{2028}' | '\u{2029}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}' => {
             language == Language::Yaml
         }

@@ -1,15 +1,15 @@
-//! Taking over files and folders as they are: a second name for a file where the file system can, else a copy; a symbolic
-//! link as one.
+//! Copies files and folders unchanged: hard links where the file system supports them, else copies. A symbolic link
+//! stays a symbolic link.
 
 use std::fs;
 use std::path::Path;
 
 use super::staging::StagingError;
 
-/// Takes over a file, a symbolic link or a folder. What is at `to` must not be there yet.
+/// Copies a file, a symbolic link or a folder. `to` must not exist.
 ///
 /// # Errors
-/// Where something cannot be read or written.
+/// If something cannot be read or written.
 pub fn take(from: &Path, to: &Path) -> Result<(), StagingError> {
     let kind = fs::symlink_metadata(from).map_err(|error| unread(from, error))?;
     match kind.is_dir() {
@@ -21,7 +21,7 @@ pub fn take(from: &Path, to: &Path) -> Result<(), StagingError> {
     }
 }
 
-/// Takes over what is in a folder, but files of which `without` says so, by their path in it. `to` is there.
+/// Copies a folder's contents, except files for whose relative path `without` returns true. `to` must exist.
 ///
 /// # Errors
 /// As for [`take`].

@@ -1,8 +1,7 @@
-//! One run at a time into one place.
+//! Allows one run at a time per target.
 //!
-//! Beside the place stands, while a run is at work, a file that the run holds locked. The operating
-//! system lets go of the lock when the run ends, however it ends. So whoever gets it knows that no
-//! other run is alive there.
+//! A run locks a file beside the target. The operating system releases the lock when the run ends, even after a crash.
+//! So a run that gets the lock knows that no other run is active there.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
@@ -16,31 +15,31 @@ use super::layout::STAGING_PREFIX;
 use crate::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
 
-/// How long to wait before the lock is tried again.
+/// Pause between attempts to get the lock.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// The right to write at a place, until it is dropped.
+/// Exclusive access to a target, until dropped.
 #[derive(Debug)]
 pub struct TargetLock {
     path: PathBuf,
-    /// Dropped after the file's name is gone: who waits sees that it waited for another file.
+    /// Dropped after the file is removed, so that waiting runs notice that they waited for a removed file.
     _file: File,
 }
 
-/// Why there is no lock.
+/// Why the lock was not acquired.
 #[derive(Debug)]
 pub enum LockError {
-    /// The caller was asked to stop while it waited.
+    /// The wait was cancelled.
     Cancelled,
-    /// The file system has no locks, or the file cannot be made.
+    /// The file system does not support locks, or the file cannot be created.
     Io(io::Error),
 }
 
 impl TargetLock {
-    /// Waits for the right to write at `target`, whose folder is there.
+    /// Waits for exclusive access to `target`, whose parent folder must exist.
     ///
     /// # Errors
-    /// Where the wait was cancelled, or the file system cannot lock.
+    /// If the wait was cancelled, or the file system does not support locks.
     pub fn acquire(target: &Path, cancellation: &Cancellation) -> Result<Self, LockError> {
         loop {
             if let Some(lock) = Self::at_once(target).map_err(LockError::Io)? {
@@ -53,17 +52,17 @@ impl TargetLock {
         }
     }
 
-    /// The right to write at `target`; `None` while another run has it.
+    /// Acquires exclusive access to `target` without waiting; `None` while another run has it.
     ///
     /// # Errors
-    /// Where the file system cannot lock.
+    /// If the file system does not support locks.
     pub fn at_once(target: &Path) -> io::Result<Option<Self>> {
         let path = beside(target, ".lock");
         loop {
             let file = open(&path)?;
             match file.try_lock() {
                 Ok(()) if is_at(&file, &path) => return Ok(Some(TargetLock { path, _file: file })),
-                // The run before took the file away after this one opened it.
+                // The previous run removed the file after this one opened it.
                 Ok(()) => continue,
                 Err(TryLockError::WouldBlock) => return Ok(None),
                 Err(TryLockError::Error(error)) => {
@@ -81,7 +80,7 @@ impl Drop for TargetLock {
     }
 }
 
-/// A path beside a place, of a name that is short, however long the place's name is.
+/// A path beside the target with a short name, regardless of the length of the target's name.
 pub(super) fn beside(target: &Path, ending: &str) -> PathBuf {
     let name = target.file_name().unwrap_or_default();
     let hash = Sha256::digest(name.as_encoded_bytes());

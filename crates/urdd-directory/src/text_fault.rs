@@ -1,14 +1,14 @@
-//! What can be wrong with the text of a JSON or YAML file, whatever it describes.
+//! Faults in the text of a JSON or YAML file, independent of its content.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
 use super::position::Position;
 
-/// How many faults of one kind are kept with their place; the rest are only counted.
+/// Number of faults of each kind that are kept; further ones are only counted.
 pub const KEPT_PER_KIND: usize = 5;
 
-/// The kinds of fault that text can have.
+/// The kinds of text fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum TextFaultKind {
     /// The file is not JSON.
@@ -17,11 +17,11 @@ pub enum TextFaultKind {
     NotUtf8,
     /// The JSON file begins with a byte order mark.
     ByteOrderMark,
-    /// A JSON object names a member twice.
+    /// A JSON object has a duplicate member.
     DuplicateKey,
     /// `NaN`, `Infinity`, or a number too large for a 64-bit float.
     NonFiniteNumber,
-    /// The JSON is nested more deeply than any reader should have to follow.
+    /// The JSON is nested deeper than the limit.
     TooDeep,
     /// The file is not YAML.
     YamlSyntax,
@@ -29,21 +29,21 @@ pub enum TextFaultKind {
     YamlNotUtf8,
     /// The YAML file begins with a byte order mark.
     YamlByteOrderMark,
-    /// A node carries a tag, such as `!Mesh`.
+    /// A node has a tag, such as `!Mesh`.
     YamlTag,
     /// An anchor (`&a`) or an alias (`*a`).
     YamlAnchorOrAlias,
     /// A merge key (`<<`).
     YamlMergeKey,
-    /// A YAML mapping names a key twice.
+    /// A YAML mapping has a duplicate key.
     YamlDuplicateKey,
-    /// Something that YAML 1.1 and YAML 1.2 read differently.
+    /// A scalar that YAML 1.1 and YAML 1.2 read differently.
     YamlAmbiguousScalar,
-    /// The YAML does not say what the JSON says.
+    /// The YAML differs from the JSON.
     YamlDiffers,
-    /// The YAML is nested more deeply than any reader should have to follow.
+    /// The YAML is nested deeper than the limit.
     YamlTooDeep,
-    /// More than one document in the file.
+    /// The file contains more than one document.
     YamlSeveralDocuments,
     /// A directive, such as `%YAML 1.1`.
     YamlDirective,
@@ -51,25 +51,25 @@ pub enum TextFaultKind {
     YamlNonStringKey,
 }
 
-/// One fault, with the place where it stands.
+/// One fault, with its position.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TextFault {
     /// What is wrong.
     pub kind: TextFaultKind,
-    /// RFC 6901 pointer to the value, where the fault has one.
+    /// RFC 6901 pointer to the value, if there is one.
     pub pointer: Option<String>,
-    /// Where in the file, where the fault has a place.
+    /// Position in the file, if there is one.
     pub position: Option<Position>,
-    /// What is wrong and what to do about it, for a person.
+    /// What is wrong and how to fix it.
     pub message: String,
-    /// What was expected, where something definite was.
+    /// The expected content, if it is known.
     pub expected: Option<String>,
-    /// What stands there.
+    /// The actual content.
     pub found: Option<String>,
 }
 
 impl TextFault {
-    /// A fault that has neither place nor comparison yet.
+    /// A fault without position and comparison.
     pub fn new(kind: TextFaultKind, message: impl Into<String>) -> Self {
         Self {
             kind,
@@ -81,14 +81,14 @@ impl TextFault {
         }
     }
 
-    /// The same fault, standing at `position`.
+    /// Sets the position of the fault.
     #[must_use]
     pub fn at(mut self, position: Position) -> Self {
         self.position = Some(position);
         self
     }
 
-    /// The same fault, of the value at `pointer`.
+    /// Sets the pointer of the fault.
     #[must_use]
     pub fn of(mut self, pointer: String) -> Self {
         self.pointer = Some(pointer);
@@ -105,10 +105,9 @@ impl fmt::Display for TextFault {
     }
 }
 
-/// The faults of one file: the first few of each kind, and how many of each there were.
+/// The faults of one file: the first few of each kind, and the total of each kind.
 ///
-/// A generated file repeats its mistake a hundred thousand times; five examples and a count say
-/// the same.
+/// A generated file may repeat a mistake a hundred thousand times; a few examples and a count say the same.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct TextFaults {
     kept: Vec<TextFault>,
@@ -116,7 +115,7 @@ pub struct TextFaults {
 }
 
 impl TextFaults {
-    /// Counts a fault of `kind`; `fault` is called only when it is one of the first of its kind.
+    /// Counts a fault of `kind`. Calls `fault` only for the first few of each kind.
     pub fn add(&mut self, kind: TextFaultKind, fault: impl FnOnce() -> TextFault) {
         let total = self.totals.entry(kind).or_insert(0);
         *total += 1;
@@ -127,27 +126,27 @@ impl TextFaults {
         }
     }
 
-    /// Counts a fault that is already at hand.
+    /// Counts an existing fault.
     pub fn push(&mut self, fault: TextFault) {
         self.add(fault.kind, || fault);
     }
 
-    /// Whether nothing is wrong.
+    /// Whether there are no faults.
     pub fn is_empty(&self) -> bool {
         self.totals.is_empty()
     }
 
-    /// How many faults of this kind there were, kept or not.
+    /// Total number of faults of this kind, kept or not.
     pub fn total(&self, kind: TextFaultKind) -> usize {
         self.totals.get(&kind).copied().unwrap_or(0)
     }
 
-    /// Every kind that occurred, with its number of faults.
+    /// Every kind that occurred, with its total.
     pub fn totals(&self) -> impl Iterator<Item = (TextFaultKind, usize)> + '_ {
         self.totals.iter().map(|(&kind, &total)| (kind, total))
     }
 
-    /// The faults that were kept, in the order in which they were found.
+    /// The kept faults, in the order in which they were found.
     pub fn iter(&self) -> std::slice::Iter<'_, TextFault> {
         self.kept.iter()
     }
@@ -173,11 +172,11 @@ impl fmt::Display for TextFaults {
     }
 }
 
-/// The text has no value to go on with; the faults say why.
+/// The text has no usable value; the faults say why.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{faults}")]
 pub struct UnreadableText {
-    /// What is wrong; never empty.
+    /// The faults; never empty.
     pub faults: TextFaults,
 }
 

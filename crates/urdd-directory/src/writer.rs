@@ -1,4 +1,4 @@
-//! Writing files, with what `urdd.json` says of them.
+//! Writes files, and returns their entries for `urdd.json`.
 
 use std::fs::{self, File};
 use std::io::{Read, Write};
@@ -20,16 +20,16 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Into `root`, which exists.
+    /// A writer into `root`, which must exist.
     pub fn new(root: &Path) -> Self {
         let root = root.to_owned();
         Self { root }
     }
 
-    /// Writes a file; `path` is relative to the root, with forward slashes.
+    /// Writes a file. `path` is relative to the root, with forward slashes.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// If it cannot be written.
     pub fn file(&self, path: &str, bytes: &[u8]) -> Result<FileEntry, StagingError> {
         let mut file = self.create(path)?;
         self.check(path, file.write_all(bytes))?;
@@ -40,10 +40,10 @@ impl Writer {
         ))
     }
 
-    /// Copies a file from elsewhere.
+    /// Copies an external file.
     ///
     /// # Errors
-    /// Where it cannot be read, or its copy not written.
+    /// If it cannot be read, or its copy cannot be written.
     pub fn copy(&self, from: &Path, path: &str) -> Result<FileEntry, StagingError> {
         let unread = |error| StagingError::Read {
             path: from.to_owned(),
@@ -64,11 +64,10 @@ impl Writer {
         }
     }
 
-    /// Takes over a file from the URDD that is to be replaced: a second name for it where the file
-    /// system can, else a copy.
+    /// Takes over a file from the URDD to be replaced: a hard link where the file system supports it, else a copy.
     ///
     /// # Errors
-    /// Where it cannot be read, or written.
+    /// If it cannot be read or written.
     pub fn keep(&self, from: &Path, path: &str) -> Result<(), StagingError> {
         let to = self.place(path)?;
         if fs::hard_link(from, &to).is_err() {
@@ -80,7 +79,7 @@ impl Writer {
     /// Writes `VERSION`, `module.json` and `module.yaml` of a module.
     ///
     /// # Errors
-    /// Where one cannot be written.
+    /// If one cannot be written.
     pub fn module(
         &self,
         kind: ModuleKind,
@@ -98,7 +97,7 @@ impl Writer {
         ])
     }
 
-    /// Writes a document in its canonical emission, without holding the text in memory.
+    /// Writes a document in its canonical form, without holding the text in memory.
     fn document(
         &self,
         path: &str,
@@ -114,7 +113,7 @@ impl Writer {
         };
         let emitted = emit(document, &mut sink).and_then(|()| sink.flush());
         let result = match (sink.error.take(), emitted) {
-            // The sink remembers why it failed.
+            // The sink stores the I/O error.
             (Some(error), _) => Err(error),
             (None, Err(error)) => Err(std::io::Error::other(error)),
             (None, Ok(())) => Ok(()),
@@ -128,7 +127,7 @@ impl Writer {
         File::create(&place).map_err(|error| StagingError::Write { path: place, error })
     }
 
-    /// The path on disk, its folder made.
+    /// The path on disk. Creates its parent folder.
     fn place(&self, path: &str) -> Result<PathBuf, StagingError> {
         let place = self.root.join(path);
         if let Some(folder) = place.parent() {
@@ -148,10 +147,10 @@ impl Writer {
     }
 }
 
-/// So many bytes are hashed and written at once.
+/// Number of bytes hashed and written at once.
 const WRITTEN_AT_ONCE: usize = 1 << 16;
 
-/// Text on its way into a file.
+/// A buffered, hashing text sink for a file.
 pub struct Sink {
     file: File,
     waiting: String,
@@ -187,13 +186,13 @@ impl std::fmt::Write for Sink {
 fn entry(path: &str, size: u64, hash: &[u8]) -> FileEntry {
     FileEntry {
         path: path.to_owned(),
-        // SPEC counts with 32 bits; a file that is larger is told by the validator.
+        // SPEC limits sizes to 32 bits; the validator reports larger files.
         size: Count(u32::try_from(size).unwrap_or(u32::MAX)),
         sha256: sha256(hash),
     }
 }
 
-/// A hash as `urdd.json` writes it.
+/// A hash in the form of `urdd.json`.
 pub fn sha256(hash: &[u8]) -> root_metadata::Sha256 {
     root_metadata::Sha256::new(hexadecimal(hash)).unwrap_or_else(|| unreachable!("64 digits"))
 }

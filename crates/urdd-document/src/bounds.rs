@@ -1,9 +1,9 @@
-//! `bounds_module`, whatever its version.
+//! Version-independent view of `bounds_module`.
 
 use urdd_format::bounds::BoundsModule;
 use urdd_format::registry::ModuleDocument;
 
-/// The bounds.
+/// Bounds of all DOFs.
 #[derive(Debug, Clone, Copy)]
 pub struct Bounds<'a> {
     /// `bounds`
@@ -12,7 +12,7 @@ pub struct Bounds<'a> {
     pub lower: &'a [f64],
     /// `dof_upper_bounds`
     pub upper: &'a [f64],
-    /// The module of version 1, which says more.
+    /// The module, if it is of version 1, which has more fields.
     pub v1: Option<&'a BoundsModule>,
 }
 

@@ -1,4 +1,4 @@
-//! Finding and reading the source URDF that a URDD carries.
+//! Finds and reads the source URDF in a URDD.
 
 use thiserror::Error;
 
@@ -7,35 +7,35 @@ use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::root::{EntryKind, Listing, ReadError, Root};
 use urdd_format::root_metadata::Source;
 
-/// Longest source URDF that is read, bytes.
+/// Largest source URDF, bytes.
 const MAX_URDF_BYTES: u64 = 64 << 20;
 
-/// The source URDF that a URDD carries.
+/// The source URDF in a URDD.
 pub struct CarriedUrdf {
     /// Path relative to the root.
     pub path: String,
-    /// Its text; what is not UTF-8 is replaced.
+    /// Its text, with invalid UTF-8 replaced.
     pub text: String,
-    /// The first byte that is not UTF-8, where there is one.
+    /// Byte offset of the first invalid UTF-8, if any.
     pub not_utf8_at: Option<usize>,
 }
 
-/// Why there is no source URDF to look at.
+/// Why the source URDF is not available.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum NoUrdf {
-    /// The root metadata cannot be used, so the source is not known.
+    /// The root metadata is unusable, so the source is unknown.
     #[error("{ROOT_METADATA} does not fit its schema, so the source is not known")]
     MetadataUnusable,
-    /// Only some modules were read.
+    /// Only selected modules were read.
     #[error("the URDF was not read")]
     NotRead,
-    /// The root metadata names no source.
+    /// The root metadata does not name a source.
     #[error("the root metadata names no source")]
     NoSource,
-    /// Without root metadata: there is no `.urdf` in the root.
+    /// No root metadata, and no `.urdf` file in the root.
     #[error("no URDF file is carried")]
     NoneCarried,
-    /// Without root metadata: there are several, and none has the folder's name.
+    /// No root metadata, and several `.urdf` files, none named after the folder.
     #[error("several URDF files are carried, and none is named as the folder is")]
     Several,
     /// The file cannot be read.
@@ -51,7 +51,7 @@ pub enum NoUrdf {
 /// Reads the source URDF.
 ///
 /// # Errors
-/// Where none is carried, or it cannot be read: why.
+/// If the URDD contains none, or it cannot be read.
 pub(super) fn read(
     root: &Root,
     listing: &Listing,
@@ -70,10 +70,10 @@ pub(super) fn read(
     read_file(root, &path).map_err(|error| NoUrdf::Unreadable { path, error })
 }
 
-/// Reads a URDF in a folder.
+/// Reads a URDF file below a root.
 ///
 /// # Errors
-/// Where it cannot be read.
+/// If it cannot be read.
 pub fn read_file(root: &Root, path: &str) -> Result<CarriedUrdf, ReadError> {
     let bytes = root.read(path, MAX_URDF_BYTES)?;
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
@@ -87,7 +87,7 @@ pub fn read_file(root: &Root, path: &str) -> Result<CarriedUrdf, ReadError> {
     })
 }
 
-/// Without root metadata: the one `.urdf` in the root, or the one that is named as the folder is.
+/// Without root metadata: the only `.urdf` file in the root, or the one named after the folder.
 fn lone_urdf(root: &Root, listing: &Listing) -> Result<String, NoUrdf> {
     let mut urdfs = listing
         .entries

@@ -1,21 +1,21 @@
-//! `chain_module`, whatever its version.
+//! Version-independent view of `chain_module`.
 
 use urdd_format::chain::ChainModule;
 use urdd_format::index::{JointIdx, LinkIdx};
 use urdd_format::registry::ModuleDocument;
 
-/// The kinematic tree as the module has it.
+/// The kinematic tree of the module.
 #[derive(Debug, Clone)]
 pub struct Chain<'a> {
     /// Its links.
     pub links: Vec<ChainLink<'a>>,
     /// Its joints.
     pub joints: Vec<ChainJoint<'a>>,
-    /// Links by depth.
+    /// Links grouped by depth.
     pub hierarchy: &'a [Vec<LinkIdx>],
-    /// The root.
+    /// The root link.
     pub root: LinkIdx,
-    /// The module of version 1, which says more.
+    /// The module, if it is of version 1, which has more fields.
     pub v1: Option<&'a ChainModule>,
 }
 

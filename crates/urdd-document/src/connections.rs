@@ -1,4 +1,4 @@
-//! `connections_module`, whatever its version.
+//! Version-independent view of `connections_module`.
 
 use urdd_format::connections::ConnectionsModule;
 use urdd_format::index::LinkIdx;
@@ -9,7 +9,7 @@ use urdd_format::registry::ModuleDocument;
 pub struct Connections<'a> {
     /// `link_connection_paths`
     pub descendant_paths: Option<&'a [Vec<Option<Vec<LinkIdx>>>]>,
-    /// The module of version 1, which says more.
+    /// The module, if it is of version 1, which has more fields.
     pub v1: Option<&'a ConnectionsModule>,
 }
 

@@ -1,5 +1,5 @@
-//! What a consumer's kinematics is computed from: `chain_module` and `dof_module`, and for legacy
-//! URDDs `urdf_module` besides, which alone has origins and axes then.
+//! The modules that a consumer computes kinematics from: `chain_module` and `dof_module`. In legacy URDDs, only
+//! `urdf_module` has origins and axes.
 
 use crate::robot::Robot;
 use crate::urdd::Urdd;
@@ -10,7 +10,7 @@ use urdd_format::urdf::JointType;
 use urdd_kinematics::pose::from_isometry;
 use urdd_kinematics::rotation;
 
-/// The two modules from which a consumer computes poses.
+/// The two modules that a consumer computes poses from.
 pub struct ConsumerModules {
     /// The kinematic tree.
     pub chain: ChainModule,
@@ -18,8 +18,7 @@ pub struct ConsumerModules {
     pub dof: DofModule,
 }
 
-/// The modules of a URDD as a consumer of version 1 wants them; `None` where one is missing, or
-/// where legacy modules leave something open.
+/// The modules of a URDD in the form of version 1. `None` if one is missing, or if legacy modules are incomplete.
 pub fn modules(urdd: &Urdd) -> Option<ConsumerModules> {
     let (chain, dofs) = (urdd.chain()?, urdd.dofs()?);
     if let (Some(chain), Some(dof)) = (chain.v1, dofs.v1) {
@@ -84,8 +83,7 @@ pub fn modules(urdd: &Urdd) -> Option<ConsumerModules> {
     })
 }
 
-/// Mimics as `urdf_module` has them; a mimic joint with a DOF of its own (`dof_module` 0.0.1)
-/// follows that.
+/// The mimics of `urdf_module`. A mimic joint with its own DOF (`dof_module` 0.0.1) follows that DOF.
 fn legacy_mimics(
     urdd: &Urdd,
     robot: &Robot,

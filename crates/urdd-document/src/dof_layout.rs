@@ -1,4 +1,4 @@
-//! The degrees of freedom that a robot has (SPEC 5.8).
+//! The degrees of freedom of a robot (SPEC 5.8).
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -10,14 +10,14 @@ use urdd_format::urdf::JointType;
 /// The degrees of freedom of a robot, in joint order.
 #[derive(Debug, Clone)]
 pub struct DofLayout {
-    /// For each joint, its DOFs.
+    /// DOFs of each joint.
     pub dofs_of_joint: Vec<Range<usize>>,
-    /// For each DOF, its joint.
+    /// Joint of each DOF.
     pub joint_of_dof: Vec<usize>,
 }
 
 impl DofLayout {
-    /// The degrees of freedom of a robot; `mimics_too` where mimic joints have their own.
+    /// The degrees of freedom of a robot. With `mimics_too`, mimic joints have their own.
     pub fn new(robot: &Robot, mimics_too: bool) -> DofLayout {
         let mut layout = DofLayout {
             dofs_of_joint: Vec::with_capacity(robot.joints.len()),
@@ -35,7 +35,7 @@ impl DofLayout {
         layout
     }
 
-    /// The joint of a DOF, and which of that joint's DOFs it is.
+    /// The joint of a DOF, and its place among that joint's DOFs.
     pub fn place(&self, dof: usize) -> Option<(usize, usize)> {
         let joint = *self.joint_of_dof.get(dof)?;
         let first = self.dofs_of_joint.get(joint)?.start;
@@ -43,7 +43,7 @@ impl DofLayout {
     }
 }
 
-/// Number of DOFs that a joint has of its own: a mimic joint that would have one has none.
+/// Number of DOFs that a joint contributes to the robot. A mimic joint of a single-DOF type contributes none.
 pub fn own_dofs(joint: &Joint) -> usize {
     match (joint.num_dofs(), &joint.mimic) {
         (1, Some(_)) => 0,
@@ -51,8 +51,8 @@ pub fn own_dofs(joint: &Joint) -> usize {
     }
 }
 
-/// What follows the joint's name in the name of its DOF (nothing for a joint of one DOF), and what
-/// the DOF measures. `place` is the place among the joint's DOFs.
+/// The suffix that a DOF's name adds to its joint's name (empty for a joint with one DOF), and the quantity that it
+/// measures. `place` is its place among the joint's DOFs.
 pub fn describe(joint_type: JointType, place: usize) -> Option<(&'static str, Quantity)> {
     use Quantity::{Angle, Length};
     let dofs: &[(&str, Quantity)] = match joint_type {
@@ -73,7 +73,7 @@ pub fn describe(joint_type: JointType, place: usize) -> Option<(&'static str, Qu
     dofs.get(place).copied()
 }
 
-/// The bounds of a DOF that nothing limits (SPEC 6.5.3). `place` is the place among the joint's DOFs.
+/// Bounds of an unlimited DOF (SPEC 6.5.3). `place` is its place among the joint's DOFs.
 pub fn bounds_without_limits(joint_type: JointType, place: usize) -> Option<[f64; 2]> {
     let (_, quantity) = describe(joint_type, place)?;
     let end = match quantity {

@@ -1,4 +1,4 @@
-//! `dof_module`, whatever its version.
+//! Version-independent view of `dof_module`.
 
 use urdd_format::dof::DofModule;
 use urdd_format::index::{Count, DofIdx, JointIdx};
@@ -9,11 +9,11 @@ use urdd_format::registry::ModuleDocument;
 pub struct Dofs<'a> {
     /// Number of DOFs.
     pub num_dofs: Count,
-    /// For each DOF, its joint.
+    /// Joint of each DOF.
     pub joint_of_dof: &'a [JointIdx],
-    /// For each joint, its DOFs.
+    /// DOFs of each joint.
     pub dofs_of_joint: &'a [Vec<DofIdx>],
-    /// The module of version 1, which says more.
+    /// The module, if it is of version 1, which has more fields.
     pub v1: Option<&'a DofModule>,
 }
 

@@ -1,5 +1,5 @@
-//! The drafts of this format that versions 0.1.0 and 0.2.0 of the program wrote, under the same module versions:
-//! how their documents are recognised (SPEC 4.4).
+//! Recognises documents of the format drafts that program versions 0.1.0 and 0.2.0 wrote under the same module versions
+//! (SPEC 4.4).
 
 use serde_json::{Value, json};
 
@@ -7,12 +7,12 @@ use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::registry::{ModuleKind, ModuleSpec};
 use urdd_format::self_collision_model::ModelEvaluation;
 
-/// What the draft derived `link_shapes_simple_skips_module` from.
+/// Modules that the draft derived `link_shapes_simple_skips_module` from.
 pub const SIMPLE_SKIPS_DEPENDENCIES: [ModuleKind; 2] =
     [ModuleKind::Chain, ModuleKind::LinkShapesDistanceStatistics];
 
-/// Whether a document that breaks its schema is one of a draft: that of `link_shapes_skips_module` without
-/// `skipped_reasons`, or that of `self_collision_model_module` with `held_out` for `evaluation`, all else being right.
+/// Whether a document that breaks its schema is otherwise a valid draft: `link_shapes_skips_module` without
+/// `skipped_reasons`, or `self_collision_model_module` with `held_out` instead of `evaluation`.
 pub(super) fn is_draft(spec: &ModuleSpec, document: &Value) -> bool {
     let Some(object) = document.as_object() else {
         return false;

@@ -1,4 +1,4 @@
-//! The modules that `urdd.json` lists, side by side with those that are there.
+//! Matches the modules that `urdd.json` lists with the module folders.
 
 use std::collections::{HashMap, HashSet};
 
@@ -9,29 +9,28 @@ use urdd_directory::root::{EntryKind, ReadError};
 use urdd_format::registry::{self, ModuleKind, Profile};
 use urdd_format::root_metadata::ModuleEntry;
 
-/// The files that every module has, by 2.4, and that an extension has by 11.1.
+/// The files of every module (2.4) and every extension (11.1).
 pub const MODULE_FILES: [&str; 3] = ["VERSION", "module.json", "module.yaml"];
 
 /// An entry of `modules` of `urdd.json`.
 pub struct Entry<'a> {
-    /// Its place in `modules`.
+    /// Its index in `modules`.
     pub index: usize,
-    /// What it says.
+    /// Its content.
     pub entry: &'a ModuleEntry,
-    /// The module of this specification that it means, by its name or else by its path.
+    /// The module of this specification with its name, or else with its path.
     pub kind: Option<ModuleKind>,
-    /// The folder that is there under its path.
+    /// The module folder at its path, if it exists.
     pub module: Option<&'a Module>,
 }
 
 impl Entry<'_> {
-    /// Pointer to one of its keys.
+    /// JSON Pointer to one of its keys.
     pub fn pointer(&self, key: &str) -> String {
         format!("/modules/{}/{key}", self.index)
     }
 
-    /// Whether one of the files in its list has a fault of its own, of which another rule tells:
-    /// a path that may not be, that leads to nothing, or that is there twice.
+    /// Whether a listed file has a fault that another rule reports: an invalid path, a missing file, or a duplicate.
     pub fn has_faulty_file(&self, urdd: &Urdd) -> bool {
         let mut seen = HashSet::new();
         self.entry.files.iter().any(|file| {
@@ -41,14 +40,14 @@ impl Entry<'_> {
         })
     }
 
-    /// Whether a path lies in its folder.
+    /// Whether a path is inside its folder.
     pub fn holds(&self, path: &str) -> bool {
         path.strip_prefix(self.entry.path.as_str())
             .is_some_and(|rest| rest.starts_with('/'))
     }
 }
 
-/// Every entry, in order; none where the root metadata is of no use.
+/// Every entry, in order. Empty if the root metadata is unusable.
 pub fn all(urdd: &Urdd) -> Vec<Entry<'_>> {
     let Some(metadata) = urdd.metadata() else {
         return Vec::new();
@@ -93,8 +92,8 @@ fn has_version_1(kind: ModuleKind) -> bool {
         .any(|spec| spec.kind == kind && spec.profile == Profile::V1)
 }
 
-/// Whether a module folder is of this specification (in a legacy URDD: or of those before it), or
-/// an extension. Of others, DIR022 tells, and no other rule does.
+/// Whether a module folder is a module of this specification (in a legacy URDD: or of earlier versions), or an
+/// extension. Only DIR022 reports other folders.
 pub fn is_known(urdd: &Urdd, module: &Module) -> bool {
     match module.kind {
         Some(kind) => urdd.profile() == Profile::Legacy || has_version_1(kind),
@@ -102,18 +101,17 @@ pub fn is_known(urdd: &Urdd, module: &Module) -> bool {
     }
 }
 
-/// The module folders of which rules speak.
+/// The module folders that the rules check.
 pub fn known_modules(urdd: &Urdd) -> impl Iterator<Item = &Module> {
     urdd.modules()
         .iter()
         .filter(|module| is_known(urdd, module))
 }
 
-/// Whether there is a regular file at a path, and how long it is. What cannot be opened is judged
-/// by its place alone.
+/// The size of the regular file at a path. Does not check whether a listed file can be opened.
 ///
 /// # Errors
-/// Why there is none.
+/// Why there is no such file.
 pub fn look(urdd: &Urdd, path: &str) -> Result<u64, ReadError> {
     path::check(path)?;
     let listing = urdd.listing();
@@ -125,7 +123,7 @@ pub fn look(urdd: &Urdd, path: &str) -> Result<u64, ReadError> {
             EntryKind::Link => urdd.root().open_file(path).map(|(_, size)| size),
         };
     }
-    // Not listed, but below a link to a folder, or beyond where the listing stopped, it may be there.
+    // An unlisted file may still exist below a folder link, or beyond the point where the listing stopped.
     let mut above = std::iter::successors(Some(path), |path| {
         path.rsplit_once('/').map(|(parent, _)| parent)
     });

@@ -1,4 +1,4 @@
-//! A legacy `urdf_module` in the shape of version 1.
+//! Converts a legacy `urdf_module` to version 1.
 
 use urdd_format::legacy::urdf as legacy;
 use urdd_format::urdf::{
@@ -7,7 +7,7 @@ use urdd_format::urdf::{
     Sphere, Texture, UrdfModule, Visual,
 };
 
-/// The same robot. Legacy modules write zeros for masses and limits that the URDF does not have: those are absent here.
+/// The same robot in version 1. Legacy modules write zeros for missing masses and limits; these become absent.
 pub fn of_legacy(module: &legacy::UrdfModule) -> UrdfModule {
     UrdfModule {
         name: module.name.clone(),

@@ -1,8 +1,7 @@
-//! A URDD of any version, loaded, in one shape: files and modules as far as they could be read
-//! ([`urdd::Urdd`]), and views of them that version 1 and legacy modules share. Where a field has
-//! the same name in both, its pointer is the same too.
+//! A loaded URDD of any version: its files and modules as far as they are readable ([`urdd::Urdd`]), and
+//! version-independent views. Fields with the same name in both versions have the same pointer.
 //!
-//! What is here describes; what is right or wrong is for `validate` to say.
+//! This crate only describes; `validate` judges.
 
 pub mod bounds;
 pub mod carried_urdf;

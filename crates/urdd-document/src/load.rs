@@ -1,4 +1,4 @@
-//! Reading a URDD into memory, once, for all rules.
+//! Reads a URDD into memory once for all rules.
 
 use std::collections::{HashMap, HashSet};
 
@@ -17,30 +17,30 @@ use urdd_directory::yaml;
 use urdd_format::registry::{self, ModuleDocument, ModuleKind, ModuleSpec, Profile};
 use urdd_format::root_metadata::{RootMetadata, Version};
 
-/// Longest `VERSION` file that is read, bytes.
+/// Largest `VERSION` file, bytes.
 const MAX_VERSION_BYTES: u64 = 1024;
 
-/// A URDD, read.
+/// A URDD in memory.
 pub struct Loaded {
     /// Its root folder.
     pub root: Root,
-    /// What lies in it.
+    /// Its files and folders.
     pub listing: Listing,
     /// `urdd.json`.
     pub metadata: MetadataFile,
-    /// Its modules, in the order of the specification, others after them by folder.
+    /// Its modules in the order of the specification, then others by folder.
     pub modules: Vec<Module>,
-    /// The source URDF, or why there is none to look at.
+    /// The source URDF, or why it is not available.
     pub urdf: Result<CarriedUrdf, NoUrdf>,
-    /// The family of formats that it follows.
+    /// Its format family.
     pub profile: Profile,
 }
 
 impl Loaded {
-    /// Reads a URDD, wherever its files lie.
+    /// Reads a URDD from any root.
     ///
     /// # Errors
-    /// Where the root itself cannot be listed.
+    /// If the root itself cannot be listed.
     pub fn read(root: Root) -> Result<Self, ReadError> {
         let listing = root.list()?;
         let metadata = read_metadata(&root);
@@ -68,10 +68,10 @@ impl Loaded {
         })
     }
 
-    /// Reads some modules alone: no mirror, no URDF.
+    /// Reads only some modules, without mirrors and URDF.
     ///
     /// # Errors
-    /// Where the root itself cannot be listed.
+    /// If the root itself cannot be listed.
     pub fn read_only(root: Root, kinds: &[ModuleKind]) -> Result<Self, ReadError> {
         let listing = root.list()?;
         let metadata = read_metadata(&root);
@@ -100,7 +100,7 @@ impl Loaded {
     }
 }
 
-/// The family of formats that a URDD follows.
+/// The format family of a URDD.
 fn profile(metadata: &MetadataFile, modules: &[Module]) -> Profile {
     let any = |profile: Profile| {
         let mut specs = modules.iter().filter_map(|module| module.spec);
@@ -137,7 +137,7 @@ fn read_metadata(root: &Root) -> MetadataFile {
     file
 }
 
-/// Whether root metadata says that it follows a later minor version of the specification than this.
+/// Whether root metadata states a later version of the specification with the same major number.
 fn newer_minor(metadata: &serde_json::Value) -> bool {
     let version = metadata["urdd_version"]
         .as_str()
@@ -148,7 +148,7 @@ fn newer_minor(metadata: &serde_json::Value) -> bool {
     }
 }
 
-/// Every module folder: those of the registry first, then whatever else looks like a module.
+/// Every module folder: first those of the registry, then other folders that look like modules.
 fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
     let mut folders: Vec<(String, Option<ModuleKind>)> = ModuleKind::ALL
         .iter()
@@ -157,7 +157,7 @@ fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
         .collect();
     let known = folders.len();
     let mut inside: HashSet<String> = folders.iter().map(|(folder, _)| folder.clone()).collect();
-    // Sorted by path, so that a folder comes before what is in it.
+    // Sorted by path, so that a folder comes before its contents.
     for entry in listing
         .entries
         .iter()
@@ -183,12 +183,12 @@ fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
     folders
 }
 
-/// What is wanted of a module.
+/// How much of a module to read.
 #[derive(Clone, Copy)]
 enum Want<'a> {
-    /// What its document says.
+    /// Its parsed document.
     Document,
-    /// Its text and its mirror, too.
+    /// Also its text and its mirror.
     Mirror(&'a Listing),
 }
 
@@ -265,8 +265,8 @@ fn read_module(
     module
 }
 
-/// Takes the text of a large document, and what it says, without ever holding it as a value: where it has no fault, and
-/// the mirror, where that is wanted, is the canonical one.
+/// Takes the text of a large document and parses it without building a JSON value. `None` if it breaks the
+/// schema, or if a requested mirror is not canonical or the text has faults.
 fn take(
     spec: &ModuleSpec,
     json: &mut Vec<u8>,
@@ -291,7 +291,7 @@ fn read_yaml(root: &Root, listing: &Listing, file: &str) -> Result<Vec<u8>, Read
     root.read(file, MAX_DOCUMENT_BYTES)
 }
 
-/// The mirror of a module's document.
+/// Compares the mirror with a module's document.
 fn mirror(yaml: Result<Vec<u8>, ReadError>, module: &Module) -> Mirror {
     match (yaml, module.json.document()) {
         (Err(ReadError::Missing), _) => Mirror::Missing,
@@ -303,8 +303,8 @@ fn mirror(yaml: Result<Vec<u8>, ReadError>, module: &Module) -> Mirror {
     }
 }
 
-/// The version by which a module is read: that of its `VERSION` file, unless only the one in the root
-/// metadata is of the specification. Where the two differ, DIR007 tells.
+/// The version used to read a module: that of its `VERSION` file, unless only the one in the root metadata belongs to
+/// version 1 of the specification. DIR007 reports differences.
 fn choose_version(kind: Option<ModuleKind>, versions: [Option<&Version>; 2]) -> Option<String> {
     let of_version_1 = |version: &&Version| {
         let spec = kind.and_then(|kind| find_spec(kind, Some(version.as_str())).0);
@@ -317,8 +317,8 @@ fn choose_version(kind: Option<ModuleKind>, versions: [Option<&Version>; 2]) -> 
         .map(|version| version.as_str().to_owned())
 }
 
-/// The registry's entry for a version; for a newer minor or patch number than any that is known,
-/// the newest of that major number.
+/// The registry's entry for a version. For an unknown newer minor or patch version, the newest entry with the same
+/// major number.
 fn find_spec(kind: ModuleKind, version: Option<&str>) -> (Option<&'static ModuleSpec>, bool) {
     let Some(text) = version else {
         return (registry::find(kind, ""), false);

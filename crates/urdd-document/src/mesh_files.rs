@@ -1,5 +1,5 @@
-//! Where the paths of mesh modules lead: in version 1 into the URDD itself, in legacy ones into it
-//! or into a URDD beside it. Nothing else is ever opened.
+//! Resolves the paths of mesh modules: in version 1 inside the URDD, in legacy versions inside it or a sibling URDD.
+//! Never opens anything else.
 
 use std::collections::HashMap;
 
@@ -9,19 +9,18 @@ use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::OpenFile;
 use urdd_format::registry::Profile;
 
-/// Why a mesh file cannot be had.
+/// Why a mesh file is not available.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Absence {
-    /// There is no such file.
+    /// The file does not exist.
     Missing,
-    /// The path leads into a URDD of this name beside this one, and there is none.
+    /// The path leads into a sibling URDD of this name, which does not exist.
     NoSibling(String),
-    /// The path is not one that may be followed, or what is there cannot be read: what other rules
-    /// report.
+    /// The path is invalid, or the file cannot be read. Other rules report this.
     Other(ReadError),
 }
 
-/// Follows paths of one URDD; remembers the URDDs beside it.
+/// Resolves the paths of one URDD, and caches its siblings.
 pub struct MeshFiles<'a> {
     urdd: &'a Urdd,
     own_name: String,
@@ -29,7 +28,7 @@ pub struct MeshFiles<'a> {
 }
 
 impl<'a> MeshFiles<'a> {
-    /// For a URDD.
+    /// A resolver for a URDD.
     pub fn new(urdd: &'a Urdd) -> Self {
         MeshFiles {
             urdd,
@@ -38,7 +37,7 @@ impl<'a> MeshFiles<'a> {
         }
     }
 
-    /// Path relative to the URDD's own root, where the path leads into it.
+    /// The path relative to the URDD's root, if it is inside the URDD.
     pub fn own<'p>(&self, profile: Profile, path: &'p str) -> Option<&'p str> {
         match profile {
             Profile::V1 => Some(path),
@@ -46,10 +45,10 @@ impl<'a> MeshFiles<'a> {
         }
     }
 
-    /// Whether there is a file at a path.
+    /// Checks that there is a file at a path.
     ///
     /// # Errors
-    /// Why there is none.
+    /// Why it is not available.
     pub fn find(&mut self, profile: Profile, path: &str) -> Result<(), Absence> {
         if let Some(own) = self.own(profile, path)
             && self.urdd.listing().has_file(own)
@@ -59,10 +58,10 @@ impl<'a> MeshFiles<'a> {
         self.open(profile, path).map(|_| ())
     }
 
-    /// Opens the file at a path, and tells its size.
+    /// Opens the file at a path, and returns its size.
     ///
     /// # Errors
-    /// Why it cannot be had.
+    /// Why it is not available.
     pub fn open(&mut self, profile: Profile, path: &str) -> Result<(OpenFile, u64), Absence> {
         path::check(path).map_err(|fault| Absence::Other(ReadError::Path(fault)))?;
         let opened = match self.own(profile, path) {

@@ -1,18 +1,17 @@
-//! The mesh modules, whatever their version: for each link the meshes that a module names, each
-//! with its paths and their places in the document.
+//! Version-independent view of the mesh modules: the meshes of each link, with their paths and JSON Pointers.
 
 use urdd_format::legacy;
 use urdd_format::meshes::MeshFiles;
 use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 
-/// The modules of meshes that are made for links.
+/// The modules of derived meshes.
 pub const DERIVED: &[ModuleKind] = &[
     ModuleKind::PlainMeshes,
     ModuleKind::ConvexHullMeshes,
     ModuleKind::ConvexDecompositionMeshes,
 ];
 
-/// A format of mesh files.
+/// A mesh file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Format {
     /// Binary STL.
@@ -27,7 +26,7 @@ impl Format {
     /// Every format.
     pub const ALL: [Format; 3] = [Format::Stl, Format::Obj, Format::Glb];
 
-    /// Its extension, and its folder, and its key in version 1.
+    /// Its file extension, also its folder and its key in version 1.
     pub fn extension(self) -> &'static str {
         match self {
             Format::Stl => "stl",
@@ -40,24 +39,24 @@ impl Format {
 /// The meshes of a module.
 #[derive(Debug, Clone)]
 pub struct Meshes<'a> {
-    /// Which module.
+    /// The module.
     pub kind: ModuleKind,
-    /// The family of formats that it is of.
+    /// Its format family.
     pub profile: Profile,
-    /// One list in version 1, where each mesh has all formats; one for each format in legacy.
+    /// In version 1, one list whose meshes have all formats. In legacy versions, one list per format.
     pub lists: Vec<MeshList<'a>>,
 }
 
-/// A list with an entry per link.
+/// A list with one entry per link.
 #[derive(Debug, Clone)]
 pub struct MeshList<'a> {
     /// Its key in the document.
     pub key: &'static str,
-    /// For each link its meshes: none or one, or the pieces.
+    /// Meshes of each link: none or one, or the pieces.
     pub links: Vec<Vec<Mesh<'a>>>,
 }
 
-/// A mesh: one path in each of its formats.
+/// A mesh, with one path per format.
 #[derive(Debug, Clone)]
 pub struct Mesh<'a> {
     /// Its paths.
@@ -67,16 +66,16 @@ pub struct Mesh<'a> {
 /// A path to a mesh file.
 #[derive(Debug, Clone)]
 pub struct MeshPath<'a> {
-    /// As the document has it.
+    /// The path as written in the document.
     pub path: &'a str,
-    /// Where it stands in the document.
+    /// JSON Pointer in the document.
     pub pointer: String,
-    /// The format that it should be of; `None` for a mesh as the URDF names it.
+    /// Its expected format; `None` for a mesh that the URDF names.
     pub format: Option<Format>,
 }
 
 impl<'a> Meshes<'a> {
-    /// The meshes of a link, in all lists.
+    /// The meshes of a link in all lists.
     pub fn of_link(&self, link: usize) -> impl Iterator<Item = &Mesh<'a>> {
         self.lists
             .iter()
@@ -84,24 +83,24 @@ impl<'a> Meshes<'a> {
             .flatten()
     }
 
-    /// Number of meshes of a link, by the first list.
+    /// Number of meshes of a link in the first list.
     pub fn count(&self, link: usize) -> usize {
         let first = self.lists.first().and_then(|list| list.links.get(link));
         first.map_or(0, Vec::len)
     }
 
-    /// Number of links, by the first list.
+    /// Number of links in the first list.
     pub fn num_links(&self) -> usize {
         self.lists.first().map_or(0, |list| list.links.len())
     }
 
-    /// Where a link's entry stands, in the first list.
+    /// JSON Pointer to a link's entry in the first list.
     pub fn pointer(&self, link: usize) -> String {
         let key = self.lists.first().map_or("", |list| list.key);
         format!("/{key}/{link}")
     }
 
-    /// Every path, link by link.
+    /// Every path with its link, list by list.
     pub fn paths(&self) -> impl Iterator<Item = (usize, &MeshPath<'a>)> {
         self.lists.iter().flat_map(|list| {
             list.links.iter().enumerate().flat_map(|(link, meshes)| {
@@ -113,8 +112,7 @@ impl<'a> Meshes<'a> {
     }
 }
 
-/// The view of a mesh module; `None` for `original_meshes_module` of version 1, which is not a list
-/// by link.
+/// The view of a mesh module. `None` for `original_meshes_module` of version 1, which is not organised by link.
 pub fn view(document: &ModuleDocument) -> Option<Meshes<'_>> {
     let (kind, profile, lists) = match document {
         ModuleDocument::PlainMeshes(module) => {

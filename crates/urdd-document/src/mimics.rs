@@ -2,10 +2,10 @@
 
 use super::robot::Robot;
 
-/// Where a mimic joint's position comes from: `multiplier * position of driver + offset`.
+/// A resolved mimic joint: `multiplier * position of driver + offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolved {
-    /// The joint at the end of the chain: fixed, or with DOFs of its own.
+    /// The joint at the end of the chain: fixed, or with its own DOFs.
     pub driver: usize,
     /// Factor.
     pub multiplier: f64,
@@ -16,12 +16,12 @@ pub struct Resolved {
 /// The mimic joints of a robot.
 #[derive(Debug, Clone)]
 pub struct Mimics {
-    /// For each joint, its resolved mimic; `None` for joints that follow nothing.
+    /// Resolved mimic of each joint; `None` for joints that are not mimic joints.
     pub by_joint: Vec<Option<Resolved>>,
 }
 
 impl Mimics {
-    /// Resolves every mimic; `None` where one names an unknown joint or they go in a circle.
+    /// Resolves every mimic. `None` if one names an unknown joint, or they form a cycle.
     pub fn resolve(robot: &Robot) -> Option<Mimics> {
         let joints = robot.joints.len();
         let mut by_joint: Vec<Option<Resolved>> = vec![None; joints];
@@ -40,7 +40,7 @@ impl Mimics {
                 }
                 joint = robot.joint(&mimic.joint)?;
             }
-            // From the end of the chain back: each follows the one resolved just before.
+            // From the end of the chain backwards: each joint follows the one just resolved.
             for &follower in chain.iter().rev() {
                 let mimic = robot.joints[follower].active_mimic()?;
                 let next = robot.joint(&mimic.joint)?;

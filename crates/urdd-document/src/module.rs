@@ -1,4 +1,4 @@
-//! A module of a URDD, and `urdd.json`, as far as they could be read.
+//! A module of a URDD and `urdd.json`, as far as they are readable.
 
 use std::fmt;
 
@@ -11,18 +11,18 @@ use urdd_directory::text_fault::TextFaults;
 use urdd_format::registry::{ModuleDocument, ModuleKind, ModuleSpec};
 use urdd_format::root_metadata::RootMetadata;
 
-/// A JSON file, as far as it could be read.
+/// A JSON file, as far as it is readable.
 pub enum JsonFile {
-    /// There is none.
+    /// The file is missing.
     Missing,
-    /// It is there and cannot be read.
+    /// The file exists but cannot be read.
     Unreadable(ReadError),
     /// It is not JSON.
     Broken(TextFaults),
     /// It is JSON.
     Read(Box<JsonDocument>),
-    /// It is JSON without faults, read into the module's own types, and its value was not kept. The text is empty where
-    /// nobody asks for places in it.
+    /// Faultless JSON, parsed directly into the module's types without keeping the JSON value. The text is empty if
+    /// positions are not needed.
     Taken(String),
 }
 
@@ -42,7 +42,7 @@ impl JsonFile {
         }
     }
 
-    /// The document as JSON, where it could be read and was kept.
+    /// The document as JSON, if it is readable and was kept.
     pub fn document(&self) -> Option<&JsonDocument> {
         match self {
             JsonFile::Read(document) => Some(document),
@@ -50,7 +50,7 @@ impl JsonFile {
         }
     }
 
-    /// Its text, where it is JSON.
+    /// Its text, if it is JSON.
     pub fn text(&self) -> Option<&str> {
         match self {
             JsonFile::Read(document) => Some(&document.text),
@@ -59,7 +59,7 @@ impl JsonFile {
         }
     }
 
-    /// What is wrong with its text.
+    /// Faults of its text.
     pub fn faults(&self) -> Option<&TextFaults> {
         match self {
             JsonFile::Broken(faults) => Some(faults),
@@ -71,23 +71,23 @@ impl JsonFile {
 
 /// The YAML mirror of a document.
 pub enum Mirror {
-    /// There is none.
+    /// The file is missing.
     Missing,
-    /// It is there and cannot be read.
+    /// The file exists but cannot be read.
     Unreadable(ReadError),
-    /// It was not compared, because there is no JSON to compare it with.
+    /// Not compared, because the JSON is not readable.
     NotCompared,
-    /// It was compared.
+    /// Compared, with the faults found.
     Compared(TextFaults),
 }
 
 /// A module's `VERSION` file.
 pub enum VersionFile {
-    /// There is none.
+    /// The file is missing.
     Missing,
-    /// It is there and cannot be read.
+    /// The file exists but cannot be read.
     Unreadable(ReadError),
-    /// Its text, without the newline that may end it.
+    /// Its text, without the final newline.
     Text(String),
 }
 
@@ -95,35 +95,35 @@ pub enum VersionFile {
 pub struct MetadataFile {
     /// The file.
     pub json: JsonFile,
-    /// How it breaks its schema.
+    /// Its schema violations.
     pub violations: Vec<SchemaViolation>,
-    /// What it says, where it fits its schema.
+    /// The parsed metadata, if it fits its schema.
     pub metadata: Option<RootMetadata>,
 }
 
-/// A module's folder.
+/// A module folder.
 pub struct Module {
-    /// Folder relative to the root.
+    /// Path of the folder, relative to the root.
     pub folder: String,
-    /// Which module it is; `None` for extensions and unknown ones.
+    /// The module of the registry; `None` for extensions and unknown modules.
     pub kind: Option<ModuleKind>,
     /// Its `VERSION` file.
     pub version_file: VersionFile,
-    /// The version that it has by its `VERSION` file or else by the root metadata.
+    /// The version from its `VERSION` file or from the root metadata.
     pub version: Option<String>,
-    /// The registry's entry by which it is checked.
+    /// The registry's entry that it is checked against.
     pub spec: Option<&'static ModuleSpec>,
-    /// Whether its version is newer than any that is known, and it is checked as the newest.
+    /// Whether its version is newer than all known ones, so that it is checked as the newest.
     pub newer: bool,
     /// Its `module.json`.
     pub json: JsonFile,
     /// Its `module.yaml`.
     pub mirror: Mirror,
-    /// How the document breaks its schema.
+    /// Schema violations of the document.
     pub violations: Vec<SchemaViolation>,
-    /// The document, where it fits its schema.
+    /// The document, if it fits its schema.
     pub document: Option<ModuleDocument>,
-    /// Whether the document breaks its schema only as those of a draft do: see [`super::draft`].
+    /// Whether the document breaks its schema only as a draft does: see [`super::draft`].
     pub is_draft: bool,
 }
 
@@ -133,12 +133,12 @@ impl Module {
         format!("{}/{name}", self.folder)
     }
 
-    /// The last part of its folder.
+    /// Last part of its folder's path.
     pub fn name(&self) -> &str {
         self.folder.rsplit('/').next().unwrap_or(&self.folder)
     }
 
-    /// Why its document is of no use, where it is not.
+    /// Why its document is unusable; `None` if it is usable.
     pub fn unusable(&self) -> Option<Unusable> {
         let why = match (&self.json, &self.document) {
             (_, Some(_)) => return None,
@@ -159,7 +159,7 @@ impl Module {
 }
 
 impl Module {
-    /// The first fault of its document, with its place: `file:line:column: what is wrong`.
+    /// The first fault of its document with its position: `file:line:column: message`.
     pub fn first_fault(&self) -> Option<String> {
         let file = self.file("module.json");
         let (position, message) = match &self.json {
@@ -183,27 +183,27 @@ impl Module {
     }
 }
 
-/// A module of which the document is of no use.
+/// A module with an unusable document.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unusable {
     /// The module's folder, relative to the root.
     pub folder: String,
-    /// Why.
+    /// Reason.
     pub why: DocumentFault,
 }
 
-/// Why a document is of no use.
+/// Why a document is unusable.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum DocumentFault {
-    /// There is no `module.json`.
+    /// `module.json` is missing.
     Missing,
     /// It cannot be read.
     Unreadable,
     /// It is not JSON.
     NotJson,
-    /// The module's version is not known, or it has none.
+    /// The module's version is unknown or missing.
     UnknownVersion(Option<String>),
-    /// It follows the draft of urdd 0.1.0 or 0.2.0.
+    /// It follows a draft of urdd 0.1.0 or 0.2.0.
     IsDraft,
     /// It breaks its schema.
     BreaksSchema,
@@ -229,7 +229,7 @@ impl fmt::Display for Unusable {
     }
 }
 
-/// Whether a folder is named as an extension module is (SPEC 11.1).
+/// Whether a folder has the name of an extension module (SPEC 11.1).
 pub fn is_extension(folder: &str) -> bool {
     let Some(middle) = folder
         .strip_prefix("x_")

@@ -1,4 +1,4 @@
-//! Every path that a document names, whatever the module and its version.
+//! Every path in the documents of a URDD, independent of module and version.
 
 use super::module::Module;
 use super::urdd::Urdd;
@@ -8,20 +8,20 @@ use urdd_format::meshes::MeshFiles;
 use urdd_format::registry::{ModuleDocument, Profile};
 use urdd_format::root_metadata::{RootMetadata, Source};
 
-/// What a path leads to.
+/// What a path refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PathRole {
     /// The source URDF (`urdd.json`).
     Source,
     /// The folder of a module (`urdd.json`).
     ModuleFolder,
-    /// A file of a module, with its size and hash (`urdd.json`).
+    /// A file of a module, listed with size and hash (`urdd.json`).
     ModuleFile,
-    /// A mesh as the URDF names it, in a list of the files that are carried.
+    /// An original mesh, in the module's list of files.
     OriginalMesh,
-    /// A file that an original mesh names in turn.
+    /// A file that an original mesh refers to.
     SideFile,
-    /// A mesh as the URDF names it, at one of the places that name it (version 1).
+    /// An original mesh, at an element that uses it (version 1).
     MeshReference,
     /// A derived mesh in STL.
     Stl,
@@ -31,32 +31,32 @@ pub enum PathRole {
     Glb,
 }
 
-/// A path that a document names.
+/// A path in a document.
 #[derive(Clone)]
 pub struct NamedPath<'a> {
-    /// The module whose document names it; `None` for `urdd.json`.
+    /// The module with the document; `None` for `urdd.json`.
     pub module: Option<&'a Module>,
-    /// Where in the document it stands.
+    /// JSON Pointer in the document.
     pub pointer: String,
-    /// The path as written: relative to the root, in legacy modules to the folder above it.
+    /// The path as written: relative to the root, or in legacy modules to the parent folder of the root.
     pub path: &'a str,
-    /// What it leads to.
+    /// What it refers to.
     pub role: PathRole,
 }
 
-/// Where a path leads, as far as its text says.
+/// Where a path leads, judged by its text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place<'a> {
-    /// To this path within the root.
+    /// A path within the root.
     Here(&'a str),
-    /// To a path within the folder of another URDD beside this one (legacy).
+    /// A path within a sibling URDD (legacy).
     Sibling {
-        /// The other folder's name.
+        /// Name of the sibling's folder.
         folder: &'a str,
-        /// The path within it.
+        /// The path within that folder.
         path: &'a str,
     },
-    /// Nowhere that a URDD may name.
+    /// An invalid path.
     Nowhere(PathFault),
 }
 
@@ -69,7 +69,7 @@ impl<'a> NamedPath<'a> {
         }
     }
 
-    /// Whether the path is relative to the folder above the root, as in legacy modules.
+    /// Whether the path is relative to the parent folder of the root, as in legacy modules.
     pub fn from_parent(&self) -> bool {
         self.module
             .and_then(|module| module.spec)
@@ -95,8 +95,7 @@ impl<'a> NamedPath<'a> {
     }
 }
 
-/// Every path that `urdd.json` and the modules' documents name, document by document, in the order
-/// of their text. Documents that break their schema have none.
+/// Every path in `urdd.json` and the modules' documents, in document order. Skips documents that break their schema.
 pub fn all(urdd: &Urdd) -> Vec<NamedPath<'_>> {
     let mut paths = match urdd.metadata() {
         Some(metadata) => of_metadata(metadata),
@@ -108,7 +107,7 @@ pub fn all(urdd: &Urdd) -> Vec<NamedPath<'_>> {
     paths
 }
 
-/// Every path that `urdd.json` names.
+/// Every path in `urdd.json`.
 pub fn of_metadata(metadata: &RootMetadata) -> Vec<NamedPath<'_>> {
     let mut paths = Paths::default();
     if let Some(Source::Urdf(file)) = &metadata.source {
@@ -125,7 +124,7 @@ pub fn of_metadata(metadata: &RootMetadata) -> Vec<NamedPath<'_>> {
     paths.0
 }
 
-/// Every path that a module's document names.
+/// Every path in a module's document.
 pub fn of_module(module: &Module) -> Vec<NamedPath<'_>> {
     let mut paths = Paths::default();
     if let Some(document) = &module.document {

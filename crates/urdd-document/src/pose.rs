@@ -1,34 +1,33 @@
-//! Rotations and axes as SPEC 5.4 and 5.7 define them, for comparing what modules say with the robot.
+//! Rotations and axes by SPEC 5.4 and 5.7, to compare modules with the robot.
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-/// The rotation that a URDF's `rpy` stands for: fixed-axis roll, pitch, yaw,
-/// R = Rz(yaw) Ry(pitch) Rx(roll).
+/// The rotation of a URDF's `rpy`: fixed-axis roll, pitch, yaw, R = Rz(yaw) Ry(pitch) Rx(roll).
 pub fn rotation_of_rpy([roll, pitch, yaw]: [f64; 3]) -> Matrix3<f64> {
     Rotation3::from_euler_angles(roll, pitch, yaw).into_inner()
 }
 
-/// The rotation of a quaternion w, x, y, z, whatever its norm.
+/// The rotation of a quaternion w, x, y, z of any nonzero norm.
 pub fn rotation_of_quaternion([w, x, y, z]: [f64; 4]) -> Matrix3<f64> {
     UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
         .to_rotation_matrix()
         .into_inner()
 }
 
-/// A quaternion made a unit quaternion; `None` where it has no length, or not a finite one.
+/// Normalises a quaternion. `None` if it is zero or not finite.
 pub fn unit_quaternion(q: [f64; 4]) -> Option<[f64; 4]> {
     let largest = q.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let finite = q.iter().all(|x| x.is_finite());
     (largest > 0.0 && finite).then(|| {
-        // Divided first, as in `unit`.
+        // Scale first, as in `unit`.
         let q = q.map(|x| x / largest);
         let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
         q.map(|x| x / length)
     })
 }
 
-/// Whether `quat_xyzw` counts in a URDF of this version: from 1.1 on (SPEC 6.1.9). One that is
-/// absent, or not two numbers of digits with a dot between them, is 1.0.
+/// Whether a URDF of this version uses `quat_xyzw`: from 1.1 on (SPEC 6.1.9). A version that is missing, or is not two
+/// numbers of digits with a dot between them, counts as 1.0.
 pub fn has_quaternions(version: Option<&str>) -> bool {
     const WHITE_SPACE: [char; 4] = [' ', '\t', '\r', '\n'];
     let text = version.unwrap_or_default().trim_matches(WHITE_SPACE);
@@ -39,7 +38,7 @@ pub fn has_quaternions(version: Option<&str>) -> bool {
     if !all_digits(major) || !all_digits(minor) {
         return false;
     }
-    // Numbers of any size: what counts is what is left without leading zeros.
+    // Numbers of any size: ignore leading zeros.
     match major.trim_start_matches('0') {
         "" => false,
         "1" => !minor.trim_start_matches('0').is_empty(),
@@ -47,10 +46,10 @@ pub fn has_quaternions(version: Option<&str>) -> bool {
     }
 }
 
-/// A vector of length 1 in the direction of `axis`; `None` for the zero vector.
+/// The unit vector in the direction of `axis`; `None` for the zero vector.
 pub fn unit(axis: [f64; 3]) -> Option<Vector3<f64>> {
     let largest = axis.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    // Divided first, so that the squares of tiny or huge components are neither lost nor infinite.
+    // Scale first, so that squares of tiny or huge components neither underflow nor overflow.
     (largest > 0.0).then(|| (Vector3::from(axis) / largest).normalize())
 }
 
@@ -67,11 +66,11 @@ mod tests {
     #[test]
     fn roll_is_turned_first_and_about_fixed_axes() {
         let r = rotation_of_rpy([FRAC_PI_2, 0.0, FRAC_PI_2]);
-        // z goes to -y by roll, and -y to x by yaw.
+        // Roll takes z to -y, and yaw takes -y to x.
         assert!(close(&(r * Vector3::z()), [1.0, 0.0, 0.0]));
         assert!(close(&(r * Vector3::x()), [0.0, 1.0, 0.0]));
         let r = rotation_of_rpy([0.0, FRAC_PI_2, FRAC_PI_2]);
-        // x goes to -z by pitch, which yaw leaves; z goes to x, which yaw takes to y.
+        // Pitch takes x to -z, which yaw keeps. Pitch takes z to x, which yaw takes to y.
         assert!(close(&(r * Vector3::x()), [0.0, 0.0, -1.0]));
         assert!(close(&(r * Vector3::z()), [0.0, 1.0, 0.0]));
     }

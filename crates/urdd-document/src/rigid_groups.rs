@@ -1,24 +1,24 @@
-//! Links that fixed joints hold together: what moves is a group, not a link.
+//! Rigid groups: links connected by fixed joints.
 
 use super::robot::Robot;
 use super::tree::Tree;
 use urdd_format::urdf::JointType;
 
-/// Links that never move against each other.
+/// Links that never move relative to each other.
 #[derive(Debug, Clone)]
 pub struct RigidGroup {
     /// Its links, parents before their children.
     pub links: Vec<usize>,
-    /// The joint that moves it; `None` for the group of the root.
+    /// The joint that moves it; `None` for the root's group.
     pub moved_by: Option<usize>,
 }
 
-/// A robot's groups, from the root downwards.
+/// The rigid groups of a robot, from the root downwards.
 #[derive(Debug, Clone)]
 pub struct RigidGroups {
     /// The groups.
     pub groups: Vec<RigidGroup>,
-    /// For each link, its group.
+    /// Group of each link.
     pub of_link: Vec<usize>,
 }
 

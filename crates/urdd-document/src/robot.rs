@@ -1,4 +1,4 @@
-//! The robot that `urdf_module` or the carried URDF describes, with URDF's defaults filled in.
+//! The robot of `urdf_module` or of the source URDF, with URDF's defaults filled in.
 
 use std::collections::HashMap;
 
@@ -27,7 +27,7 @@ pub struct Robot {
 pub struct Link {
     /// Its name.
     pub name: String,
-    /// Its mass properties, where it has any.
+    /// Its mass properties, if any.
     pub inertial: Option<Inertial>,
     /// Its visual elements.
     pub visual: Vec<Element>,
@@ -38,20 +38,20 @@ pub struct Link {
 /// A visual or collision element.
 #[derive(Debug, Clone)]
 pub struct Element {
-    /// Its shape, where it has one.
+    /// Its shape, if any.
     pub geometry: Option<v1::Geometry>,
-    /// Where the shape is in the link's frame.
+    /// Pose of the shape in the link's frame.
     pub origin: Origin,
 }
 
-/// A pose as a URDF writes it, with its defaults.
+/// A pose in URDF notation, with defaults filled in.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Origin {
     /// Position, m.
     pub xyz: [f64; 3],
     /// Rotation: fixed-axis roll, pitch, yaw, rad.
     pub rpy: [f64; 3],
-    /// The quaternion x, y, z, w that counts instead of `rpy`, where there is one (SPEC 6.1.9).
+    /// The quaternion x, y, z, w that replaces `rpy`, if any (SPEC 6.1.9).
     pub quat_xyzw: Option<[f64; 4]>,
 }
 
@@ -81,11 +81,11 @@ impl Origin {
 /// Mass properties.
 #[derive(Debug, Clone, Copy)]
 pub struct Inertial {
-    /// Centre of mass, and the axes of `inertia`, in the link's frame.
+    /// Centre of mass and axes of `inertia`, in the link's frame.
     pub origin: Origin,
     /// Mass, kg.
     pub mass: Option<f64>,
-    /// xx, xy, xz, yy, yz, zz, kg m²; what is absent is 0.
+    /// xx, xy, xz, yy, yz, zz, kg m²; missing elements are 0.
     pub inertia: Option<[f64; 6]>,
 }
 
@@ -94,39 +94,39 @@ pub struct Inertial {
 pub struct Joint {
     /// Its name.
     pub name: String,
-    /// How it moves.
+    /// Its type of motion.
     pub joint_type: JointType,
-    /// Its frame in the parent link's.
+    /// Its frame in the parent link's frame.
     pub origin: Origin,
     /// Its axis as written, or (1, 0, 0).
     pub axis: [f64; 3],
-    /// Name of the link that carries it.
+    /// Name of the parent link.
     pub parent: String,
-    /// Name of the link that it moves.
+    /// Name of the child link.
     pub child: String,
-    /// Its limits. Legacy modules write absent limits as zeros, which are taken for absent.
+    /// Its limits. Legacy modules write absent limits as zeros, which count as absent.
     pub limit: Option<Limit>,
-    /// The joint that it follows.
+    /// The joint that it mimics.
     pub mimic: Option<Mimic>,
 }
 
-/// Limits.
+/// Limits of a joint.
 #[derive(Debug, Clone, Copy)]
 pub struct Limit {
     /// Smallest position.
     pub lower: Option<f64>,
     /// Largest position.
     pub upper: Option<f64>,
-    /// Largest effort.
+    /// Maximum effort.
     pub effort: Option<f64>,
-    /// Largest speed.
+    /// Maximum velocity.
     pub velocity: Option<f64>,
 }
 
 /// A mimic: `multiplier * position of joint + offset`.
 #[derive(Debug, Clone)]
 pub struct Mimic {
-    /// Name of the joint that is followed.
+    /// Name of the joint to follow.
     pub joint: String,
     /// Factor.
     pub multiplier: f64,
@@ -142,7 +142,7 @@ impl Robot {
             joints,
             ..Robot::default()
         };
-        // Of a name that is there twice, the first counts; URD002 and URD003 tell of it.
+        // For duplicate names, the first one counts; URD002 and URD003 report them.
         for (index, link) in robot.links.iter().enumerate() {
             robot.link_by_name.entry(link.name.clone()).or_insert(index);
         }
@@ -167,7 +167,7 @@ impl Robot {
 }
 
 impl Joint {
-    /// Number of DOFs that a joint of this type has, mimic or not (SPEC 5.8).
+    /// Number of DOFs of a joint of this type, mimic or not (SPEC 5.8).
     pub fn num_dofs(&self) -> usize {
         match self.joint_type {
             JointType::Fixed => 0,
@@ -177,7 +177,7 @@ impl Joint {
         }
     }
 
-    /// The mimic of a joint that can follow: a fixed joint cannot.
+    /// The mimic, unless the joint is fixed and cannot follow.
     pub fn active_mimic(&self) -> Option<&Mimic> {
         match self.joint_type {
             JointType::Fixed => None,
@@ -193,7 +193,7 @@ impl Joint {
         )
     }
 
-    /// Position limits, where the joint is limited (SPEC 6.5.2).
+    /// Position limits of a limited joint (SPEC 6.5.2).
     pub fn position_limits(&self) -> Option<(f64, f64)> {
         let limit = self.limit?;
         match (self.joint_type, limit.lower, limit.upper) {
@@ -216,7 +216,7 @@ pub fn view(document: &ModuleDocument) -> Option<Robot> {
     }
 }
 
-/// The robot of a URDF, or of the `urdf_module` of version 1, which keeps all of one.
+/// The robot of a URDF, or of `urdf_module` of version 1, which is a complete copy of it.
 pub fn of_urdf(urdf: &v1::UrdfModule) -> Robot {
     let quaternions = has_quaternions(urdf.version.as_deref());
     let link = |link| from_v1_link(link, quaternions);

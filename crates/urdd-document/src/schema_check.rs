@@ -1,8 +1,7 @@
-//! A document against its schema.
+//! Checks a document against its schema.
 //!
-//! serde accepts exactly what the schema accepts (a property test holds the two together), so a
-//! right document is read once, quickly, by serde. Only a wrong one is given to the schema
-//! validator, which knows every place.
+//! serde accepts exactly what the schema accepts (a property test verifies this), so serde reads valid documents,
+//! quickly. Only invalid ones go to the schema validator, which reports every violation with its position.
 
 use std::error::Error;
 
@@ -15,23 +14,23 @@ use serde_json::Value;
 use urdd_directory::json_scan;
 use urdd_format::registry::{ModuleDocument, ModuleSpec};
 
-/// A place where a document breaks its schema.
+/// A schema violation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SchemaViolation {
     /// JSON Pointer of the value.
     pub pointer: String,
     /// What is wrong.
     pub message: String,
-    /// What should be there.
+    /// The expected content.
     pub expected: Option<String>,
-    /// What is there.
+    /// The actual content.
     pub actual: Option<String>,
-    /// The keys that are unknown, where that is the fault.
+    /// The unknown keys, if that is the fault.
     unknown_keys: Vec<String>,
 }
 
 impl SchemaViolation {
-    /// JSON Pointer to where the reader has to look: to the unknown key, not to the object that has it.
+    /// JSON Pointer to the fault itself: to the unknown key rather than its object.
     pub fn place(&self) -> String {
         let mut pointer = self.pointer.clone();
         if let Some(key) = self.unknown_keys.first() {
@@ -41,8 +40,8 @@ impl SchemaViolation {
     }
 }
 
-/// Reads a document of a module; where it breaks the schema, says how. With `newer`, keys that the
-/// schema does not know are passed over: the document is of a later minor version.
+/// Reads a document of a module, or returns its schema violations. With `newer`, ignores unknown keys: the document is
+/// of a later minor version.
 pub fn read(
     spec: &ModuleSpec,
     document: &Value,
@@ -57,9 +56,9 @@ pub fn read(
     })
 }
 
-/// What a document that was refused (`refusal`) says all the same: where it is of a later minor
-/// version (`newer`) and breaks the schema only by keys that are unknown, it is read without these;
-/// else the violations.
+/// Handles a document that serde rejected with `refusal`. If it is of a later minor version (`newer`) and its only
+/// violations are unknown keys, reads it without them. Otherwise returns the violations (with `newer`, except unknown
+/// keys).
 pub fn read_newer<T>(
     schema: &Schema,
     document: &Value,
@@ -88,8 +87,8 @@ pub fn read_newer<T>(
     (read(&known), Vec::new())
 }
 
-/// Every place where a document breaks a schema. `refusal` is what serde said of it, which is
-/// reported where the schema has nothing to say: a document that cannot be read is never passed.
+/// Every schema violation of a document. If the schema reports none, returns `refusal`, serde's error, so that an
+/// unreadable document never passes.
 pub fn violations(schema: &Schema, document: &Value, refusal: &dyn Error) -> Vec<SchemaViolation> {
     let whole = |message: String| SchemaViolation {
         pointer: String::new(),
@@ -116,8 +115,7 @@ pub fn violations(schema: &Schema, document: &Value, refusal: &dyn Error) -> Vec
 fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
     use ValidationErrorKind as Kind;
     let instance = error.instance().as_ref();
-    // A choice reports only that nothing fits. What the reader wants to know is what keeps the
-    // nearest alternative from fitting.
+    // A choice only reports that no alternative matches. Report why the nearest one does not.
     if let Kind::AnyOf { context } | Kind::OneOfNotValid { context } = error.kind()
         && let Some(nearest) = nearest_alternative(error.instance_path(), context)
     {
@@ -207,8 +205,8 @@ fn items(violation: &mut SchemaViolation, bound: &str, limit: u64, instance: &Va
         .map(|list| format!("{} elements", list.len()));
 }
 
-/// Of the alternatives of a choice at `path`, the one that the instance means: of something and
-/// null, the something; of objects of one key, the one whose key the instance has.
+/// The alternative of a choice at `path` that the instance means: the other one of a nullable value, or the one-key
+/// object whose key the instance has.
 fn nearest_alternative<'a>(
     path: &Location,
     context: &'a [Vec<ValidationError<'static>>],
@@ -237,7 +235,7 @@ fn nearest_alternative<'a>(
         .find(|errors| !errors.is_empty() && !other_key(errors))
 }
 
-/// A value as text, cut to a length that fits a line.
+/// A value as text, shortened to fit a line.
 pub fn excerpt(value: &Value) -> String {
     shorten(&value.to_string())
 }

@@ -1,4 +1,4 @@
-//! Matrices over link shapes, whatever the version: distances, skips, reasons, error models.
+//! Version-independent view of matrices over link shapes: distances, skips, reasons, error models.
 
 use std::fmt::Debug;
 
@@ -9,7 +9,7 @@ use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::shapes::PieceShape;
 
-/// The modules that hold matrices over shapes.
+/// The modules with matrices over shapes.
 pub const MATRIX_MODULES: &[ModuleKind] = &[
     ModuleKind::LinkShapesDistanceStatistics,
     ModuleKind::LinkShapesSimpleSkips,
@@ -17,7 +17,7 @@ pub const MATRIX_MODULES: &[ModuleKind] = &[
     ModuleKind::LinkShapesLieAlgErrorModels,
 ];
 
-/// Those of version 1.
+/// The modules of version 1 with matrices over shapes.
 pub const V1_MATRIX_MODULES: &[ModuleKind] = &[
     ModuleKind::LinkShapesDistanceStatistics,
     ModuleKind::LinkShapesSimpleSkips,
@@ -27,27 +27,27 @@ pub const V1_MATRIX_MODULES: &[ModuleKind] = &[
 /// The rows of a matrix, or `None` for null.
 pub type Rows<'a, T> = Option<&'a [Vec<T>]>;
 
-/// An element of a matrix, where there is one.
+/// An element of a matrix, if it exists.
 pub fn at<T: Copy>(rows: &[Vec<T>], i: usize, j: usize) -> Option<T> {
     rows.get(i)?.get(j).copied()
 }
 
-/// The distances of one kind of shapes.
+/// Distance statistics of one kind of shape.
 #[derive(Debug, Clone, Copy)]
 pub struct Statistics<'a> {
-    /// Keys of the mean, smallest and largest distances.
+    /// Keys of the mean, minimum and maximum distances.
     pub keys: [&'static str; 3],
     /// Mean distances.
     pub mean: &'a [Vec<f64>],
-    /// Smallest distances.
+    /// Minimum distances.
     pub min: &'a [Vec<f64>],
-    /// Largest distances.
+    /// Maximum distances.
     pub max: &'a [Vec<f64>],
-    /// Number of sampled configurations; `None` where the module does not say.
+    /// Number of sampled configurations; `None` if not stated.
     pub num_samples: Option<u32>,
 }
 
-/// Keys of the mean, smallest and largest distances in version 1.
+/// Keys of the mean, minimum and maximum distances in version 1.
 const V1_KEYS: [&str; 3] = ["mean_distances", "min_distances", "max_distances"];
 const LEGACY_KEYS: [&str; 3] = ["averages", "minimums", "maximums"];
 
@@ -136,7 +136,7 @@ pub fn skips(document: &ModuleDocument) -> Option<[Rows<'_, bool>; 6]> {
     }
 }
 
-/// What follows the name of a kind in the key of a skip matrix.
+/// Suffix after the name of a kind in the key of a skip matrix.
 fn skips_suffix(document: &ModuleDocument) -> &'static str {
     match document {
         ModuleDocument::LinkShapesSkips(_) | ModuleDocument::LegacyLinkShapesSkips(_) => "_skips",
@@ -144,7 +144,7 @@ fn skips_suffix(document: &ModuleDocument) -> &'static str {
     }
 }
 
-/// Where a skip matrix stands.
+/// JSON Pointer to a skip matrix.
 pub fn skips_pointer(document: &ModuleDocument, kind: ShapeKind) -> String {
     format!("/{}{}", kind.name, skips_suffix(document))
 }
@@ -164,7 +164,7 @@ pub fn reasons(document: &ModuleDocument) -> Option<[Rows<'_, SkipReason>; 6]> {
     }
 }
 
-/// What follows the name of a kind in the key of a matrix of models, and the matrices of the six kinds.
+/// Suffix after the name of a kind in the key of a model matrix, and the matrices of the six kinds.
 type Models<'a> = (&'static str, [&'a [Vec<ErrorBounds>]; 6]);
 
 /// The twelve matrices of `link_shapes_lie_alg_error_models_module`: the standard models, then the
@@ -199,7 +199,7 @@ fn models(document: &ModuleDocument) -> Option<[Models<'_>; 2]> {
     ])
 }
 
-/// What `full_shapes` and `decomposition_shapes` of a module of version 1 say.
+/// `full_shapes` and `decomposition_shapes` of a module of version 1.
 pub fn shape_lists(document: &ModuleDocument) -> Option<(&[LinkIdx], &[PieceShape])> {
     match document {
         ModuleDocument::LinkShapesDistanceStatistics(m) => {
@@ -211,7 +211,7 @@ pub fn shape_lists(document: &ModuleDocument) -> Option<(&[LinkIdx], &[PieceShap
     }
 }
 
-/// The elements of a matrix of any kind.
+/// The elements of a matrix.
 #[derive(Debug, Clone, Copy)]
 pub enum Elements<'a> {
     /// Distances, m.
@@ -265,11 +265,11 @@ impl Elements<'_> {
 /// A matrix over shapes.
 #[derive(Debug, Clone)]
 pub struct Matrix<'a> {
-    /// What its indices stand for.
+    /// The kind of shape that its indices refer to.
     pub kind: ShapeKind,
-    /// Where it stands in the document.
+    /// JSON Pointer in the document.
     pub pointer: String,
-    /// Its elements; `None` where the document has null.
+    /// Its elements; `None` if the document has null.
     pub elements: Option<Elements<'a>>,
 }
 

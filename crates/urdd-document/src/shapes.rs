@@ -1,5 +1,4 @@
-//! Link shapes, whatever the version: what shape indices stand for, and the modules that hold
-//! lists by link.
+//! Version-independent view of link shapes: the meaning of shape indices, and the modules with lists per link.
 
 use nalgebra::{Rotation3, Vector3};
 
@@ -8,20 +7,20 @@ use urdd_format::legacy::link_shapes_approximations as legacy;
 use urdd_format::link_shapes_approximations as v1;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 
-/// The modules that hold lists by link.
+/// The modules with lists per link.
 pub const LIST_MODULES: &[ModuleKind] = &[
     ModuleKind::LinkShapesApproximations,
     ModuleKind::LinkShapesMaxDistanceFromOrigin,
 ];
 
-/// One of the six kinds of shapes.
+/// One of the six kinds of shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ShapeKind {
-    /// Its name, with which keys begin.
+    /// Its name, a prefix of keys.
     pub name: &'static str,
     /// Whether the shapes are links; else they are pieces.
     pub full: bool,
-    /// Whether they are the hulls or pieces themselves; else boxes or spheres about these.
+    /// Whether they are the hulls or pieces themselves; else their bounding boxes or bounding spheres.
     pub hulls: bool,
 }
 
@@ -39,17 +38,17 @@ const fn kind(name: &'static str, full: bool, hulls: bool) -> ShapeKind {
     ShapeKind { name, full, hulls }
 }
 
-/// What shape indices stand for (SPEC 8.1).
+/// The meaning of shape indices (SPEC 8.1).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Shapes {
-    /// The link of each full shape.
+    /// Link of each full shape.
     pub full: Vec<usize>,
-    /// The link and the piece index of each decomposition shape.
+    /// Link and piece index of each decomposition shape.
     pub pieces: Vec<(usize, usize)>,
 }
 
 impl Shapes {
-    /// The shapes that follow from the hulls and the pieces.
+    /// The shapes that the hulls and the pieces define.
     pub fn new(urdd: &Urdd) -> Option<Shapes> {
         let hulls = urdd.meshes(ModuleKind::ConvexHullMeshes)?;
         let pieces = urdd.meshes(ModuleKind::ConvexDecompositionMeshes)?;
@@ -87,7 +86,7 @@ impl Shapes {
         }
     }
 
-    /// A shape for people: its index and what it stands for.
+    /// A shape for messages: its index, with its link and piece.
     pub fn describe(&self, urdd: &Urdd, kind: ShapeKind, shape: usize) -> String {
         let link = self.link(kind, shape);
         let name = link.and_then(|link| Some(urdd.robot()?.links.get(link)?.name.as_str()));
@@ -99,7 +98,7 @@ impl Shapes {
     }
 }
 
-/// A box or a sphere about a shape, in the link's frame.
+/// A bounding box or bounding sphere of a shape, in the link's frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Volume {
     /// A box.
@@ -121,7 +120,7 @@ pub enum Volume {
 }
 
 impl Volume {
-    /// How far its farthest point is from the link's origin: for a box that is a corner.
+    /// Distance of its farthest point from the link's origin. For a box, that is a corner.
     pub fn reach(&self) -> f64 {
         match *self {
             Volume::Sphere { radius, offset } => Vector3::from(offset).norm() + radius,
@@ -131,8 +130,7 @@ impl Volume {
                 rpy,
             } => {
                 let turn = Rotation3::from_euler_angles(rpy[0], rpy[1], rpy[2]);
-                // Seen from the box's own axes, the farthest corner is the one on the centre's
-                // side of each axis.
+                // In the box's own frame, the farthest corner is on the centre's side of each axis.
                 let centre = turn.inverse() * Vector3::from(offset);
                 let corner = centre.abs() + Vector3::from(half_extents).abs();
                 corner.norm()
@@ -141,19 +139,19 @@ impl Volume {
     }
 }
 
-/// A list with an entry per link: none or one for the full shapes, or one for each piece.
+/// A list with one entry per link: none or one for full shapes, or one for each piece.
 #[derive(Debug, Clone)]
 pub struct ShapeList<T> {
     /// Its key in the document.
     pub key: &'static str,
-    /// Which shapes.
+    /// The kind of shape.
     pub kind: ShapeKind,
-    /// For each link, its entries.
+    /// Entries of each link.
     pub links: Vec<Vec<T>>,
 }
 
 impl<T> ShapeList<T> {
-    /// Where an entry stands in the document.
+    /// JSON Pointer to an entry.
     pub fn pointer(&self, link: usize, piece: usize) -> String {
         match self.kind.full {
             true => format!("/{}/{link}", self.key),
@@ -259,7 +257,7 @@ pub fn max_distances(document: &ModuleDocument) -> Option<[ShapeList<f64>; 6]> {
     }
 }
 
-/// The number of entries per link of every list of a module that holds lists.
+/// The number of entries per link, for every list of a module with lists.
 pub fn entry_counts(document: &ModuleDocument) -> Vec<ShapeList<()>> {
     fn counts<T>(lists: &[ShapeList<T>]) -> Vec<ShapeList<()>> {
         let count = |list: &ShapeList<T>| ShapeList {

@@ -1,29 +1,29 @@
-//! The kinematic tree that a robot's joints form.
+//! The kinematic tree of a robot's joints.
 
 use super::robot::Robot;
 
 /// A kinematic tree.
 #[derive(Debug, Clone)]
 pub struct Tree {
-    /// The link without a parent.
+    /// The root link.
     pub root: usize,
-    /// For each link, the joint that moves it.
+    /// Parent joint of each link.
     pub parent_joint: Vec<Option<usize>>,
-    /// For each link, its parent link.
+    /// Parent link of each link.
     pub parent_link: Vec<Option<usize>>,
-    /// For each link, the joints that sit on it, ascending.
+    /// Child joints of each link, ascending.
     pub child_joints: Vec<Vec<usize>>,
-    /// For each joint, its parent and child link.
+    /// Parent and child link of each joint.
     pub joint_links: Vec<(usize, usize)>,
-    /// For each link, its distance from the root in joints.
+    /// Depth of each link: its distance from the root in joints.
     pub depth: Vec<usize>,
-    /// The links from the root downwards: parents before their children, depth by depth, ascending.
+    /// Breadth-first order of the links: by depth, then ascending by index.
     pub order: Vec<usize>,
 }
 
 impl Tree {
-    /// The tree of a robot; `None` where a joint names an unknown link, a link has two parents, or
-    /// not all links hang on one root.
+    /// The tree of a robot. `None` if a joint names an unknown link, a link has two parents, or not all links descend
+    /// from one root.
     pub fn new(robot: &Robot) -> Option<Tree> {
         let links = robot.links.len();
         let mut tree = Tree {
@@ -74,7 +74,7 @@ impl Tree {
         levels
     }
 
-    /// The links from the root to a link, both included.
+    /// The links from the root to a link, inclusive.
     pub fn path(&self, link: usize) -> Vec<usize> {
         let mut path: Vec<usize> =
             std::iter::successors(Some(link), |link| self.parent_link[*link]).collect();

@@ -1,4 +1,4 @@
-//! A URDD of any version, loaded, in one shape.
+//! A loaded URDD of any version.
 
 use std::sync::{Arc, OnceLock};
 
@@ -19,10 +19,10 @@ use urdd_directory::root::{Listing, ReadError, Root};
 use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 use urdd_format::root_metadata::RootMetadata;
 
-/// A URDD that was loaded, and views of it that do not depend on its version.
+/// A loaded URDD, with version-independent views.
 ///
-/// A URDD describes its robot twice, in `urdf_module` and in the carried URDF. [`Urdd::robot`] and
-/// what follows from it are those of `urdf_module`, unless [`Urdd::with_robot`] put another there.
+/// A URDD describes its robot twice, in `urdf_module` and in the source URDF. [`Urdd::robot`] and the data derived from
+/// it use `urdf_module`, unless [`Urdd::with_robot`] replaced the robot.
 pub struct Urdd {
     loaded: Arc<Loaded>,
     robot_from: RobotFrom,
@@ -33,12 +33,12 @@ pub struct Urdd {
     rigid_groups: OnceLock<Option<RigidGroups>>,
 }
 
-/// Where a robot's description comes from.
+/// Source of a robot's description.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RobotFrom {
     /// `urdf_module`.
     UrdfModule,
-    /// The carried URDF.
+    /// The source URDF file.
     CarriedUrdf,
 }
 
@@ -46,7 +46,7 @@ impl Urdd {
     /// Reads the URDD in a folder or a zip archive.
     ///
     /// # Errors
-    /// Where the folder or the archive cannot be opened or listed.
+    /// If the folder or the archive cannot be opened or listed.
     pub fn read(path: &std::path::Path) -> Result<Self, ReadError> {
         Self::of(Root::open(path)?)
     }
@@ -54,12 +54,12 @@ impl Urdd {
     /// Reads the URDD at a root.
     ///
     /// # Errors
-    /// Where the root cannot be listed.
+    /// If the root cannot be listed.
     pub fn of(root: Root) -> Result<Self, ReadError> {
         Ok(Urdd::new(Arc::new(Loaded::read(root)?)))
     }
 
-    /// For what was loaded.
+    /// Views of a URDD in memory.
     pub fn new(loaded: Arc<Loaded>) -> Self {
         Urdd {
             loaded,
@@ -72,7 +72,7 @@ impl Urdd {
         }
     }
 
-    /// The same URDD with the robot as its carried URDF describes it.
+    /// The same URDD with the robot of its source URDF.
     pub fn with_robot(&self, robot: Robot) -> Self {
         Urdd {
             robot_from: RobotFrom::CarriedUrdf,
@@ -81,12 +81,12 @@ impl Urdd {
         }
     }
 
-    /// Where [`Urdd::robot`] comes from.
+    /// Source of [`Urdd::robot`].
     pub fn robot_from(&self) -> RobotFrom {
         self.robot_from
     }
 
-    /// The file that the robot is read from.
+    /// The file that the robot was read from.
     pub fn robot_file(&self) -> Option<String> {
         match self.robot_from {
             RobotFrom::CarriedUrdf => Some(self.urdf().ok()?.path.clone()),
@@ -99,17 +99,17 @@ impl Urdd {
         &self.loaded.root
     }
 
-    /// What lies in the root folder.
+    /// The files and folders below the root.
     pub fn listing(&self) -> &Listing {
         &self.loaded.listing
     }
 
-    /// The family of formats that the URDD follows.
+    /// The format family of the URDD.
     pub fn profile(&self) -> Profile {
         self.loaded.profile
     }
 
-    /// The root metadata's file, as far as it could be read.
+    /// The file of the root metadata, as far as it is readable.
     pub fn metadata_file(&self) -> &MetadataFile {
         &self.loaded.metadata
     }
@@ -119,7 +119,7 @@ impl Urdd {
         self.loaded.metadata.metadata.as_ref()
     }
 
-    /// The source URDF, or why there is none to look at.
+    /// The source URDF, or why it is not available.
     pub fn urdf(&self) -> Result<&CarriedUrdf, &NoUrdf> {
         self.loaded.urdf.as_ref()
     }
@@ -129,7 +129,7 @@ impl Urdd {
         &self.loaded.modules
     }
 
-    /// The folder of a module.
+    /// The module folder of a module.
     pub fn module(&self, kind: ModuleKind) -> Option<&Module> {
         self.loaded
             .modules
@@ -137,74 +137,71 @@ impl Urdd {
             .find(|module| module.kind == Some(kind))
     }
 
-    /// The document of a module, where it fits its schema.
+    /// The document of a module, if it fits its schema.
     pub fn document(&self, kind: ModuleKind) -> Option<&ModuleDocument> {
         self.module(kind)?.document.as_ref()
     }
 
-    /// The robot: as `urdf_module` has it, whatever the module's version, or as the carried URDF
-    /// has it ([`Urdd::with_robot`]).
+    /// The robot of `urdf_module` in any version, or that of the source URDF ([`Urdd::with_robot`]).
     pub fn robot(&self) -> Option<&Robot> {
         let make = || robot::view(self.document(ModuleKind::Urdf)?);
         self.robot.get_or_init(make).as_ref()
     }
 
-    /// The kinematic tree of [`Urdd::robot`]; `None` where its joints form no tree.
+    /// The kinematic tree of [`Urdd::robot`]; `None` if its joints do not form a tree.
     pub fn tree(&self) -> Option<&Tree> {
         self.tree.get_or_init(|| Tree::new(self.robot()?)).as_ref()
     }
 
-    /// The links of [`Urdd::robot`] that fixed joints hold together; `None` where its joints form
-    /// no tree.
+    /// The rigid groups of [`Urdd::robot`]; `None` if its joints do not form a tree.
     pub fn rigid_groups(&self) -> Option<&RigidGroups> {
         self.rigid_groups
             .get_or_init(|| Some(RigidGroups::new(self.robot()?, self.tree()?)))
             .as_ref()
     }
 
-    /// The mimic joints of [`Urdd::robot`], resolved; `None` where that has no meaning.
+    /// The resolved mimic joints of [`Urdd::robot`]; `None` if they cannot be resolved.
     pub fn mimics(&self) -> Option<&Mimics> {
         self.mimics
             .get_or_init(|| Mimics::resolve(self.robot()?))
             .as_ref()
     }
 
-    /// The degrees of freedom that follow from [`Urdd::robot`], as `dof_module` of the version at
-    /// hand should have them.
+    /// The degrees of freedom of [`Urdd::robot`], as `dof_module` of the present version should define them.
     pub fn dof_layout(&self) -> Option<&DofLayout> {
-        // The first published version gave mimic joints DOFs of their own (SPEC 10.5).
+        // The first published version gave mimic joints their own DOFs (SPEC 10.5).
         let version = || self.module(ModuleKind::Dof)?.version.as_deref();
         let make = || Some(DofLayout::new(self.robot()?, version() == Some("0.0.1")));
         self.dof_layout.get_or_init(make).as_ref()
     }
 
-    /// `dof_module`, whatever its version.
+    /// View of `dof_module` in any version.
     pub fn dofs(&self) -> Option<Dofs<'_>> {
         dofs::view(self.document(ModuleKind::Dof)?)
     }
 
-    /// `chain_module`, whatever its version.
+    /// View of `chain_module` in any version.
     pub fn chain(&self) -> Option<Chain<'_>> {
         chain::view(self.document(ModuleKind::Chain)?)
     }
 
-    /// `connections_module`, whatever its version.
+    /// View of `connections_module` in any version.
     pub fn connections(&self) -> Option<Connections<'_>> {
         connections::view(self.document(ModuleKind::Connections)?)
     }
 
-    /// `bounds_module`, whatever its version.
+    /// View of `bounds_module` in any version.
     pub fn bounds(&self) -> Option<Bounds<'_>> {
         bounds::view(self.document(ModuleKind::Bounds)?)
     }
 
-    /// The meshes of a mesh module, whatever its version; `None` for `original_meshes_module` of
-    /// version 1, which is not a list by link.
+    /// View of a mesh module in any version. `None` for `original_meshes_module` of version 1, which is not organised
+    /// by link.
     pub fn meshes(&self, kind: ModuleKind) -> Option<Meshes<'_>> {
         meshes::view(self.document(kind)?)
     }
 
-    /// How a link is called in messages: by index, and by name where it has one.
+    /// A link in messages: its index, and its name if known.
     pub fn link_label(&self, link: usize) -> String {
         match self.robot().and_then(|robot| robot.links.get(link)) {
             Some(named) => format!("link {link} (`{}`)", named.name),

@@ -1,4 +1,4 @@
-//! Which elements of a link can be made a mesh (SPEC 7.2).
+//! Determines which elements of a link are usable for a mesh (SPEC 7.2).
 
 use std::collections::HashSet;
 
@@ -7,18 +7,18 @@ use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::urdf::Geometry;
 
-/// Which elements of a robot's links can be made a mesh: those with a surface. A mesh that
-/// could not be carried has none.
+/// The elements of a robot's links that are usable for a mesh: those with a surface. A mesh file that the URDD lacks
+/// has none.
 pub struct UsableGeometry<'a> {
     urdd: &'a Urdd,
-    /// Link, kind, element of meshes that could not be carried, or have no surface.
+    /// Link, kind and element index of meshes that are missing in the URDD or have no surface.
     lost: HashSet<(usize, GeometryKind, usize)>,
-    /// Links whose visual meshes a legacy module does not carry.
+    /// Links whose visual meshes are missing in a legacy module.
     lost_legacy: HashSet<usize>,
 }
 
 impl<'a> UsableGeometry<'a> {
-    /// For a URDD. Without `original_meshes_module` every mesh is taken to be carried.
+    /// For a URDD. Without `original_meshes_module`, all meshes count as present.
     pub fn new(urdd: &'a Urdd) -> Self {
         let mut usable = UsableGeometry {
             urdd,
@@ -88,7 +88,7 @@ impl<'a> UsableGeometry<'a> {
     }
 }
 
-/// Whether a geometry has a surface with an area, so that there is something to make a mesh of.
+/// Whether a geometry has a surface with nonzero area.
 fn has_surface(geometry: &Geometry) -> bool {
     let two = |numbers: [f64; 3], extends: fn(f64) -> bool| {
         numbers

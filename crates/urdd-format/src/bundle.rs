@@ -1,13 +1,13 @@
-//! One schema for a whole URDD of version 1: for code generators, which make one set of types of it
-//! instead of one for each file.
+//! One schema for a whole URDD of version 1, so that code generators emit one set of types instead
+//! of one per file.
 
 use serde_json::{Map, Value, json};
 
 use super::registry::Profile;
 use super::schema::{Subject, Variant};
 
-/// The schema of an object with a property for `urdd.json` and one for each module. Definitions that
-/// several modules share are there once.
+/// The schema of an object with a property for `urdd.json` and one for each module. Each shared
+/// definition occurs once.
 pub fn bundle(variant: Variant) -> Value {
     let mut definitions = Map::new();
     let mut properties = Map::new();
@@ -42,7 +42,7 @@ fn is_version_1(subject: Subject) -> bool {
     }
 }
 
-/// Adds a schema and its definitions; gives the reference to it.
+/// Adds a schema and its definitions, and returns the reference to it.
 fn add(mut schema: Value, name: &str, definitions: &mut Map<String, Value>) -> String {
     let object = schema.as_object_mut();
     let own = object.and_then(|object| {
@@ -57,7 +57,7 @@ fn add(mut schema: Value, name: &str, definitions: &mut Map<String, Value>) -> S
     };
     let clash =
         |(key, value): (&String, &Value)| definitions.get(key).is_some_and(|other| other != value);
-    // Where a name means something else already, all of this module's get names of their own.
+    // On a name clash, prefix all definitions of this module.
     let prefix = match own.iter().any(clash) {
         true => title.as_str(),
         false => "",
@@ -75,7 +75,7 @@ fn add(mut schema: Value, name: &str, definitions: &mut Map<String, Value>) -> S
     reference
 }
 
-/// Puts a prefix before the name of every definition that is referred to.
+/// Prefixes the name in every `$ref`.
 fn refer(schema: &mut Value, prefix: &str) {
     match schema {
         Value::Object(object) => {

@@ -1,4 +1,4 @@
-//! `chain_module`: the kinematic tree, with all that forward kinematics needs.
+//! `chain_module`: the kinematic tree, with all data for forward kinematics.
 
 use super::index::{JointIdx, LinkIdx};
 use super::object::{module, object};

@@ -1,4 +1,4 @@
-//! `composition_module`: how a robot was put together from others.
+//! `composition_module`: how a robot was composed of others.
 
 use super::index::{JointIdx, LinkIdx, RobotIdx};
 use super::object::{module, object};

@@ -1,4 +1,4 @@
-//! What `urdd conformance producer` and `urdd conformance validator` write as JSON.
+//! JSON output of `urdd conformance producer` and `urdd conformance validator`.
 
 use super::index::Count;
 use super::object::{module, object, string_enum};

@@ -1,4 +1,4 @@
-//! `dof_module`: the degrees of freedom, and how joints follow from them.
+//! `dof_module`: the degrees of freedom, and how they determine the joint values.
 
 use super::index::{Count, DofIdx, JointIdx};
 use super::object::{module, object, string_enum};

@@ -1,19 +1,19 @@
-//! Text from anybody, made safe to print. A name in a URDD, a file's path or a program's argument
-//! may hold characters that clear a terminal, turn text around, or cannot be seen: each is shown as
-//! its escape, `\u{1b}`.
+//! Makes untrusted text safe to print. A name in a URDD, a file path or a command-line argument may
+//! hold characters that clear a terminal, reverse text or are invisible. Each is printed as its
+//! escape, `\u{1b}`.
 
 use std::borrow::Cow;
 use std::fmt::Write;
 
 use unicode_general_category::{GeneralCategory, get_general_category};
 
-/// Whether a character must not reach a terminal, a log or a page as it is: control characters (C0,
-/// DEL, C1), line and paragraph separators, format characters (the bidirectional ones, joiners,
-/// tags), characters without a picture, and code points that are not assigned.
+/// Whether a character must be escaped in a terminal, a log or a page: control characters (C0, DEL,
+/// C1), line and paragraph separators, format characters (bidirectional controls, joiners, tags),
+/// characters without a glyph, and unassigned code points.
 pub fn is_hidden(c: char) -> bool {
     match c {
         ' '..='~' => false,
-        // Letters and marks by category, but drawn as nothing: fillers, variation selectors.
+        // Letters and marks by category, but without a visible glyph: fillers, variation selectors.
         '\u{34f}'
         | '\u{115f}'
         | '\u{1160}'
@@ -37,24 +37,24 @@ pub fn is_hidden(c: char) -> bool {
     }
 }
 
-/// A piece of text that belongs on one line: a name, a path, a message. Line breaks are escaped too,
-/// so that no name can add a line of its own.
+/// Escapes text that belongs on one line: a name, a path, a message. Escapes line breaks too, so
+/// that no name can add a line.
 pub fn line(text: &str) -> Cow<'_, str> {
     replaced(text, is_hidden, escape)
 }
 
-/// Text of several lines: its line feeds stay, everything else is as for [`line()`].
+/// Escapes text of several lines. As [`line()`], but keeps line feeds.
 pub fn lines(text: &str) -> Cow<'_, str> {
     replaced(text, |c| c != '\n' && is_hidden(c), escape)
 }
 
-/// The text of a JSON document: what is hidden in its strings is written as `\u` escapes of JSON, so
-/// that the document says the same. (JSON writers escape C0 only.)
+/// Escapes the text of a JSON document. Hidden characters in its strings become JSON `\u` escapes,
+/// so the document keeps its meaning. (JSON writers escape C0 only.)
 pub fn json(text: &str) -> Cow<'_, str> {
     replaced(text, |c| c >= '\u{7f}' && is_hidden(c), escape_json)
 }
 
-/// A name in quotes on one line: quotes and backslashes in it are escaped too, so that it ends where it ends.
+/// Quotes a name on one line. Also escapes quotes and backslashes, so that the closing quote is unambiguous.
 pub fn quoted(name: &str) -> String {
     let name = name.replace('\\', "\\\\").replace('"', "\\\"");
     format!("\"{}\"", line(&name))

@@ -1,4 +1,4 @@
-//! Bytes as text.
+//! Hexadecimal text of bytes.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! Index spaces and counts. One Rust type for each, so that a link index is never taken for a
+//! Index spaces and counts. Each has its own Rust type, so that a link index cannot be used as a
 //! joint index.
 
 use super::object::integer;

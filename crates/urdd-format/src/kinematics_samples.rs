@@ -1,4 +1,4 @@
-//! `kinematics_samples_module`: golden values for forward kinematics.
+//! `kinematics_samples_module`: reference values for forward kinematics.
 
 use super::index::SampleIdx;
 use super::object::{module, object, string_enum};

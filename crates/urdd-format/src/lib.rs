@@ -1,5 +1,5 @@
-//! What a URDD is: one file a module, the root metadata, and the registry of every
-//! (module, version). Types only; no I/O, no logic.
+//! The contents of a URDD: one file per module, the root metadata, and the registry of every
+//! (module, version). Types and their schemas; no I/O.
 //!
 //! Each type is the source of its published JSON Schema, and accepts exactly what that schema
 //! accepts: see [`object`].

@@ -1,4 +1,4 @@
-//! `link_shapes_approximations_module`: boxes and spheres about links and pieces.
+//! `link_shapes_approximations_module`: oriented bounding boxes and bounding spheres of links and pieces.
 
 use super::object::{module, object};
 

@@ -1,4 +1,4 @@
-//! `link_shapes_distance_statistics_module`: how near pairs of shapes come to each other.
+//! `link_shapes_distance_statistics_module`: sampled distances between pairs of shapes.
 
 use super::index::{Count, LinkIdx};
 use super::object::{module, object};

@@ -1,4 +1,4 @@
-//! `link_shapes_skips_module`: the pairs to skip, by reason and by a person's edits.
+//! `link_shapes_skips_module`: the pairs to skip, by reason and by manual edits.
 
 use super::index::LinkIdx;
 use super::link_shapes_simple_skips::SkipReason;
@@ -65,7 +65,7 @@ string_enum! {
 }
 
 impl SkippedReason {
-    /// The reasons that are skipped where nobody says otherwise.
+    /// The reasons skipped by default.
     pub const USUAL: &[SkippedReason] = &[
         SkippedReason::SameLink,
         SkippedReason::Always,
@@ -73,7 +73,7 @@ impl SkippedReason {
         SkippedReason::Default,
     ];
 
-    /// The reason of a pair that is skipped for this.
+    /// The pair reason that corresponds to this skipped reason.
     pub fn of_pair(self) -> SkipReason {
         match self {
             SkippedReason::SameLink => SkipReason::SameLink,

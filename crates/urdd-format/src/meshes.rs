@@ -1,4 +1,4 @@
-//! What the mesh modules share.
+//! Types shared by the mesh modules.
 
 use super::object::{object, string_enum};
 

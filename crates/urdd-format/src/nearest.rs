@@ -1,9 +1,9 @@
-//! What somebody meant who mistyped a name.
+//! Suggestions for mistyped names.
 
-/// Longest name that is compared, bytes: comparing takes memory and time with the product of the lengths.
+/// Longest name to compare, in bytes: the cost in memory and time is the product of the lengths.
 const MAX_BYTES: usize = 100;
 
-/// The name that differs in the fewest characters, of those that differ in at most half. Long names have none.
+/// The name with the smallest edit distance, at most half its characters. `None` for names over 100 bytes.
 pub fn nearest<'a>(names: impl Iterator<Item = &'a str>, name: &str) -> Option<String> {
     if name.len() > MAX_BYTES {
         return None;

@@ -1,11 +1,11 @@
 //! Macros that declare the format's types so that serde accepts exactly what the published
 //! schema accepts.
 //!
-//! serde's own derive is laxer than a JSON Schema in some places (a struct may be read from an
-//! array, a missing `Option` is `None`, a unit variant may be written as an object) and stricter
-//! in others (`1.0` is not an integer). These macros close both gaps, and allow the keys that
-//! SPEC reserves for others: `x_…` in every object, `$schema` at the top of a document. A choice
-//! between kinds of things is declared by [`tagged`](super::tagged).
+//! serde's own derive is laxer than a JSON Schema in some places (it reads a struct from an array,
+//! a missing `Option` as `None`, a unit variant from an object) and stricter in others (`1.0` is
+//! not an integer). These macros close both gaps. They also allow the keys that SPEC reserves:
+//! `x_…` in every object, and `$schema` at the top of a document.
+//! [`tagged`](super::tagged) declares choices between kinds.
 
 use std::fmt;
 
@@ -13,12 +13,12 @@ use schemars::Schema;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, Visitor};
 use serde_json::{Value, json};
 
-/// The prefix of keys that anyone may add to any object of the format.
+/// Prefix of extension keys, allowed in every object of the format.
 pub const EXTENSION_PREFIX: &str = "x_";
 
-/// Declares a JSON object: every key required (absent is written `null`), no unknown keys.
+/// Declares a JSON object: every key required (an absent value is `null`), no unknown keys.
 ///
-/// `module!` declares one that is a whole document, where `$schema` is allowed too.
+/// `module!` declares a whole document, where `$schema` is allowed too.
 macro_rules! object {
     ($(#[$meta:meta])* pub struct $name:ident { $($(#[$fmeta:meta])* pub $field:ident: $ty:ty,)* }) => {
         $crate::object::object!(@ false, $crate::object::close,
@@ -75,7 +75,7 @@ macro_rules! module {
     };
 }
 
-/// The word of an enumeration's value: its name, unless another is given.
+/// The JSON word of an enumeration value: its name, unless another is given.
 macro_rules! word {
     ($variant:ident) => {
         stringify!($variant)
@@ -96,7 +96,7 @@ macro_rules! string_enum {
             /// Every value, in the order of the specification.
             pub const ALL: &[$name] = &[$($name::$variant),*];
 
-            /// The word as it is written in a document.
+            /// The word as written in a document.
             pub fn as_str(self) -> &'static str {
                 match self { $($name::$variant => $crate::object::word!($variant $($word)?),)* }
             }
@@ -133,7 +133,7 @@ macro_rules! string_enum {
     };
 }
 
-/// Declares a non-negative integer with a meaning of its own: an index space, or a count.
+/// Declares a non-negative integer type: an index space or a count.
 macro_rules! integer {
     ($(#[doc = $doc:literal])* pub struct $name:ident;) => {
         $(#[doc = $doc])*
@@ -142,7 +142,7 @@ macro_rules! integer {
         pub struct $name(pub u32);
 
         impl $name {
-            /// As a position in a Rust slice.
+            /// The value as a position in a Rust slice.
             pub fn get(self) -> usize {
                 self.0 as usize
             }
@@ -191,7 +191,7 @@ macro_rules! pattern {
         pub struct $name(String);
 
         impl $name {
-            /// The string where it is of this form, else `None`.
+            /// The string if it matches, else `None`.
             pub fn new(text: impl Into<String>) -> Option<Self> {
                 let text = text.into();
                 let accepts: fn(&str) -> bool = $accepts;
@@ -236,8 +236,8 @@ macro_rules! pattern {
 
 pub(crate) use {integer, module, object, pattern, string_enum, word};
 
-/// The next key of an object that is one of `fields`, as its position there; extension keys
-/// are stepped over, any other key is an error.
+/// The position in `fields` of the object's next known key. Skips extension keys; any other key is
+/// an error.
 pub(crate) fn next_field<'de, A: MapAccess<'de>>(
     map: &mut A,
     fields: &'static [&'static str],
@@ -296,7 +296,7 @@ impl Visitor<'_> for KeySeed {
     }
 }
 
-/// Reads a JSON integer of 32 bits without sign; as in JSON Schema, `1.0` is one.
+/// Reads an unsigned 32-bit JSON integer. As in JSON Schema, `1.0` is an integer.
 pub(crate) struct IntegerVisitor;
 
 impl Visitor<'_> for IntegerVisitor {
@@ -326,7 +326,7 @@ impl Visitor<'_> for IntegerVisitor {
     }
 }
 
-/// Makes every property required and closes the object to all keys but extensions.
+/// Makes every property required and forbids all other keys except extensions.
 pub(crate) fn close(schema: &mut Schema) {
     let required: Vec<Value> = schema
         .get("properties")
@@ -338,7 +338,7 @@ pub(crate) fn close(schema: &mut Schema) {
     extension_properties(schema);
 }
 
-/// Closes an object to all keys but those it names and extensions.
+/// Forbids all keys except named properties and extensions.
 pub(crate) fn extension_properties(schema: &mut Schema) {
     schema.insert(
         "patternProperties".to_owned(),

@@ -1,4 +1,4 @@
-//! `original_meshes_module`: the mesh files that the URDF names, as they were.
+//! `original_meshes_module`: unmodified copies of the mesh files that the URDF names.
 
 use super::index::{ElementIdx, LinkIdx};
 use super::meshes::GeometryKind;

@@ -1,18 +1,18 @@
-//! A share of counted configurations, with its 95 % interval.
+//! A proportion of counted configurations, with its 95 % confidence interval.
 
 use std::fmt;
 
 use serde::Serialize;
 
-/// The quantile of the normal distribution at 97.5 %.
+/// The 97.5 % quantile of the standard normal distribution.
 const Z: f64 = 1.959963984540054;
 
-/// `count` out of `of`, with the 95 % interval of SPEC 8.8.11 (Wilson's score interval).
+/// `count` out of `of`, with the 95 % interval of SPEC 8.8.11 (Wilson score interval).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Rate {
-    /// How many.
+    /// The counted configurations.
     pub count: u32,
-    /// Out of how many.
+    /// All configurations.
     pub of: u32,
     /// Lower end of the interval, 0 to 1.
     pub lower: f64,
@@ -21,7 +21,7 @@ pub struct Rate {
 }
 
 impl Rate {
-    /// Of two counts; a `count` above `of` is taken as `of`.
+    /// The rate of two counts. A `count` above `of` is clamped to `of` for the interval.
     pub fn new(count: u32, of: u32) -> Self {
         let (lower, upper) = interval(f64::from(count.min(of)), f64::from(of));
         Self {
@@ -32,18 +32,18 @@ impl Rate {
         }
     }
 
-    /// The share, 0 to 1; `None` out of nothing.
+    /// The proportion, 0 to 1; `None` if `of` is 0.
     pub fn share(&self) -> Option<f64> {
         (self.of > 0).then(|| f64::from(self.count) / f64::from(self.of))
     }
 
-    /// Whether the whole interval is above that of another rate.
+    /// Whether the whole interval is above the other's.
     pub fn is_above(&self, other: &Rate) -> bool {
         self.lower > other.upper
     }
 }
 
-/// Nothing is known out of nothing.
+/// Without configurations, the interval is 0 to 1.
 fn interval(count: f64, of: f64) -> (f64, f64) {
     if of == 0.0 {
         return (0.0, 1.0);
@@ -72,7 +72,7 @@ impl fmt::Display for Rate {
     }
 }
 
-/// Two digits after the point, as many as are sure of a share below 10 %.
+/// Two decimals, as many as are significant for a proportion below 10 %.
 fn percent(share: f64) -> String {
     format!("{:.2}", 100.0 * share)
 }
@@ -94,10 +94,10 @@ fn grouped(number: u32) -> String {
 mod tests {
     use super::*;
 
-    /// `conformance/vectors/self_collision_model.json` holds more, by scipy.
+    /// `conformance/vectors/self_collision_model.json` has more cases, computed with scipy.
     #[test]
     fn ends_at_nothing_and_all_are_closed_forms() {
-        // 0 of n: z^2 / (n + z^2), and 1 less that for all of n.
+        // 0 of n: z^2 / (n + z^2); n of n: 1 minus that.
         for n in [1, 10, 300, 50_000] {
             let most = Z * Z / (f64::from(n) + Z * Z);
             let (none, all) = (Rate::new(0, n), Rate::new(n, n));

@@ -1,6 +1,7 @@
-//! Numbers as people read them, the same in every message and report.
+//! Numbers formatted for people, the same in every message and report.
 
-/// A number to so many significant digits, without trailing zeros. With an exponent only below 1e-3 and from 1e6 on.
+/// Rounds to `digits` significant digits, but keeps all digits before the decimal point. Omits trailing zeros.
+/// Uses an exponent only below 1e-3 and from 1e6.
 pub fn number(value: f64, digits: usize) -> String {
     let size = value.abs();
     if size == 0.0 {
@@ -22,7 +23,7 @@ pub fn number(value: f64, digits: usize) -> String {
     }
 }
 
-/// A length, m, to three digits.
+/// A length in metres, to three significant digits.
 pub fn metres(length: f64) -> String {
     format!("{} m", number(length, 3))
 }

@@ -1,5 +1,5 @@
-//! The one list of every (module, version) that exists: its folder, its type and schema, what it
-//! is derived from, and the conformance class that asks for it.
+//! The registry of every (module, version): its folder, its type and schema, the modules that it is
+//! derived from, and the conformance class that requires it.
 
 use schemars::Schema;
 use serde_json::Value;
@@ -10,12 +10,12 @@ use super::*;
 /// Version of the specification that this crate implements.
 pub const SPEC_VERSION: &str = "1.0.0";
 
-/// Which family of formats a (module, version) belongs to.
+/// Format family of a (module, version).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Profile {
     /// Version 1 of the specification.
     V1,
-    /// The versions that were published before there was a specification.
+    /// Versions published before the specification.
     Legacy,
 }
 
@@ -31,13 +31,13 @@ impl Profile {
 
 macro_rules! kinds {
     ($($(#[$meta:meta])* $kind:ident = $name:literal in $folder:literal, $class:expr, needs [$($needs:ident),*];)*) => {
-        /// A module of the format, whatever its version.
+        /// A module of the format, in any version.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum ModuleKind { $($(#[$meta])* $kind,)* }
 
         impl ModuleKind {
-            /// Every module, in the order of the specification's table; what a module is derived
-            /// from comes before it.
+            /// Every module, in the order of the specification's table. A module follows those that
+            /// it is derived from.
             pub const ALL: &[ModuleKind] = &[$(ModuleKind::$kind),*];
 
             /// Name of the module, the last part of its folder.
@@ -50,7 +50,7 @@ macro_rules! kinds {
                 match self { $(ModuleKind::$kind => concat!($folder, $name),)* }
             }
 
-            /// The first conformance class that asks for the module; `None` where none does.
+            /// The lowest conformance class that requires the module; `None` if none does.
             pub fn class(self) -> Option<ConformanceClass> {
                 match self { $(ModuleKind::$kind => $class,)* }
             }
@@ -76,9 +76,9 @@ kinds! {
     Connections = "connections_module" in "", Some(Core), needs [Chain];
     /// Bounds of the DOFs.
     Bounds = "bounds_module" in "", Some(Core), needs [Urdf, Dof];
-    /// Golden values for forward kinematics. Recommended.
+    /// Reference values for forward kinematics. Recommended.
     KinematicsSamples = "kinematics_samples_module" in "", None, needs [Dof, Chain, Bounds];
-    /// How the robot was put together from others. For robots that were.
+    /// How the robot was composed of others. Composed robots only.
     Composition = "composition_module" in "", None, needs [Urdf];
     /// Mesh files as the URDF names them.
     OriginalMeshes = "original_meshes_module" in "mesh_modules/", Some(Geometry), needs [Urdf];
@@ -90,39 +90,39 @@ kinds! {
     ConvexDecompositionMeshes = "convex_decomposition_meshes_module" in "mesh_modules/", Some(Geometry), needs [PlainMeshes];
     /// Boxes and spheres.
     LinkShapesApproximations = "link_shapes_approximations_module" in "link_shapes_modules/", Some(Shapes), needs [ConvexHullMeshes, ConvexDecompositionMeshes];
-    /// How far shapes reach.
+    /// Maximum distance of shapes from their link's origin.
     LinkShapesMaxDistanceFromOrigin = "link_shapes_max_distance_from_origin_module" in "link_shapes_modules/", Some(Shapes), needs [ConvexHullMeshes, ConvexDecompositionMeshes, LinkShapesApproximations];
-    /// How near shapes come.
+    /// Sampled distances between pairs of shapes.
     LinkShapesDistanceStatistics = "link_shapes_distance_statistics_module" in "link_shapes_modules/", Some(Shapes), needs [Dof, Chain, Bounds, ConvexHullMeshes, ConvexDecompositionMeshes, LinkShapesApproximations];
-    /// Pairs that are always in contact, and the reason of every pair.
+    /// Pairs that are always in contact, and the reason for every pair.
     LinkShapesSimpleSkips = "link_shapes_simple_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Dof, Chain, Bounds, ConvexHullMeshes, ConvexDecompositionMeshes, LinkShapesApproximations, LinkShapesDistanceStatistics];
-    /// Pairs to skip, by reason and by a person's edits.
+    /// Pairs to skip, by reason and by manual edits.
     LinkShapesSkips = "link_shapes_skips_module" in "link_shapes_modules/", Some(Shapes), needs [Urdf, LinkShapesSimpleSkips];
-    /// A network that estimates how near links are. For who asks for it.
+    /// A network that estimates distances between links. Optional.
     SelfCollisionModel = "self_collision_model_module" in "link_shapes_modules/", None, needs [Dof, Chain, Bounds, ConvexDecompositionMeshes, LinkShapesSkips];
     /// Error of linearised distances. Legacy only.
     LinkShapesLieAlgErrorModels = "link_shapes_lie_alg_error_models_module" in "link_shapes_modules/", None, needs [];
-    /// A viewer's bookkeeping. Legacy only.
+    /// A viewer's state. Legacy only.
     FirstLookVis = "first_look_vis_module" in "bevy_modules/", None, needs [];
-    /// How a robot was put together from others. Legacy only.
+    /// How a robot was composed of others. Legacy only.
     CombinedRobot = "combined_robot_module" in "", None, needs [];
     /// How a robot was trimmed from another. Legacy only.
     AdjustedRobot = "adjusted_robot_module" in "", None, needs [];
-    /// How a chain was put together from mesh files. Legacy only.
+    /// How a chain was assembled from mesh files. Legacy only.
     Creator = "creator_module" in "", None, needs [];
 }
 
 macro_rules! modules {
     ($($variant:ident($ty:ty): $kind:ident @ $($version:literal)|+, $profile:ident;)*) => {
-        /// The document of a module, read. Versions of one shape share a variant.
+        /// A parsed module document. Versions of the same structure share a variant.
         #[derive(Debug, Clone, PartialEq, serde::Serialize)]
         #[serde(untagged)]
         pub enum ModuleDocument {
             $(#[doc = concat!("`", stringify!($kind), "` at version ", stringify!($($version)|+), ".")] $variant(Box<$ty>),)*
         }
 
-        /// Every (module, version) that exists: version 1 in the order of the specification's table,
-        /// then legacy ones in that order, newest first.
+        /// Every (module, version): version 1 in the order of the specification's table, then legacy
+        /// versions in that order, newest first.
         pub static MODULES: &[ModuleSpec] = &[$($(ModuleSpec {
             kind: ModuleKind::$kind,
             version: $version,
@@ -137,9 +137,9 @@ macro_rules! modules {
 pub struct ModuleSpec {
     /// The module.
     pub kind: ModuleKind,
-    /// Version of its format; empty where the published module has no `VERSION` file.
+    /// Version of its format; empty if the published module has no `VERSION` file.
     pub version: &'static str,
-    /// The family it belongs to.
+    /// Its format family.
     pub profile: Profile,
     schema: fn() -> Schema,
     read: fn(&Value) -> Result<ModuleDocument, serde_json::Error>,
@@ -204,14 +204,14 @@ impl ModuleSpec {
     /// Reads a document of this module.
     ///
     /// # Errors
-    /// Where the document breaks the schema; serde's message says how, not where.
+    /// If the document breaks the schema. serde's message names the fault, not its position.
     pub fn read(&self, document: &Value) -> Result<ModuleDocument, serde_json::Error> {
         (self.read)(document)
     }
 
-    /// Reads the text of a document of this module without a [`Value`] of the whole, where it is one of the modules that
-    /// grow with the square of the links, and fits the schema. Faults of the text alone, such as members of others named
-    /// twice, are passed over.
+    /// Reads the text of a document of this module without building a [`Value`]. `None` unless the module grows with
+    /// the square of the number of links and the text fits the schema. Ignores faults of the text alone, such as
+    /// duplicate extension keys.
     pub fn read_text(&self, text: &str) -> Option<ModuleDocument> {
         fn read<T: serde::de::DeserializeOwned>(text: &str) -> Option<Box<T>> {
             serde_json::from_str(text).ok().map(Box::new)
@@ -233,8 +233,7 @@ impl ModuleSpec {
     }
 }
 
-/// The entry of a (module, version), by the module and the text of its version; the empty text
-/// stands for a published module that has no version.
+/// The entry of a (module, version). An empty version selects a published module without one.
 pub fn find(kind: ModuleKind, version: &str) -> Option<&'static ModuleSpec> {
     MODULES
         .iter()

@@ -1,4 +1,4 @@
-//! The validator's report, as `--format json` writes it.
+//! The validator's report, the output of `--format json`.
 
 use super::index::Count;
 use super::object::{module, object, string_enum};
@@ -23,7 +23,7 @@ module! {
 }
 
 impl Report {
-    /// How many URDDs have a verdict.
+    /// Number of URDDs with this verdict.
     pub fn count(&self, verdict: Verdict) -> usize {
         self.urdds
             .iter()

@@ -1,4 +1,4 @@
-//! `urdd.json`: what a URDD is, where it came from, and what is in it.
+//! `urdd.json`: identity, origin and contents of a URDD.
 
 use super::index::Count;
 use super::object::{module, object, pattern, string_enum};

@@ -1,5 +1,5 @@
-//! The published JSON Schemas: what the types say, as the text of files. Pure: reading and writing
-//! them is [`urdd_directory::schema_files`].
+//! The published JSON Schemas as the text of files, generated from the types. No I/O:
+//! `urdd_directory::schema_files` reads and writes them.
 
 use schemars::Schema;
 use serde::Deserialize;
@@ -19,24 +19,24 @@ pub enum Subject {
     RootMetadata,
     /// The document of a module.
     Module(&'static ModuleSpec),
-    /// What `urdd validate --format json` writes.
+    /// Output of `urdd validate --format json`.
     Report,
-    /// What `urdd conformance producer --format json` writes.
+    /// Output of `urdd conformance producer --format json`.
     ProducerResult,
-    /// What `urdd conformance validator --format json` writes.
+    /// Output of `urdd conformance validator --format json`.
     ValidatorResult,
 }
 
-/// Whom a schema is for.
+/// Intended use of a schema.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Variant {
-    /// For producers and validators: no unknown keys.
+    /// For producers and validators: rejects unknown keys.
     Strict,
-    /// For code generators: unknown keys pass, so that a document of a later minor version is read.
+    /// For code generators: accepts unknown keys, to read documents of later minor versions.
     Open,
 }
 
-/// A file of the folder of published schemas.
+/// A file in the folder of published schemas.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SchemaFile {
     /// Path relative to that folder, with forward slashes.
@@ -45,15 +45,15 @@ pub struct SchemaFile {
     pub text: String,
 }
 
-/// What can be wrong with the schemas themselves.
+/// Errors in the schemas themselves.
 #[derive(Debug, thiserror::Error)]
 pub enum SchemaError {
     /// No schema has this id.
     #[error("there is no schema `{id}`{}", hint(near))]
     UnknownId {
-        /// The id that was asked for.
+        /// The requested id.
         id: String,
-        /// Ids that look like it, nearest first.
+        /// Similar ids, nearest first.
         near: Vec<String>,
     },
     /// The list of released schemas cannot be read.
@@ -69,32 +69,32 @@ fn hint(near: &[String]) -> String {
     }
 }
 
-/// A schema that never changes again.
+/// A frozen schema.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Release {
-    /// Which one: `dof_module@0.0.2`.
+    /// Its id: `dof_module@0.0.2`.
     pub id: String,
-    /// [`validating_hash`] of it.
+    /// Its [`validating_hash`].
     pub sha256: String,
 }
 
 /// Path of the list of released schemas in the folder of published schemas.
 pub const RELEASED_PATH: &str = "released.json";
 
-/// The list itself. It is written by hand: a program that brought it up to date would freeze nothing.
+/// The list itself. It is maintained by hand: a program that updated it would not freeze anything.
 const RELEASED: &str = include_str!("released.json");
 
-/// The schemas that are released, in the order of the list.
+/// The released schemas, in the order of the list.
 ///
 /// # Errors
-/// Where the list is no list of releases.
+/// If the list is not a valid list of releases.
 pub fn released() -> Result<Vec<Release>, SchemaError> {
     Ok(serde_json::from_str(RELEASED)?)
 }
 
 impl Subject {
-    /// Everything that has a published schema: the root metadata, the registry in its order, the
+    /// Every document with a published schema: the root metadata, the registry in its order, the
     /// report, and the results of the conformance commands.
     pub fn all() -> impl Iterator<Item = Subject> {
         std::iter::once(Subject::RootMetadata)
@@ -106,10 +106,10 @@ impl Subject {
             ])
     }
 
-    /// The subject of an id such as `dof_module@1.0.0`.
+    /// The subject with an id such as `dof_module@1.0.0`.
     ///
     /// # Errors
-    /// Where there is none; the error knows ids that look like it.
+    /// If no subject has this id. The error suggests similar ids.
     pub fn find(id: &str) -> Result<Subject, SchemaError> {
         Subject::all()
             .find(|subject| subject.id() == id)
@@ -168,15 +168,15 @@ impl Subject {
         published(schema, id, variant)
     }
 
-    /// The text of its schema's file.
+    /// The text of its schema file.
     pub fn text(self, variant: Variant) -> String {
-        // `{:#}` is JSON, indented; unlike `to_string_pretty` it has no error to answer for.
+        // `{:#}` writes indented JSON; unlike `to_string_pretty`, it cannot fail.
         format!("{:#}\n", self.schema(variant))
     }
 }
 
-/// Every file of the folder of published schemas, sorted by path. The open ones are not frozen, so
-/// the list of released ones goes with the strict ones only.
+/// Every file in the folder of published schemas, sorted by path. Open schemas are not frozen, so
+/// the list of releases comes with the strict ones only.
 pub fn files(variant: Variant) -> Vec<SchemaFile> {
     let mut files: Vec<SchemaFile> = Subject::all()
         .map(|subject| SchemaFile {
@@ -194,8 +194,8 @@ pub fn files(variant: Variant) -> Vec<SchemaFile> {
     files
 }
 
-/// The part of a schema that decides what is valid: without annotations, lists that are sets in
-/// order. Two schemas with equal validating parts accept the same documents.
+/// The part of a schema that decides validity: without annotations, and with unordered lists
+/// sorted. Schemas with equal validating parts accept the same documents.
 pub fn validating_part(schema: &Value) -> Value {
     let mut part = each_schema(schema, &|object| {
         for annotation in ["title", "description", "$id", "$comment", "examples"] {
@@ -222,12 +222,12 @@ fn published(mut schema: Schema, id: String, variant: Variant) -> Value {
     schema.insert("$id".to_owned(), json!(id));
     name_definitions(&mut schema);
     each_schema(schema.as_value(), &|object| {
-        // A width in bits is our affair, and validators warn of formats that they do not know.
+        // The bit width is an implementation detail, and validators warn about unknown formats.
         object.shift_remove("format");
         if let Some(Value::String(text)) = object.get_mut("description") {
             *text = flowing(text);
         }
-        // A reference with a text of its own beside it becomes a second type in some code generators.
+        // Some code generators turn a `$ref` with a description beside it into a second type.
         if object.len() > 1
             && let Some(reference) = object.shift_remove("$ref")
         {
@@ -238,7 +238,7 @@ fn published(mut schema: Schema, id: String, variant: Variant) -> Value {
             object.shift_remove("patternProperties");
             plain_integers(object);
         }
-        // What a reader looks for first; the rest as the types have it.
+        // Put first what a reader looks for first.
         let mut rest = std::mem::take(object);
         for keyword in ["$schema", "$id", "title", "description"] {
             if let Some(value) = rest.shift_remove(keyword) {
@@ -249,8 +249,8 @@ fn published(mut schema: Schema, id: String, variant: Variant) -> Value {
     })
 }
 
-/// Of a list of integers, some code generators make a type of its own for the elements as soon as these
-/// have bounds or a text; what they count is in the text of the list.
+/// Some code generators declare an extra type for integer list elements that have bounds or a
+/// description. The description of the list says what they count.
 fn plain_integers(list: &mut Map<String, Value>) {
     let items = list.get_mut("items").and_then(Value::as_object_mut);
     if let Some(items) = items.filter(|items| items.get("type") == Some(&json!("integer"))) {
@@ -258,7 +258,7 @@ fn plain_integers(list: &mut Map<String, Value>) {
     }
 }
 
-/// Some code generators name a type after the title, and else after the property that holds it.
+/// Some code generators name a type after the title, else after the property that refers to it.
 fn name_definitions(schema: &mut Schema) {
     let Some(Value::Object(definitions)) = schema.get_mut("$defs") else {
         return;
@@ -270,7 +270,7 @@ fn name_definitions(schema: &mut Schema) {
     }
 }
 
-/// Undoes the line breaks of a doc comment; lists and paragraphs keep theirs.
+/// Joins the wrapped lines of a doc comment; lists and paragraphs keep their line breaks.
 fn flowing(text: &str) -> String {
     let mut flowing = String::with_capacity(text.len());
     for line in text.lines() {
@@ -284,8 +284,8 @@ fn flowing(text: &str) -> String {
     flowing
 }
 
-/// Applies `change` to a schema and to every schema within it. Names of properties and values of
-/// enumerations are not schemas, whatever they are called.
+/// Applies `change` to a schema and to every schema within it. Property names and enumeration
+/// values are not schemas, even if they look like keywords.
 fn each_schema(schema: &Value, change: &impl Fn(&mut Map<String, Value>)) -> Value {
     let Value::Object(object) = schema else {
         return schema.clone();
@@ -321,7 +321,7 @@ fn each_schema_of(
     }
 }
 
-/// The versions of the module that is named, else ids that are spelt alike.
+/// All versions of the module with this name, else of those with the most similar name.
 fn near_ids(id: &str) -> Vec<String> {
     let name = id.split('@').next().unwrap_or_default();
     let mut near: Vec<(usize, String)> = Subject::all()

@@ -1,4 +1,4 @@
-//! `self_collision_model_module`: a network that says how near the links of a robot are to each other.
+//! `self_collision_model_module`: a network that estimates the distances between a robot's links.
 
 use super::index::{Count, DofIdx, LinkIdx, SampleIdx};
 use super::object::{module, object};
@@ -6,19 +6,19 @@ use super::rate::Rate;
 use super::root_metadata::Sha256;
 use super::tagged::tagged;
 
-/// The first of the sampled configurations that `evaluation` counts (SPEC 8.8.9). Models are made on those before.
+/// First sampled configuration that `evaluation` counts (SPEC 8.8.9). Models are made from earlier ones only.
 pub const EVALUATION_FIRST: u32 = 1 << 31;
 /// Number of sampled configurations that `evaluation` counts.
 pub const EVALUATION_COUNT: u32 = 50_000;
-/// Smallest number of configurations in collision, and of free ones, in `evaluation`.
+/// Minimum number in `evaluation` of configurations in collision, and also of free ones.
 pub const EVALUATION_MIN: u32 = 200;
-/// The first of the sampled configurations of the first confirmation (SPEC 8.8.12).
+/// First sampled configuration of the first confirmation (SPEC 8.8.12).
 pub const CONFIRMATION_FIRST: u32 = (1 << 31) + (1 << 20);
-/// The second confirmation begins here, or up to 2^29 - 1 later, as the numbers of the model have it.
+/// Earliest start of the second confirmation. The model's numbers determine an offset below 2^29.
 pub const CONFIRMATION_SECOND: u32 = (1 << 31) + (1 << 30);
 /// Number of sampled configurations of each confirmation.
 pub const CONFIRMATION_COUNT: u32 = 25_000;
-/// A configuration in collision is near contact where a step of this size makes it free, rad or m (SPEC 8.8.10).
+/// A configuration in collision is near contact if a step of this size frees it, rad or m (SPEC 8.8.10).
 pub const NEAR_CONTACT_STEP: f64 = 0.05;
 
 module! {
@@ -155,7 +155,7 @@ object! {
 }
 
 impl ModelEvaluation {
-    /// Counts of no configurations.
+    /// An evaluation without configurations.
     pub const NOTHING: ModelEvaluation = ModelEvaluation {
         num_colliding: Count(0),
         num_missed: Count(0),
@@ -165,17 +165,17 @@ impl ModelEvaluation {
         num_cleared: Count(0),
     };
 
-    /// The share of collisions that the model misses.
+    /// The proportion of collisions that the model misses.
     pub fn miss_rate(&self) -> Rate {
         Rate::new(self.num_missed.0, self.num_colliding.0)
     }
 
-    /// The share of collisions near contact that the model misses.
+    /// The proportion of near-contact collisions that the model misses.
     pub fn near_contact_miss_rate(&self) -> Rate {
         Rate::new(self.num_near_contact_missed.0, self.num_near_contact.0)
     }
 
-    /// The share of free configurations that the model clears.
+    /// The proportion of free configurations that the model clears.
     pub fn clear_rate(&self) -> Rate {
         Rate::new(self.num_cleared.0, self.num_free.0)
     }

@@ -1,4 +1,4 @@
-//! What the link shape modules share: what a shape index stands for.
+//! Shape indices, shared by the link shape modules.
 
 use super::index::{LinkIdx, PieceIdx};
 use super::object::object;

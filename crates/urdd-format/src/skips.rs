@@ -1,21 +1,21 @@
-//! Which pairs of shapes a collision check skips: from the reasons of pairs, the reasons that are
-//! skipped, and a person's edits, the matrices of `link_shapes_skips_module` (SPEC 8.7).
+//! Builds the matrices of `link_shapes_skips_module` (SPEC 8.7), an allowed collision matrix per
+//! kind of shape, from the reasons of the pairs, the skipped reasons and manual edits.
 //!
-//! Whoever changes the edits writes the module with this: the generator, and editors of URDDs. The
-//! validator does not use it; it judges each pair by itself.
+//! The generator and editors of URDDs write the module with this code. The validator does not use
+//! it; it checks each pair independently.
 
 use std::collections::HashMap;
 
 use crate::link_shapes_simple_skips::{LinkShapesSimpleSkipsModule, SkipReason};
 use crate::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
 
-/// The reasons of all pairs of one kind of shapes.
+/// The reasons of all pairs of one kind of shape.
 type Reasons = Vec<Vec<SkipReason>>;
-/// Which of the pairs are skipped.
+/// Whether each pair is skipped.
 type Skips = Vec<Vec<bool>>;
 
-/// Makes the module. `link_names` are the names of the robot's links in link order; an edit that
-/// names another link has no effect.
+/// Builds the module. `link_names` are the names of the robot's links in link order. An edit that
+/// names an unknown link has no effect.
 pub fn skips_module(
     simple: &LinkShapesSimpleSkipsModule,
     skipped_reasons: Vec<SkippedReason>,
@@ -46,7 +46,7 @@ pub fn skips_module(
     }
 }
 
-/// For each link that has shapes, by name, the indices of these.
+/// Indices of the shapes of each link that has any, by link name.
 struct ShapesOfLinks<'a>(HashMap<&'a str, Vec<usize>>);
 
 impl<'a> ShapesOfLinks<'a> {
@@ -65,7 +65,7 @@ impl<'a> ShapesOfLinks<'a> {
     }
 }
 
-/// The matrix of one kind of shapes.
+/// The matrix of one kind of shape.
 fn skips(
     reasons: &Reasons,
     shapes: &ShapesOfLinks,
@@ -107,7 +107,7 @@ mod tests {
     use SkipReason::{Adjacent, Always, Never, None as NoReason, SameLink};
     use SkippedReason as Skipped;
 
-    /// Three links, of which the first has two pieces.
+    /// Three links; the first has two pieces.
     fn simple() -> LinkShapesSimpleSkipsModule {
         let full = vec![
             vec![SameLink, Adjacent, Never],

@@ -1,14 +1,14 @@
-//! The macro that declares a choice between kinds of things: one key, which names the kind.
+//! The macro that declares a choice between kinds: an object whose one key names the kind.
 
 use schemars::{Schema, SchemaGenerator};
 use serde_json::{Value, json};
 
 use super::object::{extension_properties, object_schema, paragraph};
 
-/// Declares a choice: an object of one key, which says of what kind the value is (`{"Box": {…}}`).
-/// A kind without content is written as that word alone (`"World"`).
+/// Declares a choice: an object whose one key names the kind of the value (`{"Box": {…}}`). A kind
+/// without content is written as the word alone (`"World"`).
 ///
-/// serde's derive writes the same, but also reads `{"World": null}`, and refuses extension keys
+/// serde's derive writes the same, but also reads `{"World": null}`, and rejects extension keys
 /// beside the one key.
 macro_rules! tagged {
     ($(#[doc = $doc:literal])* pub enum $name:ident { $($(#[doc = $vdoc:literal])* $variant:ident $(($ty:ty))?,)* }) => {
@@ -19,7 +19,7 @@ macro_rules! tagged {
         impl<'de> serde::Deserialize<'de> for $name {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 const WORDS: &[&str] = &[$(stringify!($variant)),*];
-                // A kind without content has a slot that is never asked for.
+                // The slot of a kind without content is never used.
                 #[allow(dead_code)]
                 enum Slot { $($variant),* }
                 struct ChoiceVisitor;
@@ -93,8 +93,8 @@ pub(crate) fn word_schema(word: &str, doc: &[&str]) -> Value {
     json!({ "description": paragraph(doc), "type": "string", "const": word })
 }
 
-/// A reference to the object of one key. It gets a definition of its own, since code generators
-/// number the alternatives that have no name.
+/// A reference to the schema of the one-key object. The schema is a named definition, since code
+/// generators number unnamed alternatives.
 pub(crate) fn kind_schema(
     generator: &mut SchemaGenerator,
     choice: &str,

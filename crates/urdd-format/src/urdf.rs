@@ -1,4 +1,4 @@
-//! `urdf_module`: the source URDF, all of it, as JSON.
+//! `urdf_module`: the complete source URDF as JSON.
 
 use super::object::{module, object, string_enum};
 use super::tagged::tagged;

@@ -1,9 +1,8 @@
-//! A URDD in a zip archive: at the archive's root, or in the folder at its top.
+//! A URDD in a zip archive: at the archive's root, or in a top-level folder.
 //!
-//! An archive comes from anybody. Its bytes are in memory once, and shared; nothing is unpacked to disk. Sizes
-//! are bounded by what the archive states, and every file is inflated once, piece by piece, when the
-//! archive is opened, and found to be of that size and of the checksum that is stated. So whoever
-//! reads it later reads it to the end.
+//! An archive is untrusted. Its bytes are in memory once, and shared; nothing is unpacked to disk. The stated sizes are
+//! checked against limits first. Opening the archive inflates every file once, in chunks, and verifies its size and
+//! checksum. So later reads cannot fail midway.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -31,14 +30,14 @@ use urdd_format::registry::ModuleKind;
 /// Longest target of a symbolic link, bytes.
 const MAX_LINK_BYTES: u64 = 4096;
 
-/// Methods of compression.
+/// Compression methods.
 const STORED: u16 = 0;
 const DEFLATED: u16 = 8;
 
-/// What macOS puts beside the files of an archive.
+/// Folder that macOS adds to archives.
 const MACOS_FOLDER: &str = "__MACOSX";
 
-/// Whether a file is a zip archive, by its name or its first bytes.
+/// Whether a file is a zip archive, by its extension or its first bytes.
 pub fn is_archive(path: &Path) -> bool {
     let by_name = path
         .extension()
@@ -51,7 +50,7 @@ pub fn is_archive(path: &Path) -> bool {
     path.is_file() && (by_name || begins().unwrap_or(false))
 }
 
-/// The bytes of an archive, whoever owns them.
+/// The shared bytes of an archive.
 #[derive(Clone)]
 struct Bytes(Arc<dyn AsRef<[u8]> + Send + Sync>);
 
@@ -75,7 +74,7 @@ pub struct Archive {
     tree: Tree<Packed>,
 }
 
-/// Where the bytes of an entry are in the archive, and what they are.
+/// Location and properties of an entry's packed bytes.
 #[derive(Debug, Clone, Copy)]
 struct Packed {
     start: usize,
@@ -91,7 +90,7 @@ impl Archive {
     /// Reads an archive from disk.
     ///
     /// # Errors
-    /// Where it cannot be read, or is not an archive of one URDD.
+    /// If it cannot be read, or is not an archive of one URDD.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let from_io = |error: io::Error| ReadError::from_io(&error);
         let file = regular::open(path)?;
@@ -103,7 +102,7 @@ impl Archive {
                 limit,
             });
         }
-        // Room for all of it at once, and for the read that finds its end.
+        // Allocate once, with room for the read that detects the end.
         let mut bytes = Vec::with_capacity(usize::try_from(stated).unwrap_or_default() + 32);
         file.take(limit + 1)
             .read_to_end(&mut bytes)
@@ -116,11 +115,10 @@ impl Archive {
         Ok(Self::new(&name, bytes)?)
     }
 
-    /// Of an archive's bytes. `name` is that of the root folder, where the URDD is at the
-    /// archive's root.
+    /// Opens an archive from its bytes. `name` names the root folder if the URDD is at the archive's root.
     ///
     /// # Errors
-    /// Where it is not an archive of one URDD.
+    /// If it is not an archive of one URDD.
     pub fn new(
         name: &str,
         bytes: impl AsRef<[u8]> + Send + Sync + 'static,
@@ -163,7 +161,7 @@ impl Source for Archive {
     }
 }
 
-/// All entries, each of which can be read.
+/// All entries, verified to be readable.
 fn members(bytes: &Bytes) -> Result<Vec<Member>, ArchiveFault> {
     let all = bytes.all();
     let listed = zip_list::read(all)?;
@@ -171,7 +169,7 @@ fn members(bytes: &Bytes) -> Result<Vec<Member>, ArchiveFault> {
     for entry in &listed {
         check(entry).map_err(|fault| entry_fault(entry.name, fault))?;
     }
-    // Nothing is inflated before it is known how much there is.
+    // Check the total size before inflating anything.
     let size = listed.iter().map(|entry| entry.size).sum();
     if size > limit {
         return Err(ArchiveFault::Inflates { size, limit });
@@ -189,7 +187,7 @@ const KIND_FOLDER: u32 = 0o040_000;
 const KIND_FILE: u32 = 0o100_000;
 const KIND_LINK: u32 = 0o120_000;
 
-/// Holds an entry to what can be known without inflating it.
+/// Checks an entry without inflating it.
 fn check(entry: &Listed<'_>) -> Result<(), EntryFault> {
     let length = entry.name.len();
     let part = entry
@@ -225,7 +223,7 @@ fn check(entry: &Listed<'_>) -> Result<(), EntryFault> {
     }
 }
 
-/// An entry, read to its end.
+/// Reads an entry to its end.
 fn member(bytes: &Bytes, entry: &Listed<'_>) -> io::Result<Member> {
     let name = String::from_utf8_lossy(entry.name);
     let path = name.strip_suffix('/').unwrap_or(&name).to_owned();
@@ -263,15 +261,15 @@ fn member(bytes: &Bytes, entry: &Listed<'_>) -> io::Result<Member> {
     })
 }
 
-/// Whether a name is a path that stays in the archive, wherever it is unpacked. What else SPEC 2.8
-/// forbids is for rules to report, as of a folder.
+/// Whether a name is a relative path that stays inside the archive on every system. The rules report other violations
+/// of SPEC 2.8, as they do for a folder.
 fn is_inside(path: &str) -> bool {
     let mut parts = path.split('/');
     let is_drive = matches!(path.as_bytes(), [drive, b':', ..] if drive.is_ascii_alphabetic());
     !is_drive && !path.contains(['\\', '\0']) && parts.all(|part| !matches!(part, "" | "." | ".."))
 }
 
-/// The folder of the archive that is the URDD's root; "" for the archive itself.
+/// The folder in the archive that is the URDD's root; "" for the archive itself.
 fn urdd_folder(members: &[Member]) -> Result<String, ArchiveFault> {
     let is_of_root = |path: &str| {
         let is_module = |kind: &ModuleKind| {
@@ -301,7 +299,7 @@ fn urdd_folder(members: &[Member]) -> Result<String, ArchiveFault> {
     }
 }
 
-/// The bytes of an entry as they are packed.
+/// The packed bytes of an entry.
 struct Slice {
     bytes: Bytes,
     start: usize,
@@ -335,7 +333,7 @@ fn inflate(bytes: &Bytes, packed: &Packed) -> Checked {
     }
 }
 
-/// Reads what the archive states, not a byte more or less.
+/// Reads exactly the stated number of bytes, and verifies the checksum.
 struct Checked {
     inner: OpenFile,
     left: u64,

@@ -13,7 +13,7 @@ use crate::read_error::ReadError;
 use crate::regular;
 use urdd_format::registry::ModuleKind;
 
-/// Whether a folder is the root of a URDD: it holds `urdd.json`, or a module's folder.
+/// Whether a folder is the root of a URDD: it contains `urdd.json`, or a module's folder.
 pub fn is_urdd(folder: &Path) -> bool {
     folder.join(ROOT_METADATA).is_file()
         || ModuleKind::ALL
@@ -32,7 +32,7 @@ impl Disk {
     /// Opens a folder as a URDD's root.
     ///
     /// # Errors
-    /// Where it does not exist, is no folder, or cannot be reached.
+    /// If it does not exist, is not a folder, or cannot be accessed.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let canonical = fs::canonicalize(path).map_err(|error| ReadError::from_io(&error))?;
         if !canonical.is_dir() {
@@ -63,7 +63,7 @@ impl Disk {
                 Ok(metadata) if metadata.is_file() => (EntryKind::File, metadata.len()),
                 _ => (EntryKind::Link, 0),
             },
-            // A broken link is judged by where it points, as far as that can be told.
+            // Classify a broken link by its target, as far as possible.
             Err(_) => match fs::read_link(path) {
                 Ok(target) if target.is_absolute() && !target.starts_with(&self.canonical) => {
                     (EntryKind::LinkOut, 0)

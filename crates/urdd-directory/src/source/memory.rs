@@ -18,10 +18,10 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Of files by path. `name` is that of the root folder.
+    /// A URDD from files by path. `name` names the root folder.
     ///
     /// # Errors
-    /// The first path that SPEC 2.8 does not allow, or that is a file's and a folder's at once.
+    /// The first path that SPEC 2.8 forbids, or that is both a file and a folder.
     pub fn new(
         name: &str,
         files: BTreeMap<String, Arc<[u8]>>,

@@ -1,4 +1,4 @@
-//! Where the files of a URDD lie: in a folder, in memory, or in a zip archive.
+//! Storage of a URDD's files: a folder, memory, or a zip archive.
 
 mod archive;
 mod disk;
@@ -18,33 +18,33 @@ pub use archive::{Archive, is_archive};
 pub use disk::{Disk, is_urdd};
 pub use memory::Memory;
 
-/// A file that is open for reading.
+/// A file open for reading.
 pub type OpenFile = Box<dyn Read + Send>;
 
-/// Where the files of one URDD lie. Paths are relative to the URDD's root, with forward slashes;
-/// who calls this has checked that they are such as SPEC 2.8 allows.
+/// Storage of one URDD's files. Paths are relative to the URDD's root, with forward slashes. The caller has checked
+/// them against SPEC 2.8.
 pub trait Source: fmt::Debug + Send + Sync {
-    /// The name of the root folder.
+    /// Name of the root folder.
     fn folder_name(&self) -> String;
 
-    /// Everything below the root. Links are not followed.
+    /// Lists everything below the root. Does not follow links.
     ///
     /// # Errors
-    /// Where the root itself cannot be listed.
+    /// If the root itself cannot be listed.
     fn list(&self) -> Result<Listing, ReadError>;
 
-    /// Opens a regular file, and gives its size in bytes.
+    /// Opens a regular file, and returns its size in bytes.
     ///
     /// # Errors
-    /// Where there is none, a link leads out of the root, or it cannot be read.
+    /// If it is missing, a link leads out of the root, or it cannot be read.
     fn open(&self, path: &str) -> Result<(OpenFile, u64), ReadError>;
 
-    /// The URDD of this folder name beside this one, where the source can have one.
+    /// The URDD with this folder name in the same parent folder, if the source supports it.
     fn sibling(&self, _folder_name: &str) -> Option<Arc<dyn Source>> {
         None
     }
 
-    /// The folder on disk, where files can be written.
+    /// The writable folder on disk, if any.
     fn folder(&self) -> Option<&Path> {
         None
     }

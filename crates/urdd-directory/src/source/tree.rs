@@ -1,4 +1,4 @@
-//! Folders, files and links that are not on disk.
+//! A virtual tree of folders, files and links.
 
 use std::cmp::Ordering;
 
@@ -6,10 +6,10 @@ use crate::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use crate::listing::{Entry, EntryKind, Listing};
 use crate::read_error::ReadError;
 
-/// Most symbolic links that one path is followed through, as on Linux.
+/// Maximum number of symbolic links followed for one path, as on Linux.
 const MAX_LINKS: usize = 40;
 
-/// What is at a path.
+/// The node at a path.
 #[derive(Debug)]
 pub enum Node<T> {
     Folder,
@@ -18,7 +18,7 @@ pub enum Node<T> {
     Other,
 }
 
-/// A path and what is there.
+/// A path and its node.
 #[derive(Debug)]
 pub struct Item<T> {
     pub path: String,
@@ -26,18 +26,18 @@ pub struct Item<T> {
     pub node: Node<T>,
 }
 
-/// What is below a root. Each path is stored once: the folders above it follow from it, however many there are.
+/// All nodes below a root. Stores each path once: the folders above it are implied.
 #[derive(Debug)]
 pub struct Tree<T> {
-    /// In the order of their parts, so that what is below a folder follows the folder.
+    /// Sorted part by part, so that a folder's contents directly follow it.
     items: Vec<Item<T>>,
 }
 
 impl<T> Tree<T> {
-    /// Of items in any order.
+    /// A tree of items in any order.
     ///
     /// # Errors
-    /// A path that is there twice, or that is a file's and a folder's at once.
+    /// A duplicate path, or one that is both a file and a folder.
     pub fn new(mut items: Vec<Item<T>>) -> Result<Self, String> {
         items.sort_by(|a, b| in_parts(&a.path, &b.path));
         for pair in items.windows(2) {
@@ -56,7 +56,7 @@ impl<T> Tree<T> {
         Ok(Tree { items })
     }
 
-    /// The file at a path, links followed.
+    /// The file at a path. Follows links.
     pub fn file(&self, path: &str) -> Result<(&T, u64), ReadError> {
         match self.follow(path)? {
             Node::File { size, data } => Ok((data, *size)),
@@ -64,7 +64,7 @@ impl<T> Tree<T> {
         }
     }
 
-    /// All of it, as of a folder on disk.
+    /// Lists the whole tree, like a folder on disk.
     pub fn listing(&self) -> Listing {
         let mut listing = Listing::default();
         let mut before = "";
@@ -115,7 +115,7 @@ impl<T> Tree<T> {
         }
     }
 
-    /// What is at a path itself.
+    /// The node at a path, without following links.
     fn get(&self, path: &str) -> Option<&Node<T>> {
         let place = self
             .items
@@ -127,7 +127,7 @@ impl<T> Tree<T> {
         }
     }
 
-    /// What a path leads to.
+    /// The node at a path, following links.
     fn follow(&self, path: &str) -> Result<&Node<T>, ReadError> {
         let mut ahead: Vec<&str> = path.split('/').rev().collect();
         let mut at = String::new();
@@ -172,12 +172,12 @@ impl<T> Tree<T> {
     }
 }
 
-/// The order of paths part by part: what is below a folder stands together, right after it.
+/// Orders paths part by part, so that a folder's contents directly follow it.
 fn in_parts(a: &str, b: &str) -> Ordering {
     a.split('/').cmp(b.split('/'))
 }
 
-/// How many folders above `path` are above `before` too, or are `before` itself.
+/// Number of folders above `path` that are also above `before`, or are `before` itself.
 fn shared_parts(before: &str, path: &str) -> usize {
     let folders = path.matches('/').count();
     let pairs = before.split('/').zip(path.split('/')).take(folders);

@@ -1,8 +1,8 @@
-//! The list of a zip archive's entries, and that it is the only one that can be read from its bytes.
+//! Reads the central directory of a zip archive, and verifies that no other listing can be read from its bytes.
 //!
-//! A zip archive says twice what it holds: in the list at its end, and in a header before each entry. Programs differ in
-//! which they believe, and in where they look for the list. So both have to agree here, and each byte has to belong to
-//! one entry, to the list, or to the record at the end: what one program shows of an archive, every other shows too.
+//! A zip archive describes its entries twice: in the central directory at its end, and in a local header before each
+//! entry. Programs differ in which one they use, and in where they look for the directory. So both must agree, and each
+//! byte must belong to one entry, the directory, or the end record. Then every program extracts the same files.
 
 use crate::archive_fault::{ArchiveFault, EntryFault};
 
@@ -14,41 +14,41 @@ const LISTED: &[u8] = b"PK\x01\x02";
 const LISTED_LENGTH: usize = 46;
 const HEADER: &[u8] = b"PK\x03\x04";
 const HEADER_LENGTH: usize = 30;
-/// What may follow the bytes of an entry: its checksum and sizes, once they are known.
+/// Longest data descriptor, which may follow an entry with its checksum and sizes.
 const LONGEST_DESCRIPTOR: usize = 24;
 
 /// Bits of an entry's flags.
 const ENCRYPTED: u16 = 1;
 const HAS_DESCRIPTOR: u16 = 1 << 3;
 
-/// Systems whose entries have a mode of Unix.
+/// Host systems whose entries have a Unix mode.
 const UNIX: [u8; 2] = [3, 19];
 
-/// An entry, as the list says it.
+/// An entry of the central directory.
 #[derive(Debug, Clone, Copy)]
 pub struct Listed<'a> {
-    /// Its name, of any bytes.
+    /// Its name, as arbitrary bytes.
     pub name: &'a [u8],
     /// Whether it is encrypted.
     pub is_encrypted: bool,
-    /// How it is compressed.
+    /// Its compression method.
     pub method: u16,
     /// CRC-32 of its content.
     pub crc: u32,
     /// Size of its content, bytes.
     pub size: u64,
-    /// Where its packed bytes begin.
+    /// Start of its packed bytes.
     pub start: usize,
-    /// Where they end.
+    /// End of its packed bytes.
     pub end: usize,
-    /// The kind in its mode of Unix; 0 where it has none.
+    /// The file type bits of its Unix mode; 0 if it has none.
     pub kind: u32,
 }
 
-/// Every entry, in the order of the list.
+/// Every entry, in the order of the central directory.
 ///
 /// # Errors
-/// Where this is not one whole archive, or its list and its headers differ.
+/// If this is not one complete archive, or the directory and the local headers differ.
 pub fn read(bytes: &[u8]) -> Result<Vec<Listed<'_>>, ArchiveFault> {
     let end = end(bytes)?;
     let record = Fields(&bytes[end..]);
@@ -88,7 +88,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Listed<'_>>, ArchiveFault> {
     Ok(entries)
 }
 
-/// Where the record at the end begins.
+/// Offset of the end record.
 fn end(bytes: &[u8]) -> Result<usize, ArchiveFault> {
     let last = bytes.len().saturating_sub(END_LENGTH);
     let first = last.saturating_sub(u16::MAX.into());
@@ -96,7 +96,7 @@ fn end(bytes: &[u8]) -> Result<usize, ArchiveFault> {
     let Some(end) = found.find(|end| *end <= last) else {
         return Err(broken("it has no record at its end"));
     };
-    // Another reader takes the first one that it finds.
+    // Other readers take the first end record that they find.
     let comment = usize::from(Fields(&bytes[end..]).short(20));
     if end + END_LENGTH + comment != bytes.len() || found.any(|other| is_end(bytes, other)) {
         return Err(ArchiveFault::OtherBytes);
@@ -108,7 +108,7 @@ fn end(bytes: &[u8]) -> Result<usize, ArchiveFault> {
     }
 }
 
-/// Whether a reader that looks from elsewhere may take this for the record at the end.
+/// Whether another reader may take this for the end record.
 fn is_end(bytes: &[u8], at: usize) -> bool {
     let Some(record) = bytes.get(at..at + END_LENGTH) else {
         return false;
@@ -119,7 +119,7 @@ fn is_end(bytes: &[u8], at: usize) -> bool {
     at + END_LENGTH + comment == bytes.len() || start.checked_add(size) == Some(at)
 }
 
-/// An entry, and its place with its own header: where it begins, where it ends, and whether something may follow.
+/// An entry and its extent with its local header: start, end, and whether a data descriptor may follow.
 fn entry<'a>(
     bytes: &[u8],
     list: usize,
@@ -141,7 +141,7 @@ fn entry<'a>(
     }
     let flags = fields.short(8);
     let has_descriptor = header.short(6) & HAS_DESCRIPTOR != 0;
-    // What is not known yet when the header is written is 0 there, or, where it may be large, all ones.
+    // A local header written before the value is known has 0, or all ones for large sizes.
     let agrees = |at: usize, listed: u32| {
         let own = header.word(at);
         own == listed || (own == 0 && has_descriptor) || (own == u32::MAX && at != 14)
@@ -173,8 +173,7 @@ fn entry<'a>(
     Ok((listed, (begin, end, has_descriptor)))
 }
 
-/// Whether entries follow one another from the first byte to the list: what is between them, or before them, may be
-/// another archive.
+/// Whether entries are contiguous from the first byte to the central directory. Gaps may contain another archive.
 fn without_gaps(mut places: Vec<(usize, usize, bool)>, list: usize) -> Result<(), ArchiveFault> {
     places.sort_unstable();
     let mut at = 0;
@@ -203,7 +202,7 @@ fn damaged(reason: &str) -> EntryFault {
     EntryFault::Damaged { reason }
 }
 
-/// What is wrong with an entry.
+/// The fault of an entry.
 pub fn entry_fault(name: &[u8], fault: EntryFault) -> ArchiveFault {
     ArchiveFault::Entry {
         name: String::from_utf8_lossy(name).into_owned(),
@@ -211,12 +210,12 @@ pub fn entry_fault(name: &[u8], fault: EntryFault) -> ArchiveFault {
     }
 }
 
-/// A record of numbers of two and four bytes, the lowest first; long enough for what is asked of it.
+/// A record of little-endian fields of two and four bytes. The caller has checked its length.
 #[derive(Clone, Copy)]
 struct Fields<'a>(&'a [u8]);
 
 impl<'a> Fields<'a> {
-    /// The record of a kind that begins at a place and ends before `limit`.
+    /// The record with this signature at an offset, if it ends before `limit`.
     fn at(bytes: &'a [u8], at: usize, limit: usize, kind: &[u8], length: usize) -> Option<Self> {
         let record = bytes.get(..limit)?.get(at..at.checked_add(length)?)?;
         record.starts_with(kind).then_some(Fields(record))

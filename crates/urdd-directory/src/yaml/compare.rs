@@ -1,4 +1,4 @@
-//! The events of a YAML file in step with a JSON value.
+//! Compares the events of a YAML file with a JSON value.
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -18,7 +18,7 @@ use super::scalar::{self, Reading};
 use super::tabs::Tabs;
 use super::tag::{self, Forced, Node, Target};
 
-/// Reports how the YAML in `text` differs from `json`, and what is in it that JSON has not.
+/// Reports how the YAML in `text` differs from `json`, and every construct that JSON lacks.
 pub fn compare(text: &str, json: &Value, faults: &mut TextFaults) {
     let mut comparison = Comparison {
         root: json,
@@ -52,10 +52,10 @@ struct Comparison<'j, 'y, 'f> {
     faults: &'f mut TextFaults,
 }
 
-/// What the next node is.
+/// The role of the next node.
 enum Slot<'j> {
     Key,
-    /// A value, and what the JSON has there, if that is known.
+    /// A value, with the corresponding JSON value, if known.
     Value(Option<&'j Value>),
 }
 
@@ -136,7 +136,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         } else if let Some(Shape::Mapping(Mapping { merging: true, .. })) =
             self.open.last().map(|open| &open.shape)
         {
-            // The merge key has been reported.
+            // The merge key is already reported.
             return;
         }
         let text = "an alias refers to a value written elsewhere: write the value itself";
@@ -180,7 +180,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         }
     }
 
-    /// Reports what is wrong with how a key is written.
+    /// Reports ambiguous and non-string plain keys.
     fn plain_key(&mut self, text: &str, flow: bool, at: Position) {
         let readings = scalar::classify(text);
         let kind = TextFaultKind::YamlAmbiguousScalar;
@@ -279,7 +279,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             },
             _ => Shape::Mapping(Mapping::new(json.and_then(Value::as_object))),
         };
-        // In block style nothing is read at the start of a list or mapping.
+        // In block style, the start event of a list or mapping has an empty span.
         let flow = self.open.last().is_some_and(|open| open.flow)
             || (tag.is_none() && anchor == 0 && !span.is_empty());
         self.open.push(Open {
@@ -324,7 +324,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         }
     }
 
-    /// Reports what stands before a node, and finds out what the node is to be compared with.
+    /// Reports a node's anchor and tag, and returns what to compare the node with.
     fn target(
         &mut self,
         tag: Option<&Tag>,
@@ -352,7 +352,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
 
     fn stop(&mut self, text: &str, error: &ScanError) {
         let at = place(*error.marker());
-        // The scanner looks ahead in brackets, and has a limit of its own there.
+        // The scanner looks ahead inside brackets, and has its own nesting limit there.
         if error.info() == "recursion limit exceeded" {
             return self.too_deep(at);
         }
@@ -362,7 +362,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
 
     fn too_deep(&mut self, at: Position) {
         let message = format!("the nesting is deeper than {DEPTH_LIMIT} levels: flatten it");
-        // A pointer of a hundred segments helps nobody.
+        // No pointer: it would have a hundred segments.
         self.faults
             .push(TextFault::new(TextFaultKind::YamlTooDeep, message).at(self.end.at_most(at)));
     }
@@ -375,7 +375,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         self.add(at, TextFaultKind::YamlDiffers, fault);
     }
 
-    /// Adds a fault of the node that is being read.
+    /// Adds a fault of the current node.
     fn add(&mut self, at: Position, kind: TextFaultKind, fault: impl FnOnce() -> TextFault) {
         let (open, end) = (&self.open, &self.end);
         self.faults

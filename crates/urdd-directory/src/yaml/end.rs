@@ -1,21 +1,21 @@
-//! The end of a YAML file whose last line does not end.
+//! The end of a YAML file without a final line break.
 
 use saphyr_parser::{ScalarStyle, Span};
 
 use super::super::position::{Position, position};
 
-/// What is wrong with a text that ends there, and what to do.
+/// Message for a scalar at such an end.
 pub const DISPUTED: &str = "readers disagree about the end of this text, since the file's last line does not end: end it with a line break";
 
 /// The end of a text.
 pub struct End<'y> {
     text: &'y str,
-    /// How many characters there are, where the last line does not end.
+    /// Number of characters, if the final line break is missing.
     open: Option<usize>,
 }
 
 impl<'y> End<'y> {
-    /// Finds it.
+    /// Finds the end.
     pub fn new(text: &'y str) -> Self {
         let is_open = !text.ends_with(['\n', '\r']);
         Self {
@@ -24,16 +24,15 @@ impl<'y> End<'y> {
         }
     }
 
-    /// Whether a scalar in block style ends here, without a line break: to some readers it has one
-    /// all the same.
+    /// Whether a block scalar ends at the end of the file without a line break. Some readers add one.
     pub fn is_disputed(&self, scalar: &str, style: ScalarStyle, span: Span) -> bool {
         matches!(style, ScalarStyle::Literal | ScalarStyle::Folded)
             && scalar.ends_with('\n')
             && self.open.is_some_and(|count| span.end.index() >= count)
     }
 
-    /// The place, or the end: the parser believes that every line ends, and goes on to one that is
-    /// not there.
+    /// Limits a position to the end of the text: the parser assumes a final line break, and may report a line that does
+    /// not exist.
     pub fn at_most(&self, at: Position) -> Position {
         at.min(position(self.text, self.text.len()))
     }

@@ -1,21 +1,20 @@
-//! Keys in braces whose colon stands on another line, which YAML 1.2 allows and YAML 1.1 readers
-//! refuse.
+//! Keys in flow mappings whose colon is on another line. YAML 1.2 allows them; YAML 1.1 readers reject them.
 
 use saphyr_parser::Span;
 
-/// What is wrong with such a key, and what to do.
+/// Message for such a key.
 pub const TORN: &str = "a key in braces and its `:` on different lines make YAML 1.1 readers such as PyYAML refuse the file: write them on one";
 
-/// A text that is gone through from front to end.
+/// A forward scan of a text.
 pub struct Keys<'y> {
     text: &'y str,
-    /// A place in characters, as the parser counts, and in bytes.
+    /// Current position in characters, as the parser counts, and in bytes.
     index: usize,
     offset: usize,
 }
 
 impl<'y> Keys<'y> {
-    /// At the beginning of a text.
+    /// Starts at the beginning of a text.
     pub fn new(text: &'y str) -> Self {
         Self {
             text,
@@ -24,7 +23,7 @@ impl<'y> Keys<'y> {
         }
     }
 
-    /// Whether a key has a line break in itself or before its colon. One behind a `?` may.
+    /// Whether a line break is inside a key or before its colon. Explicit keys after `?` are exempt.
     pub fn is_torn(&mut self, key: Span) -> bool {
         let start = self.advance(key.start.index());
         let end = self.advance(key.end.index());
@@ -52,7 +51,7 @@ impl<'y> Keys<'y> {
         }
     }
 
-    /// The byte offset of a character.
+    /// Advances to a character index, and returns its byte offset.
     fn advance(&mut self, index: usize) -> usize {
         let rest = &self.text[self.offset..];
         let count = index.saturating_sub(self.index);

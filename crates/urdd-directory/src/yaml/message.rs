@@ -1,4 +1,4 @@
-//! The wording of what is wrong with a YAML mirror.
+//! Messages about a YAML mirror.
 
 use saphyr_parser::ScanError;
 use serde_json::Value;
@@ -8,10 +8,10 @@ use super::super::string_text::yaml_quoted;
 use super::super::text_fault::{TextFault, TextFaultKind};
 use super::scalar::{Reading, Readings};
 
-/// Longer excerpts are cut, so that a message stays a message.
+/// Longer excerpts are truncated.
 const LONGEST_EXCERPT: usize = 80;
 
-/// A value in a few words.
+/// A short description of a value.
 pub fn describe(value: &Value) -> String {
     match value {
         Value::Array(list) => format!("a list of {}", list.len()),
@@ -29,7 +29,7 @@ pub fn excerpt(text: &str) -> String {
     short.replace(['\n', '\r'], " ")
 }
 
-/// A scalar that is not the JSON value.
+/// A value that differs from the JSON.
 pub fn differs(found: &str, json: &Value) -> TextFault {
     let expected = describe(json);
     let message = format!("the YAML has {found} where the JSON has {expected}");
@@ -40,7 +40,7 @@ pub fn differs(found: &str, json: &Value) -> TextFault {
     }
 }
 
-/// A plain scalar as a message shows it: strings in quotes, anything else as it stands.
+/// A plain scalar for messages: strings quoted, anything else as written.
 pub fn found(text: &str, reading: Reading) -> String {
     match reading {
         Reading::Text => excerpt(&yaml_quoted(text)),
@@ -49,7 +49,7 @@ pub fn found(text: &str, reading: Reading) -> String {
     }
 }
 
-/// A plain scalar that readers disagree about.
+/// A plain scalar that readers interpret differently.
 pub fn ambiguous(text: &str, readings: Readings, json: Option<&Value>) -> TextFault {
     let shown = excerpt(text);
     let instead = match json {
@@ -72,7 +72,7 @@ pub fn ambiguous(text: &str, readings: Readings, json: Option<&Value>) -> TextFa
     }
 }
 
-/// A plain scalar that PyYAML cannot read between brackets.
+/// A plain scalar that PyYAML cannot read inside brackets.
 pub fn question_mark(text: &str) -> TextFault {
     let shown = excerpt(text);
     let message = format!(
@@ -106,7 +106,7 @@ pub fn not_a_string(text: &str, reading: Reading) -> TextFault {
     TextFault::new(TextFaultKind::YamlNonStringKey, message)
 }
 
-/// A key that the JSON has not.
+/// A key that is missing in the JSON.
 pub fn extra_key(key: &str) -> TextFault {
     let key = excerpt(key);
     let message = format!("the YAML has a key `{key}` that the JSON has not");
@@ -116,7 +116,7 @@ pub fn extra_key(key: &str) -> TextFault {
     }
 }
 
-/// A key that only the JSON has.
+/// A key that is missing in the YAML.
 pub fn missing_key(key: &str, value: &Value) -> TextFault {
     let message = format!("the YAML lacks the key `{}`", excerpt(key));
     TextFault {
@@ -125,7 +125,7 @@ pub fn missing_key(key: &str, value: &Value) -> TextFault {
     }
 }
 
-/// A key that stands twice.
+/// A duplicate key.
 pub fn repeated_key(key: &str) -> TextFault {
     let message = format!(
         "`{}` is named a second time in its mapping: readers differ in which they keep; remove one",
@@ -134,7 +134,7 @@ pub fn repeated_key(key: &str) -> TextFault {
     TextFault::new(TextFaultKind::YamlDuplicateKey, message)
 }
 
-/// A list of another length.
+/// A list of a different length.
 pub fn length(found: usize, expected: usize) -> TextFault {
     let message = format!("the YAML has a list of {found} where the JSON has a list of {expected}");
     TextFault {

@@ -1,4 +1,4 @@
-//! Checking that a YAML file is the mirror of a JSON document.
+//! Checks that a YAML file mirrors a JSON document.
 
 mod compare;
 mod end;
@@ -27,12 +27,11 @@ const YAML_KINDS: EncodingKinds = EncodingKinds {
     byte_order_mark: TextFaultKind::YamlByteOrderMark,
 };
 
-/// Finds everything that keeps a YAML file from being the same document as `json`, to every reader.
+/// Reports everything that prevents every reader from reading the YAML file as `json`.
 ///
-/// A file in the [canonical] form is compared byte by byte and not parsed.
-/// Any other is parsed, and may differ in layout, comments, the order of keys, and in how numbers
-/// and strings are written, as long as YAML 1.1 and YAML 1.2 agree on what they are. Anchors are
-/// reported and never expanded.
+/// A file in the [canonical] form is compared byte by byte and not parsed. Any other is parsed. It may differ in
+/// layout, comments, the order of keys, and in the notation of numbers and strings, as long as YAML 1.1 and YAML 1.2
+/// agree on the values. Anchors are reported and never expanded.
 pub fn check_mirror(yaml: &[u8], json: &Value) -> TextFaults {
     let mut faults = TextFaults::default();
     if is_canonical(yaml, json) {
@@ -52,13 +51,13 @@ pub fn check_mirror(yaml: &[u8], json: &Value) -> TextFaults {
     faults
 }
 
-/// Whether `yaml` is, byte for byte, the canonical YAML of `json`.
+/// Whether `yaml` is exactly the canonical YAML of `json`.
 pub fn is_canonical(yaml: &[u8], json: &Value) -> bool {
     let mut expected = Expected { rest: yaml };
     canonical::yaml(json, &mut expected).is_ok() && expected.rest.is_empty()
 }
 
-/// Takes what would be written and compares it with what is there; fails at the first difference.
+/// Compares written text with the expected bytes, and fails at the first difference.
 struct Expected<'a> {
     rest: &'a [u8],
 }
@@ -70,8 +69,8 @@ impl fmt::Write for Expected<'_> {
     }
 }
 
-/// Reports characters that may not stand in YAML, or that end a line in one version of it only.
-/// Gives whether the text can be parsed.
+/// Reports characters that YAML forbids, or that end a line in only one version of it. Returns whether the text can be
+/// parsed.
 fn check_characters(text: &str, faults: &mut TextFaults) -> bool {
     let is_usual = |byte: u8| matches!(byte, b'\t' | b'\n' | b'\r' | b' '..=b'~');
     if text.bytes().all(is_usual) {
@@ -103,7 +102,7 @@ fn check_characters(text: &str, faults: &mut TextFaults) -> bool {
     readable
 }
 
-/// Reports `%YAML` and the like, which the parser keeps to itself.
+/// Reports directives such as `%YAML`, which the parser does not expose.
 fn check_directives(text: &str, faults: &mut TextFaults) {
     let mut offset = 0;
     for line in text.split_inclusive(['\n', '\r']) {

@@ -1,4 +1,4 @@
-//! The lists and mappings that are open while YAML is read in step with JSON.
+//! The open lists and mappings while YAML is compared with JSON.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -8,12 +8,12 @@ use serde_json::{Map, Value, map};
 use super::super::json_scan::push_segment;
 use super::super::position::Position;
 
-/// A list or mapping that has begun and not ended.
+/// An open list or mapping.
 pub struct Open<'j, 'y> {
     pub start: Position,
-    /// Whether it is written with brackets.
+    /// Whether it is in flow style (brackets or braces).
     pub flow: bool,
-    /// The name of the tag that stands for a key which the JSON has.
+    /// Name of the tag, if it replaces a key of the JSON.
     pub variant: Option<String>,
     pub shape: Shape<'j, 'y>,
 }
@@ -28,20 +28,20 @@ pub enum Shape<'j, 'y> {
 
 pub struct Mapping<'j, 'y> {
     json: Option<&'j Map<String, Value>>,
-    /// The JSON's members that are still to come, as long as the keys come in the same order.
+    /// Remaining members of the JSON, while the keys are in the same order.
     rest: Option<map::Iter<'j>>,
     in_order: usize,
-    /// The keys so far, once they have left the JSON's order.
+    /// Keys so far, once the order differs from the JSON's.
     names: Option<HashSet<String>>,
     pub key: Option<Cow<'y, str>>,
-    /// Set while a value is due: what it should be, if that is known.
+    /// Set while a value is expected; the inner option is the JSON value, if known.
     pub due: Option<Option<&'j Value>>,
     pub merging: bool,
-    /// Whether keys come from elsewhere (merge keys, aliases), so that absent ones mean nothing.
+    /// Whether some keys come from merge keys or aliases, so that missing keys are not reported.
     pub incomplete: bool,
 }
 
-/// What the JSON has to say of a key.
+/// How a key relates to the JSON.
 pub enum Member<'j> {
     Expected(&'j Value),
     Unknown,
@@ -111,7 +111,7 @@ impl<'j, 'y> Mapping<'j, 'y> {
     }
 }
 
-/// The pointer to the node that is being read, in terms of the JSON.
+/// JSON Pointer to the current node, in terms of the JSON document.
 pub fn pointer(open: &[Open<'_, '_>]) -> String {
     let mut pointer = String::new();
     for open in open {

@@ -1,39 +1,39 @@
-//! What a plain YAML scalar is to a YAML 1.1 reader and to a YAML 1.2 reader.
+//! How YAML 1.1 and YAML 1.2 readers interpret a plain scalar.
 //!
-//! YAML 1.2 is the core schema (YAML 1.2.2, 10.3.2). YAML 1.1 is what PyYAML's `SafeLoader`
-//! resolves, with the booleans `y` and `n` besides, which the YAML 1.1 types have and yaml-cpp reads.
+//! YAML 1.2 is the core schema (YAML 1.2.2, 10.3.2). YAML 1.1 is what PyYAML's `SafeLoader` resolves, plus the booleans
+//! `y` and `n`, which the YAML 1.1 types define and yaml-cpp reads.
 
 use serde_json::{Number, Value};
 
-/// What a reader takes a plain scalar for.
+/// The type of a plain scalar to a reader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reading {
-    /// Nothing.
+    /// Null.
     Null,
-    /// A truth value.
+    /// A boolean.
     Bool(bool),
-    /// A whole number.
+    /// An integer.
     Integer,
     /// A number with a fraction or an exponent.
     Float,
-    /// An infinity, or not a number.
+    /// An infinity or NaN.
     NonFinite,
     /// A string.
     Text,
-    /// A date or a moment; YAML 1.1 only.
+    /// A date or a timestamp; YAML 1.1 only.
     Timestamp,
-    /// `<<` or `=`, which YAML 1.1 has a use for.
+    /// `<<` or `=`, which are special in YAML 1.1.
     Special,
 }
 
-/// What the two versions of YAML take a plain scalar for.
+/// The types of a plain scalar in both versions of YAML.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Readings {
-    /// To a YAML 1.2 reader.
+    /// In YAML 1.2.
     pub yaml12: Reading,
-    /// To a YAML 1.1 reader.
+    /// In YAML 1.1.
     pub yaml11: Reading,
-    /// Whether they are different values, or so near to it that readers disagree.
+    /// Whether the two differ, or individual readers disagree.
     pub ambiguous: bool,
 }
 
@@ -47,10 +47,10 @@ impl Readings {
     }
 }
 
-/// Reads a plain scalar with both versions of YAML.
+/// Classifies a plain scalar by both versions of YAML.
 pub fn classify(text: &str) -> Readings {
     let bytes = text.as_bytes();
-    // Nearly all scalars of a generated file are numbers, and nearly all others are names.
+    // Fast path: nearly all scalars of a generated file are numbers or names.
     match bytes.first() {
         Some(b'0'..=b'9' | b'-') => {
             if let Some(reading) = json_number(bytes) {
@@ -61,7 +61,7 @@ pub fn classify(text: &str) -> Readings {
         _ => {}
     }
     let (yaml12, yaml11) = (yaml12(text), yaml11(text));
-    // Octal to YAML 1.1, decimal to YAML 1.2, and a string to several readers.
+    // Octal in YAML 1.1, decimal in YAML 1.2, and a string to some readers.
     let leading_zero = yaml12 == Reading::Integer && {
         let digits = unsigned(bytes);
         digits.len() > 1 && digits[0] == b'0' && digits[1].is_ascii_digit()
@@ -73,8 +73,8 @@ pub fn classify(text: &str) -> Readings {
     }
 }
 
-/// Numbers of a form that everybody reads alike: no leading zero, a digit on each side of the
-/// point, and an exponent only after a fraction and with a sign.
+/// Numbers that all readers interpret alike: no leading zero, a digit on each side of the point, and an exponent only
+/// after a fraction and with a sign.
 fn json_number(bytes: &[u8]) -> Option<Reading> {
     let digits = bytes.strip_prefix(b"-").unwrap_or(bytes);
     let (whole, rest) = split_digits(digits);
@@ -173,7 +173,7 @@ fn is_integer11(digits: &[u8]) -> bool {
 
 fn is_float11(digits: &[u8], signed: bool) -> bool {
     if let Some(after) = digits.strip_prefix(b".") {
-        // PyYAML has no sign before a bare point; before version 6 it let the digits begin with `_`.
+        // PyYAML does not allow a sign before a bare point; before version 6 it allowed a leading `_` after it.
         let (fraction, rest) = split_while(after, |b| b.is_ascii_digit() || b == b'_');
         return !signed
             && fraction.iter().any(u8::is_ascii_digit)
@@ -196,7 +196,7 @@ fn is_float11(digits: &[u8], signed: bool) -> bool {
     }
 }
 
-/// One or more of `:` and a number of one or two digits below 60.
+/// One or more groups of `:` and a number of one or two digits below 60.
 fn is_base60_tail(mut rest: &[u8]) -> bool {
     if rest.is_empty() {
         return false;
@@ -211,7 +211,7 @@ fn is_base60_tail(mut rest: &[u8]) -> bool {
     rest.is_empty()
 }
 
-/// PyYAML's timestamps: a date of ten characters, or a looser date followed by a time of day.
+/// PyYAML's timestamps: a date of ten characters, or a less strict date followed by a time.
 fn is_timestamp(bytes: &[u8]) -> bool {
     let (year, rest) = split_digits(bytes);
     let Some(rest) = rest.strip_prefix(b"-").filter(|_| year.len() == 4) else {
@@ -248,7 +248,7 @@ fn is_timestamp(bytes: &[u8]) -> bool {
     };
     let zone = split_while(after, is_blank).1;
     match zone {
-        // Blanks may stand before a zone, but not instead of one; a scalar never ends with them.
+        // Blanks may precede a time zone, but not replace it; a scalar never ends with blanks.
         [] | [b'Z'] => true,
         [b'+' | b'-', zone @ ..] => {
             let (hours, rest) = split_digits(zone);
@@ -288,7 +288,7 @@ fn is_signed_exponent(bytes: &[u8]) -> bool {
     is_exponent(bytes) && matches!(bytes.get(1), Some(b'+' | b'-'))
 }
 
-/// Whether a plain scalar, as YAML 1.2 reads it, is this JSON value.
+/// Whether a plain scalar, read by YAML 1.2, equals this JSON value.
 pub(super) fn agrees(reading: Reading, text: &str, json: &Value) -> bool {
     match (reading, json) {
         (Reading::Null, Value::Null) => true,
@@ -299,7 +299,7 @@ pub(super) fn agrees(reading: Reading, text: &str, json: &Value) -> bool {
     }
 }
 
-/// The integer that `text` spells, if it is one and is not enormous.
+/// The integer in `text`, if it is one and fits into 128 bits.
 fn integer(text: &str) -> Option<i128> {
     if let Some(hexadecimal) = text.strip_prefix("0x") {
         i128::from_str_radix(hexadecimal, 16).ok()
@@ -315,7 +315,7 @@ fn same_number(text: &str, json: &Number) -> bool {
     if let Some(exact) = json.as_i128() {
         return match integer(text) {
             Some(n) => n == exact,
-            // Below 2^64 in magnitude, whole floats convert exactly.
+            // Whole floats below 2^64 in magnitude convert exactly.
             None => text
                 .parse::<f64>()
                 .is_ok_and(|x| x.fract() == 0.0 && x.abs() < 2e19 && x as i128 == exact),

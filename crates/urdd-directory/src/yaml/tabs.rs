@@ -1,4 +1,4 @@
-//! Tabs outside quotes, which YAML 1.2 allows in places where YAML 1.1 readers refuse the file.
+//! Tabs outside quotes. YAML 1.2 allows them where YAML 1.1 readers reject the file.
 
 use saphyr_parser::{ScalarStyle, Span};
 
@@ -6,18 +6,18 @@ use super::super::position::Position;
 use super::super::text_fault::{TextFault, TextFaultKind, TextFaults};
 
 struct Tab {
-    /// From 1, as the parser counts.
+    /// From 1, as in the parser.
     line: usize,
-    /// From 0, as the parser counts.
+    /// From 0, as in the parser.
     column: usize,
-    /// The column of the last `#` before it on its line.
+    /// Column of the last `#` before it on its line.
     hash: Option<usize>,
 }
 
-/// The tabs of a text, taken from the front as the parser passes them.
+/// The tabs of a text, consumed in step with the parser.
 pub struct Tabs {
     ahead: std::iter::Peekable<std::vec::IntoIter<Tab>>,
-    /// Line and column at which the token before ended.
+    /// Line and column of the previous token's end.
     passed: (usize, usize),
 }
 
@@ -48,7 +48,7 @@ impl Tabs {
         }
     }
 
-    /// Reports the tabs up to the end of a token, but those in comments, quotes and block scalars.
+    /// Reports the tabs up to the end of a token, except in comments, quotes and block scalars.
     pub fn pass(&mut self, span: Span, style: Option<ScalarStyle>, faults: &mut TextFaults) {
         if self.ahead.peek().is_none() {
             return;
@@ -56,7 +56,7 @@ impl Tabs {
         let start = (span.start.line(), span.start.col());
         let end = (span.end.line(), span.end.col());
         let quoted = style.is_some_and(|style| style != ScalarStyle::Plain);
-        // A bracket's span goes on over the spaces and the comment behind it.
+        // The span of a bracket includes the spaces and the comment after it.
         let bounds = if style.is_some() { start } else { end };
         let last = end.max(start);
         while let Some(tab) = self.ahead.next_if(|tab| (tab.line, tab.column) < last) {

@@ -1,4 +1,4 @@
-//! Tags: what the value behind one is to be compared with, and what to write instead.
+//! Tags: what to compare the tagged value with, and what to write instead of the tag.
 
 use saphyr_parser::Tag;
 use serde_json::Value;
@@ -6,11 +6,11 @@ use serde_json::Value;
 use super::super::text_fault::{TextFault, TextFaultKind};
 use super::message::excerpt;
 
-/// What a node is held against, once its tag is taken into account.
+/// What to compare a node with, given its tag.
 pub struct Target<'j> {
     pub json: Option<&'j Value>,
     pub variant: Option<String>,
-    /// How a tag says that a scalar is to be read.
+    /// How a tag forces a scalar to be read.
     pub forced: Option<Forced>,
 }
 
@@ -20,7 +20,7 @@ pub enum Forced {
     Plain,
 }
 
-/// What kind of node a tag stands on.
+/// The kind of a tagged node.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Node {
     Empty,
@@ -29,7 +29,7 @@ pub enum Node {
     Mapping,
 }
 
-/// What takes the place of a tag.
+/// The replacement for a tag.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Instead {
     Key,
@@ -37,7 +37,7 @@ pub enum Instead {
     Nothing,
 }
 
-/// Turns `target` to what the JSON has in place of the tag.
+/// Sets `target` to the part of the JSON that corresponds to the tagged node.
 pub fn apply(tag: &Tag, node: Node, target: &mut Target<'_>) -> Instead {
     let name = tag.suffix.as_str();
     let inner = match target.json {
@@ -57,7 +57,7 @@ pub fn apply(tag: &Tag, node: Node, target: &mut Target<'_>) -> Instead {
     } else if name.is_empty() || name == "!" {
         target.forced = Some(Forced::Text);
     } else {
-        // The tag is the difference; one more message about it would not help.
+        // The tag itself is the difference; do not report a second one.
         target.json = target.json.filter(|json| match node {
             Node::List => json.is_array(),
             Node::Mapping => json.is_object(),
@@ -73,7 +73,7 @@ pub fn apply(tag: &Tag, node: Node, target: &mut Target<'_>) -> Instead {
     }
 }
 
-/// The fault that a tag is.
+/// The fault for a tag.
 pub fn fault(tag: &Tag, instead: Instead) -> TextFault {
     let name = tag.suffix.as_str();
     let written = if tag.is_yaml_core_schema() {

@@ -1,4 +1,4 @@
-//! Whether YAML is the mirror of a JSON text, without holding all that the text says: of a matrix one row at a time.
+//! Checks whether YAML mirrors a JSON text in bounded memory: a matrix is read one row at a time.
 
 use std::collections::HashSet;
 use std::fmt::{self, Write};
@@ -10,9 +10,9 @@ use super::Expected;
 use crate::canonical;
 use crate::json::{Seed, State};
 
-/// Whether a JSON text is an object without any fault of the text, and `yaml`, byte for byte, its canonical YAML.
+/// Whether a JSON text is a faultless object, and `yaml` is exactly its canonical YAML.
 ///
-/// Where it is not so, [`crate::json::read`] and [`super::check_mirror`] say why.
+/// If not, [`crate::json::read`] and [`super::check_mirror`] report why.
 pub fn is_mirrored(json: &str, yaml: &[u8]) -> bool {
     let state = State::default();
     let mut expected = Expected { rest: yaml };
@@ -28,10 +28,10 @@ pub fn is_mirrored(json: &str, yaml: &[u8]) -> bool {
         && expected.rest.is_empty()
 }
 
-/// Writes a value as canonical YAML while it is read.
+/// Writes a value as canonical YAML while parsing it.
 struct Follow<'s, 'o, W> {
     value: Seed<'s>,
-    /// As [`canonical::yaml_rest`] has it; `None` for the document itself.
+    /// The indentation for [`canonical::yaml_rest`]; `None` for the document itself.
     indent: Option<usize>,
     out: &'o mut W,
 }
@@ -90,7 +90,7 @@ impl<'de, W: Write> Visitor<'de> for Follow<'_, '_, W> {
     fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<(), A::Error> {
         let inner = self.value.inner()?;
         let indent = self.indent.ok_or_else(no_object)?;
-        // A list stands on one line, unless a list or an object is in it: held until that is known.
+        // A list is on one line unless it contains a list or an object: buffer its scalars until that is known.
         let mut held = Some(Vec::new());
         while let Some(element) = access.next_element_seed(inner)? {
             let is_scalar = !element.is_array() && !element.is_object();
@@ -163,7 +163,7 @@ mod tests {
             let value = json::read(text.as_bytes()).unwrap().value;
             let yaml = canonical::yaml_string(&value);
             assert!(is_mirrored(text, yaml.as_bytes()), "{text}\n{yaml}");
-            // A byte more, a byte less, and each byte another.
+            // One byte more, one byte less, and each byte changed.
             assert!(!is_mirrored(text, format!("{yaml}\n").as_bytes()));
             assert!(!is_mirrored(text, &yaml.as_bytes()[..yaml.len() - 1]));
             for at in 0..yaml.len() {

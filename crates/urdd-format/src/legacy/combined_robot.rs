@@ -1,4 +1,4 @@
-//! `combined_robot_module`, without a version: how a robot was put together from others.
+//! `combined_robot_module`, without a version: how a robot was composed of others.
 
 use super::urdf::{Axis, Dynamics, JointType, Limit, Origin, SafetyController};
 use crate::index::RobotIdx;

@@ -1,8 +1,8 @@
-//! `creator_module`, without a version: how a chain was put together from mesh files.
+//! `creator_module`, without a version: how a chain was assembled from mesh files.
 //!
-//! None is in our copy of the published robots. The shape is known from the converter that reads it,
-//! and from an environment that it published; that one uses words for the first four actions
-//! that were replaced later, so both are accepted.
+//! Our copy of the published robots contains no such module. Its structure is known from the
+//! converter that reads it, and from a published environment. That environment uses words for the
+//! first four actions that were replaced later; both forms are accepted.
 
 use super::urdf::{Axis, JointType, Limit};
 use crate::object::{module, object, string_enum};

@@ -1,4 +1,4 @@
-//! `dof_module` 0.0.1 and 0.0.2: the degrees of freedom. The two versions have one shape.
+//! `dof_module` 0.0.1 and 0.0.2: the degrees of freedom. Both versions have the same structure.
 
 use crate::index::{Count, DofIdx, JointIdx};
 use crate::object::module;

@@ -1,4 +1,4 @@
-//! `first_look_vis_module` 0.0.1: a viewer's bookkeeping.
+//! `first_look_vis_module` 0.0.1: a viewer's state.
 
 use crate::object::module;
 

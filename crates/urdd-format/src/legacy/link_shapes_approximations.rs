@@ -1,4 +1,4 @@
-//! `link_shapes_approximations_module` 0.0.3: boxes and spheres about links and pieces.
+//! `link_shapes_approximations_module` 0.0.3: boxes and spheres around links and pieces.
 
 use crate::object::{module, object};
 

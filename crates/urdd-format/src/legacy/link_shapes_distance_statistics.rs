@@ -1,4 +1,4 @@
-//! `link_shapes_distance_statistics_module` 0.0.3: how near pairs of shapes come to each other.
+//! `link_shapes_distance_statistics_module` 0.0.3: sampled distances between pairs of shapes.
 
 use crate::object::{module, object};
 

@@ -1,9 +1,9 @@
-//! `link_shapes_lie_alg_error_models_module` 0.0.1 and 0.0.2: how wrong a linearised distance is. The
-//! two versions have one shape.
+//! `link_shapes_lie_alg_error_models_module` 0.0.1 and 0.0.2: error of linearised distances. Both
+//! versions have the same structure.
 
 use crate::object::module;
 
-/// The coefficients of the lower bound, then those of the upper bound.
+/// Coefficients of the lower bound, then of the upper bound.
 pub type ErrorBounds = [[f64; 3]; 2];
 
 module! {

@@ -1,4 +1,4 @@
-//! `link_shapes_max_distance_from_origin_module` 0.0.3: how far shapes reach from their link's origin.
+//! `link_shapes_max_distance_from_origin_module` 0.0.3: maximum distance of shapes from their link's origin.
 
 use crate::object::module;
 

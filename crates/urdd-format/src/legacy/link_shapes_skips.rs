@@ -1,5 +1,5 @@
-//! `link_shapes_skips_module` 0.0.1 and 0.0.2: the simple skips, after a person's edits. The two versions
-//! have one shape.
+//! `link_shapes_skips_module` 0.0.1 and 0.0.2: the simple skips, with manual edits applied. Both versions
+//! have the same structure.
 
 use crate::object::module;
 

@@ -1,10 +1,10 @@
-//! The module versions that were published before there was a specification, as their converter
-//! wrote them. Shapes and meanings are frozen: what was wrong then is described, not mended.
+//! Module versions published before the specification, as their converter wrote them. They are
+//! frozen: faults are documented, not corrected.
 //!
-//! What holds for all of them: lengths are metres, angles radians; rotations are fixed-axis roll,
-//! pitch, yaw; a *shape index* counts the links that have a mesh, in link order, or their convex
-//! pieces, in link order then piece order; mesh paths start with a robot's folder name and are
-//! relative to the folder above the URDD, where a composed robot finds its parts.
+//! Common to all: lengths in metres, angles in radians; rotations as fixed-axis roll, pitch, yaw. A
+//! *shape index* counts the links that have a mesh, in link order, or their convex pieces, in link
+//! order then piece order. Mesh paths start with a robot's folder name and are relative to the
+//! folder above the URDD, which also contains the parts of a composed robot.
 
 pub mod adjusted_robot;
 pub mod bounds;

@@ -1,4 +1,4 @@
-//! `original_meshes_module` 0.0.1 and 0.0.2: the mesh files that the URDF names, copied.
+//! `original_meshes_module` 0.0.1 and 0.0.2: copies of the mesh files that the URDF names.
 
 use crate::object::module;
 

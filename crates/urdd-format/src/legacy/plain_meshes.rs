@@ -1,4 +1,4 @@
-//! `plain_meshes_module` 0.0.1 and 0.0.2: one mesh per link. The two versions have one shape.
+//! `plain_meshes_module` 0.0.1 and 0.0.2: one mesh per link. Both versions have the same structure.
 
 use crate::object::module;
 

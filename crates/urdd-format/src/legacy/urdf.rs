@@ -1,4 +1,4 @@
-//! `urdf_module` 0.0.1 and 0.0.3: the URDF as data. The two versions have one shape.
+//! `urdf_module` 0.0.1 and 0.0.3: the URDF as data. Both versions have the same structure.
 
 use crate::object::{module, object, string_enum};
 use crate::tagged::tagged;
