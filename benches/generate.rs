@@ -5,6 +5,16 @@
 //! URDD, both per link, and how much memory the program has taken at most so far (Linux): within a table,
 //! rows grow. The paths of pairs stop at 300 links, or 2,000,000 links in them: in a line after 180 (SPEC 6.4.6).
 
+// A test may stop anywhere.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    missing_docs
+)]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};

@@ -9,6 +9,16 @@
 //! for each link its pose (position, then quaternion x, y, z, w) and its Jacobian, column after column.
 //! `tests/figures/kinematics_pinocchio.py` holds these to Pinocchio.
 
+// A test may stop anywhere.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    missing_docs
+)]
+
 use std::path::PathBuf;
 use std::time::Instant;
 

@@ -5,6 +5,16 @@
 //! one thread, the least of nine rounds. Without arguments it makes a model of `conformance/robots/welding_arm.urdf`.
 //! `benches/evaluation/learned.py` makes the models and runs it.
 
+// A test may stop anywhere.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    missing_docs
+)]
+
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;

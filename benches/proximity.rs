@@ -5,6 +5,16 @@
 //! of the same pairs. `benches/proximity_coal.py` does the same by Pinocchio with coal. Without arguments it takes
 //! `target/bench/welding_arm`, which it makes.
 
+// A test may stop anywhere.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    missing_docs
+)]
+
 use std::path::PathBuf;
 use std::time::Instant;
 

@@ -5,6 +5,16 @@
 //! on two threads, both as ratios to that, and MB/s. Times are the least of several runs; read the
 //! ratios, the machine's speed cancels in them.
 
+// A test may stop anywhere.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    missing_docs
+)]
+
 use std::fs;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};

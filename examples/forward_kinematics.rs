@@ -3,6 +3,8 @@
 //! `cargo run --example forward_kinematics -- URDD` says which values it takes: one for each DOF, rad or m. With them it
 //! prints the position of every link in the frame of the root link.
 
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
 use std::error::Error;
 
 use urdd_robot::Robot;

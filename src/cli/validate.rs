@@ -145,7 +145,7 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
     let fail_on = settings.fail_on.unwrap_or(Severity::Error);
     let mut rules = rules::all();
     if arguments.with_crashing_rule {
-        rules.push(&rules::testing::crashing_rule::RULE);
+        rules.push(&rules::testing::CRASHING);
     }
     // A crashed rule is caught and reported; the default hook would print besides.
     std::panic::set_hook(Box::new(|_| {}));

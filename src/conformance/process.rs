@@ -177,6 +177,7 @@ impl Tail {
 }
 
 #[cfg(all(test, unix))]
+#[allow(clippy::unwrap_used)] // Clippy sees no test in `all(test, unix)`.
 mod tests {
     use super::*;
 

@@ -13,6 +13,12 @@ pub struct Folder {
     holds: BTreeMap<String, Vec<u8>>,
 }
 
+impl Default for Folder {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Folder {
     /// An empty folder.
     pub fn new() -> Folder {

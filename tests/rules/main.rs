@@ -3,6 +3,16 @@
 //! A case is a valid URDD with one change. The valid URDD comes from `tests/support`, a producer that
 //! shares nothing with the validator.
 
+// A test may stop anywhere.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    missing_docs
+)]
+
 #[cfg(unix)]
 mod as_data;
 mod bounds;

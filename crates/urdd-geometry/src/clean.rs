@@ -117,8 +117,8 @@ impl PlaceTable {
         loop {
             match self.slots[slot] {
                 FREE => {
-                    let index =
-                        u32::try_from(kept.len()).expect("a mesh has fewer than u32::MAX vertices");
+                    // A mesh has at most `u32::MAX` vertices.
+                    let index = u32::try_from(kept.len()).unwrap_or(u32::MAX);
                     self.slots[slot] = index;
                     kept.push(place);
                     return index;

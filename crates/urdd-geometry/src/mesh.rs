@@ -123,6 +123,10 @@ impl Mesh {
     ///
     /// # Panics
     /// If the total number of vertices exceeds `u32::MAX`.
+    #[expect(
+        clippy::expect_used,
+        reason = "no mesh that is read has so many vertices"
+    )]
     pub fn append(&mut self, other: &Self) {
         let offset = u32::try_from(self.vertices.len()).expect("more vertices than u32 can count");
         assert!(

@@ -1,6 +1,16 @@
 //! Geometry, held to closed forms, to brute force and to properties. Figures by peers on real meshes
 //! are made by the scripts in `tests/figures/geometry`.
 
+// A test may stop anywhere.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    missing_docs
+)]
+
 mod across;
 mod bounding_sphere;
 mod brute_force;

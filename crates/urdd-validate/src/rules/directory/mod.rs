@@ -22,7 +22,7 @@ mod root_metadata_missing;
 mod source_not_in_root;
 mod source_not_named;
 mod stray_file;
-pub mod unknown_major_version;
+pub(crate) mod unknown_major_version;
 mod unknown_module;
 mod unlisted_module;
 mod unreadable_file;

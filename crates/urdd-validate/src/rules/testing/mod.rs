@@ -1,3 +1,6 @@
 //! TST: rules for trying out the validator itself. None of them is ever run unasked.
 
-pub mod crashing_rule;
+mod crashing_rule;
+
+/// A rule that crashes: TST001.
+pub use crashing_rule::RULE as CRASHING;
