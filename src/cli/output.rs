@@ -28,7 +28,7 @@ pub fn standard_output_is_closed() {
 /// Prints to standard output.
 ///
 /// # Errors
-/// Where it cannot be written: a message.
+/// If it cannot be written: a message.
 pub fn print(text: &str) -> Result<(), String> {
     write(&safe(text)).map(|_| ())
 }
@@ -159,7 +159,7 @@ pub fn is_dumb() -> bool {
 /// Writes a report into a file: the whole of it, or nothing, and then what was there before stays.
 ///
 /// # Errors
-/// Where it cannot be written, or would be taken for a URDD: a message.
+/// If it cannot be written, or would be taken for a URDD: a message.
 pub fn write_file(file: &Path, text: &str) -> Result<(), String> {
     write_bytes(file, text.as_bytes())
 }
@@ -284,7 +284,7 @@ fn folder_of(file: &Path) -> &Path {
 /// Refuses the name that makes a folder a URDD.
 ///
 /// # Errors
-/// Where the file has that name: a message that says what to do.
+/// If the file has that name: a message that says what to do.
 pub fn check_name(file: &Path) -> Result<(), String> {
     let marker = file
         .file_name()

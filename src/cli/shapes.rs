@@ -42,7 +42,7 @@ impl Shapes {
 /// The robot of a URDD.
 ///
 /// # Errors
-/// Where there is none: a message that says what to do.
+/// If there is none: a message that says what to do.
 pub fn open(path: &Path) -> Result<Robot, String> {
     if path.is_file() && !is_archive(path) {
         let path = path.display().to_string();

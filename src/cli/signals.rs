@@ -46,7 +46,7 @@ impl Signals {
     /// Listens from now on.
     ///
     /// # Errors
-    /// Where the operating system has no such signals.
+    /// If the operating system has no such signals.
     pub(super) fn listen() -> io::Result<Self> {
         let signals = Signals {
             flag: Arc::default(),
