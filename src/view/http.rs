@@ -18,7 +18,7 @@ const SILENCE: Duration = Duration::from_secs(10);
 /// Maximum total time to receive the first line and headers, and a body.
 const MAX_HEAD_TIME: Duration = Duration::from_secs(10);
 const MAX_BODY_TIME: Duration = Duration::from_secs(60);
-/// Maximum time to send a response: this, plus one second for each [`BYTES_A_SECOND`].
+/// Maximum time to send a response: this, plus one second per [`BYTES_A_SECOND`] bytes.
 const MAX_ANSWER_TIME: Duration = Duration::from_secs(60);
 const BYTES_A_SECOND: u64 = 1 << 20;
 /// Limits for reading and discarding unread input before closing. Closing earlier resets the connection, and the

@@ -1,4 +1,4 @@
-//! A robot handed on: what its URDD knows, in the formats of programs that read no URDD.
+//! Exports robots to the formats of programs that do not read URDDs.
 //!
 //! [`export`] creates the text and the mesh files that it references in memory; the caller writes them. Every file
 //! states its source. The same URDD gives the same bytes.

@@ -86,7 +86,7 @@ impl Pairs {
         })
     }
 
-    /// The pairs in contact, by number, ascending. `poses` are those of all links of the robot.
+    /// The indices of the pairs in contact, ascending. `poses` are those of all links of the robot.
     pub fn touching(&self, poses: &[Isometry3<f64>]) -> Vec<u32> {
         let found = self.exact.touching(poses);
         found
@@ -101,7 +101,7 @@ impl Pairs {
     }
 }
 
-/// Whether a pair of shapes is skipped: as a person edited it, else for the reasons asked for, else as the URDD has it.
+/// Whether a pair of shapes is skipped: by the user's edit, else by the requested reasons, else by the URDD.
 fn is_skipped(
     skips: &Skips,
     links: &[String],
