@@ -208,7 +208,7 @@ fn as_text(
     }
 }
 
-/// The pairs of links in order, with the number of pairs of shapes if there are several.
+/// The pairs of links, in order, with the number of their pairs of shapes.
 fn links_of(touching: &[PairDistance]) -> Vec<(String, usize)> {
     let mut links: Vec<(String, usize)> = Vec::new();
     for pair in touching {

@@ -145,7 +145,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     }
 }
 
-/// How long to wait for the page's first request if there is no robot to show.
+/// How long to wait for the page to fetch the errors if there is no robot to show.
 const BROWSER_STARTS: Duration = Duration::from_secs(30);
 /// How long the page may send further requests after that.
 const LAST_WORD: Duration = Duration::from_secs(1);

@@ -59,7 +59,7 @@ const POINTS: [usize; 3] = [600, 40, 4000];
 /// Maximum change of all radii after the fit, relative to their mean.
 const GROWTH: f64 = 0.25;
 
-/// Minimum distance of spheres in the default configuration, if it is free, relative to the mean radius.
+/// Minimum distance of spheres in the default configuration, if it is free, relative to the maximum change of radii.
 const APART: f64 = 0.02;
 
 /// The data of the file.
