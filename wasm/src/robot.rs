@@ -77,7 +77,7 @@ pub unsafe extern "C" fn urdd_robot_poses(
 ///
 /// - `{"ask": "about"}`: `about`.
 /// - `{"ask": "poses", "q": [...]}`: a list with `position` (m) and `quaternion_wxyz` of each link.
-/// - `{"ask": "random", "k": 7}`: random configuration `k` of SPEC 9.2.
+/// - `{"ask": "random", "k": 7}`: random configuration `k` of SPEC 9.3.
 /// - `{"ask": "clamp", "q": [...]}`: the nearest configuration within the bounds.
 /// - `{"ask": "reach", "q": [...], "link": 5, "point": [x, y, z], "position": [x, y, z], "quaternion_wxyz": [...],
 ///   "dofs": [...], "restarts": 0}`: a configuration in which a point of the link (in its frame) is at a position (in

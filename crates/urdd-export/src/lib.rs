@@ -150,7 +150,8 @@ pub struct Export {
 /// Exports a robot.
 ///
 /// # Errors
-/// If a required module is missing or unusable, or the format cannot represent a name, or as [`ExportError`] says.
+/// If a required module is missing or unusable, or the format cannot represent a name, and the other cases of
+/// [`ExportError`].
 pub fn export(robot: &Robot, format: Format, options: &Options) -> Result<Export, ExportError> {
     let subject = Subject::new(robot, format, options)?;
     match format {

@@ -99,8 +99,8 @@ impl Robot {
         Ok(kinematics.link_poses_into(configuration, poses)?)
     }
 
-    /// The poses of all links for a batch of configurations, stored one after another in `configurations`: pose `k *
-    /// links + link` is that of `link` in configuration `k`. Runs on rayon's thread pool, without allocations per
+    /// The poses of all links for a batch of configurations, stored one after another in `configurations`: pose
+    /// `k * links + link` is that of `link` in configuration `k`. Runs on rayon's thread pool, without allocations per
     /// configuration.
     ///
     /// # Errors

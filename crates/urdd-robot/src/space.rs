@@ -63,7 +63,7 @@ impl Configurations {
     }
 
     /// The default configuration (SPEC 9.4): every DOF at 0, or at the bound nearest to 0 if 0 is out of bounds.
-    /// Pinocchio calls it the neutral configuration, which ignores bounds.
+    /// Pinocchio's *neutral configuration* is the same, without the clamping to the bounds.
     pub fn zero(&self) -> Vec<f64> {
         self.space.default_configuration()
     }
@@ -83,7 +83,7 @@ impl Configurations {
         self.space.upper()
     }
 
-    /// Sample `k` of the pseudorandom sequence that the specification defines (SPEC 9.2): uniform within the bounds,
+    /// Sample `k` of the pseudorandom sequence that the specification defines (SPEC 9.3): uniform within the bounds,
     /// and the same in every implementation.
     pub fn random(&self, k: u64) -> Vec<f64> {
         self.space.sampled(k)

@@ -20,7 +20,8 @@ const LEAST: usize = 100;
 const POSES: usize = 2_000_000;
 /// Maximum number of checks of pairs of links, and of pairs of spheres.
 const LOOKS: usize = 200_000_000;
-/// Number of spheres per link up to which the cost is not scaled.
+/// Number of spheres per link that counts as small. The limit on samples shrinks with the square of the multiple of
+/// this.
 const FEW: usize = 16;
 /// Maximum number of wrong results that are traced to pairs.
 const TRACED: usize = 2000;

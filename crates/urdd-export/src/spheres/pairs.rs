@@ -12,12 +12,12 @@ use urdd_geometry::Mesh;
 use urdd_geometry::convex::BodyPairs;
 use urdd_robot::{LinkShape, RobotError, Skips, Solid};
 
-/// Pairs of links that have shapes, and of which the URDD checks some pair of pieces.
+/// Pairs of links with shapes of which the URDD checks at least one pair of pieces.
 #[derive(Debug)]
 pub(super) struct Pairs {
-    /// The links that have shapes, ascending: all other numbers of links here are places in this list.
+    /// The links that have shapes, ascending. All other link numbers here are indices into this list.
     pub links: Vec<usize>,
-    /// The pieces of each.
+    /// The pieces of each of these links.
     pub pieces: Vec<Vec<Mesh>>,
     /// The pairs of links that are checked, each ascending.
     pub checked: Vec<[usize; 2]>,
