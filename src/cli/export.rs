@@ -212,7 +212,7 @@ fn refuse_existing(arguments: &ExportArguments, made: &Export, place: &Path) -> 
             let read = regular::read(file, bytes.len() as u64);
             !read.is_ok_and(|there| there == *bytes)
         }
-        // Devices and pipes are written to.
+        // Writing to devices and pipes is allowed.
         Ok(there) => there.is_dir(),
         Err(_) => fs::symlink_metadata(file).is_ok(),
     };

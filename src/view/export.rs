@@ -87,9 +87,9 @@ fn names(paths: &[PathBuf]) -> String {
     names.join(", ")
 }
 
-/// Writes the site into a folder: a new one, an empty one, or one with a site. In the latter, it replaces the files
-/// that the last export listed, and keeps all others. Calls `tell` after each robot. Returns the files of the last
-/// export that the user changed, which it keeps too.
+/// Writes the site into a folder: a new one, an empty one, or one with a site. In an existing site, it replaces the
+/// files that the last export listed, and keeps all others. Calls `tell` after each robot. Returns the files of the
+/// last export that the user changed, which it keeps too.
 ///
 /// # Errors
 /// [`ExportError`].

@@ -232,7 +232,7 @@ fn word(status: u16) -> &'static str {
 mod tests {
     use super::*;
 
-    /// Reads a request whose body may have 10 bytes.
+    /// Reads a request whose body may have up to 10 bytes.
     fn read(mut text: &[u8]) -> io::Result<Result<Asked, Reply>> {
         let mut asked = match head(&mut text)? {
             Ok(asked) => asked,

@@ -150,8 +150,7 @@ pub struct Export {
 /// Exports a robot.
 ///
 /// # Errors
-/// If a required module is missing or unusable, or the format cannot represent a name, and the other cases of
-/// [`ExportError`].
+/// If a required module is missing or unusable, and in the other cases of [`ExportError`].
 pub fn export(robot: &Robot, format: Format, options: &Options) -> Result<Export, ExportError> {
     let subject = Subject::new(robot, format, options)?;
     match format {

@@ -7,7 +7,7 @@ use urdd_document::shape_matrices::{Statistics, at, statistics};
 use urdd_document::shapes::KINDS;
 use urdd_format::registry::ModuleKind;
 
-/// The distances of a pair of shapes over the sampled configurations, metres.
+/// Distance statistics of a pair of shapes over the sampled configurations, in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairStatistics {
     /// The mean.

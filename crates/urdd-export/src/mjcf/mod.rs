@@ -4,7 +4,8 @@
 //! relative to the joint's frame; a free joint's position would be in the world frame. The root link is fixed to the
 //! world. Mimic joints become equality constraints with chains resolved, which MuJoCo enforces only in simulation: a
 //! caller that sets positions must set those of mimic joints too. MuJoCo's own parent-child filter is switched off, so
-//! that the pairs are those of the URDD. MuJoCo never checks two bodies without a joint between them.
+//! that the pairs are those of the URDD. MuJoCo never checks two rigidly connected bodies, those without a joint
+//! between them.
 
 mod body;
 mod inertia;

@@ -30,7 +30,7 @@ const CONTACT_STEPS: usize = 20;
 const LAST_STEPS: usize = 120;
 /// The fraction of the spheres that each round moves to a more useful place.
 const MOVED: f64 = 0.05;
-/// Weight of contacts, relative to the surface, in the choice of spheres to split.
+/// The share of contacts, as opposed to the surface, in a sphere's blame.
 const CONTACT_SHARE: f64 = 0.8;
 /// Contact rounds use every `STRIDE`-th sample; the final steps use all.
 const STRIDE: usize = 3;

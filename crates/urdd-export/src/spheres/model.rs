@@ -118,7 +118,7 @@ pub(super) fn part(spheres: &mut Spheres, pairs: &[[usize; 2]], sample: &Sample,
                 let p = sample.poses[a].place(of_a.centre);
                 let q = sample.poses[b].place(of_b.centre);
                 let excess = of_a.radius + of_b.radius + apart - length(sub(p, q));
-                // Each gives half of it, and keeps half of its radius at least.
+                // Each sphere shrinks by half of the shortfall, but keeps at least half of its radius.
                 if excess > 0.0 {
                     spheres[a][i].radius = (of_a.radius - 0.5 * excess).max(0.5 * of_a.radius);
                     spheres[b][j].radius = (of_b.radius - 0.5 * excess).max(0.5 * of_b.radius);

@@ -40,7 +40,7 @@ pub struct PairDistance {
     pub link_idxs: [usize; 2],
     /// The indices of the pieces; 0 for hulls and their bounding volumes.
     pub pieces: [usize; 2],
-    /// Metres; 0 where they touch or overlap.
+    /// In metres; 0 if they touch or overlap.
     pub distance: f64,
     /// The distance divided by the pair's mean distance in `link_shapes_distance_statistics_module`, which makes large
     /// and small links comparable. `None` if that module has no mean for the pair, or a mean of 0.

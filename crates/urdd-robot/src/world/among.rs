@@ -23,7 +23,7 @@ pub struct ObstacleDistance {
     pub obstacle: Arc<str>,
     /// The index of the obstacle in its world.
     pub obstacle_idx: usize,
-    /// Metres; 0 where they touch or overlap.
+    /// In metres; 0 if they touch or overlap.
     pub distance: f64,
     /// The closest points, of the link's shape and of the obstacle, in the root link's frame, in metres. If the two
     /// overlap, both are the same point, which is in both.
@@ -44,7 +44,7 @@ pub struct Among<P> {
 }
 
 impl Proximity {
-    /// Prepares the robot's shapes with a world.
+    /// Combines the robot's shapes with a world.
     ///
     /// # Errors
     /// [`RobotError::Unknown`] if an obstacle ignores a link that does not exist.
