@@ -1,4 +1,4 @@
-//! Messages whose advice is for the command line, with advice for Python in its place: by the error, never by its words.
+//! Error messages for Python. Replaces advice for the command line, selected by the error and never by its text.
 
 use urdd_directory::staging::StagingError;
 use urdd_export::ExportError;
@@ -8,13 +8,13 @@ use urdd_generate::fault::Fault;
 use urdd_generate::{EditsFault, GenerateError};
 use urdd_robot::RobotError;
 
-/// Where there is more to read.
+/// The pointer to a full report.
 pub const SAYS_MORE: &str = "urdd.validate(path) says more";
 
-/// Lines that are shown of a list, at most; an error's `places` has all.
+/// Maximum number of lines of a list in a message; an error's `places` has all.
 const MAX_SHOWN: usize = 5;
 
-/// What is wrong with a robot that is asked something.
+/// The message of an error of a robot query.
 pub fn of_robot(error: &RobotError) -> String {
     match error {
         RobotError::Missing(module) => {
@@ -34,7 +34,7 @@ pub fn of_robot(error: &RobotError) -> String {
     }
 }
 
-/// Why a URDD cannot be made.
+/// The message of a generation error.
 pub fn of_generate(error: &GenerateError) -> String {
     match error {
         GenerateError::Refused { file, faults } => {
@@ -79,7 +79,7 @@ pub fn of_generate(error: &GenerateError) -> String {
     }
 }
 
-/// Why robots cannot be put together.
+/// The message of a combination error.
 pub fn of_combine(error: &CombineError) -> String {
     match error {
         CombineError::Generate { id, error } => {
@@ -105,7 +105,7 @@ pub fn of_combine(error: &CombineError) -> String {
     }
 }
 
-/// Why a robot cannot be exported.
+/// The message of an export error.
 pub fn of_export(error: &ExportError) -> String {
     match error {
         ExportError::NoTree => {
@@ -115,7 +115,7 @@ pub fn of_export(error: &ExportError) -> String {
     }
 }
 
-/// What is wrong with a source.
+/// The message of a fault in a source.
 pub fn of_fault(fault: &Fault) -> String {
     let leave_out = "leave out what is made of meshes: modules=[\"core\"]";
     match fault {
@@ -135,7 +135,7 @@ pub fn of_fault(fault: &Fault) -> String {
     }
 }
 
-/// Why edits would be lost.
+/// The message of a fault that would lose edits.
 pub fn of_edits(fault: &EditsFault) -> String {
     match fault {
         EditsFault::NotAskedFor(count) => format!(
@@ -147,7 +147,7 @@ pub fn of_edits(fault: &EditsFault) -> String {
     }
 }
 
-/// The first lines, and how many more there are.
+/// The first lines, and the number of further ones.
 fn shown(lines: impl ExactSizeIterator<Item = String>) -> String {
     let more = lines.len().saturating_sub(MAX_SHOWN);
     let mut lines: Vec<String> = lines.take(MAX_SHOWN).collect();

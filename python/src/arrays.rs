@@ -1,4 +1,4 @@
-//! Arrays of numpy, in and out.
+//! NumPy arrays as inputs and outputs.
 
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 use numpy::ndarray::{Dimension, IntoDimension};
@@ -15,12 +15,12 @@ use urdd_robot::RobotError;
 use crate::errors::of_robot;
 use crate::work;
 
-/// Bytes of an array for which numpy is not asked, and no room kept besides: what is as small is there, or nothing is.
+/// Maximum size of an array, in bytes, that is allocated without a memory check.
 const SMALL: usize = 1 << 20;
-/// What the work on a large array may take besides, bytes: for the threads, each of which works on some configurations.
+/// Additional memory for work on a large array, in bytes: scratch space of the threads.
 const BESIDES: usize = 64 << 20;
 
-/// Configurations, one a row, in memory of their own.
+/// Configurations, one per row, in their own memory.
 pub struct Batch {
     pub count: usize,
     pub values: Vec<f64>,
@@ -34,19 +34,19 @@ impl Batch {
         })
     }
 
-    /// The values of each configuration; of a robot without DOFs none.
+    /// The values of a configuration; empty for a robot without DOFs.
     pub fn row(&self, k: usize) -> &[f64] {
         let dofs = self.values.len() / self.count.max(1);
         &self.values[k * dofs..(k + 1) * dofs]
     }
 
-    /// Whether all configurations are one and the same: those of a robot without DOFs.
+    /// Whether all configurations are identical, as for a robot without DOFs.
     pub fn is_one(&self) -> bool {
         self.values.is_empty()
     }
 }
 
-/// The values of an array, row after row.
+/// The values of an array in row-major order.
 pub fn copy<T: Element + Copy, D: Dimension>(
     array: &PyReadonlyArray<'_, T, D>,
 ) -> PyResult<Vec<T>> {
@@ -58,13 +58,13 @@ pub fn copy<T: Element + Copy, D: Dimension>(
     Ok(own)
 }
 
-/// Zeros of a shape that a caller decides: `MemoryError`, as numpy raises, where there is not enough memory.
+/// Zeros of a shape that depends on the caller. Raises `MemoryError`, as NumPy does, if there is not enough memory.
 pub fn zeros<'py, T: Element, S: IntoDimension>(
     py: Python<'py>,
     shape: S,
 ) -> PyResult<Bound<'py, PyArray<T, S::Dim>>> {
     let shape = shape.into_dimension();
-    // numpy counts so too: an axis of length 0 hides no other.
+    // As in NumPy, an axis of length 0 does not hide the size of the others.
     let mut each = shape.slice().iter().map(|length| (*length).max(1));
     let bytes = each.try_fold(size_of::<T>(), usize::checked_mul);
     let bytes = bytes.filter(|bytes| isize::try_from(*bytes).is_ok());
@@ -84,11 +84,11 @@ pub fn zeros<'py, T: Element, S: IntoDimension>(
     Ok(made.cast_into::<PyArray<T, S::Dim>>()?)
 }
 
-/// `MemoryError` where so many bytes are not there. It keeps none: another thread may take them.
+/// Raises `MemoryError` if `bytes` bytes are not available. Does not reserve them: another thread may take them.
 pub fn check_memory(bytes: usize) -> PyResult<()> {
     let mut probe: Vec<u8> = Vec::new();
     let room = probe.try_reserve_exact(bytes);
-    // Otherwise the compiler may leave out an allocation that nobody uses.
+    // Prevents the compiler from removing the unused allocation.
     std::hint::black_box(&mut probe);
     room.map_err(|_| no_memory(bytes))
 }
@@ -99,9 +99,9 @@ fn no_memory(bytes: usize) -> PyErr {
     PyMemoryError::new_err(words)
 }
 
-/// The answers of many configurations, of a shape whose first axis is theirs. `one` writes those of one, by its number;
-/// it is asked on this thread, with the interpreter, for `few` or fewer, and once where all are `the_same`. `many` writes
-/// all, on the threads of the pool, until Ctrl-C.
+/// The results of a batch of configurations, in an array whose first axis is the configuration. `one` writes those of
+/// one configuration, given its index. It runs on this thread, with the interpreter attached, for `few` or fewer
+/// configurations, and once if all are `the_same`. `many` writes all results on the thread pool, until Ctrl-C.
 pub fn answers<'py, T: Element + Copy, S: IntoDimension>(
     py: Python<'py>,
     shape: S,
@@ -134,7 +134,7 @@ pub fn answers<'py, T: Element + Copy, S: IntoDimension>(
     Ok(array)
 }
 
-/// An array of this shape, which takes over the values.
+/// An array of this shape that takes ownership of the values.
 pub fn shaped<'py, T: Element, S: IntoDimension>(
     py: Python<'py>,
     values: Vec<T>,
@@ -143,7 +143,7 @@ pub fn shaped<'py, T: Element, S: IntoDimension>(
     values.into_pyarray(py).reshape(shape)
 }
 
-/// A pose as the 16 numbers of its matrix, row after row.
+/// Writes a pose as the 16 numbers of its matrix, in row-major order.
 pub fn write_matrix(pose: &Isometry3<f64>, out: &mut [f64]) {
     let rotation = pose.rotation.to_rotation_matrix();
     let translation = &pose.translation.vector;
@@ -163,7 +163,7 @@ pub fn matrix(pose: &Isometry3<f64>) -> [f64; 16] {
     out
 }
 
-/// The pose of 16 numbers, which are a rotation and a translation.
+/// The pose of a 4 × 4 matrix of a rotation and a translation, in row-major order.
 pub fn pose(matrix: &[f64]) -> Isometry3<f64> {
     let rotation = nalgebra::Matrix3::from_fn(|row, column| matrix[4 * row + column]);
     let rotation = Rotation3::from_matrix_unchecked(rotation);

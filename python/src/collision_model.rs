@@ -12,11 +12,11 @@ use urdd_robot::RobotError;
 use crate::arrays::{Batch, answers, shaped};
 use crate::errors::of_robot;
 
-/// Configurations that are looked at without other threads, whose waking takes longer.
+/// Number of configurations up to which this thread works alone: waking others takes longer.
 const FEW: usize = 16;
-/// Configurations between two looks whether to stop.
+/// Maximum number of configurations between two checks for cancellation.
 const BETWEEN_LOOKS: usize = 16_384;
-/// Values of a block, at most; 16 MB besides the answers.
+/// Maximum number of values of a block: 16 MB besides the results.
 const VALUES_AT_ONCE: usize = 1 << 20;
 
 type Model = urdd_robot::CollisionModel;
@@ -31,7 +31,8 @@ impl CollisionModel {
         CollisionModel(model)
     }
 
-    /// The answers of many configurations, of this shape: by `many` block after block, of a few by `one`.
+    /// The results of a batch of configurations, in this shape: computed in blocks by `many`, or by `one` for a few
+    /// configurations.
     fn each<'py, T: Element + Copy, S: IntoDimension>(
         &self,
         py: Python<'py>,
@@ -51,7 +52,7 @@ impl CollisionModel {
             if width == 0 {
                 return Ok(());
             }
-            // What a block takes besides its answers has to be little.
+            // Limits the additional memory of a block.
             let block = (VALUES_AT_ONCE / width).clamp(1, BETWEEN_LOOKS);
             let blocks = batch.values.chunks(block * dofs);
             for (block, out) in blocks.zip(out.chunks_mut(block * width)) {
@@ -186,7 +187,7 @@ impl CollisionModel {
     }
 }
 
-/// The least of some clearances; NaN where one is.
+/// The minimum of clearances; NaN if one of them is NaN.
 fn least(clearances: &[f64]) -> f64 {
     let least = |least: f64, clearance: &f64| match least < *clearance || least.is_nan() {
         true => least,

@@ -1,4 +1,4 @@
-//! Putting robots together.
+//! Combination of robots.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,8 @@ use urdd_validate::find_errors;
 use crate::errors::of_combine;
 use crate::generate::{Options, summary, with_progress};
 
-/// How a robot hangs on a link of another: the link, position and roll, pitch, yaw, and the name of what is made.
+/// How a robot is attached to a link of another: the link, the position and roll, pitch, yaw, and the name of the
+/// combined robot.
 type Attached = (String, [[f64; 3]; 2], Option<String>);
 
 /// Puts robots together: those of a recipe, or with `attached` two, of which the first is `source`. Gives what there is

@@ -1,4 +1,4 @@
-//! Errors, as the exceptions of `urdd.errors`.
+//! Converts errors to the exceptions of `urdd.errors`.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -9,7 +9,7 @@ use urdd_robot::RobotError;
 
 use crate::advice;
 
-/// An exception of this class. The message comes first.
+/// An exception of this class. Its first argument is the message.
 pub fn raise<'py>(
     py: Python<'py>,
     class: &str,
@@ -32,7 +32,7 @@ fn text<'py>(py: Python<'py>, text: &str) -> Bound<'py, PyAny> {
     pyo3::types::PyString::new(py, text).into_any()
 }
 
-/// Why a robot cannot be asked something.
+/// The exception of an error of a robot query.
 pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
     let none = || py.None().into_bound(py);
     match error {
@@ -90,7 +90,7 @@ fn of_configuration(py: Python<'_>, error: &ConfigurationError) -> PyErr {
     raise(py, "ConfigurationError", error, &[])
 }
 
-/// Why a URDD could not be made.
+/// The exception of a generation error.
 pub fn of_generate(py: Python<'_>, error: &GenerateError) -> PyErr {
     if matches!(error, GenerateError::Cancelled) {
         return pyo3::exceptions::PyKeyboardInterrupt::new_err(error.to_string());
@@ -105,7 +105,7 @@ pub fn of_generate(py: Python<'_>, error: &GenerateError) -> PyErr {
     )
 }
 
-/// Why robots could not be put together.
+/// The exception of a combination error.
 pub fn of_combine(py: Python<'_>, error: &CombineError) -> PyErr {
     let (part, places) = match error {
         CombineError::Generate {
@@ -134,7 +134,7 @@ pub fn of_combine(py: Python<'_>, error: &CombineError) -> PyErr {
     raise(py, "CombineError", advice::of_combine(error), &more)
 }
 
-/// A file, a line, a column, and what is wrong there.
+/// A file, a line, a column, and the problem there.
 type Place = (String, u32, u32, String);
 
 fn placed<'py>(py: Python<'py>, places: Vec<Place>) -> Bound<'py, PyAny> {

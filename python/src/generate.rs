@@ -1,4 +1,4 @@
-//! Making URDDs.
+//! Generation of URDDs.
 
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
@@ -19,7 +19,7 @@ use urdd_generate::{
 use crate::errors::of_generate;
 use crate::work::{self, Teller};
 
-/// How URDDs are made: what `urdd.generate` takes, checked there for types.
+/// The options of `urdd.generate`, which checks their types.
 #[derive(FromPyObject)]
 pub struct Options {
     modules: Option<Vec<String>>,
@@ -116,7 +116,7 @@ impl Options {
     }
 }
 
-/// A reason by its word on the command line.
+/// The reason with this name on the command line.
 pub fn skipped_reason(word: &str) -> Result<SkippedReason, String> {
     Ok(match word {
         "same-link" => SkippedReason::SameLink,
@@ -133,19 +133,19 @@ pub fn skipped_reason(word: &str) -> Result<SkippedReason, String> {
     })
 }
 
-/// A module is begun, or a step of one is done: its name, how many are done, and how many there are.
+/// The start of a module, or a finished step: its name, the number of finished modules, and their total.
 type Begun = (String, usize, usize);
 
-/// Tells how far a job is.
+/// Reports the progress of a job.
 struct Told<'a, T> {
     teller: &'a Teller<T, Begun>,
-    /// The module that was begun last, and how many there are.
+    /// The module that began last, and the total number of modules.
     last: Mutex<Option<(ModuleKind, usize)>>,
 }
 
 impl<T: Send> Progress for Told<'_, T> {
     fn module(&self, kind: ModuleKind, done: usize, total: usize) {
-        // The first of another URDD, of several that are put together.
+        // The first module of the next URDD, in a combination of several.
         if done == 0 {
             self.end();
         }
@@ -161,7 +161,7 @@ impl<T: Send> Progress for Told<'_, T> {
 }
 
 impl<T> Told<'_, T> {
-    /// All modules are done.
+    /// Reports that all modules are finished.
     fn end(&self) {
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((kind, total)) = last.take() {
@@ -170,7 +170,7 @@ impl<T> Told<'_, T> {
     }
 }
 
-/// What comes of making something, while `progress` is called with how far it is.
+/// Runs a job, and calls `progress` with its progress.
 pub fn with_progress<T: Send, E: Send>(
     py: Python<'_>,
     options: Options,
@@ -196,7 +196,7 @@ pub fn with_progress<T: Send, E: Send>(
     })
 }
 
-/// What there is to say of a URDD that was made.
+/// The summary of a generated URDD.
 pub fn summary<'py>(py: Python<'py>, generated: &Generated) -> PyResult<Bound<'py, PyDict>> {
     let found = PyDict::new(py);
     found.set_item("robot_name", &generated.robot_name)?;

@@ -1,4 +1,4 @@
-//! Which robots lie in folders.
+//! The robots in folders.
 
 use std::path::PathBuf;
 

@@ -1,7 +1,7 @@
-//! The library for Python: `python/lib/urdd` is what people import, and has the documentation; this is what it stands on.
+//! The native part of the Python library. Users import `python/lib/urdd`, which has the documentation.
 //!
-//! Arrays that come in are contiguous and of binary64: `urdd._arrays` makes them so. They are copied before the
-//! interpreter is let go, so that no other thread changes them under the work.
+//! Input arrays are contiguous and of binary64: `urdd._arrays` converts them. They are copied before the interpreter is
+//! detached, so that no other thread changes them during the work.
 
 mod advice;
 mod arrays;

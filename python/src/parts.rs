@@ -1,4 +1,4 @@
-//! Modules and files of a URDD as they are.
+//! Unprocessed modules and files of a URDD.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::errors::{of_robot, raise};
 use crate::robot::Robot;
 use crate::work;
 
-/// What came of reading a module.
+/// The result of reading a module.
 enum Read {
     Text {
         version: String,

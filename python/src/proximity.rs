@@ -13,7 +13,8 @@ use urdd_robot::{PairDistance, RobotError, Until};
 use crate::arrays::{Batch, answers, shaped};
 use crate::errors::of_robot;
 
-/// The indices of the two links and their pieces, the distance, the same over the pair's mean, and two points.
+/// The indices of the two links and their pieces, the distance, the distance divided by the pair's mean, and the
+/// closest points.
 type Near = ([usize; 2], [usize; 2], f64, Option<f64>, [[f64; 3]; 2]);
 
 /// The shapes of one kind, prepared for distances.
@@ -29,7 +30,7 @@ impl Proximity {
         Arc::clone(&self.0)
     }
 
-    /// The answers of many configurations, of this shape.
+    /// The results of a batch of configurations, in this shape.
     fn each<'py, T: Element + Copy, S: IntoDimension>(
         &self,
         py: Python<'py>,

@@ -22,9 +22,9 @@ use crate::errors::{of_robot, raise};
 use crate::proximity::Proximity;
 use crate::work;
 
-/// Configurations that are looked at without other threads, whose waking takes longer.
+/// Number of configurations up to which this thread works alone: waking others takes longer.
 const FEW: usize = 16;
-/// Configurations that one thread works on at once.
+/// Configurations in one block of work.
 const BLOCK: usize = 64;
 
 /// A robot, as its URDD describes it.
@@ -33,8 +33,7 @@ pub struct Robot {
     pub robot: Arc<urdd_robot::Robot>,
     pub root: Root,
     pub path: PathBuf,
-    /// Held by whoever reads modules for the first time: two that wait for each other on the threads of one pool might
-    /// wait for ever.
+    /// Held during the first read of modules: two reads that wait for each other on one thread pool could deadlock.
     reading: Mutex<()>,
     is_read: AtomicBool,
     proximity: Mutex<HashMap<ShapeKind, Py<Proximity>>>,
@@ -42,7 +41,7 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// A robot whose kinematics and bounds were read, as far as they can be.
+    /// The robot, after reading its kinematics and bounds as far as possible.
     pub fn read(&self, py: Python<'_>) -> PyResult<&Arc<urdd_robot::Robot>> {
         if !self.is_read.load(Ordering::Acquire) {
             let _reading = work::lock(py, &self.reading)?;
@@ -55,7 +54,7 @@ impl Robot {
         Ok(&self.robot)
     }
 
-    /// What a question about the robot gives.
+    /// Runs a query on the robot.
     pub fn ask<T: Send>(
         &self,
         py: Python<'_>,
@@ -294,7 +293,7 @@ impl Robot {
             ]);
             Ok(())
         };
-        // One may take long too: none is asked for on this thread, where Ctrl-C is not heard.
+        // A single solution can take long too, so none runs on this thread, which cannot react to Ctrl-C.
         let one = |k: usize, out: &mut [f64]| write(&Cancellation::default(), k, out);
         answers(py, [count, dofs + 5], 0, false, one, |on, out| {
             fill(out, dofs + 5, 1, || (), |(), k, out| write(on, k, out))
@@ -325,7 +324,7 @@ impl Robot {
     }
 }
 
-/// Asks for each of many configurations, until Ctrl-C.
+/// Runs a query for each configuration of a batch, until Ctrl-C.
 fn each<S>(
     on: &Cancellation,
     out: &mut [f64],
@@ -339,7 +338,7 @@ fn each<S>(
     })
 }
 
-/// The poses of all links, or of one, as matrices.
+/// Writes the poses of all links, or of one, as matrices.
 fn write_poses(
     poses: &[Isometry3<f64>],
     link: Option<usize>,

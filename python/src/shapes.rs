@@ -98,7 +98,7 @@ fn put_mesh(py: Python<'_>, found: &Bound<'_, PyDict>, mesh: &Mesh) -> PyResult<
     found.set_item("faces", shaped(py, faces, [mesh.triangles.len(), 3])?)
 }
 
-/// The place of a reason in `urdd.SKIP_REASONS`.
+/// The index of a reason in `urdd.SKIP_REASONS`.
 fn number(reason: SkipReason) -> u8 {
     match reason {
         SkipReason::SameLink => 0,

@@ -1,4 +1,4 @@
-//! The threads that work.
+//! The thread pool.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -6,11 +6,11 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// The pool, and for whom it was made.
+/// A pool, and the settings it was created for.
 struct Made {
-    /// A child of `fork` has none of the threads of its parent.
+    /// The process id: a child of `fork` has none of its parent's threads.
     process: u32,
-    /// How many were asked for; `None`: one for each processor.
+    /// The requested number; `None`: one for each processor.
     wanted: Option<usize>,
     pool: Arc<ThreadPool>,
 }
@@ -18,8 +18,8 @@ struct Made {
 static WANTED: Mutex<Option<usize>> = Mutex::new(None);
 static MADE: Mutex<Option<Made>> = Mutex::new(None);
 
-/// The pool of this process. Everything that works in parallel works in it, and never in rayon's global pool, which
-/// would be of no use after a `fork`.
+/// The pool of this process. All parallel work runs in it, never in rayon's global pool, which is unusable after a
+/// `fork`.
 pub fn pool() -> PyResult<Arc<ThreadPool>> {
     let wanted = *WANTED.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
@@ -47,7 +47,7 @@ pub fn pool() -> PyResult<Arc<ThreadPool>> {
     if let Some(old) = old
         && old.process != process
     {
-        // Its threads stayed in the parent: nobody would answer when it is told to end.
+        // Its threads exist only in the parent, so dropping the pool would wait forever.
         std::mem::forget(old);
     }
     Ok(pool)
@@ -65,7 +65,7 @@ pub fn set_num_threads(count: Option<isize>) -> PyResult<()> {
     }
     let wanted = || WANTED.lock().unwrap_or_else(PoisonError::into_inner);
     let before = std::mem::replace(&mut *wanted(), count);
-    // Now, where it can be said, and not when work begins.
+    // Creates the pool now, to report an error here instead of when work begins.
     let made = pool();
     if made.is_err() {
         *wanted() = before;

@@ -14,7 +14,7 @@ use urdd_validate::{ValidateError, rules};
 use crate::errors::raise;
 use crate::work;
 
-/// What `urdd.validate` takes.
+/// The options of `urdd.validate`.
 #[derive(FromPyObject)]
 pub struct Options {
     conformance_class: Option<String>,

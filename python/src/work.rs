@@ -1,4 +1,4 @@
-//! Work that takes long: without the interpreter, on the threads of the pool, until Ctrl-C.
+//! Long-running work: with the interpreter detached, on the thread pool, until Ctrl-C.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,7 +13,7 @@ use urdd_directory::cancellation::Cancellation;
 
 use crate::threads::pool;
 
-/// How often it is looked whether Ctrl-C was pressed.
+/// Polling interval for Ctrl-C.
 const PAUSE: Duration = Duration::from_millis(20);
 
 enum Word<T, M> {
@@ -21,17 +21,17 @@ enum Word<T, M> {
     Done(Result<T, Box<dyn Any + Send>>),
 }
 
-/// Where work tells how far it is.
+/// The channel on which work reports its progress.
 pub struct Teller<T, M>(Sender<Word<T, M>>);
 
 impl<T, M> Teller<T, M> {
     pub fn tell(&self, message: M) {
-        // Who should hear it may have given up.
+        // The receiver may no longer exist.
         let _ = self.0.send(Word::Told(message));
     }
 }
 
-/// Runs a job. Ctrl-C asks it to stop, and is raised when it has.
+/// Runs a job. Ctrl-C cancels it, and is raised after it has stopped.
 pub fn run<T: Send>(py: Python<'_>, job: impl FnOnce(&Cancellation) -> T + Send) -> PyResult<T> {
     run_and_tell(
         py,
@@ -40,7 +40,7 @@ pub fn run<T: Send>(py: Python<'_>, job: impl FnOnce(&Cancellation) -> T + Send)
     )
 }
 
-/// As [`run`]; `hear` is called on the caller's thread with what the job tells. An error of it stops the job too.
+/// As [`run`]; calls `hear` on the caller's thread with the job's messages. An error of `hear` cancels the job too.
 pub fn run_and_tell<T: Send, M: Send>(
     py: Python<'_>,
     mut hear: impl FnMut(M) -> PyResult<()>,
@@ -49,7 +49,7 @@ pub fn run_and_tell<T: Send, M: Send>(
     let cancellation = Cancellation::default();
     let (sender, receiver) = channel();
     let own = cancellation.clone();
-    // A receiver may be moved between threads, but not shared; the lock is always free.
+    // A receiver can be moved between threads but not shared. The lock is never contended.
     let receiver = Mutex::new(receiver);
     let pool = pool()?;
     pool.in_place_scope(|scope| {
@@ -83,7 +83,7 @@ fn next<W>(receiver: &Mutex<Receiver<W>>) -> Result<W, RecvTimeoutError> {
     receiver.recv_timeout(PAUSE)
 }
 
-/// A fault of this program, as an exception.
+/// A panic as an exception.
 fn crash(panic: &(dyn Any + Send)) -> PyErr {
     let words = panic.downcast_ref::<String>().cloned();
     let words = words.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
@@ -93,7 +93,7 @@ fn crash(panic: &(dyn Any + Send)) -> PyErr {
     ))
 }
 
-/// Takes a lock, and lets other threads of the interpreter work as long as it is not free.
+/// Takes a lock, and lets other Python threads run while it is not free.
 pub fn lock<'a, T>(py: Python<'_>, mutex: &'a Mutex<T>) -> PyResult<MutexGuard<'a, T>> {
     loop {
         match mutex.try_lock() {

@@ -1,4 +1,4 @@
-//! Obstacles, and robots among them.
+//! Obstacles, and queries on robots among them.
 
 use std::sync::Arc;
 
@@ -17,21 +17,20 @@ use crate::proximity::Proximity;
 use crate::threads::num_threads;
 use crate::work;
 
-/// What making an obstacle takes of memory at most, as for meshes of files (docs/security.md).
+/// Upper bounds of the memory to create an obstacle, as for mesh files (docs/security.md).
 const BYTES_A_VERTEX: usize = 200;
 const BYTES_A_TRIANGLE: usize = 600;
-/// What a configuration takes of memory for each pair of a shape and a part of an obstacle: four lists of them, which
-/// grow by doubling.
+/// Memory of a configuration for each pair of a shape and a part of an obstacle: four lists, which grow by doubling.
 const BYTES_A_PAIR: usize = 256;
 
-/// The index of a link and its piece, that of an obstacle, the distance, and two points.
+/// The indices of a link and its piece, the index of an obstacle, the distance, and the closest points.
 type Near = ([usize; 2], usize, f64, [[f64; 3]; 2]);
 
 /// A body that a robot should keep away from.
 #[pyclass(frozen, module = "urdd._urdd")]
 pub struct Obstacle(urdd_robot::Obstacle);
 
-/// An obstacle of a pose, which is a matrix (4, 4).
+/// Creates an obstacle from a pose, a matrix (4, 4).
 fn obstacle(
     py: Python<'_>,
     at: &PyReadonlyArray2<'_, f64>,
@@ -137,14 +136,14 @@ impl Obstacle {
 #[pyclass(frozen, module = "urdd._urdd")]
 pub struct Among {
     among: urdd_robot::Among<Arc<urdd_robot::Proximity>>,
-    /// Pairs of a shape and a part of an obstacle, at most: one configuration takes memory for all of them.
+    /// Maximum number of pairs of a shape and a part of an obstacle: one configuration needs memory for all of them.
     num_tested: usize,
 }
 
 type Asked = urdd_robot::Among<Arc<urdd_robot::Proximity>>;
 
 impl Among {
-    /// The answers of many configurations, of this shape.
+    /// The results of a batch of configurations, in this shape.
     fn each<'py, T: Element + Copy, S: IntoDimension>(
         &self,
         py: Python<'py>,
@@ -171,7 +170,7 @@ impl Among {
         answers(py, shape, 1, batch.is_one(), alone, many)
     }
 
-    /// `MemoryError` where there is none for so many configurations at once.
+    /// Raises `MemoryError` if there is not enough memory for this many configurations at once.
     fn check_memory(&self, configurations: usize) -> PyResult<()> {
         let each = self.num_tested.saturating_mul(BYTES_A_PAIR);
         check_memory(each.saturating_mul(configurations))

@@ -53,22 +53,22 @@ enum Format {
     Json,
 }
 
-/// Most random configurations: some hours.
+/// Maximum number of random configurations: some hours of work.
 const MAX_RANDOM: u64 = 1_000_000_000;
 
-/// Configurations that are asked about at a time, so that memory does not grow with their number.
+/// Configurations per batch, so that memory does not grow with their number.
 const CHUNK: u64 = 4096;
 
-/// More random configurations than this are summed up in text.
+/// Text output summarizes more random configurations than this.
 const FEW: u64 = 10;
 
-/// How much text is kept before it is printed, bytes.
+/// Size of the text buffer, in bytes.
 const MAX_UNPRINTED: usize = 1 << 16;
 
-/// Pairs of links shown in a sum.
+/// Number of pairs of links in a summary.
 const WORST: usize = 10;
 
-/// The configurations that are asked about.
+/// The configurations to check.
 enum Chosen<'a> {
     Listed(Listed),
     Random(&'a Configurations, u64),
@@ -82,7 +82,7 @@ impl Chosen<'_> {
         }
     }
 
-    /// A configuration, for a robot with so many DOFs.
+    /// Configuration `number`, for a robot with `dofs` DOFs.
     fn at(&self, number: u64, dofs: usize) -> Cow<'_, [f64]> {
         match self {
             Chosen::Listed(list) => {
@@ -108,7 +108,7 @@ pub fn run(arguments: &CheckCollisionsArguments) -> ExitCode {
     }
 }
 
-/// Prints the answers; whether the robot collides in any configuration.
+/// Prints the results. Returns whether the robot collides in any configuration.
 fn check(arguments: &CheckCollisionsArguments) -> Result<bool, String> {
     let path = &arguments.path;
     let robot = shapes::open(path)?;
@@ -166,7 +166,7 @@ fn totals(proximity: &Proximity, count: u64) -> String {
     )
 }
 
-/// The names of a pair, with the pieces where there are several.
+/// The names of a pair, with the pieces if there can be several.
 fn label(pair: &PairDistance, of_pieces: bool) -> String {
     let [a, b] = [0, 1].map(|i| {
         let name = escape::line(&pair.links[i]).into_owned();
@@ -208,7 +208,7 @@ fn as_text(
     }
 }
 
-/// The pairs of links, with the number of pairs of shapes, in order.
+/// The pairs of links, in order, with the number of their pairs of shapes.
 fn links_of(touching: &[PairDistance]) -> Vec<(String, usize)> {
     let mut links: Vec<(String, usize)> = Vec::new();
     for pair in touching {
@@ -247,7 +247,7 @@ fn as_json(
     let _ = writeln!(text, "{}", escape::json(&line.to_string()));
 }
 
-/// How many of many configurations collide, and which links most often.
+/// Summarizes many configurations: the number that collide, and the links that collide most often.
 fn sum_up(
     proximity: &Proximity,
     chosen: &Chosen,
@@ -263,7 +263,7 @@ fn sum_up(
             .flat_map(|number| chosen.at(number, dofs).into_owned())
             .collect();
         let answers = match dofs {
-            // Nothing says how many there are.
+            // An empty slice does not determine the number of configurations.
             0 => {
                 let answer = proximity.in_collision(&[])?;
                 numbers.clone().map(|_| answer).collect()

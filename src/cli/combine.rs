@@ -14,7 +14,7 @@ use urdd_generate::batch::Job;
 use urdd_generate::combine::{Recipe, check_parts, combine};
 use urdd_generate::process;
 
-/// Exit status: the robots could not be put together.
+/// Exit status: the robots could not be combined.
 const FAILED: u8 = 1;
 
 /// Arguments of `urdd combine`.
@@ -113,7 +113,7 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
             );
         }
     };
-    // A crash of a rule is caught and reported; the default hook would print besides.
+    // A panic of a rule is caught and reported; the default hook would print it as well.
     std::panic::set_hook(Box::new(|_| {}));
     let outcome = recipe.and_then(|recipe| {
         let progress = printer.begin_robot(&job);
@@ -140,7 +140,7 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
     }
 }
 
-/// Prints the recipe of a legacy URDD, and what it does not say.
+/// Prints the recipe of a legacy URDD, and what it leaves open.
 fn print_recipe(legacy: &Path) -> Result<u8, String> {
     match Recipe::of_legacy(legacy) {
         Err(error) => {

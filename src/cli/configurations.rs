@@ -9,15 +9,15 @@ use urdd_directory::regular;
 use urdd_format::escape;
 use urdd_robot::Robot;
 
-/// More than this is not read, bytes.
+/// Maximum size of the input, in bytes.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// Configurations, one after the other.
+/// Configurations, stored one after another.
 #[derive(Debug, Default)]
 pub struct Listed {
     /// The values of all of them.
     pub values: Vec<f64>,
-    /// How many there are: a robot may have no DOF.
+    /// Number of configurations: a robot may have no DOFs.
     pub count: u64,
 }
 
@@ -28,12 +28,12 @@ impl Listed {
     }
 }
 
-/// Reads configurations. Each line is a JSON list with a value for each DOF, a JSON object of DOF names and values (the
-/// rest is 0, or the bound nearest to it), or values with commas between them; of the latter the first line may be the
+/// Reads configurations. Each line is a JSON list with a value for each DOF, a JSON object of DOF names and values
+/// (other DOFs are 0, or the bound nearest to 0), or comma-separated values. In CSV, the first line may contain the
 /// names of the DOFs, in any order.
 ///
 /// # Errors
-/// A message with the line.
+/// A message with the line number.
 pub fn read(robot: &Robot, file: &Path) -> Result<Listed, String> {
     let name = match file.to_str() {
         Some("-") => "standard input".to_owned(),

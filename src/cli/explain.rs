@@ -31,7 +31,7 @@ enum Format {
     Json,
 }
 
-/// Longest line of an explanation on a terminal, characters.
+/// Maximum line length of an explanation on a terminal, in characters.
 const WIDEST: usize = 100;
 
 /// Runs `urdd explain`.
@@ -57,7 +57,7 @@ pub fn run(arguments: &ExplainArguments) -> ExitCode {
     }
 }
 
-/// A code that was taken back is answered; any other word is wrong usage.
+/// Explains a retired code. Any other word is a usage error.
 fn without_rule(wanted: &str, format: Format) -> ExitCode {
     let Some(retired) = RetiredCode::parse(wanted) else {
         return printed(Err(format!(
@@ -93,7 +93,7 @@ fn in_full(rule: &Rule) -> String {
     )
 }
 
-/// Text as wide as the terminal; elsewhere as it was written.
+/// Wraps text to the width of the terminal; elsewhere leaves it unchanged.
 fn wrapped(text: &str) -> String {
     let Some(width) = output::width() else {
         return text.to_owned();
@@ -115,7 +115,7 @@ fn wrapped(text: &str) -> String {
     paragraphs.join("\n\n")
 }
 
-/// The items of a list, or the paragraph, each on one line.
+/// The items of a list, or the paragraph, each joined to one line.
 fn items(text: &str) -> Vec<String> {
     let mut items: Vec<String> = Vec::new();
     for line in text.lines() {

@@ -14,7 +14,7 @@ use urdd_export::{Export, Format, Note, Options, SphereBudget, export, merge_srd
 use urdd_format::escape;
 use urdd_format::link_shapes_skips::SkippedReason;
 
-/// Largest SRDF that is brought up to date, bytes.
+/// Maximum size of an SRDF to update, in bytes.
 const MAX_SRDF_BYTES: u64 = 16 << 20;
 
 /// Arguments of `urdd export`.
@@ -166,7 +166,7 @@ fn write(arguments: &ExportArguments) -> Result<(), String> {
     if !arguments.force {
         refuse_existing(arguments, &made, place)?;
     }
-    // The file that names the others last.
+    // The file that references the others is last.
     let files = made.files.iter();
     let files = files.map(|(path, bytes)| (place.join(path), bytes.as_slice()));
     let own = (output.clone(), made.text.as_bytes());
@@ -174,7 +174,7 @@ fn write(arguments: &ExportArguments) -> Result<(), String> {
     output::write_files(&files)
 }
 
-/// The SRDF that is there, with other pairs.
+/// The existing SRDF, merged with the new pairs.
 fn merged(file: &Path, new: &str) -> Result<String, String> {
     let shown = escape::line(&file.display().to_string()).into_owned();
     let failed = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
@@ -202,7 +202,7 @@ fn merged(file: &Path, new: &str) -> Result<String, String> {
     Ok(merged.text)
 }
 
-/// An error where a file is there that says something else.
+/// An error if a file exists with different content.
 fn refuse_existing(arguments: &ExportArguments, made: &Export, place: &Path) -> Result<(), String> {
     let own = (!arguments.update).then(|| (arguments.output.clone(), made.text.as_bytes()));
     let meshes = made.files.iter();
@@ -212,7 +212,7 @@ fn refuse_existing(arguments: &ExportArguments, made: &Export, place: &Path) -> 
             let read = regular::read(file, bytes.len() as u64);
             !read.is_ok_and(|there| there == *bytes)
         }
-        // Devices and pipes are written to.
+        // Writing to devices and pipes is allowed.
         Ok(there) => there.is_dir(),
         Err(_) => fs::symlink_metadata(file).is_ok(),
     };

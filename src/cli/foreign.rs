@@ -1,4 +1,4 @@
-//! What to do with a file that is no URDD.
+//! Advice on files that are not URDDs.
 
 use std::io::Read;
 use std::path::Path;
@@ -7,10 +7,10 @@ use urdd_directory::discover::DiscoverError;
 use urdd_directory::regular;
 use urdd_format::escape;
 
-/// How much of a file is looked at to tell what it is, bytes.
+/// How much of a file is read to identify it, in bytes.
 const HEAD: u64 = 4096;
 
-/// The message of an error, and for a file that has a format of its own what to do with it.
+/// The message of an error, with advice if the file has a known format.
 pub fn advice(error: &DiscoverError) -> String {
     let text = escape::line(&error.to_string()).into_owned();
     let DiscoverError::NotAFolder { path } = error else {

@@ -15,12 +15,12 @@ use urdd_generate::batch::{self, Job, Shard};
 use urdd_generate::process;
 use urdd_generate::{MAX_SOURCE_BYTES, Settings, generate_text};
 
-/// Exit status: a robot could not be made.
+/// Exit status: a robot could not be generated.
 const FAILED: u8 = 1;
-/// Exit status: wrong usage, or there is no robot.
+/// Exit status: usage error, or no robot.
 const USAGE: u8 = 2;
 
-/// The word for a URDF from standard input.
+/// The argument for a URDF from standard input.
 const STANDARD_INPUT: &str = "-";
 
 /// Arguments of `urdd generate`.
@@ -63,14 +63,14 @@ pub fn run(arguments: &GenerateArguments) -> ExitCode {
     }
 }
 
-/// Gives the exit status.
+/// Returns the exit status.
 fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
     let signals = Signals::listen().map_err(|error| error.to_string())?;
     process::adopt_orphans();
     let (robots, xacro_arguments) = split(&arguments.robots);
     let settings = arguments.making.settings(xacro_arguments, &signals)?;
     let pool = arguments.making.pool()?;
-    // A crash is caught and reported; the default hook would print besides.
+    // A panic is caught and reported; the default hook would print it as well.
     std::panic::set_hook(Box::new(|_| {}));
     let is_batch = batch::is_batch(&robots);
     if is_batch && robots.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
@@ -119,7 +119,7 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
     }
 }
 
-/// Refuses arguments for xacro where no file is given to it: they would change nothing.
+/// Refuses xacro arguments if no file needs xacro, since they would have no effect.
 fn check_used<'a>(
     arguments: &GenerateArguments,
     settings: &Settings,
@@ -137,7 +137,7 @@ fn check_used<'a>(
     }
 }
 
-/// Robots, and arguments for xacro.
+/// Splits the words into robots and xacro arguments.
 fn split(words: &[PathBuf]) -> (Vec<PathBuf>, Vec<String>) {
     let (mut robots, mut arguments) = (Vec::new(), Vec::new());
     for word in words {
@@ -154,7 +154,7 @@ fn split(words: &[PathBuf]) -> (Vec<PathBuf>, Vec<String>) {
     (robots, arguments)
 }
 
-/// A single robot, whose URDD is the output folder itself.
+/// Generates a single robot, whose URDD is the output folder itself.
 fn one(
     source: PathBuf,
     output: &Path,
@@ -186,7 +186,7 @@ fn one(
     Ok(usize::from(outcome.is_err()))
 }
 
-/// All of standard input, and one byte more than a URDF may have at most.
+/// Reads standard input, up to one byte more than the maximum size of a URDF.
 fn standard_input() -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     let input = std::io::stdin().lock();

@@ -1,4 +1,4 @@
-//! What `urdd generate` prints: results, notes, and progress on a terminal.
+//! The output of `urdd generate`: results, notes, and progress on a terminal.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -15,7 +15,7 @@ use urdd_generate::combine::{CombineError, Combined};
 use urdd_generate::note::{Note, NoteKind};
 use urdd_generate::{GenerateError, Generated, Progress};
 
-/// Notes of a kind that are told one by one.
+/// Maximum number of notes of a kind that are printed individually.
 const MOST_TOLD: usize = 3;
 
 /// How results are written.
@@ -27,7 +27,7 @@ pub(super) enum Format {
     Json,
 }
 
-/// Prints results as they come.
+/// Prints results as they arrive.
 pub(super) struct Printer {
     format: Format,
     is_batch: bool,
@@ -36,7 +36,7 @@ pub(super) struct Printer {
     totals: Mutex<Totals>,
 }
 
-/// What is counted over a batch.
+/// Counts over a batch.
 #[derive(Default)]
 struct Totals {
     unchanged: usize,
@@ -44,7 +44,7 @@ struct Totals {
     meshes_not_found: usize,
 }
 
-/// Progress on a terminal: one bar for the batch, one for each robot at work.
+/// Progress on a terminal: one bar for the batch, one for each robot in progress.
 struct Bars {
     all: MultiProgress,
     batch: ProgressBar,
@@ -65,7 +65,7 @@ impl Printer {
         }
     }
 
-    /// A batch of so many robots begins.
+    /// Begins a batch of `total` robots.
     pub(super) fn begin(&self, total: usize) {
         if let Some(bars) = &self.bars {
             let bar = bars.all.add(bars.batch.clone());
@@ -74,7 +74,7 @@ impl Printer {
         }
     }
 
-    /// A batch is over.
+    /// Ends a batch.
     pub(super) fn end(&self, total: usize, failed: usize) {
         if let Some(bars) = &self.bars {
             bars.batch.finish_and_clear();
@@ -107,7 +107,7 @@ impl Printer {
         Box::new(RobotBar(bar))
     }
 
-    /// Tells what was put together, or why nothing was.
+    /// Prints the result of a combination, or its error.
     pub(super) fn combined(&self, job: &Job, outcome: &Result<Combined, CombineError>) {
         match (self.format, outcome) {
             (Format::Json, Ok(made)) => self.print(&line(&combined_as_json(job, made))),
@@ -131,7 +131,7 @@ impl Printer {
         }
     }
 
-    /// Prints to standard output, the bars out of the way.
+    /// Prints to standard output, with the bars hidden meanwhile.
     fn print(&self, text: &str) {
         let printed = match &self.bars {
             Some(bars) => bars.all.suspend(|| output::print(text)),
@@ -142,7 +142,7 @@ impl Printer {
         }
     }
 
-    /// Why a result could not be printed, where one could not.
+    /// The first error of printing a result, if any.
     pub(super) fn unprinted(&self) -> Option<String> {
         self.unprinted.lock().ok()?.clone()
     }
@@ -182,7 +182,7 @@ impl Observer for Printer {
     }
 }
 
-/// What is wrong, on one line, but for errors that consist of several.
+/// The error message on one line, except for errors that have several lines.
 fn message(error: &GenerateError) -> String {
     let text = error.to_string();
     match error {
@@ -194,7 +194,7 @@ fn message(error: &GenerateError) -> String {
     }
 }
 
-/// The bar of a robot, gone when the robot is done.
+/// The bar of a robot, removed when the robot is finished.
 struct RobotBar(Option<ProgressBar>);
 
 impl Progress for RobotBar {
@@ -234,7 +234,7 @@ fn line(value: &Value) -> String {
     escape::json(&value.to_string()).into_owned() + "\n"
 }
 
-/// What a summary adds where meshes were not found.
+/// The part of a summary about missing meshes.
 fn not_found(count: usize, named: usize) -> String {
     match count {
         0 => String::new(),
@@ -266,7 +266,7 @@ fn summary(job: &Job, made: &Generated) -> String {
     text + "\n"
 }
 
-/// Notes as lines, many of a kind folded; of a batch, all of a kind.
+/// Notes as lines. Folds many notes of a kind into one line; in a batch, all notes of a kind.
 fn notes_told(notes: &[Note], is_batch: bool) -> Vec<String> {
     let mut by_kind: BTreeMap<NoteKind, Vec<&Note>> = BTreeMap::new();
     for note in notes {
@@ -275,7 +275,7 @@ fn notes_told(notes: &[Note], is_batch: bool) -> Vec<String> {
     let most = if is_batch { 1 } else { MOST_TOLD };
     let mut lines = Vec::new();
     for (kind, notes) in by_kind {
-        // One more than is told would be told as shortly by itself.
+        // Folding a single remaining note would not save a line.
         let told = if notes.len() <= most + 1 {
             notes.len()
         } else {

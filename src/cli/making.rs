@@ -1,4 +1,4 @@
-//! What `urdd generate` and `urdd combine` ask for alike: how a URDD is made.
+//! The arguments that `urdd generate` and `urdd combine` share: how to generate a URDD.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -145,7 +145,7 @@ fn length(word: &str) -> Result<f64, String> {
 }
 
 impl MakingArguments {
-    /// The threads that are asked for.
+    /// A pool with the requested number of threads.
     pub(super) fn pool(&self) -> Result<rayon::ThreadPool, String> {
         let mut pool = rayon::ThreadPoolBuilder::new();
         if let Some(threads) = self.threads {

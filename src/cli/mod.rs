@@ -1,4 +1,4 @@
-//! The command line: arguments in, text out. Everything else is in the library.
+//! The command line: parses arguments and prints text. Everything else is in the library.
 
 mod check_collisions;
 mod combine;
@@ -76,8 +76,8 @@ enum Command {
     },
 }
 
-/// Reads the command line and runs what it asks for. The first word is the program's name. `closed`
-/// says that standard output was closed when the program started.
+/// Parses the command line and runs the command. The first word is the program's name. `closed` states whether standard
+/// output was closed when the program started.
 pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
     if closed {
         output::standard_output_is_closed();
@@ -108,11 +108,11 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
     }
 }
 
-/// Prints help where it was asked for, or what is wrong with the command line: its words are the
-/// user's, or those of a file's name, and are escaped.
+/// Prints help if requested, or the error of the command line. Its words come from the user or from file names, so they
+/// are escaped.
 fn usage(error: clap::Error, words: &[OsString]) -> ExitCode {
     if error.use_stderr() {
-        // Once more with escaped words, so that none of them adds a line of its own.
+        // Parses again with escaped words, so that no word adds a line to the message.
         let words = words
             .iter()
             .map(|word| escape::line(&word.to_string_lossy()).into_owned());
@@ -125,7 +125,7 @@ fn usage(error: clap::Error, words: &[OsString]) -> ExitCode {
     printed(output::print(&error.render().to_string()))
 }
 
-/// The exit status of a command that has nothing to do but print.
+/// The exit status of a command that only prints.
 fn printed(result: Result<(), String>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,5 +1,4 @@
-//! Printing. Whatever came from elsewhere is escaped on its way out, and what cannot be written is
-//! an error, but for a pipe that its reader has closed: it has seen enough.
+//! Printing. Escapes all external text. A failed write is an error, except for a pipe that its reader has closed.
 
 use std::fs;
 use std::io::{self, Write};
@@ -13,14 +12,14 @@ use urdd_directory::discover::ROOT_METADATA;
 use urdd_format::escape;
 use urdd_validate::report::style::STYLES;
 
-/// Exit status: wrong usage, nothing could be examined, or what was found could not be written.
+/// Exit status: usage error, nothing could be examined, or the result could not be written.
 pub const USAGE: u8 = 2;
 
-/// Whether standard output was closed when the program started. Rust's runtime puts `/dev/null` in
-/// its place, where everything can be written and nothing arrives.
+/// Whether standard output was closed when the program started. Rust's runtime replaces it with `/dev/null`, which
+/// discards everything without an error.
 static CLOSED: AtomicBool = AtomicBool::new(false);
 
-/// Says that standard output was closed when the program started.
+/// Records that standard output was closed when the program started.
 pub fn standard_output_is_closed() {
     CLOSED.store(true, Ordering::Relaxed);
 }
@@ -28,12 +27,12 @@ pub fn standard_output_is_closed() {
 /// Prints to standard output.
 ///
 /// # Errors
-/// Where it cannot be written: a message.
+/// A message if the text cannot be written.
 pub fn print(text: &str) -> Result<(), String> {
     write(&safe(text)).map(|_| ())
 }
 
-/// As [`print`], for text of which more follows: whether anybody still reads it.
+/// As [`print`], for text that has more to follow. Returns whether a reader is still there.
 ///
 /// # Errors
 /// As for [`print`].
@@ -41,7 +40,7 @@ pub fn print_some(text: &str) -> Result<bool, String> {
     write(&safe(text))
 }
 
-/// Whether a pipe is still open, or there is none.
+/// Writes text. Returns false if it is a pipe that its reader has closed.
 fn write(text: &str) -> Result<bool, String> {
     let failed = |reason: &str| Err(format!("standard output cannot be written: {reason}"));
     if CLOSED.load(Ordering::Relaxed) {
@@ -56,7 +55,7 @@ fn write(text: &str) -> Result<bool, String> {
     }
 }
 
-/// As [`print`], for text in a format of its own, whose names are escaped by its rules.
+/// As [`print`], for text in a format that has already escaped names by its own rules.
 ///
 /// # Errors
 /// As for [`print`].
@@ -78,8 +77,8 @@ pub fn print_commands(text: &str) -> Result<(), String> {
     write(&escape::lines(text)).map(|_| ())
 }
 
-/// Lines that no terminal acts upon, and no runner of GitHub Actions: it takes a line that begins
-/// with `::` or `##[` for a command, wherever it comes from.
+/// Makes lines inert for terminals and for GitHub Actions runners, which treat any line that begins with `::` or `##[`
+/// as a command.
 fn inert(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for line in escape::lines(text).split_inclusive('\n') {
@@ -101,7 +100,7 @@ fn inert(text: &str) -> String {
     out
 }
 
-/// Text without what a terminal would act upon, but for line feeds and our own styles.
+/// Escapes everything that a terminal would act upon, except for line feeds and our own styles.
 fn safe(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut parts = text.split('\u{1b}');
@@ -145,26 +144,26 @@ impl Color {
     }
 }
 
-/// How wide the terminal is that standard output is, characters.
+/// The width of the terminal on standard output, in characters; `None` if it is not a terminal.
 pub fn width() -> Option<usize> {
     let width = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| width.0);
     width.map(|width| usize::from(width).max(40))
 }
 
-/// Whether the terminal can do nothing but show text.
+/// Whether the terminal can only show plain text.
 pub fn is_dumb() -> bool {
     std::env::var_os("TERM").is_some_and(|value| value == "dumb")
 }
 
-/// Writes a report into a file: the whole of it, or nothing, and then what was there before stays.
+/// Writes a report to a file, replaced atomically; unchanged on error.
 ///
 /// # Errors
-/// Where it cannot be written, or would be taken for a URDD: a message.
+/// A message if it cannot be written, or if its name would make its folder a URDD.
 pub fn write_file(file: &Path, text: &str) -> Result<(), String> {
     write_bytes(file, text.as_bytes())
 }
 
-/// As [`write_file`], of bytes.
+/// As [`write_file`], for bytes.
 ///
 /// # Errors
 /// As for [`write_file`].
@@ -174,8 +173,8 @@ pub fn write_bytes(file: &Path, bytes: &[u8]) -> Result<(), String> {
     stage(file, bytes).and_then(Staged::put).map_err(failed)
 }
 
-/// Writes files that belong together, and the folders that they are in: all of them or, where one cannot be written, none,
-/// and then no new folder stays either.
+/// Writes files that belong together, and creates their folders. If one cannot be prepared, writes none, and removes
+/// new folders.
 ///
 /// # Errors
 /// As for [`write_file`].
@@ -203,7 +202,7 @@ fn cannot_write(file: &Path, error: &io::Error) -> String {
     )
 }
 
-/// Folders that were made, which go when this is dropped, as far as they are empty.
+/// New folders. Those that are empty are removed when this is dropped.
 struct NewFolders(Vec<PathBuf>);
 
 impl NewFolders {
@@ -228,11 +227,11 @@ impl Drop for NewFolders {
     }
 }
 
-/// What will be in a file.
+/// Staged content of a file.
 enum Staged<'a> {
-    /// A new file beside the place that it takes.
+    /// A new file next to the target that it will replace.
     Beside(TempPath, PathBuf),
-    /// A device, or a pipe: nothing to keep.
+    /// A device or a pipe, written directly.
     Device(PathBuf, &'a [u8]),
 }
 
@@ -248,12 +247,12 @@ impl Staged<'_> {
     }
 }
 
-/// Writes what will be in a file beside it; the file itself stays as it is.
+/// Writes the new content next to the file, which remains unchanged.
 fn stage<'a>(file: &Path, bytes: &'a [u8]) -> io::Result<Staged<'a>> {
     let (target, permissions) = match fs::metadata(file) {
         Ok(metadata) if metadata.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
         Ok(metadata) if !metadata.is_file() => return Ok(Staged::Device(file.to_owned(), bytes)),
-        // A link stays one: what it leads to is replaced.
+        // A symbolic link remains: its target is replaced.
         Ok(metadata) => (fs::canonicalize(file)?, Some(metadata.permissions())),
         Err(_) => (file.to_owned(), None),
     };
@@ -262,7 +261,7 @@ fn stage<'a>(file: &Path, bytes: &'a [u8]) -> io::Result<Staged<'a>> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // As any new file has them: what the umask leaves.
+        // The default permissions of new files, subject to the umask.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let mut beside = builder.tempfile_in(folder_of(&target))?;
@@ -281,10 +280,10 @@ fn folder_of(file: &Path) -> &Path {
     }
 }
 
-/// Refuses the name that makes a folder a URDD.
+/// Refuses the file name that marks a folder as a URDD.
 ///
 /// # Errors
-/// Where the file has that name: a message that says what to do.
+/// A message with advice if the file has that name.
 pub fn check_name(file: &Path) -> Result<(), String> {
     let marker = file
         .file_name()
@@ -299,7 +298,7 @@ pub fn check_name(file: &Path) -> Result<(), String> {
     }
 }
 
-/// What the operating system said, without its number and without the path of a temporary file.
+/// The operating system's message, without the error number and without the path of a temporary file.
 fn reason(error: &io::Error) -> String {
     match error.raw_os_error() {
         Some(number) => {

@@ -13,9 +13,9 @@ use urdd_document::module::Module;
 use urdd_document::urdd::Urdd;
 use urdd_format::escape;
 
-/// Exit status: the hashes are up to date, and a document is broken.
+/// Exit status: the hashes are up to date, but a document is broken.
 const BROKEN: u8 = 1;
-/// Exit status: hashes could not be brought up to date.
+/// Exit status: hashes could not be updated.
 const FAILED: u8 = 2;
 
 /// Arguments of `urdd rehash`.
@@ -80,7 +80,7 @@ pub fn run(arguments: &RehashArguments) -> ExitCode {
     }
 }
 
-/// Says which documents cannot be used: their hashes are right now, and they are not.
+/// Reports documents that are unusable although their hashes are now correct.
 fn report_broken(found: &Found) -> bool {
     let Ok(urdd) = Urdd::read(&found.path) else {
         return false;

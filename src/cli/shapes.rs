@@ -1,4 +1,4 @@
-//! What commands that ask a robot share: opening it, and the kind of shapes.
+//! Shared by commands that query a robot: opening it, and the kind of shapes.
 
 use std::path::Path;
 
@@ -39,10 +39,10 @@ impl Shapes {
     }
 }
 
-/// The robot of a URDD.
+/// Opens the robot of a URDD.
 ///
 /// # Errors
-/// Where there is none: a message that says what to do.
+/// A message with advice if it cannot be opened.
 pub fn open(path: &Path) -> Result<Robot, String> {
     if path.is_file() && !is_archive(path) {
         let path = path.display().to_string();

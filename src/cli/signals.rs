@@ -1,4 +1,4 @@
-//! Ctrl-C and other wishes to stop.
+//! Cancellation by Ctrl-C and other signals.
 
 use std::io;
 use std::sync::Arc;
@@ -11,10 +11,11 @@ use signal_hook::flag;
 
 use urdd_directory::cancellation::Cancellation;
 
-/// What a shell adds to the number of a signal to make an exit status of it.
+/// A shell adds this to a signal's number to form an exit status.
 const BY_SIGNAL: i32 = 128;
 
-/// The signals that ask to stop; a terminal that is closed too, but not where the user had that ignored (`nohup`).
+/// The signals that request termination. Includes the hangup of a closed terminal, unless the user ignores it
+/// (`nohup`).
 fn asking() -> Vec<i32> {
     let mut signals = vec![SIGINT, SIGTERM];
     #[cfg(unix)]
@@ -24,7 +25,7 @@ fn asking() -> Vec<i32> {
     signals
 }
 
-/// Whether a signal does to this process what it usually does, as far as Linux says so.
+/// Whether a signal has its default action in this process, according to Linux's `/proc`.
 #[cfg(unix)]
 fn is_default(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -35,25 +36,25 @@ fn is_default(signal: i32) -> bool {
     masks.all(|mask| mask.is_some_and(|mask| mask & (1 << (signal - 1)) == 0))
 }
 
-/// The signals that ask this process to stop. The first is a wish, and work stops where it leaves
-/// nothing half done; the second ends the process at once.
+/// The signals that request termination. The first one cancels the work at the next safe point; the second one ends the
+/// process immediately.
 pub(super) struct Signals {
     flag: Arc<AtomicBool>,
     number: Arc<AtomicUsize>,
 }
 
 impl Signals {
-    /// Listens from now on.
+    /// Starts to listen.
     ///
     /// # Errors
-    /// Where the operating system has no such signals.
+    /// If the operating system has no such signals.
     pub(super) fn listen() -> io::Result<Self> {
         let signals = Signals {
             flag: Arc::default(),
             number: Arc::default(),
         };
         for signal in asking() {
-            // In this order: the first signal finds the flag not set yet.
+            // The order matters: at the first signal, the flag must not be set yet.
             flag::register_conditional_shutdown(
                 signal,
                 BY_SIGNAL + signal,
@@ -66,12 +67,12 @@ impl Signals {
         Ok(signals)
     }
 
-    /// The wish to stop, for whoever works.
+    /// The cancellation, to pass to the work.
     pub(super) fn cancellation(&self) -> Cancellation {
         Cancellation::of(Arc::clone(&self.flag))
     }
 
-    /// The exit status, where a signal came.
+    /// The exit status, if a signal was received.
     pub(super) fn status(&self) -> Option<u8> {
         let number = i32::try_from(self.number.load(Ordering::Relaxed)).ok()?;
         let status = u8::try_from(BY_SIGNAL + number).ok()?;

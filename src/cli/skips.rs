@@ -16,10 +16,10 @@ use urdd_export::{ImportedSkips, import_srdf};
 use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
 
-/// How often edits are made again, since another program wrote into the URDD meanwhile.
+/// Maximum number of attempts while another program writes to the URDD.
 const MAX_TRIES: usize = 5;
 
-/// Largest SRDF that is read, bytes.
+/// Maximum size of an SRDF, in bytes.
 const MAX_SRDF_BYTES: u64 = 16 << 20;
 
 /// Arguments of `urdd skips`.
@@ -78,7 +78,7 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
         }
         let edited = robot.with_skip_edits(imported.edits.clone(), None);
         let edited = edited.map_err(|error| of_urdd(&error))?;
-        // Others wait from here on only, and may have written until here.
+        // Takes the lock here. Other programs may have written before.
         let replacement = Replacement::begin(urdd).map_err(|error| error.to_string())?;
         if state(urdd).map_err(|error| of_urdd(&error))? != before {
             continue;
@@ -94,7 +94,7 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
     ))
 }
 
-/// The files on which edits rest.
+/// The files that the edits depend on.
 fn state(urdd: &Path) -> Result<Vec<Vec<u8>>, ReadError> {
     let root = Root::open_folder(urdd)?;
     let module = format!("{}/module.json", ModuleKind::LinkShapesSkips.folder());

@@ -21,14 +21,14 @@ use urdd_validate::selection::Codes;
 use urdd_validate::settings::{Exclude, Settings};
 use urdd_validate::{ValidateError, rules};
 
-/// Longest settings file, bytes.
+/// Maximum size of a settings file, in bytes.
 const MAX_SETTINGS_BYTES: u64 = 1 << 20;
 
 /// Exit status: conforming.
 const CONFORMING: u8 = 0;
 /// Exit status: findings.
 const FINDINGS: u8 = 1;
-/// Exit status: a rule crashed.
+/// Exit status: a rule panicked.
 const INTERNAL: u8 = 101;
 
 /// Arguments of `urdd validate`.
@@ -113,7 +113,7 @@ enum Format {
 }
 
 impl Format {
-    /// The format that the name of a file asks for.
+    /// The format for a file name.
     fn of_file(file: &Path) -> Format {
         let name = file.to_string_lossy().to_ascii_lowercase();
         if name.ends_with(".sarif") || name.ends_with(".sarif.json") {
@@ -147,7 +147,7 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
     if arguments.with_crashing_rule {
         rules.push(&rules::testing::CRASHING);
     }
-    // A crashed rule is caught and reported; the default hook would print besides.
+    // A panic of a rule is caught and reported; the default hook would print it as well.
     std::panic::set_hook(Box::new(|_| {}));
     let run = urdd_validate::validate_with(&arguments.paths, &settings, &rules).map_err(|error| {
         match error {
@@ -196,7 +196,7 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
             }
         }
     };
-    // What can be written is written, whatever cannot.
+    // A failed file does not keep the others from being written.
     let mut failures = Vec::new();
     for file in &arguments.output {
         let text = render(Format::of_file(file))?;

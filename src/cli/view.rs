@@ -67,7 +67,7 @@ pub fn run(arguments: &ViewArguments) -> ExitCode {
     }
 }
 
-/// Exit status: a robot could not be made.
+/// Exit status: a robot could not be generated.
 const FAILED: u8 = 1;
 
 type Failure = (u8, String);
@@ -78,7 +78,7 @@ fn usage(message: impl ToString) -> Failure {
 
 fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     let signals = Signals::listen().map_err(usage)?;
-    // Generated URDDs live as long as this.
+    // Generated URDDs exist as long as this value.
     let temporary = Temporary::begin(&std::env::temp_dir()).map_err(usage)?;
     let mut collection = Collection::default();
     let mut wanted = Vec::new();
@@ -115,7 +115,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
             "no browser could be opened ({error}); open the address above yourself"
         ));
     }
-    // The page shows how far the generation is, and what came of it.
+    // The page shows the progress of the generation, and its result.
     let failed = std::thread::scope(|scope| {
         let making = scope.spawn(|| {
             let failed = wanted
@@ -145,12 +145,12 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     }
 }
 
-/// How long a browser may take until the page asks what happened, where there is no robot to show.
+/// How long to wait for the page to fetch the errors if there is no robot to show.
 const BROWSER_STARTS: Duration = Duration::from_secs(30);
-/// How long the page may ask for the rest then.
+/// How long the page may send further requests after that.
 const LAST_WORD: Duration = Duration::from_secs(1);
 
-/// The URDF that a path stands for: itself, or the only one in a folder in which there is no URDD.
+/// The URDF for a path: the file itself, or the only URDF in a folder without URDDs.
 fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
     let ends_with = |path: &Path, ending: &str| {
         let extension = path.extension().unwrap_or_default();
@@ -195,14 +195,14 @@ fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
     }
 }
 
-/// A robot that is to be made of a URDF.
+/// A robot to generate from a URDF.
 struct Wanted {
     job: Job,
     target: PathBuf,
     shown: Arc<Shown>,
 }
 
-/// Puts a robot that is to be made into the collection.
+/// Adds a robot to generate to the collection.
 fn want(urdf: PathBuf, folder: &Path, collection: &mut Collection) -> Wanted {
     let stem = urdf.file_stem().unwrap_or_default();
     let mut name = stem.to_string_lossy().into_owned();
@@ -210,7 +210,7 @@ fn want(urdf: PathBuf, folder: &Path, collection: &mut Collection) -> Wanted {
         && let Some(parent) = urdf.canonicalize().ok().as_deref().and_then(Path::parent)
         && let Some(parent) = parent.file_name()
     {
-        // Many call the file `robot.urdf`, and the folder by the robot's name.
+        // Often the file is `robot.urdf`, and the folder has the robot's name.
         name = parent.to_string_lossy().into_owned();
     }
     let number = collection.robots().len();
@@ -238,7 +238,7 @@ fn settings(arguments: &ViewArguments, signals: &Signals) -> Result<Settings, Fa
     })
 }
 
-/// Tells the terminal and the page how far a robot is.
+/// Reports a robot's progress to the terminal and the page.
 struct Told<'a> {
     terminal: Box<dyn Progress>,
     page: &'a Shown,
@@ -259,7 +259,7 @@ impl Progress for Told<'_> {
     }
 }
 
-/// Makes a URDD of a URDF, into a temporary folder. Whether there is one.
+/// Generates a URDD from a URDF in a temporary folder. Returns whether it succeeded.
 fn make(wanted: &Wanted, settings: &Settings) -> bool {
     let Wanted { job, target, shown } = wanted;
     let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
@@ -268,7 +268,7 @@ fn make(wanted: &Wanted, settings: &Settings) -> bool {
         terminal: printer.begin_robot(job),
         page: shown,
     };
-    // A crash is caught and reported; the default hook would print besides.
+    // A panic is caught and reported; the default hook would print it as well.
     std::panic::set_hook(Box::new(|_| {}));
     let outcome = caught(&job.source, || {
         urdd_generate::generate(&job.source, target, settings, &progress)

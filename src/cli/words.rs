@@ -1,4 +1,4 @@
-//! Words of the format as arguments.
+//! Terms of the format as command-line values.
 
 use clap::ValueEnum;
 
@@ -17,7 +17,7 @@ pub enum Class {
 }
 
 impl Class {
-    /// The class itself.
+    /// The corresponding conformance class.
     pub fn class(self) -> ConformanceClass {
         match self {
             Class::Core => ConformanceClass::Core,
@@ -39,7 +39,7 @@ pub enum Level {
 }
 
 impl Level {
-    /// The severity itself.
+    /// The corresponding severity.
     pub fn severity(self) -> Severity {
         match self {
             Level::Error => Severity::Error,

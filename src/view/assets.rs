@@ -1,4 +1,4 @@
-//! The page's own files: `page/dist`, which `page/build.mjs` makes.
+//! The page's own files, from `page/dist`, which `page/build.mjs` builds.
 
 use std::io::{self, Read};
 
@@ -9,9 +9,9 @@ use brotli_decompressor::Decompressor;
 pub struct Asset {
     /// Its name in the site.
     pub name: &'static str,
-    /// Its type, as servers say it.
+    /// Its media type.
     pub media_type: &'static str,
-    /// Its content, compressed by brotli.
+    /// Its content, compressed with Brotli.
     pub brotli: &'static [u8],
 }
 
@@ -30,7 +30,7 @@ macro_rules! asset {
     };
 }
 
-/// Every file of the page.
+/// All files of the page.
 pub const ASSETS: &[Asset] = &[
     asset!("index.html", "text/html; charset=utf-8"),
     asset!("app.js", "text/javascript; charset=utf-8"),
@@ -39,22 +39,22 @@ pub const ASSETS: &[Asset] = &[
     asset!("urdd.wasm", "application/wasm"),
 ];
 
-/// The module without the validator, for a page in one file, which carries the report.
+/// The module without the validator, for a page in one file, which includes the report.
 pub const ROBOT_MODULE: Asset = asset!("robot.wasm", "application/wasm");
 
-/// What the page was made of: a hash (`page/build.mjs`).
+/// A hash of the page's sources (`page/build.mjs`).
 pub const STAMP: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/page/dist/stamp"));
 
-/// The file of a name.
+/// Finds a file by name.
 pub fn find(name: &str) -> Option<&'static Asset> {
     ASSETS.iter().find(|asset| asset.name == name)
 }
 
 impl Asset {
-    /// Its content.
+    /// Its decompressed content.
     ///
     /// # Errors
-    /// Where it was not built as it should be.
+    /// If the data is corrupt.
     pub fn bytes(&self) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         Decompressor::new(self.brotli, 1 << 16).read_to_end(&mut bytes)?;
@@ -62,7 +62,7 @@ impl Asset {
     }
 }
 
-/// The page for a server that answers questions, not a static one.
+/// The page for `urdd view`'s own server, instead of a static one.
 ///
 /// # Errors
 /// As [`Asset::bytes`].
@@ -75,7 +75,7 @@ pub fn live_page() -> io::Result<String> {
     ))
 }
 
-/// The page with other names for its files: each name, and the path instead.
+/// The page with its files renamed: each name with its replacement path.
 pub fn page_of(page: &str, names: &[(&str, String)]) -> String {
     let mut text = page.to_owned();
     let mut said = String::new();

@@ -1,4 +1,4 @@
-//! The robots that are shown.
+//! The displayed robots.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -11,27 +11,27 @@ use urdd_directory::carried::carried;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA, discover};
 use urdd_directory::root::{ReadError, Root};
 
-/// A robot that is shown.
+/// A displayed robot.
 #[derive(Debug)]
 pub struct Shown {
-    /// What addresses call it: ASCII letters, digits, `-`, `_` and `.`, unique.
+    /// Its unique identifier in URLs: ASCII letters, digits, `-`, `_` and `.`.
     pub id: String,
-    /// What people call it: its path from the folder that was given.
+    /// Its displayed name: its path from the given folder.
     pub name: String,
     standing: Mutex<Standing>,
-    /// The files, and the revision that they are of.
+    /// The files, and their revision.
     opened: Mutex<Option<(String, Opened)>>,
-    /// Whether a page was told that its generation failed.
+    /// Whether a page has received the failure of its generation.
     failure_told: AtomicBool,
-    /// The report, and the revision that it is of.
+    /// The report, and its revision.
     pub(super) report: Mutex<Option<(String, String)>>,
-    /// The picture, and the revision that it is of.
+    /// The picture, and its revision.
     pub(super) picture: Mutex<Option<(String, Option<Vec<u8>>)>>,
-    /// The saves that can be undone: the revision that each led to, and the files as they were before.
+    /// The saves that can be undone: the revision after each, and the files before it.
     pub(super) undo: Mutex<Vec<(String, Files)>>,
 }
 
-/// What may change of a robot that is shown.
+/// The mutable state of a displayed robot.
 #[derive(Debug)]
 struct Standing {
     path: PathBuf,
@@ -40,52 +40,52 @@ struct Standing {
     making: Making,
 }
 
-/// What may be done with a robot's files.
+/// The operations allowed on a robot's files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
-    /// An archive, or from before version 1: it is not written to.
+    /// An archive or a URDD from before version 1: read-only.
     ReadOnly,
-    /// A folder of version 1: skips are saved.
+    /// A version 1 folder: skips can be saved.
     Writable,
-    /// Generated to be shown: it can be saved as a whole, into a folder.
+    /// Generated for display: the whole URDD can be saved into a folder.
     Temporary,
 }
 
-/// How far the generation of a robot is.
+/// Progress of a robot's generation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Making {
-    /// It is there.
+    /// Generation is complete, or was not needed.
     Done,
-    /// A module is being made, after so many of so many.
+    /// A module is being generated.
     Running {
         /// The module.
         what: String,
-        /// Modules that are done.
+        /// Number of finished modules.
         done: usize,
-        /// Modules in all.
+        /// Total number of modules.
         of: usize,
     },
-    /// There will be none.
+    /// Generation failed, with the reason.
     Failed(String),
 }
 
-/// The files of a robot that is shown. An archive is in memory once, however many ask.
+/// The files of a displayed robot. All requests share one archive in memory.
 #[derive(Debug, Clone)]
 pub struct Opened {
-    /// All of them: for the validator.
+    /// All files: for the validator.
     pub all: Root,
-    /// The URDD's own (see [`carried`]): for everybody else.
+    /// The URDD's own files (see [`carried`]): for everything else.
     pub own: Root,
 }
 
 impl Shown {
-    /// The files as they are now, and the revision that they are of.
+    /// The current files, and their revision.
     ///
     /// # Errors
-    /// Where they are not there any more, or cannot be read.
+    /// If they no longer exist or cannot be read.
     pub fn open(&self) -> Result<(String, Opened), ReadError> {
         let path = self.path();
-        // Before the files are listed: what changes afterwards is noticed.
+        // Taken before the files are listed, so that later changes are detected.
         let revision = revision::of(&path);
         let mut opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((of, known)) = opened.as_ref()
@@ -93,7 +93,7 @@ impl Shown {
         {
             return Ok((revision, known.clone()));
         }
-        // Not two at once.
+        // Drops the old archive first: only one is in memory.
         *opened = None;
         let all = Root::open(&path)?;
         let own = carried(&all)?;
@@ -102,7 +102,7 @@ impl Shown {
         Ok((revision, found))
     }
 
-    /// The URDD's own files as they were listed last: each request for a file of an archive reads the same archive.
+    /// The URDD's own files as last listed: all requests for files of an archive read the same archive.
     ///
     /// # Errors
     /// As [`Shown::open`].
@@ -115,54 +115,54 @@ impl Shown {
         Ok(self.open()?.1.own)
     }
 
-    /// Its folder or archive.
+    /// The path of its folder or archive.
     pub fn path(&self) -> PathBuf {
         self.standing().path.clone()
     }
 
-    /// What was assumed when it was generated to be shown.
+    /// The assumptions made when it was generated for display.
     pub fn notes(&self) -> Vec<String> {
         self.standing().notes.clone()
     }
 
-    /// Whether its skips may be saved.
+    /// Whether its skips can be saved.
     pub fn is_writable(&self) -> bool {
         self.standing().kind == Kind::Writable
     }
 
-    /// Whether it goes when the program ends, unless it is saved.
+    /// Whether it is deleted when the program ends, unless it is saved.
     pub fn is_temporary(&self) -> bool {
         self.standing().kind == Kind::Temporary
     }
 
-    /// How far its generation is.
+    /// Progress of its generation.
     pub fn making(&self) -> Making {
         self.standing().making.clone()
     }
 
-    /// Tells how far its generation is.
+    /// Sets the progress of its generation.
     pub fn set_making(&self, making: Making) {
         self.standing().making = making;
     }
 
-    /// A page is told that its generation failed.
+    /// Records that a page has received the failure of its generation.
     pub(super) fn tell_failure(&self) {
         self.failure_told.store(true, Ordering::Relaxed);
     }
 
-    /// Whether a page was told that its generation failed.
+    /// Whether a page has received the failure of its generation.
     pub fn is_failure_told(&self) -> bool {
         self.failure_told.load(Ordering::Relaxed)
     }
 
-    /// It was generated, with these assumptions.
+    /// Marks it as generated, with these assumptions.
     pub fn made(&self, notes: Vec<String>) {
         let mut standing = self.standing();
         standing.notes = notes;
         standing.making = Making::Done;
     }
 
-    /// It lies in a folder of a person's now.
+    /// Records that it is now in a folder of the user.
     pub(super) fn keep_at(&self, path: PathBuf) {
         *self.opened.lock().unwrap_or_else(PoisonError::into_inner) = None;
         let mut standing = self.standing();
@@ -186,24 +186,24 @@ impl Collection {
     /// Adds every URDD at or below a path.
     ///
     /// # Errors
-    /// Where there is none, or the path cannot be searched.
+    /// If there is none, or the path cannot be searched.
     pub fn add(&mut self, path: &Path) -> Result<(), DiscoverError> {
         for found in discover(path)? {
-            // Not archives; and URDDs of before version 1 have no edits.
+            // Archives are read-only, and URDDs from before version 1 have no edits.
             let has_metadata = found.path.join(ROOT_METADATA).is_file();
             let kind = match found.closed.is_none() && has_metadata {
                 true => Kind::Writable,
                 false => Kind::ReadOnly,
             };
-            // As it is now: the program may run elsewhere later, and `.` has no name to write beside.
+            // Absolute: the working directory may change later, and `.` has no name for a sibling to be derived from.
             let path = found.path.canonicalize().unwrap_or(found.path);
             self.put(found.name, path, kind, Making::Done);
         }
         Ok(())
     }
 
-    /// Adds a URDD that is being generated to be shown, at a place that goes with the program. What this gives is told
-    /// how far that is, and when it is done.
+    /// Adds a URDD that is being generated for display, in a temporary folder. The caller reports progress and
+    /// completion to the returned value.
     pub fn add_making(&mut self, name: String, path: PathBuf) -> Arc<Shown> {
         let making = Making::Running {
             what: "the URDF".to_owned(),
@@ -250,7 +250,7 @@ impl Collection {
         &self.robots
     }
 
-    /// The robot of this id.
+    /// Finds a robot by its id.
     pub fn find(&self, id: &str) -> Option<&Shown> {
         let mut robots = self.robots.iter();
         robots.find(|robot| robot.id == id).map(Arc::as_ref)

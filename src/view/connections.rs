@@ -1,14 +1,14 @@
-//! The connections that are open. Who does not know the token gives way to who comes later, so that nobody can keep the
-//! page out by opening connections and saying nothing.
+//! The open connections. Connections without the token give way to newer ones, so that idle connections of other
+//! programs cannot lock out the page.
 
 use std::io;
 use std::net::{Shutdown, TcpStream};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Most connections at once.
+/// Maximum number of simultaneous connections.
 const MAX_CONNECTIONS: usize = 32;
 
-/// All connections, the oldest first.
+/// All connections, oldest first.
 #[derive(Debug, Default)]
 pub struct Connections(Mutex<State>);
 
@@ -22,12 +22,12 @@ struct State {
 struct Open {
     number: u64,
     stream: TcpStream,
-    /// Whether it showed the token.
+    /// Whether it has sent the token.
     is_known: bool,
 }
 
 impl Connections {
-    /// Whether another one may come: there is a place, or one that is not known has one.
+    /// Whether another connection can be accepted: a slot is free, or a connection without the token holds one.
     pub fn has_room(&self) -> bool {
         let state = self.state();
         state.open.len() < MAX_CONNECTIONS || state.open.iter().any(|open| !open.is_known)
@@ -38,7 +38,7 @@ impl Connections {
     }
 }
 
-/// A connection, which has a place until it is dropped, by a panic too.
+/// A connection. It holds its slot until it is dropped, even by a panic.
 #[derive(Debug)]
 pub struct Connection {
     number: u64,
@@ -46,10 +46,10 @@ pub struct Connection {
 }
 
 impl Connection {
-    /// Takes a place. Where there is none, the oldest connection that is not known ends.
+    /// Takes a slot. If none is free, closes the oldest connection without the token.
     ///
     /// # Errors
-    /// Where the stream cannot be shared.
+    /// If the stream cannot be cloned.
     pub fn begin(stream: &TcpStream, all: &Arc<Connections>) -> io::Result<Self> {
         let stream = stream.try_clone()?;
         let mut state = all.state();
@@ -70,7 +70,7 @@ impl Connection {
         Ok(Connection { number, all })
     }
 
-    /// It showed the token: it keeps its place.
+    /// Marks the connection as having sent the token, so that it keeps its slot.
     pub fn keep(&self) {
         let mut state = self.all.state();
         let mut open = state.open.iter_mut();

@@ -1,8 +1,8 @@
-//! The page and robots as files that any web server can show.
+//! Exports the page and robots as a static site for any web server.
 //!
-//! A site is `index.html`, a list of its files, and a folder of files whose names are the SHA-256 of their content. No
-//! name of a URDD's file becomes one of the site's: so none is too long or too much alike for a file system, and none
-//! ends so that a server calls the file a page or a program. Browsers run nothing of what is `.bin`.
+//! A site is `index.html`, a list of its files, and a folder of files named by the SHA-256 of their content. File names
+//! of a URDD do not become file names of the site. So no name is too long for a file system or collides with another,
+//! and no extension makes a server declare a page or a program. Browsers do not execute `.bin` files.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -21,17 +21,17 @@ use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
 use urdd_format::hexadecimal::hexadecimal;
 
-/// Most bytes of a file that is copied.
+/// Maximum size of a copied file, in bytes.
 const MAX_FILE_BYTES: u64 = 1 << 30;
 
-/// Why a site was not written. What was in its place still is.
+/// Why a site was not written. The previous content is still in place.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// The folder holds something else.
+    /// The folder contains something else.
     #[error("{}: this folder is not empty, and not a site that `urdd view --export` wrote; give another one", .0.display())]
     Occupied(PathBuf),
-    /// The folder holds a site of 0.2.0, which kept no list of its files.
+    /// The folder contains a site of 0.2.0, which has no list of its files.
     #[error(
         "{}: urdd 0.2.0 wrote this site without a list of its files, so nothing was changed. Delete what it wrote ({}; see \
          that nothing below robots is yours) and run this again: all other files stay",
@@ -40,10 +40,10 @@ pub enum ExportError {
     Unlisted {
         /// The folder.
         folder: PathBuf,
-        /// What is there of what 0.2.0 wrote.
+        /// The paths written by 0.2.0 that still exist.
         left: Vec<PathBuf>,
     },
-    /// Files of a person's in the place of the site's.
+    /// The user's files are at the paths of the site's files.
     #[error(
         "{}: not written by the last export, or changed since, and would be overwritten; nothing was changed. Move it \
          away, and run this again",
@@ -56,7 +56,7 @@ pub enum ExportError {
     /// It cannot be written.
     #[error(transparent)]
     Write(#[from] StagingError),
-    /// The page was not built as it should be.
+    /// The page's built-in data is corrupt.
     #[error("the page cannot be unpacked: {0}")]
     Page(io::Error),
     /// A robot is too large for one file.
@@ -64,7 +64,7 @@ pub enum ExportError {
     TooLarge {
         /// Its name.
         robot: String,
-        /// How large it is.
+        /// Its size in bytes.
         size: u64,
     },
     /// A robot cannot be read.
@@ -87,9 +87,9 @@ fn names(paths: &[PathBuf]) -> String {
     names.join(", ")
 }
 
-/// Writes the site into a folder: a new one, an empty one, or one with a site, of which the files that the last export
-/// listed are replaced and all others stay. `tell` hears of each robot that is done. Gives the files of the last export
-/// that a person changed, which stay too.
+/// Writes the site into a folder: a new one, an empty one, or one with a site. In an existing site, it replaces the
+/// files that the last export listed, and keeps all others. Calls `tell` after each robot. Returns the files of the
+/// last export that the user changed, which it keeps too.
 ///
 /// # Errors
 /// [`ExportError`].
@@ -99,7 +99,7 @@ pub fn export(
     cancellation: &Cancellation,
     tell: &mut dyn FnMut(&Shown),
 ) -> Result<Vec<PathBuf>, ExportError> {
-    // Before anything is made, for the message; and again below, when no other run writes there.
+    // An early check, for the message. Repeated below, when no other run can write there.
     SiteList::read(folder)?;
     let staging = Staging::begin_inside(folder, cancellation)?;
     let before = SiteList::read(staging.target())?;
@@ -135,14 +135,14 @@ pub fn export(
     list.put(staging.content(), staging.target(), &before)
 }
 
-/// A site that is being made.
+/// A site that is being written.
 struct Site {
     writer: Writer,
     list: SiteList,
 }
 
 impl Site {
-    /// Writes a file, and gives its path in the site.
+    /// Writes a file, and returns its path in the site.
     fn add(&mut self, bytes: &[u8], ending: &str) -> Result<String, ExportError> {
         let hash = hexadecimal(&Sha256::digest(bytes));
         let path = format!("{FOLDER}/{hash}.{ending}");
@@ -158,23 +158,23 @@ impl Site {
     }
 }
 
-/// A robot as it is published: the URDD's own files, and what the validator says of these.
+/// A robot as published: the URDD's own files, and the validator's report on them.
 pub(super) struct Published {
     /// The files.
     pub root: Root,
     /// Their report.
     pub report: String,
-    /// The line of `robots.json`.
+    /// The entry of `robots.json`.
     pub entry: Value,
 }
 
-/// What is published of a robot.
+/// Collects what is published of a robot.
 pub(super) fn published(robot: &Shown) -> Result<Published, ExportError> {
     let root = robot.open().map_err(|error| unread(robot, error))?.1.own;
     let report = route::report_on(&root, &robot.name);
     let report = report.unwrap_or_else(|error| json!({ "error": error }).to_string());
     let mut entry = route::entry_with(robot, &report);
-    // Nobody writes to it; and notes name files of this machine.
+    // A site is read-only, and notes name files of this machine.
     entry["writable"] = json!(false);
     entry["temporary"] = json!(false);
     entry["notes"] = json!([]);
@@ -205,7 +205,7 @@ fn one(robot: &Shown, site: &mut Site) -> Result<Value, ExportError> {
         if file.kind != EntryKind::File {
             continue;
         }
-        // A path that a URDD may not have is in the report, and not on the site.
+        // A path that is invalid in a URDD appears in the report, but not on the site.
         match root.read(&file.path, MAX_FILE_BYTES) {
             Ok(bytes) => {
                 let at = site.add(&bytes, "bin")?;

@@ -1,6 +1,6 @@
-//! Who may ask: the page itself, in a browser on this machine, that was opened with the address that was printed.
+//! Access control: only the page itself, in a browser on this machine, opened with the printed address.
 
-/// What a request says of where it comes from.
+/// The headers that identify the origin of a request.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Caller<'a> {
     /// `Host`.
@@ -18,7 +18,7 @@ pub struct Caller<'a> {
 }
 
 impl Caller<'_> {
-    /// Whether a person follows a link to the page: a tab opens it, and no frame, script or image does.
+    /// Whether the request is a navigation to the page in a tab, not from a frame, a script or an image.
     fn follows_a_link(&self) -> bool {
         self.origin.is_none()
             && self.mode == Some("navigate")
@@ -29,16 +29,16 @@ impl Caller<'_> {
 /// Why a request is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
-    /// It was sent to another name: that is how pages of others reach servers of this machine.
+    /// Sent to another host name, as in DNS rebinding attacks by other pages.
     Host,
-    /// It comes from another page.
+    /// Sent by another page.
     Origin,
-    /// It lacks the token.
+    /// Without the token.
     Token,
 }
 
 impl Refusal {
-    /// In words.
+    /// The message for the response.
     pub fn message(self) -> &'static str {
         match self {
             Refusal::Host => "this server answers to 127.0.0.1 and localhost alone\n",
@@ -50,21 +50,21 @@ impl Refusal {
     }
 }
 
-/// The rules of one server.
+/// The access rules of one server.
 #[derive(Debug, Clone)]
 pub struct Guard {
     /// The port.
     pub port: u16,
-    /// What a caller must know.
+    /// The token that a caller must send.
     pub token: String,
 }
 
 impl Guard {
-    /// Whether the page's HTML is served: to its own page, to what a person types, and where a person follows a link on
-    /// any page. It holds no robot and no token, and no page can frame it or read what it shows.
+    /// Whether to serve the page's HTML: to the page itself, to a typed address, and to a followed link on any page.
+    /// The HTML contains no robot and no token, and no other page can frame or read it.
     ///
     /// # Errors
-    /// Why not.
+    /// The reason for the refusal.
     pub fn entrance(&self, caller: &Caller) -> Result<(), Refusal> {
         let site = match caller.follows_a_link() {
             true => Some("none"),
@@ -73,10 +73,10 @@ impl Guard {
         self.page(&Caller { site, ..*caller })
     }
 
-    /// Whether the page's other files are served: the host is checked, and that no other page asks.
+    /// Whether to serve the page's other files. Checks the host, and that no other page sends the request.
     ///
     /// # Errors
-    /// Why not.
+    /// The reason for the refusal.
     pub fn page(&self, caller: &Caller) -> Result<(), Refusal> {
         let port = self.port;
         let hosts = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}"));
@@ -88,22 +88,22 @@ impl Guard {
         if caller.origin.is_some_and(|origin| !own(origin)) {
             return Err(Refusal::Origin);
         }
-        // What was typed or opened from outside says `none`; other pages may not even link to what lies here.
+        // A typed or externally opened address sends `none`. Other pages cannot even link to these files.
         match caller.site {
             None | Some("same-origin" | "none") => Ok(()),
             Some(_) => Err(Refusal::Origin),
         }
     }
 
-    /// Whether a robot may be had or changed: the token is wanted too.
+    /// Whether a robot may be read or changed. Also requires the token.
     ///
     /// # Errors
-    /// Why not.
+    /// The reason for the refusal.
     pub fn robots(&self, caller: &Caller) -> Result<(), Refusal> {
         self.page(caller)?;
         let given = caller.token.unwrap_or_default().as_bytes();
         let own = self.token.as_bytes();
-        // Every byte is looked at, so that time tells nothing.
+        // Compares every byte, so that timing reveals nothing.
         let differ = own.iter().zip(given).fold(0, |sum, (a, b)| sum | (a ^ b));
         match own.len() == given.len() && differ == 0 {
             true => Ok(()),
@@ -164,7 +164,7 @@ mod tests {
                 host: Some("evil.example"),
                 ..followed
             },
-            // A form that is posted, a frame, an image, a script.
+            // A posted form, a frame, an image, a script.
             Caller { origin, ..followed },
             Caller {
                 destination: Some("iframe"),

@@ -1,8 +1,8 @@
-//! One request and one answer of HTTP/1.1 over a connection, which is closed afterwards: browsers of this machine open
-//! another one at once, and none that is idle holds anything.
+//! One HTTP/1.1 request and response per connection, which is then closed. Local browsers reconnect immediately, and no
+//! idle connection holds resources.
 //!
-//! `tiny_http` 0.12 was tried: with several connections that a browser keeps open, its pool of threads leaves some requests
-//! without an answer for as long as they stay open.
+//! `tiny_http` 0.12 is unsuitable: if a browser keeps several connections open, its thread pool leaves some requests
+//! unanswered until they close.
 
 use std::io::{self, BufReader, Read, Write};
 use std::net::{Shutdown, TcpStream};
@@ -10,19 +10,19 @@ use std::time::{Duration, Instant};
 
 use super::reply::{Body, HEADERS, Reply};
 
-/// Most bytes of a request's first line and headers, most headers.
+/// Maximum size of a request's first line and headers, in bytes, and maximum number of headers.
 const MAX_HEAD: usize = 16 << 10;
 const MAX_HEADERS: usize = 64;
-/// How long a connection may be silent.
+/// Maximum idle time of a connection.
 const SILENCE: Duration = Duration::from_secs(10);
-/// How long the first line and headers may take in all, and a body.
+/// Maximum total time to receive the first line and headers, and a body.
 const MAX_HEAD_TIME: Duration = Duration::from_secs(10);
 const MAX_BODY_TIME: Duration = Duration::from_secs(60);
-/// How long an answer may take: this, and a second for so many bytes.
+/// Maximum time to send a response: this, plus one second per [`BYTES_A_SECOND`] bytes.
 const MAX_ANSWER_TIME: Duration = Duration::from_secs(60);
 const BYTES_A_SECOND: u64 = 1 << 20;
-/// How long, and for how many bytes, it is read what was sent and is not wanted. A connection that is closed before is
-/// reset, and the answer may be lost.
+/// Limits for reading and discarding unread input before closing. Closing earlier resets the connection, and the
+/// response may be lost.
 const LINGER: Duration = Duration::from_secs(1);
 const MAX_LINGER: u64 = 1 << 20;
 
@@ -31,16 +31,16 @@ const MAX_LINGER: u64 = 1 << 20;
 pub struct Asked {
     /// Its method.
     pub method: String,
-    /// Its address, as it was sent.
+    /// Its URL, as sent.
     pub url: String,
-    /// Its headers; values that are no text are empty.
+    /// Its headers. Values that are not text are empty.
     headers: Vec<(String, String)>,
     /// Its body.
     pub body: Vec<u8>,
 }
 
 impl Asked {
-    /// The value of a header, where there is exactly one of that name.
+    /// The value of a header; empty if the header is repeated.
     pub fn header(&self, name: &str) -> Option<&str> {
         let mut found = self
             .headers
@@ -48,14 +48,14 @@ impl Asked {
             .filter(|(known, _)| known.eq_ignore_ascii_case(name));
         match (found.next(), found.next()) {
             (Some((_, value)), None) => Some(value),
-            // Said twice: nobody can tell which counts.
+            // Repeated, so ambiguous.
             (Some(_), Some(_)) => Some(""),
             _ => None,
         }
     }
 }
 
-/// A connection with a time at which it ends, however busy it is.
+/// A connection with a deadline, even if it is active.
 struct Timed {
     stream: TcpStream,
     until: Instant,
@@ -66,7 +66,7 @@ impl Timed {
         self.until = Instant::now() + time;
     }
 
-    /// How long the next step may take.
+    /// The time left for the next step.
     fn left(&self) -> io::Result<Duration> {
         let left = self.until.saturating_duration_since(Instant::now());
         match left.is_zero() {
@@ -94,8 +94,8 @@ impl Write for Timed {
     }
 }
 
-/// Answers what is asked over a connection. `admit` sees the request without its body, and says how many bytes of it are
-/// read at most, or refuses.
+/// Serves one request of a connection. `admit` receives the request without its body, and returns the maximum size of
+/// the body, or refuses the request.
 pub fn converse(
     stream: TcpStream,
     admit: impl FnOnce(&Asked) -> Result<u64, Reply>,
@@ -131,7 +131,7 @@ pub fn converse(
     Ok(())
 }
 
-/// A request up to its body, or the answer to what is none.
+/// Reads a request up to its body; an invalid request gives the response to send.
 fn head(reader: &mut impl Read) -> io::Result<Result<Asked, Reply>> {
     let mut head = Vec::new();
     while !head.ends_with(b"\r\n\r\n") {
@@ -160,7 +160,7 @@ fn head(reader: &mut impl Read) -> io::Result<Result<Asked, Reply>> {
     }))
 }
 
-/// The length of a request's body, or why it is not read.
+/// The length of a request's body, or the response that rejects it.
 fn length(asked: &Asked, limit: u64) -> Result<u64, Reply> {
     if asked.header("Transfer-Encoding").is_some() {
         return Err(Reply::failure(411, "say the length of the body\n"));
@@ -203,7 +203,7 @@ fn write(stream: &mut impl Write, reply: Reply, head_only: bool) -> io::Result<(
     if !head_only {
         match reply.body {
             Body::Bytes(bytes) => stream.write_all(&bytes)?,
-            // A file that ends early ends the connection early: the reader sees that it is not whole.
+            // If the file is shorter than announced, the connection ends early, so the client detects the truncation.
             Body::File(file, size) => {
                 io::copy(&mut file.take(size), stream)?;
             }
@@ -232,7 +232,7 @@ fn word(status: u16) -> &'static str {
 mod tests {
     use super::*;
 
-    /// Reads a request whose body may have 10 bytes.
+    /// Reads a request whose body may have up to 10 bytes.
     fn read(mut text: &[u8]) -> io::Result<Result<Asked, Reply>> {
         let mut asked = match head(&mut text)? {
             Ok(asked) => asked,

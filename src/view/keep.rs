@@ -1,4 +1,4 @@
-//! Saving a URDD that was generated to be shown: a folder of a person's choice gets it, and is what is shown from then on.
+//! Saves a URDD that was generated for display into a folder of the user's choice, and shows that folder from then on.
 
 use std::path::{Path, PathBuf, absolute};
 
@@ -18,11 +18,11 @@ use urdd_directory::take::take_content;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Wish {
-    /// The folder: absolute, from the home folder by `~/`, or from the folder in which the program runs.
+    /// The folder: absolute, relative to the home folder with `~/`, or relative to the working directory.
     folder: String,
 }
 
-/// Puts a generated URDD into a folder that is not there yet, or empty.
+/// Saves a generated URDD into a new or empty folder.
 pub fn keep(robot: &Shown, body: &[u8]) -> Reply {
     let wish: Wish = match serde_json::from_slice(body) {
         Ok(wish) => wish,
@@ -46,7 +46,7 @@ fn kept(robot: &Shown, folder: &str) -> Result<PathBuf, Failure> {
     free(&target)?;
     let staging = Staging::begin(&target, &Cancellation::default())
         .map_err(|error| (403, error.to_string()))?;
-    // Another run may have been first while this one waited.
+    // Another run may have written there while this one waited.
     free(&target)?;
     take_content(&robot.path(), staging.content(), &|_| false).map_err(|error| failed(&error))?;
     let place = staging.target().to_owned();
@@ -55,7 +55,7 @@ fn kept(robot: &Shown, folder: &str) -> Result<PathBuf, Failure> {
     Ok(place)
 }
 
-/// The folder that a person means.
+/// Resolves the path that the user entered.
 fn resolved(folder: &str) -> Result<PathBuf, Failure> {
     let said = folder.trim();
     if said.is_empty() || said.contains('\0') {
@@ -76,7 +76,7 @@ fn resolved(folder: &str) -> Result<PathBuf, Failure> {
     absolute(&path).map_err(|error| (400, format!("{said}: {error}")))
 }
 
-/// Whether nothing stands there that would go.
+/// Checks that nothing would be overwritten.
 fn free(target: &Path) -> Result<(), Failure> {
     let shown = target.display();
     let metadata = match std::fs::symlink_metadata(target) {

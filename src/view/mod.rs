@@ -1,5 +1,5 @@
-//! `urdd view`: the page `page/`, the robots that it shows, and a server for both that only this machine's browser, with
-//! the address that was printed, can ask.
+//! `urdd view`: the page `page/`, the robots that it shows, and a server for both. Only a browser on this machine with
+//! the printed address can use the server.
 
 pub mod assets;
 pub mod collection;

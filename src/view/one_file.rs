@@ -1,5 +1,5 @@
-//! The page and one robot in a single HTML file, which opens from the disk, or in a frame of a notebook. It holds of the
-//! robot what the page draws and computes with, and not each file of the URDD.
+//! The page and one robot in a single HTML file, which opens from disk or in a notebook frame. It contains the robot's
+//! data that the page needs, not every file of the URDD.
 
 use std::collections::BTreeSet;
 use std::io::{self, Cursor, Write};
@@ -24,22 +24,22 @@ use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::registry::ModuleKind;
 use urdd_validate::rules;
 
-/// Most bytes of a robot that is put into a page.
+/// Maximum size of a robot in a page, in bytes.
 const MAX_ROBOT_BYTES: u64 = 100_000_000;
 
 /// Unpacks the page's program and runs it.
 const START: &str = include_str!("one_file.js");
 
-/// How the last line of a page begins.
+/// The beginning of a page's last line.
 const SEAL: &str = "<!-- written by urdd; SHA-256 of what is above: ";
 
-/// The last line of a page, by which an unchanged page is known.
+/// The last line of a page, which identifies an unchanged page.
 fn seal(above: &str) -> String {
     let hash = hexadecimal(&Sha256::digest(above));
     format!("{SEAL}{hash} -->\n")
 }
 
-/// Whether a page may be written to a path: no file is there, or it is empty, or a page as [`page_with`] gave it.
+/// Whether a page may be written to a path: there is no file, or it is empty, or an unchanged page of [`page_with`].
 pub fn may_hold_page(file: &Path) -> bool {
     if !file.is_file() {
         return true;
@@ -55,11 +55,11 @@ pub fn may_hold_page(file: &Path) -> bool {
     page.is_empty() || page.rfind(SEAL).is_some_and(is_sealed)
 }
 
-/// The page with a robot in it, as HTML. It asks for nothing else, and needs no origin of its own: a frame may be
-/// sandboxed with `allow-scripts` alone.
+/// The page with a robot in it, as HTML. It requests nothing else, and needs no origin: a frame may be sandboxed with
+/// `allow-scripts` only.
 ///
 /// # Errors
-/// [`ExportError`]; [`ExportError::TooLarge`] for a robot that a page cannot hold.
+/// [`ExportError`]; [`ExportError::TooLarge`] if the robot is too large for a page.
 pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
     let asset = |name: &str| {
         let found = assets::find(name).map_or_else(|| Ok(Vec::new()), assets::Asset::bytes);
@@ -136,7 +136,7 @@ fn deflated(bytes: &[u8]) -> io::Result<Vec<u8>> {
     encoder.finish()
 }
 
-/// What the rules mean of which a report tells: the module of such a page has no rules.
+/// The explanations of the rules in a report, since the page's module contains no rules.
 fn meanings(report: &str) -> Value {
     let report: Value = serde_json::from_str(report).unwrap_or_default();
     let findings = report["urdds"][0]["findings"].as_array();
@@ -183,7 +183,7 @@ fn archive(robot: &Shown, root: &Root) -> Result<Vec<u8>, ExportError> {
         });
     }
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    // It is compressed as a whole.
+    // Stored: the archive is compressed as a whole.
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
     let failed = |error: zip::result::ZipError| ExportError::Page(io::Error::other(error));
     for path in needed {
@@ -202,18 +202,18 @@ fn archive(robot: &Shown, root: &Root) -> Result<Vec<u8>, ExportError> {
     Ok(zip.finish().map_err(failed)?.into_inner())
 }
 
-/// Rounds the normals in a .glb that urdd wrote to multiples of 1/128, by less than half a degree: no picture shows it, and
-/// they deflate to a third. Positions and indices stay as they are, and so does any other file.
+/// Rounds the normals in a .glb written by urdd to multiples of 1/128: an invisible change of less than half a degree,
+/// and they deflate to a third. Positions, indices and all other files are unchanged.
 fn round_normals(glb: &mut [u8]) -> Option<()> {
     let number = |value: &Value| usize::try_from(value.as_u64()?).ok();
     let length = u32::from_le_bytes(glb.get(12..16)?.try_into().ok()?) as usize;
     let json: Value = serde_json::from_slice(glb.get(20..)?.get(..length)?).ok()?;
-    // Others' numbers may be interleaved.
+    // Other writers may interleave attributes.
     if json["asset"]["generator"] != "urdd" {
         return None;
     }
     let data = glb.get_mut(28 + length..)?;
-    // Whoever says that urdd wrote it: no byte is looked at more than once on average.
+    // Do not trust the generator field: bounds the work to each byte once on average.
     let mut left = data.len();
     for primitive in json["meshes"][0]["primitives"].as_array()? {
         let accessor = &json["accessors"][number(&primitive["attributes"]["NORMAL"])?];
@@ -223,7 +223,7 @@ fn round_normals(glb: &mut [u8]) -> Option<()> {
         let normals = data.get_mut(number(&view["byteOffset"])?..)?;
         for bytes in normals.get_mut(..length)?.chunks_exact_mut(4) {
             let x = f32::from_le_bytes((&*bytes).try_into().ok()?);
-            // One zero of both.
+            // Turns -0 into 0.
             let rounded = (x * 128.0).round() / 128.0 + 0.0;
             bytes.copy_from_slice(&rounded.to_le_bytes());
         }
@@ -231,8 +231,8 @@ fn round_normals(glb: &mut [u8]) -> Option<()> {
     Some(())
 }
 
-/// Of the files of a URDD those that the page reads: of each mesh one format, no second copy of a document, and of the
-/// original meshes those that are drawn as they are.
+/// The files of a URDD that the page reads: one format of each mesh, one copy of each document, and the original meshes
+/// that the page draws.
 fn needed<'a>(root: &Root, all: &BTreeSet<&'a str>) -> BTreeSet<&'a str> {
     let derived = [
         ModuleKind::PlainMeshes,
@@ -277,7 +277,7 @@ fn is_document(path: &str) -> bool {
 }
 
 /// The original meshes that the page reads: those of collision elements, and the visual ones of links with a texture.
-/// Those of other links look as the plain meshes do. `None` where the module does not say.
+/// Other links look the same as plain meshes. `None` if the module does not list them.
 fn drawn_originals(root: &Root) -> Option<BTreeSet<String>> {
     let path = format!("{}/module.json", ModuleKind::OriginalMeshes.folder());
     let bytes = root.read(&path, MAX_DOCUMENT_BYTES).ok()?;

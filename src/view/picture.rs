@@ -1,7 +1,7 @@
-//! A small picture of a robot, drawn without a graphics card: what a gallery shows.
+//! A small picture of a robot for the gallery, rendered in software.
 //!
-//! Parallel rays from where the page looks at first, one light, the depth of each point of the picture; drawn twice as
-//! large and averaged. Same robot, same bytes.
+//! Orthographic projection from the page's initial viewpoint, one light and a depth buffer, rendered at twice the size
+//! and averaged. The same robot gives the same bytes.
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
@@ -11,29 +11,29 @@ use urdd_robot::{Robot, RobotError};
 pub const WIDTH: usize = 320;
 /// Size, pixels.
 pub const HEIGHT: usize = 240;
-/// Points drawn for each pixel, along each side.
+/// Samples for each pixel, along each axis.
 const FINER: usize = 2;
-/// Where the page looks from at first.
+/// The page's initial viewing direction.
 const FROM: [f64; 3] = [1.0, -0.75, 0.45];
-/// What has no colour.
+/// The colour of parts without one.
 const PLAIN: [f64; 3] = [0.52, 0.55, 0.6];
-/// The share of its colour that a facet has which no light reaches.
+/// The brightness of an unlit facet, as a fraction of its colour.
 const DARKEST: f64 = 0.16;
-/// The least that is shown of a colour: a black robot is seen on a dark page too.
+/// Minimum brightness of a colour, so that a black robot is visible on a dark page.
 const LEAST: f64 = 0.01;
-/// The share of the picture that stays free at each side.
+/// The margin at each side, as a fraction of the picture.
 const MARGIN: f64 = 0.06;
 
-/// A triangle in the picture's axes: right, up, and towards who looks; and its colour.
+/// A triangle in the picture's axes (right, up, towards the viewer), and its colour.
 struct Facet {
     corners: [Vector3<f64>; 3],
     color: [f64; 3],
 }
 
-/// The picture of a robot in its zero configuration, as PNG; `None` where it has nothing to show.
+/// The picture of a robot in its default configuration, as PNG; `None` if it has nothing to show.
 ///
 /// # Errors
-/// Where its meshes, or what places them, cannot be read.
+/// If its meshes or its kinematics cannot be read.
 pub fn png(robot: &Robot) -> Result<Option<Vec<u8>>, RobotError> {
     let poses = robot.link_poses(&robot.configurations()?.zero())?;
     let mut facets = Vec::new();
@@ -105,7 +105,7 @@ fn drawn(facets: &[Facet]) -> Option<Vec<u8>> {
         if area == 0.0 || !area.is_finite() {
             continue;
         }
-        // Seen from behind, it is lit as from before: meshes are not all turned the same way.
+        // Lights both sides, since the winding of meshes is not consistent.
         let normal = if normal.z < 0.0 { -normal } else { normal };
         let shade = DARKEST + (1.0 - DARKEST) * normal.dot(&light).max(0.0);
         let range = |values: [f64; 3], end: usize| {
@@ -153,7 +153,7 @@ fn drawn(facets: &[Facet]) -> Option<Vec<u8>> {
     Some(pixels)
 }
 
-/// A share of light as screens take it, nearly sRGB. The square root is the same on every machine.
+/// Gamma correction, close to sRGB. A square root has the same result on every machine.
 fn shown(light: f64) -> f64 {
     (LEAST + (1.0 - LEAST) * light.clamp(0.0, 1.0)).sqrt()
 }
@@ -196,13 +196,14 @@ mod tests {
             let pixels = drawn(&facets).expect("a picture");
             let at = |x: usize, y: usize| &pixels[4 * (y * WIDTH + x)..][..4];
             let middle = at(WIDTH / 2, HEIGHT / 2);
-            // Facing who looks: the light's share along z.
+            // Facing the viewer: the z component of the light's direction.
             let byte = |light: f64| (light.sqrt() * 255.0).round() as u8;
             let lit = 0.16 + 0.84 * 0.76_f64;
             let red = byte(0.01 + 0.99 * lit);
             assert_eq!(middle, [red, byte(0.01), byte(0.01), 255]);
             assert_eq!(at(0, 0)[3], 0, "the corner is empty");
-            // A square fills the height but for the margins: 0.88 of 240 rows, so 105 or 106 either side of the middle.
+            // A square fills the height except for the margins: 0.88 of 240 rows, so 105 or 106 on either side of the
+            // middle.
             assert_eq!(at(WIDTH / 2, 120 - 104)[3], 255);
             assert_eq!(at(WIDTH / 2, 120 - 108)[3], 0);
         }

@@ -1,19 +1,19 @@
-//! What is answered, whoever asks.
+//! Responses of the server.
 
 use serde_json::Value;
 
 use urdd_directory::source::OpenFile;
 
-/// What is sent.
+/// The body of a response.
 pub enum Body {
     /// Bytes.
     Bytes(Vec<u8>),
-    /// A file of this size, read while it is sent.
+    /// A file of this size, streamed.
     File(OpenFile, u64),
 }
 
 impl Body {
-    /// Its size, bytes.
+    /// Its size in bytes.
     pub fn size(&self) -> u64 {
         match self {
             Body::Bytes(bytes) => bytes.len() as u64,
@@ -22,25 +22,25 @@ impl Body {
     }
 }
 
-/// An answer.
+/// A response.
 pub struct Reply {
-    /// Status.
+    /// The HTTP status code.
     pub status: u16,
-    /// Type of the body.
+    /// The media type of the body.
     pub media_type: &'static str,
-    /// Whether the body is compressed by brotli.
+    /// Whether the body is compressed with Brotli.
     pub brotli: bool,
     /// The body.
     pub body: Body,
 }
 
-/// What the page may do: run its own code and the module, read from where it came, and nothing else. Pictures in glTF
-/// become blobs; glTF as JSON has `data:` in it.
+/// The page may only run its own code and the module, and fetch from its origin. Images in glTF become blobs; JSON glTF
+/// contains `data:` URIs.
 pub const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
      connect-src 'self' blob: data:; img-src 'self' blob: data:; worker-src 'self'; base-uri 'none'; form-action 'none'; \
      frame-ancestors 'none'";
 
-/// The headers of every answer, besides those of its body.
+/// The headers of every response, in addition to those of its body.
 pub const HEADERS: &[(&str, &str)] = &[
     ("Content-Security-Policy", POLICY),
     ("X-Content-Type-Options", "nosniff"),
@@ -51,7 +51,7 @@ pub const HEADERS: &[(&str, &str)] = &[
 ];
 
 impl Reply {
-    /// Text that says what is wrong.
+    /// A text response with an error message.
     pub fn failure(status: u16, message: impl Into<String>) -> Self {
         Self {
             status,
@@ -61,7 +61,7 @@ impl Reply {
         }
     }
 
-    /// There is nothing, and nothing is wrong.
+    /// An empty response without an error.
     pub fn nothing() -> Self {
         Self::failure(204, "")
     }
@@ -71,7 +71,7 @@ impl Reply {
         Self::json_text(value.to_string())
     }
 
-    /// JSON that is text already.
+    /// JSON that is already text.
     pub fn json_text(text: String) -> Self {
         Self {
             status: 200,
@@ -91,7 +91,7 @@ impl Reply {
         }
     }
 
-    /// A file of a robot: never shown as a page of its own.
+    /// A file of a robot: never displayed as a page.
     pub fn file(file: OpenFile, size: u64) -> Self {
         Self {
             status: 200,

@@ -1,5 +1,5 @@
-//! Whether the files of a robot changed: a word of their names, sizes and times, and on Unix of what nobody can set back:
-//! the time of the last change of whatever kind, and the number of the file.
+//! Detects changes of a robot's files by a fingerprint of their names, sizes and times. On Unix it includes what
+//! programs cannot reset: the time of the last status change (ctime), and the inode number.
 
 use std::fs::{self, Metadata};
 use std::path::Path;
@@ -10,16 +10,16 @@ use sha2::{Digest, Sha256};
 use urdd_directory::limits::MAX_FILES;
 use urdd_format::hexadecimal::hexadecimal;
 
-/// The word for a robot whose files are gone.
+/// The fingerprint of a robot whose files no longer exist.
 pub const GONE: &str = "gone";
 
-/// A word that changes when a file below `path`, or the file at `path`, does. Links are not followed. Another name for a
-/// file, as by a hard link, is a change too.
+/// A fingerprint that changes when a file below `path`, or the file at `path`, changes. Does not follow symbolic links.
+/// A new hard link to a file is a change too.
 pub fn of(path: &Path) -> String {
     word(path, &changed)
 }
 
-/// As [`of`], but other names for the files are no change: sizes and times alone count.
+/// As [`of`], but from names, sizes and times only: a new hard link is not a change.
 pub fn of_content(path: &Path) -> String {
     word(path, &|_| String::new())
 }

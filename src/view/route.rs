@@ -1,4 +1,4 @@
-//! Which answer an address has.
+//! Maps URLs to responses.
 
 use percent_encoding::percent_decode_str;
 use serde_json::{Value, json};
@@ -15,17 +15,17 @@ use urdd_validate::report::{self};
 use urdd_validate::settings::Settings;
 use urdd_validate::{Run, validate, validate_source};
 
-/// Most bytes of a file that is sent.
+/// Maximum size of a file that is sent, in bytes.
 const MAX_FILE_BYTES: u64 = 1 << 30;
 
-/// What an address asks for.
+/// The resource that a URL identifies.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Route {
     /// A file of the page.
     Asset(String),
     /// The list of robots.
     Robots,
-    /// What changes when a robot's files do.
+    /// The fingerprint of a robot's files.
     Revision(String),
     /// The list of a robot's files.
     Files(String),
@@ -33,26 +33,26 @@ pub enum Route {
     Report(String),
     /// A file of a robot.
     File(String, String),
-    /// What a gallery says of a robot.
+    /// The gallery's summary of a robot.
     Summary(String),
     /// A small picture of a robot.
     Picture(String),
-    /// The skips of a robot, to be saved.
+    /// Saves the skips of a robot.
     Skips(String),
-    /// A generated robot, to be saved.
+    /// Saves a generated robot.
     Keep(String),
-    /// Nothing.
+    /// No known resource.
     Unknown,
 }
 
 impl Route {
-    /// Of the path of an address, still percent-encoded.
+    /// Parses a URL, still percent-encoded.
     pub fn of(url: &str) -> Self {
         let path = url.split(['?', '#']).next().unwrap_or_default();
         let Some(path) = path.strip_prefix('/') else {
             return Route::Unknown;
         };
-        // Decoded after it was split: a slash that is encoded belongs to a name, and no name has one.
+        // Decodes after splitting: an encoded slash would be part of a name, and no name contains one.
         let parts: Option<Vec<String>> = path
             .split('/')
             .map(|part| {
@@ -83,7 +83,7 @@ impl Route {
         }
     }
 
-    /// Most bytes of what may be sent to it.
+    /// Maximum size of a request body, in bytes.
     pub fn max_body(&self) -> u64 {
         match self {
             Route::Skips(_) => 64 << 20,
@@ -92,18 +92,18 @@ impl Route {
         }
     }
 
-    /// Whether it is served without the token: what is the same on every machine.
+    /// Whether it is served without the token: only files that are the same on every machine.
     pub fn is_public(&self) -> bool {
         matches!(self, Route::Asset(_))
     }
 
-    /// Whether it is the page's HTML, which links lead to.
+    /// Whether it is the page's HTML, the target of links.
     pub fn is_entrance(&self) -> bool {
         matches!(self, Route::Asset(name) if name == "index.html")
     }
 }
 
-/// The answer to a reading request. `brotli` says whether who asks can read that.
+/// The response to a read request. `brotli` says whether the client accepts Brotli.
 pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
     let with = |id: &str, answer: &dyn Fn(&Shown) -> Result<Reply, ReadError>| {
         let Some(robot) = collection.find(id) else {
@@ -184,7 +184,7 @@ fn asset(name: &str, brotli: bool) -> Reply {
     }
 }
 
-/// A line of `robots.json`.
+/// An entry of `robots.json`.
 pub fn entry(robot: &Shown) -> Value {
     let (making, failure) = match robot.making() {
         Making::Done => (Value::Null, Value::Null),
@@ -212,7 +212,7 @@ pub fn entry(robot: &Shown) -> Value {
     })
 }
 
-/// A line of `robots.json` with what the report says.
+/// An entry of `robots.json` with the results of the report.
 pub fn entry_with(robot: &Shown, report: &str) -> Value {
     let mut entry = entry(robot);
     let report: Value = serde_json::from_str(report).unwrap_or_default();
@@ -226,7 +226,7 @@ pub fn entry_with(robot: &Shown, report: &str) -> Value {
     entry
 }
 
-/// The picture of a robot, where it has one. It is drawn once for each revision.
+/// The picture of a robot, if it has one. Rendered once for each revision.
 pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
     let mut known = robot
         .picture
@@ -238,16 +238,16 @@ pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
     {
         return picture.clone();
     }
-    // A robot that cannot be drawn has no picture: the page says what is wrong with it.
+    // A robot that cannot be drawn has no picture. The page shows the reason.
     let drawn = picture::png(&Robot::of(opened.own)).ok().flatten();
     *known = Some((revision, drawn.clone()));
     drawn
 }
 
-/// The files below a root: path and size of each.
+/// The path and size of each file below a root.
 ///
 /// # Errors
-/// Where they cannot be listed.
+/// If they cannot be listed.
 fn files(root: &Root) -> Result<Value, ReadError> {
     let entries = root.list()?.entries;
     let files = entries.iter().filter(|entry| entry.kind == EntryKind::File);
@@ -256,7 +256,7 @@ fn files(root: &Root) -> Result<Value, ReadError> {
         .collect())
 }
 
-/// The report of a robot, as `urdd validate --format json` prints it. It is made once for each revision.
+/// The report of a robot, as `urdd validate --format json` prints it. Created once for each revision.
 pub fn report_of(robot: &Shown) -> String {
     let mut known = robot
         .report
@@ -277,7 +277,7 @@ pub fn report_of(robot: &Shown) -> String {
             }
             made
         }
-        // The report says why.
+        // The report gives the reason.
         Err(_) => validate(&[&path], &Settings::default())
             .map_err(|error| error.to_string())
             .and_then(|run| as_json(&run)),
@@ -285,10 +285,10 @@ pub fn report_of(robot: &Shown) -> String {
     made.unwrap_or_else(|error| json!({ "error": error }).to_string())
 }
 
-/// The report of the URDD at a root. `name` is what the report calls it.
+/// The report of the URDD at a root. `name` is its name in the report.
 ///
 /// # Errors
-/// Where there is none.
+/// If there is no report.
 pub fn report_on(root: &Root, name: &str) -> Result<String, String> {
     let run = validate_source(root.clone(), name, &Settings::default());
     as_json(&run.map_err(|error| error.to_string())?)

@@ -1,5 +1,4 @@
-//! Saving the skips that a person decided: the edits and the matrices that follow, with their sizes and hashes, in one
-//! step; and undoing it.
+//! Saves the user's skip edits and the resulting matrices, with their sizes and hashes, atomically. Also undoes saves.
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -14,23 +13,23 @@ use urdd_directory::root::Root;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_robot::Robot;
 
-/// Most edits, and most characters of a reason.
+/// Maximum number of edits, and of characters in a reason.
 const MAX_EDITS: usize = 1_000_000;
 const MAX_REASON: usize = 10_000;
-/// Saves that can be undone.
+/// Maximum number of saves that can be undone.
 const MAX_UNDONE: usize = 100;
 
 /// What the page sends.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Wish {
-    /// The revision that the page saw.
+    /// The revision that the page displayed.
     revision: String,
-    /// What is to be written.
+    /// The edits to write.
     edits: Option<Vec<SkipEdit>>,
-    /// Without them those that are there.
+    /// The skipped reasons to write; without them, the existing ones remain.
     skipped_reasons: Option<Vec<SkippedReason>>,
-    /// Whether the last save is to be undone instead.
+    /// Whether to undo the last save instead.
     #[serde(default)]
     undo: bool,
 }
@@ -51,13 +50,13 @@ pub fn skips(robot: &Shown, body: &[u8]) -> Reply {
     }
 }
 
-/// A status of HTTP, and why.
+/// An HTTP status, and the reason.
 pub(super) type Failure = (u16, String);
 
 fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
     let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
     let path = robot.path();
-    // From here on no other run of this program writes there.
+    // From here on, no other process of this program writes there.
     let replacement = Replacement::begin(&path).map_err(|error| failed(&error))?;
     let unchanged = |is_same: bool| match is_same {
         true => Ok(()),
@@ -67,7 +66,7 @@ fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
         )),
     };
     unchanged(revision::of(&path) == wish.revision)?;
-    // The new content is made with second names for the files that stay, which is a change of its own kind.
+    // The new content hard-links the unchanged files, which by itself changes their full revision.
     let content = revision::of_content(&path);
     let mut undo = robot
         .undo
@@ -99,7 +98,7 @@ fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
     match wish.undo {
         true => {
             undo.pop();
-            // What came before is the last save again.
+            // The previous save is the last one again.
             if let Some((after, _)) = undo.last_mut() {
                 after.clone_from(&now);
             }

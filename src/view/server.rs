@@ -1,4 +1,4 @@
-//! The server: on 127.0.0.1, for the browser of this machine.
+//! The server on 127.0.0.1, for browsers on this machine.
 
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
@@ -18,21 +18,21 @@ use super::save;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
 
-/// The port that is asked for first.
+/// The preferred port.
 const USUAL_PORT: u16 = 8642;
-/// How often it is looked for connections, and whether to stop.
+/// Polling interval for connections and cancellation.
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// Why there is no server.
+/// Why the server cannot start.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ServerError {
-    /// The port is taken, or may not be used.
+    /// The port is in use, or not permitted.
     #[error("port {port} of 127.0.0.1 cannot be used: {reason}; give another one with --port")]
     Port {
-        /// The port that was asked for.
+        /// The requested port.
         port: u16,
-        /// What the operating system said.
+        /// The operating system's message.
         reason: String,
     },
     /// No random numbers.
@@ -48,10 +48,10 @@ pub struct Server {
 }
 
 impl Server {
-    /// Takes a port; without one, the usual one or any that is free. Nothing is answered before [`Server::run`].
+    /// Binds a port: the given one, or else the preferred one or any free port. Serves nothing before [`Server::run`].
     ///
     /// # Errors
-    /// Where the port cannot be had.
+    /// If the port cannot be bound.
     pub fn bind(collection: Collection, port: Option<u16>) -> Result<Self, ServerError> {
         let at = |port: u16| {
             let bound = TcpListener::bind((Ipv4Addr::LOCALHOST, port));
@@ -85,7 +85,7 @@ impl Server {
         format!("http://127.0.0.1:{port}/#token={token}")
     }
 
-    /// Answers until it is told to stop. What is being answered then may be cut off.
+    /// Serves requests until cancelled. Responses in progress may then be cut off.
     pub fn run(self, cancellation: &Cancellation) {
         let server = Arc::new(self);
         let connections = Arc::new(Connections::default());
@@ -98,7 +98,7 @@ impl Server {
                 thread::sleep(PAUSE);
                 continue;
             };
-            // Some systems hand the listener's mode on. Whoever asked may be gone by now.
+            // Some systems pass on the listener's non-blocking mode. The client may already have disconnected.
             let Ok(connection) = stream
                 .set_nonblocking(false)
                 .and_then(|()| Connection::begin(&stream, &connections))
@@ -106,7 +106,7 @@ impl Server {
                 continue;
             };
             let server = Arc::clone(&server);
-            // Where no thread can be had, the connection is closed.
+            // If no thread can be started, the connection is closed.
             let _ = thread::Builder::new().spawn(move || {
                 let admit = |asked: &Asked| server.admit(asked, &connection);
                 let _ = converse(stream, admit, |asked| server.reply(asked));
@@ -114,7 +114,7 @@ impl Server {
         }
     }
 
-    /// Most bytes of a body that are read, or why the request is refused.
+    /// The maximum size of the request body, or the response that refuses the request.
     fn admit(&self, asked: &Asked, connection: &Connection) -> Result<u64, Reply> {
         let caller = Caller {
             host: asked.header("Host"),
@@ -136,7 +136,7 @@ impl Server {
         }
     }
 
-    /// The answer to a request that was admitted.
+    /// The response to an admitted request.
     fn reply(&self, asked: &Asked) -> Reply {
         let route = Route::of(&asked.url);
         match (&*asked.method, &route) {

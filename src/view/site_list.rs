@@ -1,5 +1,5 @@
-//! The list of a site's files, `urdd-site.json`, by which a later export knows which files are its own: these it
-//! replaces, and whatever else a person put into the folder stays.
+//! The list of a site's files, `urdd-site.json`, which tells a later export which files to replace. Anything else that
+//! the user put into the folder remains.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
@@ -14,17 +14,17 @@ use urdd_directory::regular;
 use urdd_directory::staging::StagingError;
 use urdd_format::hexadecimal::hexadecimal;
 
-/// The list itself. By it a folder is known as a site.
+/// The list itself. Its presence identifies a site.
 pub const LIST: &str = "urdd-site.json";
-/// The folder of all files but the page and the list.
+/// The folder of all files except the page and the list.
 pub const FOLDER: &str = "urdd-site";
-/// The page. It names the others, so that replacing it replaces the site.
+/// The page. It references the other files, so replacing it replaces the site.
 pub const PAGE: &str = "index.html";
 
 const MADE_BY: &str = "urdd view --export";
 const MAX_LIST_BYTES: u64 = 64 << 20;
 
-/// What version 0.2.0 wrote, which kept no list.
+/// The files that version 0.2.0 wrote, which had no list.
 const OF_0_2_0: [&str; 7] = [
     "app.js",
     PAGE,
@@ -35,15 +35,15 @@ const OF_0_2_0: [&str; 7] = [
     "worker.js",
 ];
 
-/// Files by path, relative to the site, each with the SHA-256 of what it may hold.
+/// Files by path relative to the site, each with the SHA-256 hashes of its possible contents.
 #[derive(Debug, Clone, Default)]
 pub struct SiteList(BTreeMap<String, BTreeSet<String>>);
 
 impl SiteList {
-    /// The list of the site in a folder; an empty one where there is nothing in it.
+    /// Reads the list of the site in a folder; an empty list if the folder is empty.
     ///
     /// # Errors
-    /// Where the folder holds something else, or a site without a list.
+    /// If the folder contains something else, or a site without a list.
     pub fn read(folder: &Path) -> Result<Self, ExportError> {
         let mut entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
@@ -75,7 +75,7 @@ impl SiteList {
         let mut list = SiteList::default();
         for file in files {
             if let (Some(path), Some(hash)) = (file["path"].as_str(), file["sha256"].as_str()) {
-                // Whoever wrote the list: nothing else is ever replaced.
+                // Do not trust the list: paths that no export writes are never replaced.
                 if is_of_site(path) {
                     list.add(path, hash);
                 }
@@ -96,7 +96,7 @@ impl SiteList {
             .is_some_and(|hashes| hashes.contains(sha256))
     }
 
-    /// With those of another list.
+    /// Combines this list with another one.
     fn with(&self, other: &Self) -> Self {
         let mut both = self.clone();
         for (path, hashes) in &other.0 {
@@ -116,7 +116,8 @@ impl SiteList {
         json!({ "made by": MADE_BY, "version": version, "files": files }).to_string()
     }
 
-    /// Refuses where a file of a person's is in the place of one of these, or one of `before` that a person changed.
+    /// Refuses to overwrite the user's files: a file at one of these paths that is not from an export, or a file of
+    /// `before` that the user changed.
     ///
     /// # Errors
     /// [`ExportError::InTheWay`], with all such files.
@@ -143,14 +144,14 @@ impl SiteList {
         }
     }
 
-    /// Puts the files of this list, which are in `content`, into the folder, and takes away those of `before` that it
-    /// does not have. Gives those that a person changed, which stay.
+    /// Moves the files of this list from `content` into the folder, and removes the files of `before` that are not in
+    /// this list. Returns those that the user changed, which it keeps.
     ///
-    /// Every file but the page has a name of its content. So until the page is replaced, which is one step, the site
-    /// is the old one, and from then on the new one, whenever this ends.
+    /// Every file except the page is named by its content. So the site is the old one until the page is replaced, which
+    /// is atomic, and the new one from then on, even if this is interrupted.
     ///
     /// # Errors
-    /// Where a file cannot be put in its place.
+    /// If a file cannot be written or removed.
     pub fn put(
         &self,
         content: &Path,
@@ -164,7 +165,7 @@ impl SiteList {
                 .and_then(|()| fs::rename(&made, &place))
                 .map_err(|error| unwritten(&place, error))
         };
-        // What ends in the middle has listed all that it may have written.
+        // Listed first: an interrupted run has already listed every file that it may have written.
         write_list(&self.with(before))?;
         let page_last = |path: &&String| *path == PAGE;
         let (page, others): (Vec<_>, Vec<_>) = self.0.keys().partition(page_last);
@@ -191,7 +192,7 @@ impl SiteList {
     }
 }
 
-/// Whether a path is one that an export writes.
+/// Whether an export writes this path.
 fn is_of_site(path: &str) -> bool {
     let plain = |c: char| c.is_ascii_digit() || c.is_ascii_lowercase();
     let is_name = |name: &str| {
@@ -206,7 +207,7 @@ fn is_of_site(path: &str) -> bool {
     }
 }
 
-/// SHA-256 of a file; an error for what is no regular file, as a link.
+/// The SHA-256 of a file; an error if it is not a regular file, such as a link.
 fn hash_of(path: &Path) -> io::Result<String> {
     if !fs::symlink_metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a regular file"));

@@ -1,5 +1,5 @@
-//! A folder that goes when the program ends. What a killed program left goes with the next one: whoever holds the lock of
-//! a folder knows that nobody is at work there.
+//! A folder that is removed when the program ends. The next run removes what a killed program left: a process that
+//! obtains a folder's lock knows that no other process uses it.
 
 use std::fs;
 use std::io;
@@ -9,28 +9,28 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_directory::target_lock::{LockError, TargetLock};
 use urdd_format::hexadecimal::hexadecimal;
 
-/// What the names of such folders begin with.
+/// The prefix of such folders' names.
 const PREFIX: &str = "urdd-shown-";
 
-/// A folder that goes when this is dropped.
+/// A folder that is removed when this is dropped.
 #[derive(Debug)]
 pub struct Temporary {
     path: PathBuf,
-    /// Let go after the folder is gone.
+    /// Released after the folder is removed.
     _lock: TargetLock,
 }
 
 impl Temporary {
-    /// Makes a folder for this user alone in `place`, and takes away those there whose program ended.
+    /// Creates a folder that only this user can access in `place`, and removes those of programs that have ended.
     ///
     /// # Errors
-    /// Where it cannot be made.
+    /// If it cannot be created.
     pub fn begin(place: &Path) -> io::Result<Self> {
         take_away(place);
         let mut random = [0; 8];
         getrandom::fill(&mut random).map_err(io::Error::other)?;
         let path = place.join(format!("{PREFIX}{}", hexadecimal(&random)));
-        // Before the folder is there: others take it away where it is not locked.
+        // Locks before the folder exists: other processes remove unlocked folders.
         let lock = TargetLock::acquire(&path, &Cancellation::default());
         let lock = lock.map_err(|error| match error {
             LockError::Io(error) => error,
@@ -43,7 +43,7 @@ impl Temporary {
         Ok(Temporary { path, _lock: lock })
     }
 
-    /// Where it is.
+    /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -55,7 +55,7 @@ impl Drop for Temporary {
     }
 }
 
-/// Takes away the folders whose program ended. Those of other users stay: they cannot be locked or removed.
+/// Removes the folders of programs that have ended. Those of other users remain: they cannot be locked or removed.
 fn take_away(place: &Path) {
     for entry in fs::read_dir(place).into_iter().flatten().flatten() {
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
@@ -77,7 +77,7 @@ mod tests {
         let place = tempfile::tempdir().expect("a folder");
         let living = Temporary::begin(place.path()).expect("a folder");
         fs::write(living.path().join("x"), "1").expect("written");
-        // As of a program that was killed: the folder, and the lock's file, which nobody holds.
+        // As a killed program leaves them: the folder, and its lock file, which no process holds.
         let left = place.path().join(format!("{PREFIX}0123456789abcdef"));
         fs::create_dir(&left).expect("a folder");
         fs::write(left.join("x"), "1").expect("written");

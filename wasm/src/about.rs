@@ -1,4 +1,4 @@
-//! What a robot is: names, joints, bounds, mass, and where its meshes lie.
+//! The description of a robot: names, joints, bounds, mass, and the paths of its meshes.
 
 use nalgebra::{Rotation3, UnitQuaternion};
 use serde_json::{Value, json};
@@ -16,7 +16,7 @@ use urdd_robot::Robot;
 
 use crate::files::Files;
 
-/// What [`about`] reads.
+/// The modules that [`about`] reads.
 const READ: &[ModuleKind] = &[
     ModuleKind::Urdf,
     ModuleKind::Chain,
@@ -28,15 +28,16 @@ const READ: &[ModuleKind] = &[
     ModuleKind::ConvexDecompositionMeshes,
 ];
 
-/// What a robot is, as far as its modules can be read: what is missing is null, and said in `faults`.
+/// The description of a robot, as far as its modules can be read. Missing parts are null, and listed in `faults`.
 ///
 /// - `name`, `folder`, `profile`, `metadata` (`urdd.json`).
 /// - `links`: `name`, `parent_joint`, and `inertial`: `mass` (kg), `position` (m) and `quaternion_wxyz` of the centre of
 ///   mass in the link's frame, `inertia` (xx, xy, xz, yy, yz, zz; kg m²).
-/// - `joints`: `name`, `type`, `parent`, `child` (links), `origin` (of the joint in its parent's frame), `axis`, `dofs`,
-///   `mimic` (`dof`, `multiplier`, `offset`), `limit` as the URDF has it.
+/// - `joints`: `name`, `type`, `parent`, `child` (links), `origin` (of the joint in its parent's frame), `axis`,
+///   `dofs`, `mimic` (`dof`, `multiplier`, `offset`), `limit` as in the URDF.
 /// - `dofs`: `name`, `joint`, `unit`, `bounds`. `zero` and `middle` are configurations.
-/// - `meshes`: by kind for each link its meshes, each with `glb` for a picture and `read` for what reads most briefly.
+/// - `meshes`: by kind, the meshes of each link, each with `glb` for display and `read` for the file that is cheapest
+///   to read.
 pub fn about(files: &Files, robot: &Robot) -> Result<Value, String> {
     let root = Root::of(files.clone());
     let loaded = Loaded::read_only(root, READ).map_err(|error| error.to_string())?;
@@ -186,7 +187,7 @@ fn dofs(modules: &ConsumerModules, bounds: Option<&[[f64; 2]]>) -> Value {
     .collect()
 }
 
-/// For each link its meshes.
+/// The meshes of each link.
 fn meshes(part: &Urdd, kind: ModuleKind) -> Option<Value> {
     let meshes = part.meshes(kind)?;
     let files = MeshFiles::new(part);
@@ -196,7 +197,7 @@ fn meshes(part: &Urdd, kind: ModuleKind) -> Option<Value> {
             let lists = meshes.lists.iter();
             let found = lists.filter_map(|list| list.links.get(link)?.get(piece));
             let paths: Vec<&MeshPath> = found.flat_map(|mesh| &mesh.paths).collect();
-            // Of an archive for a page in one file, some formats are left out.
+            // An archive in a page in one file omits some formats.
             let is_there = |path: &MeshPath| {
                 let own = files.own(meshes.profile, path.path);
                 own.is_some_and(|own| part.listing().has_file(own))
@@ -218,7 +219,7 @@ fn meshes(part: &Urdd, kind: ModuleKind) -> Option<Value> {
     Some((0..meshes.num_links()).map(of_link).collect())
 }
 
-/// The mesh files that the URDF names, with their links.
+/// The mesh files that the URDF references, with their links.
 fn original(part: &Urdd) -> Option<Value> {
     let Some(ModuleDocument::OriginalMeshes(module)) = part.document(ModuleKind::OriginalMeshes)
     else {

@@ -1,17 +1,17 @@
-//! What is answered.
+//! Encoding of answers.
 
 use serde_json::json;
 
 use crate::memory::urdd_alloc;
 
-/// An answer that holds these bytes; null where there is no room for it.
+/// An answer with these bytes; null if there is not enough memory.
 pub fn bytes(bytes: &[u8]) -> *mut u8 {
     let Ok(length) = u32::try_from(bytes.len()) else {
         return std::ptr::null_mut();
     };
     let pointer = urdd_alloc(bytes.len() + 4);
     if !pointer.is_null() {
-        // SAFETY: there is room for the length and the bytes, and nobody else knows of it yet.
+        // SAFETY: the allocation has space for the length and the bytes, and is not shared yet.
         unsafe {
             pointer.copy_from_nonoverlapping(length.to_le_bytes().as_ptr(), 4);
             pointer
@@ -22,12 +22,12 @@ pub fn bytes(bytes: &[u8]) -> *mut u8 {
     pointer
 }
 
-/// An answer that holds this text.
+/// An answer with this text.
 pub fn text(text: &str) -> *mut u8 {
     bytes(text.as_bytes())
 }
 
-/// An answer, or what was wrong.
+/// An answer with a value or an error.
 pub fn result(result: Result<serde_json::Value, String>) -> *mut u8 {
     match result {
         Ok(value) => text(&value.to_string()),
@@ -35,7 +35,7 @@ pub fn result(result: Result<serde_json::Value, String>) -> *mut u8 {
     }
 }
 
-/// Bytes, after a byte 1; or after a byte 0 what was wrong, as text.
+/// An answer with a byte 1 and the bytes, or a byte 0 and the error as text.
 pub fn bytes_or_error(result: Result<Vec<u8>, String>) -> *mut u8 {
     let (first, rest) = match result {
         Ok(found) => (1, found),

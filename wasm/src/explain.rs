@@ -1,17 +1,17 @@
-//! What rules mean.
+//! Explanations of rules.
 
 use serde_json::json;
 use urdd_validate::rules;
 
 use crate::{answer, memory};
 
-/// What a rule means: `code`, `name`, `severity`, `clause` and `explanation`, as `urdd explain` tells it.
+/// Explains a rule: `code`, `name`, `severity`, `clause` and `explanation`, as `urdd explain` does.
 ///
 /// # Safety
-/// The code is the host's, as [`memory::bytes`] wants it.
+/// The code is valid for [`memory::bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_explain(code: *const u8, length: usize) -> *mut u8 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let code = String::from_utf8_lossy(unsafe { memory::bytes(code, length) });
     let rule = rules::all()
         .into_iter()

@@ -1,4 +1,4 @@
-//! The files of a URDD: a zip archive, or files that the host gives one by one, when they are asked for.
+//! The files of a URDD: a zip archive, or files that the host provides one by one, on request.
 
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
@@ -11,21 +11,21 @@ use urdd_directory::source::{Archive, OpenFile, Source};
 
 use crate::{answer, memory};
 
-/// Where the files lie. Clones share them.
+/// The source of the files. Clones share it.
 #[derive(Debug, Clone)]
 pub struct Files {
     source: Arc<dyn Source>,
     given: Option<Arc<Given>>,
 }
 
-/// Files that the host gives: each has a size from the start, and its bytes once the host has them.
+/// Files that the host provides: each has its size from the start, and its content once the host provides it.
 #[derive(Debug)]
 struct Given {
     name: String,
     files: Mutex<BTreeMap<String, Held>>,
 }
 
-/// A file's size, and its bytes.
+/// A file's size, and its content.
 type Held = (u64, Option<Arc<[u8]>>);
 
 impl Source for Files {
@@ -103,13 +103,13 @@ impl Files {
     }
 }
 
-/// Files that the host will give. `name` is that of the folder, UTF-8.
+/// Creates files that the host will provide. `name` is the name of the folder, in UTF-8.
 ///
 /// # Safety
-/// The bytes are the host's, as [`memory::bytes`] wants them.
+/// The bytes are valid for [`memory::bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_files_new(name: *const u8, length: usize) -> *mut Files {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let name = String::from_utf8_lossy(unsafe { memory::bytes(name, length) }).into_owned();
     let given = Arc::new(Given {
         name,
@@ -121,10 +121,10 @@ pub unsafe extern "C" fn urdd_files_new(name: *const u8, length: usize) -> *mut 
     }))
 }
 
-/// Names a file and its size, whose bytes may come later.
+/// Adds a file with its size. Its content may follow later.
 ///
 /// # Safety
-/// `files` is open; the path is the host's, UTF-8, as [`memory::bytes`] wants it.
+/// `files` is open; the path, in UTF-8, is valid for [`memory::bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_files_name(
     files: *mut Files,
@@ -132,7 +132,7 @@ pub unsafe extern "C" fn urdd_files_name(
     path_length: usize,
     size: u32,
 ) {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let (files, path) = unsafe { (&*files, memory::bytes(path, path_length)) };
     if let Some(given) = &files.given {
         let path = String::from_utf8_lossy(path).into_owned();
@@ -141,10 +141,10 @@ pub unsafe extern "C" fn urdd_files_name(
     }
 }
 
-/// Gives the bytes of a file, instead of those it had.
+/// Sets or replaces the content of a file.
 ///
 /// # Safety
-/// `files` is open; both stretches of bytes are the host's, as [`memory::bytes`] wants them.
+/// `files` is open; both byte ranges are valid for [`memory::bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_files_give(
     files: *mut Files,
@@ -153,7 +153,7 @@ pub unsafe extern "C" fn urdd_files_give(
     data: *const u8,
     length: usize,
 ) {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let (files, path, data) = unsafe {
         (
             &*files,
@@ -168,10 +168,10 @@ pub unsafe extern "C" fn urdd_files_give(
     }
 }
 
-/// The files in a zip archive; null where it is no archive of a URDD ([`urdd_zip_fault`] says why).
+/// Opens the files in a zip archive; null if it is not an archive of a URDD ([`urdd_zip_fault`] says why).
 ///
 /// # Safety
-/// Both stretches of bytes are the host's, as [`memory::bytes`] wants them.
+/// Both byte ranges are valid for [`memory::bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_files_of_zip(
     name: *const u8,
@@ -179,7 +179,7 @@ pub unsafe extern "C" fn urdd_files_of_zip(
     zip: *const u8,
     length: usize,
 ) -> *mut Files {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let (name, zip) = unsafe { (memory::bytes(name, name_length), memory::bytes(zip, length)) };
     match Archive::new(&String::from_utf8_lossy(name), Arc::from(zip)) {
         Ok(archive) => Box::into_raw(Box::new(Files {
@@ -190,13 +190,13 @@ pub unsafe extern "C" fn urdd_files_of_zip(
     }
 }
 
-/// Why a zip archive is not one of a URDD; null where it is.
+/// Why a zip archive is not one of a URDD; null if it is.
 ///
 /// # Safety
-/// The bytes are the host's, as [`memory::bytes`] wants them.
+/// The bytes are valid for [`memory::bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_zip_fault(zip: *const u8, length: usize) -> *mut u8 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let zip = unsafe { memory::bytes(zip, length) };
     match Archive::new("robot", Arc::from(zip)) {
         Ok(_) => answer::result(Ok(Value::Null)),
@@ -204,13 +204,13 @@ pub unsafe extern "C" fn urdd_zip_fault(zip: *const u8, length: usize) -> *mut u
     }
 }
 
-/// A list with `path` and `size` of each file; and the name of the folder.
+/// The `path` and `size` of each file, and the name of the folder.
 ///
 /// # Safety
 /// `files` is open.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_files_list(files: *mut Files) -> *mut u8 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let files = unsafe { &*files };
     answer::result(files.list().map_err(|error| error.to_string()).map(|listing| {
         let regular = listing.entries.iter().filter(|entry| entry.kind == EntryKind::File);
@@ -219,30 +219,30 @@ pub unsafe extern "C" fn urdd_files_list(files: *mut Files) -> *mut u8 {
     }))
 }
 
-/// Most bytes of a file that is handed out.
+/// Maximum size of a file that is returned, in bytes.
 const MAX_FILE_BYTES: u64 = 1 << 30;
 
-/// The bytes of a file: an answer as [`answer::bytes_or_error`] makes it.
+/// The content of a file: an answer of [`answer::bytes_or_error`].
 ///
 /// # Safety
-/// `files` is open; the path is the host's, UTF-8, as [`memory::bytes`] wants it.
+/// `files` is open; the path, in UTF-8, is valid for [`memory::bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_files_read(
     files: *mut Files,
     path: *const u8,
     length: usize,
 ) -> *mut u8 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let (files, path) = unsafe { (&*files, memory::bytes(path, length)) };
     answer::bytes_or_error(files.read(&String::from_utf8_lossy(path), MAX_FILE_BYTES))
 }
 
-/// Closes files. Robots that were opened of them stay.
+/// Closes files. Robots opened from them remain usable.
 ///
 /// # Safety
 /// `files` is open, and is not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_files_close(files: *mut Files) {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     drop(unsafe { Box::from_raw(files) });
 }

@@ -1,8 +1,8 @@
-//! The library as a WebAssembly module that imports nothing: no clock, no file, no random numbers.
+//! The library as a WebAssembly module without imports: no clock, no files, no random numbers.
 //!
-//! Bytes go in by `urdd_alloc` and come out as an *answer*: a pointer to a 32-bit length and that many bytes,
-//! to be given back to `urdd_free_answer`. An answer is JSON unless its function says otherwise: what was asked
-//! for, or `{"error": "..."}`. A panic is a trap, which ends the instance: make a new one.
+//! Input bytes are written to memory from `urdd_alloc`. Output is an *answer*: a pointer to a 32-bit length
+//! and that many bytes, to be freed with `urdd_free_answer`. Unless its function states otherwise, an answer
+//! is JSON: the result, or `{"error": "..."}`. A panic is a trap, which ends the instance: create a new one.
 
 mod about;
 mod answer;

@@ -1,4 +1,4 @@
-//! Memory that the host writes to and reads from.
+//! Memory shared with the host.
 
 use std::alloc::{Layout, alloc, dealloc};
 
@@ -6,7 +6,7 @@ fn layout(length: usize) -> Option<Layout> {
     Layout::from_size_align(length.max(1), 8).ok()
 }
 
-/// Room for so many bytes; null where there is none.
+/// Allocates `length` bytes; null on failure.
 #[unsafe(no_mangle)]
 pub extern "C" fn urdd_alloc(length: usize) -> *mut u8 {
     match layout(length) {
@@ -16,39 +16,39 @@ pub extern "C" fn urdd_alloc(length: usize) -> *mut u8 {
     }
 }
 
-/// Gives back what [`urdd_alloc`] gave.
+/// Frees memory from [`urdd_alloc`].
 ///
 /// # Safety
 /// `pointer` is from [`urdd_alloc`] with the same length, and is not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_free(pointer: *mut u8, length: usize) {
     if let (false, Some(layout)) = (pointer.is_null(), layout(length)) {
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         unsafe { dealloc(pointer, layout) };
     }
 }
 
-/// Gives back an answer.
+/// Frees an answer.
 ///
 /// # Safety
 /// `pointer` is an answer, and is not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_free_answer(pointer: *mut u8) {
-    // SAFETY: an answer begins with its length, and came from `urdd_alloc` with room for both.
+    // SAFETY: an answer begins with its length, and was allocated by `urdd_alloc` with space for both.
     unsafe {
         let length = u32::from_le_bytes(*pointer.cast::<[u8; 4]>());
         urdd_free(pointer, length as usize + 4);
     }
 }
 
-/// What the host wrote.
+/// The bytes that the host wrote.
 ///
 /// # Safety
 /// `length` bytes at `pointer` are initialised, and do not change while the slice is used.
 pub unsafe fn bytes<'a>(pointer: *const u8, length: usize) -> &'a [u8] {
     match length {
         0 => &[],
-        // SAFETY: as the caller promises.
+        // SAFETY: guaranteed by the caller.
         length => unsafe { std::slice::from_raw_parts(pointer, length) },
     }
 }

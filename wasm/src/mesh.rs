@@ -5,20 +5,20 @@ use urdd_geometry::read::{GltfUp, Options, read_with};
 use crate::files::Files;
 use crate::{answer, memory};
 
-/// Most bytes of a mesh file that is read.
+/// Maximum size of a mesh file, in bytes.
 const MAX_MESH_BYTES: u64 = 1 << 29;
-/// Most triangles of a mesh file that is read.
+/// Maximum number of triangles of a mesh file.
 const MAX_TRIANGLES: usize = 5_000_000;
 
-/// The triangles of a mesh file as the URDD has them (no axis is turned in .glb): an answer as
-/// [`answer::bytes_or_error`] makes it, of these words of 32 bits, little endian: the number of vertices, the number of
-/// triangles; x, y, z of each vertex, binary32; three indices of each triangle.
+/// The triangles of a mesh file as stored in the URDD (without an axis conversion for .glb): an answer of
+/// [`answer::bytes_or_error`] with little-endian 32-bit words: the number of vertices; the number of triangles; x, y, z
+/// of each vertex, binary32; three indices of each triangle.
 ///
 /// # Safety
-/// `files` is open; the path is the host's, UTF-8, as [`memory::bytes`] wants it.
+/// `files` is open; the path, in UTF-8, is valid for [`memory::bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_mesh(files: *mut Files, path: *const u8, length: usize) -> *mut u8 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let (files, path) = unsafe { (&*files, memory::bytes(path, length)) };
     answer::bytes_or_error(triangles(files, &String::from_utf8_lossy(path)))
 }

@@ -1,11 +1,11 @@
-//! The learned self-collision model, asked about in JSON.
+//! Queries on the learned self-collision model, in JSON.
 
 use serde_json::{Value, json};
 use urdd_format::registry::ModuleKind;
 use urdd_kinematics::ConfigurationError;
 use urdd_robot::{CollisionModel, Robot, RobotError};
 
-/// Reads the model; `None` where the robot has none.
+/// Reads the model; `None` if the robot has none.
 pub fn read(robot: &Robot) -> Result<Option<CollisionModel>, String> {
     match robot.collision_model() {
         Ok(model) => Ok(Some(model)),
@@ -14,7 +14,7 @@ pub fn read(robot: &Robot) -> Result<Option<CollisionModel>, String> {
     }
 }
 
-/// `pairs` and `other_pairs` (how many), `num_parameters`, `clip_distance` (m), `evaluation` (the counts of
+/// `pairs` and `other_pairs` (their numbers), `num_parameters`, `clip_distance` (m), `evaluation` (the counts of
 /// `self_collision_model_module`), and `rates`, each with its 95 % interval.
 pub fn about(model: &CollisionModel) -> Value {
     let evaluation = model.evaluation();
@@ -32,8 +32,8 @@ pub fn about(model: &CollisionModel) -> Value {
     })
 }
 
-/// `may_collide`; `clearances` of all pairs (m); `least`: the place of its pair among them, its `links`, `link_idxs` and
-/// `clearance`, null for a model without a pair.
+/// `may_collide`; `clearances` of all pairs (m); `least`: the index of its pair among them, its `links`, `link_idxs`
+/// and `clearance`, or null for a model without pairs.
 pub fn clearances(model: &CollisionModel, robot: &Robot, q: &[f64]) -> Result<Value, String> {
     let said = |error: ConfigurationError| error.to_string();
     let names = robot.links().map_err(|error| error.to_string())?;

@@ -1,4 +1,4 @@
-//! What a URDD records of pairs of shapes: statistics of distances, skips and reasons.
+//! Recorded data of pairs of shapes: distance statistics, skips and reasons.
 
 use std::collections::HashMap;
 
@@ -23,7 +23,7 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// Reads the modules that are there.
+    /// Reads the modules that are present.
     pub fn read(files: &Files) -> Result<Self, String> {
         let root = Root::of(files.clone());
         let loaded = Loaded::read_only(root, &[STATISTICS]);
@@ -49,7 +49,7 @@ impl Pairs {
         statistics(self.part.document(STATISTICS)?)?[place]
     }
 
-    /// `min`, `mean` and `max` of the pair, metres, where they are recorded.
+    /// `min`, `mean` and `max` of the pair, in metres, if recorded.
     pub fn statistics(&self, kind: ShapeKind, links: [usize; 2], pieces: [usize; 2]) -> Value {
         let index = match kind.is_of_pieces() {
             true => &self.pieces,
@@ -67,7 +67,7 @@ impl Pairs {
         found().unwrap_or(Value::Null)
     }
 
-    /// Number of pairs of shapes, skipped ones too; null where the URDD does not say.
+    /// Number of pairs of shapes, including skipped ones; null if the URDD does not record it.
     pub fn count(&self, kind: ShapeKind) -> Value {
         let shapes = match kind.is_of_pieces() {
             true => self.pieces.len(),
@@ -79,14 +79,14 @@ impl Pairs {
         }
     }
 
-    /// Number of configurations that the statistics are of.
+    /// Number of configurations that the statistics cover.
     pub fn num_samples(&self, kind: ShapeKind) -> Value {
         json!(self.of_kind(kind).and_then(|all| all.num_samples))
     }
 
-    /// `places` (the link and the piece of each shape), `skipped` (a row of `0` and `1` for each shape), `reasons` (a row
-    /// of letters for each shape; null where there are none): `s` same link, `a` always, `j` adjacent, `d` default, `n`
-    /// never, `-` none, `?` unknown; and the `edits` and `skipped_reasons` of `link_shapes_skips_module`.
+    /// `places` (the link and the piece of each shape), `skipped` (a row of `0` and `1` for each shape), `reasons` (a
+    /// row of letters for each shape; null if there are none): `s` same link, `a` always, `j` adjacent, `d` default,
+    /// `n` never, `-` none, `?` unknown; and the `edits` and `skipped_reasons` of `link_shapes_skips_module`.
     pub fn skips(&self, kind: ShapeKind, skips: &Skips) -> Value {
         let count = skips.len();
         let row = |i: usize| -> String {
@@ -110,7 +110,7 @@ impl Pairs {
 }
 
 impl Pairs {
-    /// As [`Pairs::skips`], with other edits; and the `files` that change.
+    /// As [`Pairs::skips`], with new edits, and with the `files` that change.
     pub fn edited(&self, kind: ShapeKind, skips: &Skips, edited: &EditedSkips) -> Value {
         let mut answer = self.skips(kind, &edited.skips(kind, skips));
         let files = edited

@@ -1,4 +1,4 @@
-//! The numbers by which hash tables are seeded. They need not be random: nothing that is printed hangs on them.
+//! Seeds for hash tables. They need not be random: no output depends on them.
 
 /// Fills `length` bytes.
 ///
@@ -10,7 +10,7 @@ unsafe extern "Rust" fn __getrandom_v03_custom(
     length: usize,
 ) -> Result<(), getrandom::Error> {
     for k in 0..length {
-        // SAFETY: within what the caller lets be written.
+        // SAFETY: within the range that the caller allows.
         unsafe { pointer.add(k).write((k as u8).wrapping_mul(157) ^ 0x5A) };
     }
     Ok(())

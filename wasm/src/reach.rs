@@ -1,12 +1,12 @@
-//! Inverse kinematics, asked for in JSON.
+//! Inverse kinematics queries in JSON.
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use serde_json::{Value, json};
 use urdd_robot::{InverseSettings, Robot, Target};
 
-/// Looks for a configuration in which a point of a link is at `position`, and the link turned by `quaternion_wxyz` where
-/// that is given, from `q` on. `dofs` are those that may change (all unless they are given), `restarts` how many times
-/// the search may begin anew.
+/// Searches from `q` for a configuration in which a point of a link is at `position`, and the link has the rotation
+/// `quaternion_wxyz`, if given. `dofs` lists those that may change (default: all). `restarts` is the maximum number of
+/// restarts.
 pub fn reach(robot: &Robot, q: &[f64], question: &Value) -> Result<Value, String> {
     let link = usize::try_from(question["link"].as_u64().ok_or("`link` is no index")?);
     let link = link.map_err(|error| error.to_string())?;
@@ -39,7 +39,7 @@ pub fn reach(robot: &Robot, q: &[f64], question: &Value) -> Result<Value, String
     }))
 }
 
-/// The robot's bounds, and none but its place for a DOF that may not change.
+/// The robot's bounds, where a DOF that may not change is fixed to its value in `q`.
 fn bounds(robot: &Robot, q: &[f64], question: &Value) -> Result<Option<Vec<[f64; 2]>>, String> {
     let Some(list) = question["dofs"].as_array() else {
         return Ok(None);

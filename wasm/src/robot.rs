@@ -1,4 +1,4 @@
-//! A robot to ask about itself.
+//! Queries on a robot.
 
 use serde_json::{Value, json};
 use urdd_robot::{CollisionModel, PairDistance, Proximity, Robot, RobotError, ShapeKind, Solid};
@@ -10,23 +10,23 @@ use crate::reach::reach;
 use crate::sources::sources;
 use crate::{answer, memory, model};
 
-/// A robot, and what was prepared for it.
+/// A robot, and its cached data.
 pub struct Handle {
     files: Files,
     robot: Robot,
     proximity: Vec<Proximity>,
     pairs: Option<Pairs>,
-    /// The learned model, once it was read; nothing in it where the robot has none.
+    /// The learned model once read; `Some(None)` if the robot has none.
     model: Option<Option<CollisionModel>>,
 }
 
-/// Opens the robot whose files these are. Nothing of it is read yet.
+/// Opens the robot in these files. Reads nothing yet.
 ///
 /// # Safety
 /// `files` is open.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_open(files: *mut Files) -> *mut Handle {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let files = unsafe { (*files).clone() };
     Box::into_raw(Box::new(Handle {
         robot: Robot::of(files.clone()),
@@ -43,22 +43,22 @@ pub unsafe extern "C" fn urdd_robot_open(files: *mut Files) -> *mut Handle {
 /// `handle` is an open robot, and is not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_close(handle: *mut Handle) {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     drop(unsafe { Box::from_raw(handle) });
 }
 
-/// Seven numbers (x, y, z; quaternion w, x, y, z) of each link in each of the configurations that follow each other in
-/// `values`: an answer as [`answer::bytes_or_error`] makes it, of binary64, little endian.
+/// Seven numbers (x, y, z; quaternion w, x, y, z) for each link in each of the configurations stored one after another
+/// in `values`: an answer of [`answer::bytes_or_error`] with little-endian binary64.
 ///
 /// # Safety
-/// `handle` is an open robot that nobody else uses now; there are `count` numbers at `values`.
+/// `handle` is an open robot that is not used concurrently; there are `count` numbers at `values`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_poses(
     handle: *mut Handle,
     values: *const u8,
     count: usize,
 ) -> *mut u8 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let (handle, values) = unsafe { (&*handle, memory::bytes(values, 8 * count)) };
     let number = |bytes: &[u8]| f64::from_le_bytes(bytes.try_into().unwrap_or_default());
     let values: Vec<f64> = values.chunks_exact(8).map(number).collect();
@@ -73,40 +73,40 @@ pub unsafe extern "C" fn urdd_robot_poses(
     }))
 }
 
-/// Asks a robot something: JSON in, JSON out. `q` is a configuration, rad or m; `shapes` a kind of shapes.
+/// Runs a query on a robot: JSON in, JSON out. `q` is a configuration, in rad or m; `shapes` is a kind of shapes.
 ///
 /// - `{"ask": "about"}`: `about`.
 /// - `{"ask": "poses", "q": [...]}`: a list with `position` (m) and `quaternion_wxyz` of each link.
-/// - `{"ask": "random", "k": 7}`: number `k` of the random configurations that SPEC 9.2 defines.
+/// - `{"ask": "random", "k": 7}`: random configuration `k` of SPEC 9.3.
 /// - `{"ask": "clamp", "q": [...]}`: the nearest configuration within the bounds.
-/// - `{"ask": "reach", "q": [...], "link": 5, "point": [x, y, z], "position": [x, y, z], "quaternion_wxyz": [...], "dofs":
-///   [...], "restarts": 0}`: a configuration in which a point of the link (in its frame) is at a place (in the root's),
-///   and the link turned so, where that is given; `position_error`, `rotation_error`, `reached`.
+/// - `{"ask": "reach", "q": [...], "link": 5, "point": [x, y, z], "position": [x, y, z], "quaternion_wxyz": [...],
+///   "dofs": [...], "restarts": 0}`: a configuration in which a point of the link (in its frame) is at a position (in
+///   the root's), and the link has a rotation, if given; `position_error`, `rotation_error`, `reached`.
 /// - `{"ask": "sources"}`: the visual and collision elements of the URDF, with the files of meshes.
 /// - `{"ask": "volumes", "shapes": "boxes"}`: a list with `link`, `piece`, and a box or a sphere.
 /// - `{"ask": "distances", "q": [...], "shapes": "pieces"}`: each pair that is not skipped.
 /// - `{"ask": "nearest", "q": [...], "shapes": "pieces", "k": 3}`: the nearest pairs.
 /// - `{"ask": "in_collision", "q": [...], "shapes": "pieces"}`: true or false.
 /// - `{"ask": "proximity", "q": [...], "shapes": "pieces", "k": 3}`: `nearest`, each with its statistics;
-///   `in_collision`, `pairs` (how many are looked at) and `of` (how many there are).
-/// - `{"ask": "collision_model"}`: what the learned self-collision model is, and how often it was wrong; null where there
-///   is none ([`model::about`]).
-/// - `{"ask": "clearances", "q": [...]}`: what that model estimates ([`model::clearances`]); null where there is none.
+///   `in_collision`, `pairs` (the number checked) and `of` (their total number).
+/// - `{"ask": "collision_model"}`: the learned self-collision model and its error rates ([`model::about`]); null if
+///   there is none.
+/// - `{"ask": "clearances", "q": [...]}`: the model's estimates ([`model::clearances`]); null if there is none.
 /// - `{"ask": "skips", "shapes": "pieces"}`: the matrices of skips and reasons, and the edits.
-/// - `{"ask": "edit_skips", "shapes": "pieces", "edits": [...], "skipped_reasons": null}`: the matrices as they are with
-///   these edits, and `files`: the text of each file of the URDD that changes.
-/// - `{"ask": "prepare", "shapes": "pieces"}`: reads the shapes, so that what is asked next is answered at once.
+/// - `{"ask": "edit_skips", "shapes": "pieces", "edits": [...], "skipped_reasons": null}`: the matrices with these
+///   edits, and `files`: the text of each file of the URDD that changes.
+/// - `{"ask": "prepare", "shapes": "pieces"}`: reads the shapes, so that the next query is fast.
 /// - `{"ask": "samples"}`: the document of `kinematics_samples_module`.
 ///
 /// # Safety
-/// `handle` is an open robot that nobody else uses now; the bytes are the host's, as [`memory::bytes`] wants them.
+/// `handle` is an open robot that is not used concurrently; the bytes are valid for [`memory::bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_ask(
     handle: *mut Handle,
     question: *const u8,
     length: usize,
 ) -> *mut u8 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let (handle, question) = unsafe { (&mut *handle, memory::bytes(question, length)) };
     answer::result(ask(handle, question))
 }
@@ -251,7 +251,7 @@ fn volumes(robot: &Robot, kind: ShapeKind) -> Result<Value, RobotError> {
     Ok(shapes.iter().map(volume).collect())
 }
 
-/// The shapes of a kind, prepared when they are first asked for.
+/// The shapes of a kind, prepared on first use.
 fn proximity<'a>(handle: &'a mut Handle, question: &Value) -> Result<&'a Proximity, String> {
     let kind = kind(question)?;
     let known = &mut handle.proximity;
@@ -266,7 +266,7 @@ fn proximity<'a>(handle: &'a mut Handle, question: &Value) -> Result<&'a Proximi
     Ok(&handle.proximity[at])
 }
 
-/// The learned model, read when it is first asked for.
+/// The learned model, read on first use.
 fn learned<'a>(
     known: &'a mut Option<Option<CollisionModel>>,
     robot: &Robot,

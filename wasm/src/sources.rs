@@ -1,4 +1,4 @@
-//! The shapes as the URDF has them: its visual and collision elements, with their files.
+//! The visual and collision elements of the URDF, with their files.
 
 use serde_json::{Value, json};
 use urdd_directory::root::Root;
@@ -15,8 +15,8 @@ use crate::about::quaternion;
 use crate::files::Files;
 
 /// The visual and collision elements, links ascending, visual first: `link`, `geometry` (`Visual` or `Collision`),
-/// `element`, `position` (m) and `quaternion_wxyz` in the link's frame, `shape` (an object of one key as `urdf_module` has
-/// it; null without one), `path` (of the mesh file in the URDD; null where it has none), `side_files` of it, and `rgba` of
+/// `element`, `position` (m) and `quaternion_wxyz` in the link's frame, `shape` (an object of one key as in
+/// `urdf_module`; null without one), `path` (of the mesh file in the URDD, or null), its `side_files`, and `rgba` of
 /// the URDF's material, or null.
 pub fn sources(files: &Files, robot: &Robot) -> Result<Value, String> {
     let read = [ModuleKind::Urdf, ModuleKind::OriginalMeshes];
@@ -76,7 +76,7 @@ fn one(
     })
 }
 
-/// The colour of a visual element: its own, or that of the material of the robot that it names.
+/// The colour of a visual element: its own, or that of the robot's material that it references.
 fn rgba(urdf: &UrdfModule, link: usize, element: usize) -> Option<[f64; 4]> {
     let own = urdf
         .links

@@ -8,18 +8,18 @@ use urdd_validate::validate_source;
 use crate::files::Files;
 use crate::{answer, memory};
 
-/// The report of the URDD in some files, as `urdd validate --format json` prints it. `name` is what the report calls it,
-/// UTF-8.
+/// The report on the URDD in these files, as `urdd validate --format json` prints it. `name` is its name in the report,
+/// in UTF-8.
 ///
 /// # Safety
-/// `files` is open; the name is the host's, as [`memory::bytes`] wants it.
+/// `files` is open; the name is valid for [`memory::bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_validate(
     files: *mut Files,
     name: *const u8,
     name_length: usize,
 ) -> *mut u8 {
-    // SAFETY: as the caller promises.
+    // SAFETY: guaranteed by the caller.
     let (files, name) = unsafe { (&*files, memory::bytes(name, name_length)) };
     match validate(files.clone(), &String::from_utf8_lossy(name)) {
         Ok(report) => answer::text(&report),

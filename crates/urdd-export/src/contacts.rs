@@ -1,4 +1,4 @@
-//! How often shapes touch of which a format that knows links only says the wrong thing.
+//! Counts contacts of the shapes that a link-level format treats differently from the URDD.
 
 use std::collections::HashMap;
 
@@ -7,24 +7,24 @@ use super::pairs::{Contacts, LinkPair, pairs};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_robot::{Robot, RobotError, ShapeKind};
 
-/// Sampled configurations that are looked at where the URDD does not say how many it took.
+/// Number of sampled configurations to evaluate if the URDD does not record its own.
 const USUAL_SAMPLES: u32 = 1_000;
-/// Most sampled configurations that are looked at.
+/// Maximum number of sampled configurations to evaluate.
 const MAX_SAMPLES: u32 = 10_000;
 
-/// Every pair of links with shapes, by index: what a format that knows links only says of it, with [`Options::shapes`],
-/// [`Options::reasons`] and [`Options::keep_pairs`]; [`super::Note::of_pair`] says what is wrong with that.
+/// Every pair of links with shapes, sorted by index, as a link-level format represents it, given [`Options::shapes`],
+/// [`Options::reasons`] and [`Options::keep_pairs`]. [`super::Note::of_pair`] describes the loss.
 ///
 /// # Errors
-/// Where the skips or the shapes are missing or of no use.
+/// If the skips or the shapes are missing or unusable.
 pub fn link_pairs(robot: &Robot, options: &Options) -> Result<Vec<LinkPair>, RobotError> {
     let mut pairs = pairs(robot, options)?;
     count(robot, options.shapes, &mut pairs)?;
     Ok(pairs)
 }
 
-/// Counts the contacts of mixed pairs, but of those that differ by the reason `Never` alone. Without bounds there are no
-/// sampled configurations, and nothing is counted.
+/// Counts the contacts of mixed pairs, except those that differ only by the reason `Never`. Counts nothing without
+/// bounds, since there are then no sampled configurations.
 fn count(robot: &Robot, kind: ShapeKind, pairs: &mut [LinkPair]) -> Result<(), RobotError> {
     let of_shapes: HashMap<[(usize, usize); 2], bool> = pairs
         .iter()

@@ -1,4 +1,4 @@
-//! XML as a tree, and its text.
+//! An XML tree and its serialization.
 
 use quick_xml::escape::escape;
 
@@ -13,7 +13,7 @@ pub(super) struct Element {
 #[derive(Debug, Clone)]
 enum Child {
     Element(Element),
-    /// Text of XML as it is.
+    /// Raw XML text.
     Raw(String),
 }
 
@@ -25,13 +25,13 @@ impl Element {
         }
     }
 
-    /// With an attribute.
+    /// Adds an attribute.
     pub fn with(mut self, key: &'static str, value: impl Into<String>) -> Self {
         self.attributes.push((key, value.into()));
         self
     }
 
-    /// With an attribute, where there is a value.
+    /// Adds an attribute if there is a value.
     pub fn with_some(self, key: &'static str, value: Option<impl Into<String>>) -> Self {
         match value {
             Some(value) => self.with(key, value),
@@ -39,7 +39,7 @@ impl Element {
         }
     }
 
-    /// With an element in it.
+    /// Adds a child element.
     pub fn holding(mut self, child: Element) -> Self {
         self.push(child);
         self
@@ -49,7 +49,7 @@ impl Element {
         self.children.push(Child::Element(child));
     }
 
-    /// Text of XML, which must be an element by itself.
+    /// Adds raw XML, which must be a complete element.
     pub fn push_raw(&mut self, text: impl Into<String>) {
         self.children.push(Child::Raw(text.into()));
     }
@@ -58,7 +58,7 @@ impl Element {
         self.children.is_empty()
     }
 
-    /// The text of a document with this element, and comments before it.
+    /// Serializes a document with this root element, after the comments.
     pub fn document(&self, comments: &[String]) -> String {
         let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");
         for comment in comments {
@@ -89,8 +89,8 @@ impl Element {
     }
 }
 
-/// A comment on a line of its own, whatever the text: one without `--` (XML 1.0, production 15), without a `-` before its
-/// end, and without characters that XML cannot hold. What is not written as it is, is its escape, `\u{2d}`.
+/// A comment on its own line, valid for any text: without `--` (XML 1.0, production 15), without a `-` at the end, and
+/// without characters that XML excludes. These are escaped, as in `\u{2d}`.
 pub(super) fn comment(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in urdd_format::escape::line(text).chars() {
@@ -99,18 +99,18 @@ pub(super) fn comment(text: &str) -> String {
             (c, _) => safe.push(c),
         }
     }
-    // The space keeps a `-` from the end.
+    // The space keeps a `-` away from the end.
     format!("<!-- {safe} -->\n")
 }
 
-/// The value of an attribute, so that every reader of XML has the same text back: a reader turns white space other than
-/// a space into spaces, unless it is a reference.
+/// Escapes the value of an attribute. Tabs and line breaks become character references, since XML readers replace them
+/// with spaces otherwise.
 fn attribute(value: &str) -> String {
     let text = escape(value).replace('\t', "&#9;");
     text.replace('\n', "&#10;").replace('\r', "&#13;")
 }
 
-/// Whether XML 1.0 has the character (production 2).
+/// Whether XML 1.0 allows the character (production 2).
 pub(super) fn is_character(c: char) -> bool {
     matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }

@@ -1,4 +1,4 @@
-//! Why a robot cannot be exported, and what was said in another way.
+//! Export errors, and notes on what a format cannot express.
 
 use thiserror::Error;
 
@@ -7,34 +7,34 @@ use super::pairs::{Contacts, LinkPair};
 use urdd_geometry::write::WriteError;
 use urdd_robot::{RobotError, ShapeKind};
 
-/// Why a robot cannot be exported.
+/// Errors of an export.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// The URDD does not say what the format needs.
+    /// A query on the URDD failed.
     #[error(transparent)]
     Robot(#[from] RobotError),
-    /// The joints of the robot form no tree.
+    /// The joints of the robot do not form a tree.
     #[error("the joints form no tree with one root: `urdd validate` says more")]
     NoTree,
-    /// A name that the format cannot hold.
+    /// A name that the format cannot represent.
     #[error("{} cannot hold the name `{}` of a {what}: {reason}; give it another name in the URDF, and generate the URDD again", .format.name(), .name.escape_debug())]
     Name {
         /// The format.
         format: Format,
-        /// What has the name: `link`, `joint`, `robot`.
+        /// What has the name, such as `link`, `joint` or `robot`.
         what: &'static str,
         /// The name.
         name: String,
-        /// Why it cannot be held.
+        /// Why it cannot be represented.
         reason: &'static str,
     },
-    /// The mimics cannot be followed.
+    /// The mimic joints cannot be resolved.
     #[error(
         "a mimic names a joint that is not there, or they go in a circle: `urdd validate` says more"
     )]
     Mimics,
-    /// The URDD has no shapes of the kind asked for, and the format holds nothing else.
+    /// The URDD has no shapes of the requested kind, and the format needs them.
     #[error("no link has {0}: ask for other shapes, or for another format")]
     NoShapes(ShapeKind),
     /// Spheres cannot be fitted to shapes of this kind.
@@ -50,46 +50,46 @@ pub enum ExportError {
     },
 }
 
-/// What a format could not say, or says in another way.
+/// What a format cannot express, or expresses differently.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Error)]
 #[non_exhaustive]
 pub enum Note {
-    /// The format knows links only, and the URDD skips some pairs of shapes of two links and checks others.
+    /// A link-level format, and two links of which the URDD skips some pairs of shapes and checks others.
     #[error("{}", mixed(.links, *.disabled, [*.checked, *.skipped], .contacts.as_ref()))]
     Mixed {
         /// The names of the two links.
         links: [String; 2],
         /// Whether the pair is disabled; otherwise it is checked.
         disabled: bool,
-        /// How many pairs of shapes the URDD checks.
+        /// Number of pairs of shapes that the URDD checks.
         checked: usize,
-        /// How many it skips.
+        /// Number of pairs of shapes that it skips.
         skipped: usize,
-        /// In how many sampled configurations they touch, where that is known.
+        /// The contacts in sampled configurations, if counted.
         contacts: Option<Contacts>,
     },
-    /// A link's mass or inertia is said in another way.
+    /// A link's mass or inertia is exported differently.
     #[error("link `{}`: {what}", .link.escape_debug())]
     Inertia {
         /// The link.
         link: String,
-        /// What is said instead, and why.
+        /// What is exported instead, and why.
         what: &'static str,
     },
-    /// A joint that cannot be said as it is.
+    /// A joint that the format cannot express exactly.
     #[error("joint `{}`: {what}", .joint.escape_debug())]
     Joint {
         /// The joint.
         joint: String,
-        /// What is said instead.
+        /// What is exported instead.
         what: &'static str,
     },
-    /// Elements that URDF does not define and that cannot stand in the file.
+    /// Elements that URDF does not define and that cannot be copied into the file.
     #[error(
         "{0} elements that URDF does not define are left out: they use prefixes that only the source file declares, or are not well-formed by themselves"
     )]
     Elements(usize),
-    /// A transmission or a loop that the format refuses.
+    /// A transmission or a loop that the format's reader rejects.
     #[error("a `<{element}>` is left out: {reason}")]
     Element {
         /// The element's name.
@@ -97,25 +97,25 @@ pub enum Note {
         /// Why.
         reason: &'static str,
     },
-    /// Spheres that answer wrongly more often than they should.
+    /// Spheres whose error rates exceed the goals.
     #[error("the spheres are not good enough to plan with: {0}")]
     Spheres(String),
-    /// A flat shape where the format wants thickness.
+    /// A flat shape, which the format cannot represent without thickness.
     #[error("link `{}`: a flat piece is a box of {thickness} m", .link.escape_debug())]
     Flat {
         /// The link.
         link: String,
-        /// How thick it became.
+        /// The assumed thickness, in metres.
         thickness: &'static str,
     },
-    /// No link has shapes of the kind asked for.
+    /// No link has shapes of the requested kind.
     #[error("no link has {0}: the file has no collision geometry")]
     NoShapes(ShapeKind),
 }
 
 impl Note {
-    /// What a format that knows links only has to say of a pair of links: nothing where all their shapes are alike, or
-    /// where the pair is checked and the shapes that the URDD skips never touched.
+    /// The note of a link-level format on a pair of links. `None` if all their pairs of shapes are treated alike, or if
+    /// the pair is checked and the skipped shapes never touched.
     pub fn of_pair(pair: &LinkPair) -> Option<Note> {
         let mixed = pair.mixed.as_ref()?;
         let is_wrong = |contacts: Contacts| pair.disabled || contacts.skipped > 0;

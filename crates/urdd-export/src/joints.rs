@@ -1,4 +1,4 @@
-//! Joints as every reader of URDF takes them: chains of mimics resolved, rotations as roll, pitch, yaw.
+//! Joints in a form that every URDF reader accepts: mimic chains resolved, rotations as roll, pitch, yaw.
 
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 
@@ -14,7 +14,7 @@ use urdd_kinematics::rotation::unit_axis;
 const STANDS: &str = "it follows a fixed joint and never moves; it is a fixed joint at its offset";
 const SEVERAL: &str = "it follows a joint of several DOFs, which no program reads; it moves freely";
 
-/// The joints of the robot, in its order.
+/// The joints of the robot, in URDF order.
 pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Vec<Joint> {
     let quaternions = has_quaternions(subject.urdf.version.as_deref());
     let each = subject.urdf.joints.iter().zip(&subject.view.joints);
@@ -29,7 +29,7 @@ pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Vec<Joint> {
                 what,
             });
         };
-        // The mimic of a fixed joint has no meaning (SPEC 6.1.5).
+        // A mimic of a fixed joint is meaningless (SPEC 6.1.5).
         joint.mimic = None;
         if let Some(resolved) = resolved {
             let driver = &subject.view.joints[resolved.driver];
@@ -47,7 +47,7 @@ pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Vec<Joint> {
     each.map(joint).collect()
 }
 
-/// A mimic as it was written where it names the driver itself.
+/// The mimic as written in the source if it names the driver directly; otherwise the resolved one.
 fn mimic(source: Option<&Mimic>, driver: &View, resolved: &Resolved) -> Mimic {
     match source {
         Some(source) if source.joint == driver.name => source.clone(),
@@ -59,7 +59,7 @@ fn mimic(source: Option<&Mimic>, driver: &View, resolved: &Resolved) -> Mimic {
     }
 }
 
-/// A joint of one DOF that stays where it is.
+/// Replaces a joint of one DOF by a fixed joint at `position`.
 fn standing(joint: Joint, view: &View, position: f64) -> Joint {
     let axis = unit_axis(view.axis);
     let motion = match (axis, view.joint_type) {
@@ -92,7 +92,7 @@ fn standing(joint: Joint, view: &View, position: f64) -> Joint {
     }
 }
 
-/// An origin without `quat_xyzw`, which most programs take no notice of. Before version 1.1 of URDF it has no meaning.
+/// An origin without `quat_xyzw`, which most programs ignore. Before URDF 1.1 the attribute has no meaning.
 pub(super) fn without_quaternion(origin: &Origin, view: &ViewOrigin, counts: bool) -> Origin {
     let mut plain = Origin {
         quat_xyzw: None,

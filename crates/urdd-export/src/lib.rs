@@ -1,7 +1,7 @@
-//! A robot handed on: what its URDD knows, in the formats of programs that read no URDD.
+//! Exports robots to the formats of programs that do not read URDDs.
 //!
-//! [`export`] makes text, and the mesh files that it names, in memory; whoever calls it writes them. Every file says
-//! what it was made from. Same URDD, same bytes.
+//! [`export`] creates the text and the mesh files that it references in memory; the caller writes them. Every file
+//! states its source. The same URDD gives the same bytes.
 //!
 //! | format | for | holds |
 //! |---|---|---|
@@ -56,12 +56,12 @@ pub use srdf_merge::{MergedSrdf, SrdfError, merge_srdf};
 
 use subject::Subject;
 
-/// A format to export.
+/// An export format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Format {
     /// MoveIt's Semantic Robot Description Format.
     Srdf,
-    /// URDF with other collision geometry.
+    /// URDF with the URDD's shapes as collision geometry.
     Urdf,
     /// URDF for Drake.
     Drake,
@@ -84,7 +84,7 @@ impl Format {
         Format::Foam,
     ];
 
-    /// Its name, as messages and comments have it.
+    /// Its name in messages and comments.
     pub fn name(self) -> &'static str {
         match self {
             Format::Srdf => "SRDF",
@@ -97,25 +97,27 @@ impl Format {
     }
 }
 
-/// What to export, where there is a choice.
+/// Options of an export.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// The shapes that stand for links: as collision geometry, and for which pairs are decided.
+    /// The shapes that approximate links: the collision geometry, and the shapes of the pairs.
     pub shapes: ShapeKind,
-    /// The reasons for which pairs are disabled; `None` for those of the URDD. A person's edits hold in either case.
+    /// The reasons for which pairs are disabled; `None` for those of the URDD. The user's edits apply in either case.
     pub reasons: Option<Vec<SkippedReason>>,
-    /// Whether a format that knows links only checks a pair of links of which the URDD skips some pieces and checks others.
-    /// It is disabled otherwise, since pieces that always touch would touch in every configuration.
+    /// Whether a link-level format checks a pair of links of which the URDD skips some pairs of pieces and checks
+    /// others. Otherwise the pair is disabled, since pieces that are always in contact would collide in every
+    /// configuration.
     pub keep_pairs: bool,
-    /// How many spheres stand for links, for the formats of spheres.
+    /// Number of spheres, for the sphere formats.
     pub spheres: SphereBudget,
-    /// Whether the spheres hold all of each link. Otherwise they are fitted, so that they answer as the shapes do.
+    /// Whether the spheres cover each link completely. Otherwise they are fitted to give the same collision results as
+    /// the shapes.
     pub cover: bool,
-    /// In how many sampled configurations spheres are measured, or fewer where that is much work.
+    /// Number of sampled configurations in which the spheres are evaluated; fewer if that is too expensive.
     pub samples: usize,
-    /// Whether links look like something: plain meshes by colour, beside the shapes.
+    /// Whether to add visual geometry: the plain meshes by colour, besides the shapes.
     pub visuals: bool,
-    /// The folder of the mesh files, relative to the text: without `/` at its end, and empty for the same folder.
+    /// The folder of the mesh files, relative to the text: without a trailing `/`, and empty for the same folder.
     pub mesh_folder: String,
 }
 
@@ -134,21 +136,21 @@ impl Default for Options {
     }
 }
 
-/// What was exported.
+/// The result of an export.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Export {
     /// The text of the file.
     pub text: String,
-    /// The files that it names, by path relative to it, sorted.
+    /// The files that it references, with paths relative to it, sorted.
     pub files: Vec<(String, Vec<u8>)>,
-    /// What the format could not say, or said in another way.
+    /// What the format cannot express, or expresses differently.
     pub notes: Vec<Note>,
 }
 
 /// Exports a robot.
 ///
 /// # Errors
-/// Where a module that is needed is missing or of no use, or a name cannot be written in the format.
+/// If a required module is missing or unusable, and in the other cases of [`ExportError`].
 pub fn export(robot: &Robot, format: Format, options: &Options) -> Result<Export, ExportError> {
     let subject = Subject::new(robot, format, options)?;
     match format {

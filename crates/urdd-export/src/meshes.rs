@@ -1,4 +1,4 @@
-//! The mesh files that an export names.
+//! The mesh files that an export references.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use urdd_geometry::Mesh;
 use urdd_geometry::read::Part;
 use urdd_geometry::write::{WriteError, obj, stl};
 
-/// A format of mesh files.
+/// A mesh file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum MeshFormat {
     Stl,
@@ -33,7 +33,7 @@ impl MeshFormat {
     }
 }
 
-/// Files by path; equal content is one file.
+/// Files by path. Equal content shares one file.
 pub(super) struct MeshFiles<'a> {
     subject: &'a Subject<'a>,
     names: FileNames,
@@ -49,7 +49,7 @@ impl<'a> MeshFiles<'a> {
         }
     }
 
-    /// The path of the file of a mesh, relative to the text.
+    /// Adds a mesh and returns its file's path, relative to the text.
     pub fn add(
         &mut self,
         link: usize,
@@ -74,7 +74,7 @@ impl<'a> MeshFiles<'a> {
         Ok(path)
     }
 
-    /// All of them, by path.
+    /// All files, sorted by path.
     pub fn into_files(self) -> Vec<(String, Vec<u8>)> {
         let files = self.by_content.into_iter();
         let mut files: Vec<_> = files.map(|(bytes, path)| (path, bytes)).collect();
@@ -83,13 +83,13 @@ impl<'a> MeshFiles<'a> {
     }
 }
 
-/// What a link looks like: a mesh of each colour.
+/// Visual geometry of one colour.
 pub(super) struct Look {
     pub mesh: Mesh,
     pub rgba: Option<[f64; 4]>,
 }
 
-/// The looks of all links, by link.
+/// The visual geometry of all links, by link.
 pub(super) fn looks(subject: &Subject) -> Result<Vec<Vec<Look>>, ExportError> {
     let mut looks: Vec<Vec<Look>> = subject.links.iter().map(|_| Vec::new()).collect();
     if !subject.options.visuals {

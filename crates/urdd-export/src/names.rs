@@ -1,4 +1,4 @@
-//! Names that formats can hold, and names of files.
+//! Names that formats can represent, and file names.
 
 use std::collections::HashSet;
 
@@ -9,13 +9,13 @@ use urdd_document::robot::Robot;
 use urdd_document::tree::Tree;
 use urdd_format::escape;
 
-/// Longest part of a file's name that is taken from a link.
+/// Maximum length of a link name within a file name.
 const LONGEST: usize = 80;
 
-/// Most characters of a key of YAML on one line.
+/// Maximum length of a YAML key on one line.
 const MAX_KEY: usize = 1024;
 
-/// An error where a format cannot hold a name of the robot, a link or a joint.
+/// An error if the format cannot represent a name of the robot, a link or a joint.
 pub(super) fn check(format: Format, robot: &Robot, tree: &Tree) -> Result<(), ExportError> {
     one(format, "robot", &robot.name)?;
     let mut links = HashSet::new();
@@ -44,7 +44,7 @@ pub(super) fn check(format: Format, robot: &Robot, tree: &Tree) -> Result<(), Ex
     Ok(())
 }
 
-/// An error where names that a format needs besides those of the robot, or out of them, are there twice.
+/// An error if generated names duplicate each other or a name of the robot.
 pub(super) fn check_unique<'n>(
     format: Format,
     what: &'static str,
@@ -74,7 +74,7 @@ fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError
     Err(error(format, what, name, reason))
 }
 
-/// Whether a name is too long for a key of YAML (1.2.2, 7.4.2), with its quotes and escapes.
+/// Whether a name, quoted and escaped, is too long for a YAML key (YAML 1.2.2, 7.4.2).
 fn is_long_key(name: &str) -> bool {
     let quoted = serde_json::Value::from(name).to_string();
     escape::json(&quoted).chars().count() > MAX_KEY
@@ -89,14 +89,14 @@ fn error(format: Format, what: &'static str, name: &str, reason: &'static str) -
     }
 }
 
-/// Makes names of files out of names of links: letters, digits, `.`, `-` and `_`, and no name twice, whatever the case.
+/// Derives file names from link names: letters, digits, `.`, `-` and `_`, unique regardless of case.
 #[derive(Debug, Default)]
 pub(super) struct FileNames {
     taken: HashSet<String>,
 }
 
 impl FileNames {
-    /// A name that was not given before.
+    /// A name that was not returned before.
     pub fn of(&mut self, wanted: &str) -> String {
         let kept = |c: char| match c {
             'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' => c,

@@ -1,11 +1,11 @@
-//! Pairs of links that need no check.
+//! Pairs of links that need no collision check.
 //!
-//! A URDD decides for pairs of shapes; most formats know links. Two links are in contact where a shape of the one is in
-//! contact with a shape of the other: so a pair of links is `Always` in contact where one of their pairs of shapes is,
-//! `Default` where one is in contact in the default configuration, and `Never` only where none ever was.
+//! A URDD skips pairs of shapes; most formats skip pairs of links. Two links are in contact if any shape of one is in
+//! contact with any shape of the other. So a pair of links is `Always` in contact if one of their pairs of shapes is,
+//! `Default` if one is in contact in the default configuration, and `Never` only if none ever was.
 //!
-//! Where the URDD skips some pairs of the links' shapes and checks others, the pair is *mixed*. A format that knows links
-//! only disables it, or keeps it on demand ([`Options::keep_pairs`]). Either is wrong for some of the shapes.
+//! If the URDD skips some pairs of the links' shapes and checks others, the pair is *mixed*. A link-level format
+//! disables it, or keeps it on request ([`Options::keep_pairs`]). Either is wrong for some of the shapes.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -21,41 +21,41 @@ pub struct LinkPair {
     pub links: [usize; 2],
     /// Their names, in the order of the indices.
     pub names: [String; 2],
-    /// Why; `None` where the URDD does not say.
+    /// The skip reason; `None` if the URDD does not record one.
     pub reason: Option<SkipReason>,
-    /// What a person decided last.
+    /// The user's last edit of the pair.
     pub edit: Option<SkipEdit>,
-    /// Whether a format that knows links only leaves the pair unchecked.
+    /// Whether a link-level format disables the pair.
     pub disabled: bool,
-    /// Where the shapes of the pair differ.
+    /// The pairs of shapes, if the pair is mixed.
     pub mixed: Option<MixedPair>,
 }
 
-/// A pair of links of whose pairs of shapes some are skipped and some are checked. A pair of shapes is a piece of the
-/// first link and one of the second.
+/// A pair of links with both skipped and checked pairs of shapes. A pair of shapes is a piece of the first link and a
+/// piece of the second.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MixedPair {
     /// The pairs of shapes that the URDD skips, sorted.
     pub skipped: Vec<[usize; 2]>,
-    /// Those that it checks, sorted.
+    /// The pairs of shapes that it checks, sorted.
     pub checked: Vec<[usize; 2]>,
-    /// In how many of the sampled configurations they touch. `None` where this was not counted: for pairs that differ by
-    /// the reason `Never` alone, and where the URDD has no bounds.
+    /// The contacts in sampled configurations. `None` if not counted: for pairs that differ only by the reason `Never`,
+    /// and without bounds.
     pub contacts: Option<Contacts>,
 }
 
-/// In how many sampled configurations (SPEC 9.3, from the first one on) shapes of two links touch.
+/// The numbers of sampled configurations (SPEC 9.3, from the first one on) in which shapes of two links touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Contacts {
-    /// Configurations in which shapes touch that the URDD checks.
+    /// Configurations with a contact of shapes that the URDD checks.
     pub checked: usize,
-    /// Configurations in which shapes touch that the URDD skips.
+    /// Configurations with a contact of shapes that the URDD skips.
     pub skipped: usize,
-    /// Configurations that were looked at.
+    /// Number of configurations evaluated.
     pub samples: u32,
 }
 
-/// Every pair of links with shapes, by index. No contacts are counted yet.
+/// Every pair of links with shapes, sorted by index. Does not count contacts.
 pub(super) fn pairs(robot: &Robot, options: &Options) -> Result<Vec<LinkPair>, RobotError> {
     let skips = robot.skips(options.shapes)?;
     let reasons = options.reasons.as_deref();
@@ -142,7 +142,7 @@ fn mixed(seen: &[Seen]) -> Option<MixedPair> {
     })
 }
 
-/// The reason of two links, out of those of their shapes.
+/// The reason of two links, combined from those of their shapes.
 fn together(reasons: impl Iterator<Item = Option<SkipReason>>) -> Option<SkipReason> {
     let reasons: Vec<SkipReason> = reasons.collect::<Option<_>>()?;
     let first = [

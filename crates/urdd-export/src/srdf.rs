@@ -1,4 +1,4 @@
-//! SRDF: the pairs of links that MoveIt does not check. Groups and the rest are left alone.
+//! SRDF: the pairs of links that MoveIt does not check. Writes no groups or other elements.
 
 use super::Export;
 use super::element::Element;
@@ -29,7 +29,8 @@ fn disabled(subject: &Subject, pair: &LinkPair) -> Element {
         .with("reason", reason(subject, pair))
 }
 
-/// As MoveIt's Setup Assistant has them: of two links that a joint connects it says so, whether they always touch or not.
+/// The reason as MoveIt's Setup Assistant writes it: `Adjacent` for two links that a joint connects, even if they are
+/// always in contact.
 fn reason(subject: &Subject, pair: &LinkPair) -> &'static str {
     let [a, b] = pair.links;
     let parent = &subject.tree.parent_link;
@@ -41,12 +42,12 @@ fn reason(subject: &Subject, pair: &LinkPair) -> &'static str {
         (_, Some(SkipReason::Adjacent)) => "Adjacent",
         (_, Some(SkipReason::Default)) => "Default",
         (_, Some(SkipReason::Never)) => "Never",
-        // A pair of which only some shapes are skipped is not disabled for a reason.
+        // A pair of which only some shapes are skipped has no reason of its own.
         (_, Some(SkipReason::None) | None) => "User",
     }
 }
 
-/// What the reasons rest on.
+/// The basis of the reasons: the shapes and the number of samples.
 fn basis(subject: &Subject) -> Result<String, RobotError> {
     let shapes = subject.options.shapes;
     Ok(match subject.robot.num_samples()? {

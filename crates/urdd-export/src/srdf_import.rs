@@ -1,4 +1,4 @@
-//! An SRDF read into a person's edits of the skips.
+//! Imports an SRDF as skip edits.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -9,11 +9,11 @@ use super::srdf_merge::{SrdfError, parse};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_robot::{Robot, RobotError, ShapeKind};
 
-/// Why an SRDF is no edits of a robot.
+/// Errors of an SRDF import.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ImportError {
-    /// It is no SRDF, or that of another robot.
+    /// Not an SRDF, or the SRDF of another robot.
     #[error(transparent)]
     Srdf(#[from] SrdfError),
     /// An element lacks the name of a link.
@@ -23,18 +23,18 @@ pub enum ImportError {
         line: u32,
         /// The element.
         element: &'static str,
-        /// What it lacks.
+        /// The missing attribute.
         attribute: &'static str,
     },
-    /// The robot cannot be asked, or has no such link.
+    /// A query on the robot failed, or it has no such link.
     #[error("{}{error}", line.map_or(String::new(), |line| format!("line {line}: ")))]
     Robot {
-        /// The line, from 1, where it is about one.
+        /// The line, from 1, if the error concerns one.
         line: Option<u32>,
         /// Why.
         error: RobotError,
     },
-    /// A person decided otherwise.
+    /// The SRDF contradicts an existing edit.
     #[error(
         "the URDD has an edit that says of `{}` and `{}` what the SRDF does not (\"{}\"); --force lets the SRDF decide", link_a.escape_debug(), link_b.escape_debug(), reason.escape_debug()
     )]
@@ -54,24 +54,25 @@ impl From<RobotError> for ImportError {
     }
 }
 
-/// The edits of a robot after an SRDF was read.
+/// A robot's edits after an SRDF import.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportedSkips {
-    /// Those that were there, in their order, and after them those of the SRDF.
+    /// The existing edits, in their order, followed by those of the SRDF.
     pub edits: Vec<SkipEdit>,
-    /// How many the SRDF adds.
+    /// Number of edits that the SRDF adds.
     pub added: usize,
-    /// Pairs of the SRDF that are as it says already.
+    /// Number of pairs of the SRDF that need no edit.
     pub already: usize,
-    /// Pairs that the URDD skips and the SRDF does not: they stay skipped.
+    /// Number of pairs that the URDD skips and the SRDF does not list: they stay skipped.
     pub unlisted: usize,
 }
 
-/// Reads an SRDF: `<disable_collisions>`, `<disable_default_collisions>` and `<enable_collisions>`, in the order in which
-/// MoveIt applies them. Edits that are there stay; where one of them says the contrary, `force` lets the SRDF come after it.
+/// Reads an SRDF: `<disable_collisions>`, `<disable_default_collisions>` and `<enable_collisions>`, in the order in
+/// which MoveIt applies them. Existing edits remain. If one contradicts the SRDF, `force` lets the SRDF override it.
 ///
 /// # Errors
-/// Where it is no SRDF of the robot, names a link that the robot does not have, or contradicts an edit.
+/// If the text is not an SRDF of the robot, names a link that the robot does not have, or contradicts an edit without
+/// `force`.
 pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSkips, ImportError> {
     let document = parse(text)?;
     let root = document.root_element();
@@ -84,7 +85,7 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
     let links = robot.links()?;
     let names = links.iter().map(String::as_str).zip(0..);
     let by_name: HashMap<&str, usize> = names.collect();
-    // Lines are counted for an error only: each is counted from the beginning of the text.
+    // Called only for errors: each call counts lines from the beginning of the text.
     let line = |node: Node| document.text_pos_at(node.range().start).row;
     let link = |node: Node, element: &'static str, attribute: &'static str| {
         let name = node
@@ -105,7 +106,7 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
         let children = root.children();
         children.filter(move |child| child.is_element() && child.tag_name().name() == name)
     };
-    // Pairs of links, the lower index first: whether they are skipped, and why.
+    // Pairs of links, lower index first: whether they are skipped, and why.
     let mut wanted: BTreeMap<(usize, usize), (bool, String)> = BTreeMap::new();
     let mut defaults = BTreeSet::new();
     for node in elements("disable_default_collisions") {
@@ -130,7 +131,7 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
     }
     let now = skipped_now(robot)?;
     let there = robot.skips(ShapeKind::Hulls)?.edits().to_vec();
-    // Of several edits of a pair the last one counts.
+    // The last edit of a pair applies.
     let mut last: HashMap<(usize, usize), &SkipEdit> = HashMap::new();
     for edit in &there {
         let of = [&edit.link_a, &edit.link_b].map(|name| by_name.get(name.as_str()).copied());
@@ -145,7 +146,7 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
         unlisted: 0,
     };
     for ((a, b), (skip, reason)) in &wanted {
-        // Of links without shapes there is nothing to decide.
+        // A link without shapes needs no edit.
         let Some(all_are) = now.get(&(*a, *b)) else {
             continue;
         };
@@ -180,8 +181,8 @@ fn pair(a: usize, b: usize) -> (usize, usize) {
     (a.min(b), a.max(b))
 }
 
-/// For each pair of links with shapes, whether all pairs of their shapes, of all kinds, are skipped, or none is; `None`
-/// where some are.
+/// For each pair of links with shapes: true if all their pairs of shapes, of all kinds, are skipped, false if none is,
+/// `None` if some are.
 fn skipped_now(robot: &Robot) -> Result<BTreeMap<(usize, usize), Option<bool>>, RobotError> {
     let mut found: BTreeMap<(usize, usize), BTreeSet<bool>> = BTreeMap::new();
     for kind in ShapeKind::ALL {

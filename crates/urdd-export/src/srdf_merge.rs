@@ -1,5 +1,5 @@
-//! An SRDF that is there already: the pairs of links that programs wrote are replaced, everything else stays as it was, to
-//! the byte. The work is linear in the length of the file.
+//! Merges into an existing SRDF: replaces the pairs of links that programs wrote, and leaves every other byte
+//! unchanged. Runs in linear time.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -12,15 +12,15 @@ use urdd_xml::Kind;
 /// The element that is replaced.
 const DISABLED: &str = "disable_collisions";
 
-/// The reasons that MoveIt's Setup Assistant and this program find by themselves. A pair with another one, `User` or a
-/// sentence, is a person's.
+/// The reasons that MoveIt's Setup Assistant and this program write. A pair with another reason, such as `User` or a
+/// sentence, belongs to the user.
 const FOUND_BY_PROGRAMS: &[&str] = &["Adjacent", "Always", "Default", "Never"];
 
-/// Why an SRDF cannot be merged.
+/// Errors of an SRDF merge.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SrdfError {
-    /// It is not well-formed XML, or has too much of something.
+    /// Not well-formed XML, or beyond a limit of the XML parser.
     #[error("line {line}, column {column}: this is not well-formed XML: {reason}")]
     Xml {
         /// The line, from 1.
@@ -30,36 +30,36 @@ pub enum SrdfError {
         /// What is wrong.
         reason: String,
     },
-    /// It is no SRDF.
+    /// Not an SRDF.
     #[error("this is no SRDF: its element is `{}`, not `robot`", .0.escape_debug())]
     NotSrdf(String),
-    /// It is that of another robot.
+    /// The SRDF of another robot.
     #[error("this is the SRDF of robot `{}`, not of `{}`", .found.escape_debug(), .expected.escape_debug())]
     OtherRobot {
-        /// The name in it.
+        /// The robot name in the SRDF.
         found: String,
-        /// The robot's.
+        /// The expected robot name.
         expected: String,
     },
 }
 
-/// An SRDF with other pairs of links.
+/// A merged SRDF.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MergedSrdf {
     /// Its text.
     pub text: String,
-    /// Pairs that a person disabled: they stay as they are.
+    /// Number of pairs that the user disabled, which are unchanged.
     pub kept: usize,
-    /// Pairs that a person enabled (`<enable_collisions>`) and the new text disables: they are left out.
+    /// Number of pairs that the user enabled (`<enable_collisions>`) and the new text disables: omitted.
     pub enabled: usize,
 }
 
-/// `old` with the pairs of links of `new` instead of those that programs wrote. Pairs with a person's reason, groups,
-/// states, end effectors, comments, white space and line ends stay. The new pairs stand where the first old one stood, or
-/// at the end. Merging the result again changes nothing.
+/// Replaces the pairs of links in `old` that programs wrote with those of `new`. Pairs with a user's reason, groups,
+/// states, end effectors, comments, white space and line endings remain. The new pairs take the place of the first old
+/// one, or go to the end. A second merge changes nothing.
 ///
 /// # Errors
-/// Where `old` is no SRDF, or that of another robot.
+/// If `old` is not an SRDF, or that of another robot.
 pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
     let old_document = parse(old)?;
     let new_document = parse(new)?;
@@ -95,7 +95,7 @@ pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
         kept: persons.len(),
         enabled: num_enabled,
     };
-    // They may stand between those of a person.
+    // They may be interleaved with the user's pairs.
     if gone
         .iter()
         .map(|pair| &old[pair.range()])
@@ -105,7 +105,7 @@ pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
     }
     let lines = pairs.iter().map(|pair| format!("{margin}{pair}{newline}"));
     let lines: String = lines.collect();
-    // An element without anything in it has no end tag to stand before.
+    // An empty element has no end tag to insert before.
     let range = robot.range();
     let end = old[range.clone()].rfind("</").map(|end| range.start + end);
     let Some(end) = end else {
@@ -158,14 +158,14 @@ fn is_found_by_programs(pair: Node) -> bool {
     FOUND_BY_PROGRAMS.contains(&reason.trim())
 }
 
-/// The names of a pair's links, in an order that does not depend on which is first.
+/// The names of a pair's links, sorted.
 fn links<'a>(pair: Node<'a, 'a>) -> [&'a str; 2] {
     let mut names = ["link1", "link2"].map(|key| pair.attribute(key).unwrap_or_default());
     names.sort_unstable();
     names
 }
 
-/// How a text ends its lines: as its first one.
+/// The line ending of a text: that of its first line.
 fn newline_of(text: &str) -> &'static str {
     match text.split_once('\n') {
         Some((first, _)) if first.ends_with('\r') => "\r\n",
@@ -173,7 +173,7 @@ fn newline_of(text: &str) -> &'static str {
     }
 }
 
-/// With the white space before it and the line break after it, where nothing else is on its line.
+/// Extends a range by the white space before it and the line break after it, if nothing else is on its line.
 fn whole_line(text: &str, range: Range<usize>) -> Range<usize> {
     let start = line_start(text, range.start);
     let rest = text[range.end..].trim_start_matches([' ', '\t', '\r']);
@@ -184,7 +184,7 @@ fn whole_line(text: &str, range: Range<usize>) -> Range<usize> {
     }
 }
 
-/// Where the line begins, if nothing but white space is before a place in it; otherwise the place.
+/// The start of the line if only white space precedes `at` on it; otherwise `at`.
 fn line_start(text: &str, at: usize) -> usize {
     let start = text[..at].trim_end_matches([' ', '\t']).len();
     match start == 0 || text.as_bytes()[start - 1] == b'\n' {
@@ -269,14 +269,14 @@ mod tests {
             own[0], own[1], own[2]
         );
         let made = merge_srdf(&old, NEW).expect("merged");
-        // The pair of the new text is one of a person's, the other way round.
+        // The pair of the new text is one of the user's, with the links swapped.
         assert_eq!(
             made.text,
             format!("<robot name=\"r\">\n{}</robot>\n", own.concat())
         );
         assert_eq!((made.kept, made.enabled), (3, 0));
         assert_eq!(merge_srdf(&made.text, NEW).expect("merged"), made);
-        // What a person enabled is not disabled.
+        // A pair that the user enabled is not disabled.
         let old = "<robot name=\"r\">\n  <enable_collisions link1=\"b\" link2=\"a\"/>\n</robot>";
         let made = merge_srdf(old, NEW).expect("merged");
         assert_eq!((made.text.as_str(), made.kept, made.enabled), (old, 0, 1));

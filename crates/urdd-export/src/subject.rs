@@ -1,4 +1,4 @@
-//! What exports are made from.
+//! The input of all exports.
 
 use std::cmp::Reverse;
 
@@ -12,7 +12,7 @@ use urdd_document::tree::Tree;
 use urdd_format::urdf::UrdfModule;
 use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind};
 
-/// A robot, as far as every format needs it.
+/// The data of a robot that every format needs.
 pub(super) struct Subject<'a> {
     pub robot: &'a Robot,
     pub format: Format,
@@ -21,11 +21,11 @@ pub(super) struct Subject<'a> {
     /// The same with the defaults of URDF filled in.
     pub view: View,
     pub tree: Tree,
-    /// Of each joint what it follows, chains resolved.
+    /// For each joint, the DOF that it follows, with mimic chains resolved.
     pub mimics: Mimics,
     /// Names of links, in link order.
     pub links: Vec<String>,
-    /// Empty where there are no skips.
+    /// Empty for formats without pairs.
     pub pairs: Vec<LinkPair>,
 }
 
@@ -42,9 +42,9 @@ impl<'a> Subject<'a> {
         let mimics = Mimics::resolve(&view).ok_or(ExportError::Mimics)?;
         let links: Vec<String> = urdf.links.iter().map(|link| link.name.clone()).collect();
         let pairs = match format {
-            // A URDF has no place for them; with spheres others are ignored.
+            // URDF cannot express pairs; the sphere formats compute their own.
             Format::Urdf | Format::Curobo | Format::Foam => Vec::new(),
-            // It says of pieces what the URDD says of them.
+            // MJCF handles pairs of pieces exactly.
             Format::Mjcf => pairs(robot, options)?,
             _ => link_pairs(robot, options)?,
         };
@@ -61,7 +61,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// The shapes of a kind, of each link, in link order.
+    /// The shapes of a kind for each link, in link order.
     pub fn shapes_by_link(&self, kind: ShapeKind) -> Result<Vec<Vec<LinkShape>>, ExportError> {
         let mut shapes: Vec<Vec<LinkShape>> = self.links.iter().map(|_| Vec::new()).collect();
         for shape in self.robot.shapes(kind)? {
@@ -69,7 +69,7 @@ impl<'a> Subject<'a> {
                 of_link.push(shape);
             }
         }
-        // Lists of spheres hold nothing else.
+        // The sphere formats need shapes.
         let is_needed = matches!(self.format, Format::Curobo | Format::Foam);
         match is_needed && shapes.iter().all(Vec::is_empty) {
             true => Err(ExportError::NoShapes(kind)),
@@ -77,12 +77,12 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// The pairs that need no check.
+    /// The pairs that need no collision check.
     pub fn disabled(&self) -> impl Iterator<Item = &LinkPair> {
         self.pairs.iter().filter(|pair| pair.disabled)
     }
 
-    /// What a format that knows links only has to say about the pairs: those first of which most is lost.
+    /// The notes of a link-level format on its pairs, those with the greatest loss first.
     pub fn notes(&self) -> Vec<Note> {
         let contacts = |pair: &&LinkPair| {
             let counted = pair.mixed.as_ref().and_then(|mixed| mixed.contacts);
@@ -96,7 +96,7 @@ impl<'a> Subject<'a> {
         pairs.into_iter().filter_map(Note::of_pair).collect()
     }
 
-    /// What the file was made from, a sentence an element.
+    /// The source of the file, one sentence per element.
     pub fn origin(&self) -> Result<Vec<String>, RobotError> {
         let mut lines = vec![format!(
             "{} of robot `{}`, made by urdd {} from the URDD `{}`.",
@@ -112,7 +112,7 @@ impl<'a> Subject<'a> {
         Ok(lines)
     }
 
-    /// Comments for the head of a file: what it was made from, what it holds, and what it says in another way.
+    /// Comments for the head of a file: its source, its content, and its notes.
     pub fn comments(&self, what: String, notes: &[Note]) -> Result<Vec<String>, RobotError> {
         let mut lines = self.origin()?;
         lines.push(what);

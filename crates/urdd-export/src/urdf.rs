@@ -1,4 +1,4 @@
-//! URDF: the robot as its source has it, with our shapes as collision geometry.
+//! URDF: the robot as in its source, with the URDD's shapes as collision geometry.
 
 use super::Export;
 use super::error::{ExportError, Note};

@@ -1,4 +1,4 @@
-//! The elements of a URDF: links with our shapes, and joints.
+//! The elements of a URDF: links with the URDD's shapes, and joints.
 
 use nalgebra::Isometry3;
 
@@ -14,19 +14,19 @@ use urdd_format::urdf::{Inertial, Joint, JointType, Link, Origin};
 use urdd_robot::{LinkShape, Solid};
 use urdd_xml::Kind;
 
-/// Half the thickness of a flat box where a program wants some, m.
+/// Half the thickness of a flat box for programs that reject flat boxes, in metres.
 const HALF_THICKNESS: f64 = 1e-6;
 
-/// How collision geometry is said.
+/// The form of collision geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Geometry {
-    /// As any reader takes it.
+    /// For any URDF reader.
     Plain,
-    /// As Drake takes it: OBJ, which is taken for convex where it says so, and no flat boxes.
+    /// For Drake: OBJ, declared as convex, and no flat boxes.
     Drake,
 }
 
-/// The `robot` element, without anything in it.
+/// The empty `robot` element.
 pub(super) fn robot(subject: &Subject) -> Element {
     Element::new("robot")
         .with("name", subject.urdf.name.as_str())
@@ -36,7 +36,7 @@ pub(super) fn robot(subject: &Subject) -> Element {
 /// Files by name.
 type Files = Vec<(String, Vec<u8>)>;
 
-/// The links, and the files that they name.
+/// The links, and the files that they reference.
 pub(super) fn links(
     subject: &Subject,
     geometry: Geometry,
@@ -64,7 +64,7 @@ pub(super) fn links(
     Ok((elements, files.into_files()))
 }
 
-/// Adds elements that URDF does not define, as their own text. How many cannot be there.
+/// Adds elements that URDF does not define, as raw text. Returns how many cannot be included.
 pub(super) fn push_unknown(element: &mut Element, texts: &[String], known: &[&str]) -> usize {
     let mut lost = 0;
     for text in texts {
@@ -107,7 +107,7 @@ fn element_of_inertial(inertial: &Inertial, view: &InertialView, quaternions: bo
         let plain = without_quaternion(origin, &view.origin, quaternions);
         element.push(element_of_origin(&plain));
     }
-    // Most programs refuse an element that lacks one of these; what is absent is 0 (SPEC 6.1.8).
+    // Most programs reject an element without one of these. Missing values are 0 (SPEC 6.1.8).
     let [ixx, ixy, ixz, iyy, iyz, izz] = view.inertia.unwrap_or_default().map(number);
     element.push(Element::new("mass").with("value", number(view.mass.unwrap_or(0.0))));
     element.push(
@@ -190,7 +190,7 @@ fn placed(pose: &Isometry3<f64>) -> Element {
         .with("rpy", numbers(&rpy(rotation.matrix())))
 }
 
-/// A joint; `tag` and `kind` are its element and its type, as a program has them.
+/// A joint element; `tag` and `kind` are the program's names of the element and the joint type.
 pub(super) fn element_of_joint(joint: &Joint, tag: &'static str, kind: &str) -> Element {
     let mut element = Element::new(tag)
         .with("name", joint.name.as_str())

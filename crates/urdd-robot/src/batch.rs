@@ -1,14 +1,14 @@
-//! Many configurations at once: room for the answers, and the threads that write them.
+//! Batches of configurations: allocation of the results, and the threads that write them.
 
 use rayon::iter::repeat_n;
 use rayon::prelude::*;
 
 use super::error::RobotError;
 
-/// Room for the answers of `count` configurations, `width` values each: a caller decides how many these are.
+/// Allocates the results of `count` configurations, `width` values each. The caller determines both numbers.
 ///
 /// # Errors
-/// [`RobotError::Memory`] where there is not enough memory.
+/// [`RobotError::Memory`] if there is not enough memory.
 pub(super) fn room<T: Clone + Default + Send>(
     count: usize,
     width: usize,
@@ -23,12 +23,12 @@ pub(super) fn room<T: Clone + Default + Send>(
     Ok(room)
 }
 
-/// Writes the answers of many configurations, `width` values each, into `out`: `block` of them at a time, by all
-/// threads of rayon's pool. `start` makes what the configurations of a block share; `write` is called with that, the
-/// number of the configuration and its part of `out`. Besides what these two allocate, it takes no memory.
+/// Writes the results of a batch of configurations, `width` values each, into `out`, in blocks of `block`
+/// configurations on rayon's thread pool. `start` creates the scratch state that a block shares. `write` gets that
+/// state, the index of the configuration and its part of `out`. Apart from `start` and `write`, nothing allocates.
 ///
 /// # Errors
-/// What `write` returns for the first configuration that has an error; those after it may not be written then.
+/// The error of `write` for the first configuration that fails. Results after it may then be missing.
 pub fn fill<T: Send, S, E: Send>(
     out: &mut [T],
     width: usize,
@@ -49,7 +49,7 @@ pub fn fill<T: Send, S, E: Send>(
 }
 
 /// # Errors
-/// [`RobotError::Room`] where `found` values are not `count` times `width`.
+/// [`RobotError::Room`] if `found` is not `count` times `width`.
 pub(super) fn check_room(found: usize, count: usize, width: usize) -> Result<(), RobotError> {
     match count.checked_mul(width) {
         Some(expected) if expected == found => Ok(()),

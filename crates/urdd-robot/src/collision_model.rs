@@ -1,4 +1,4 @@
-//! The learned self-collision model, asked about a robot.
+//! The learned self-collision model of a robot.
 
 use super::Robot;
 use super::error::RobotError;
@@ -6,9 +6,9 @@ use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_kinematics::learn::CollisionModel;
 
 impl Robot {
-    /// The learned self-collision model (SPEC 8.8): an estimate of how near links are, for passing over configurations
-    /// that are far from any contact before the others are checked exactly. It is an estimate, not a guarantee:
-    /// [`CollisionModel::evaluation`] says how often it is wrong.
+    /// The learned self-collision model (SPEC 8.8): an estimate of the clearance between links. It filters out
+    /// configurations that are far from contact, before an exact check of the rest. It is an estimate, not a guarantee:
+    /// [`CollisionModel::evaluation`] gives its measured error rates.
     ///
     /// ```
     /// # use urdd_robot::{Robot, RobotError, ShapeKind};
@@ -22,7 +22,7 @@ impl Robot {
     /// ```
     ///
     /// # Errors
-    /// Where `self_collision_model_module`, `chain_module` or `dof_module` is missing or of no use.
+    /// If `self_collision_model_module`, `chain_module` or `dof_module` is missing or unusable.
     pub fn collision_model(&self) -> Result<CollisionModel, RobotError> {
         let kind = ModuleKind::SelfCollisionModel;
         let part = self.part(&[kind])?;

@@ -1,4 +1,4 @@
-//! What the source URDF says, as data.
+//! The source URDF as data.
 
 use super::Robot;
 use super::error::RobotError;
@@ -7,21 +7,21 @@ use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::root_metadata::Source;
 use urdd_format::urdf::UrdfModule;
 
-/// What a URDD was made from.
+/// The file that a URDD was generated from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SourceFile {
     /// The file's path in the URDD.
     pub path: String,
-    /// The SHA-256 of its bytes, as 64 hexadecimal digits.
+    /// The SHA-256 of its content, as 64 hexadecimal digits.
     pub sha256: String,
 }
 
 impl Robot {
-    /// The robot's URDF as data: links with mass, visuals and collisions, joints with limits. Links and joints are in
-    /// the order of all indices. What a legacy URDD writes as zeros for lack of a value is absent here.
+    /// The robot's URDF as data: links with mass, visuals and collisions, joints with limits. Link and joint indices
+    /// refer to this order. Zeros that a legacy URDD writes for missing values are absent here.
     ///
     /// # Errors
-    /// Where `urdf_module` is missing or of no use.
+    /// If `urdf_module` is missing or unusable.
     pub fn description(&self) -> Result<UrdfModule, RobotError> {
         let part = self.part(&[ModuleKind::Urdf])?;
         match part.document(ModuleKind::Urdf) {
@@ -31,10 +31,10 @@ impl Robot {
         }
     }
 
-    /// The source URDF that the URDD carries, by its metadata. `None` without one, or in a legacy URDD.
+    /// The source URDF that the URDD includes, according to its metadata. `None` if there is none, or in a legacy URDD.
     ///
     /// # Errors
-    /// Where the files cannot be listed.
+    /// If the files cannot be listed.
     pub fn source(&self) -> Result<Option<SourceFile>, RobotError> {
         let part = self.part_as_it_is(&[])?;
         let source = part

@@ -1,4 +1,4 @@
-//! Why a robot cannot be asked something.
+//! Errors of queries on a robot.
 
 use thiserror::Error;
 
@@ -7,7 +7,7 @@ use urdd_directory::root::ReadError;
 use urdd_format::registry::ModuleKind;
 use urdd_kinematics::{ConfigurationError, KinematicsError};
 
-/// Why a robot cannot be asked something.
+/// Errors of queries on a robot.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RobotError {
@@ -19,33 +19,33 @@ pub enum RobotError {
         /// Why.
         error: ReadError,
     },
-    /// The robot's files cannot be listed any more.
+    /// The robot's files can no longer be listed.
     #[error("the files of the URDD cannot be listed: {0}")]
     List(ReadError),
-    /// A module that is needed is not there.
+    /// A required module is missing.
     #[error("{} is missing: make it with `urdd generate ROBOT.urdf -o DIR --modules {}`", .0.name(), short(*.0))]
     Missing(ModuleKind),
-    /// A module that is needed is of no use.
+    /// A required module is unusable.
     #[error("{}: {reason}: `urdd validate` says more", .module.name())]
     Unusable {
         /// Which module.
         module: ModuleKind,
-        /// The first fault, with its place.
+        /// The first problem, with its location.
         reason: String,
     },
-    /// A legacy URDD leaves open how joints move.
+    /// A legacy URDD does not define how its joints move.
     #[error("the modules do not say how the joints move: `urdd validate` says more")]
     MotionOpen,
-    /// `urdd.json` is missing or of no use.
+    /// `urdd.json` is missing or unusable.
     #[error("urdd.json: {0}")]
     Metadata(String),
-    /// Modules that kinematics cannot be computed from.
+    /// The modules do not define valid kinematics.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
-    /// A configuration that has no link poses.
+    /// A configuration without link poses.
     #[error(transparent)]
     Configuration(#[from] ConfigurationError),
-    /// A batch of configurations that is not a whole number of them.
+    /// The number of values in a batch is not a multiple of the number of DOFs.
     #[error("{found} values are no whole number of configurations of {dofs} values")]
     Batch {
         /// Number of values.
@@ -53,7 +53,7 @@ pub enum RobotError {
         /// Number of DOFs.
         dofs: usize,
     },
-    /// More answers than there is memory for.
+    /// Not enough memory for the results.
     #[error(
         "not enough memory for {count} configurations with {width} values each: ask for fewer at once"
     )]
@@ -63,40 +63,40 @@ pub enum RobotError {
         /// Values for each of them.
         width: usize,
     },
-    /// Room for another number of answers.
+    /// The output slice has the wrong length.
     #[error("expected room for {count} times {width} values, found {found}")]
     Room {
-        /// Number of values that there is room for.
+        /// Length of the output slice.
         found: usize,
         /// Number of configurations.
         count: usize,
         /// Values for each of them.
         width: usize,
     },
-    /// A name that is not there.
+    /// Unknown name.
     #[error("there is no {what} `{}`{}", .name.escape_debug(), nearest_text(.nearest.as_deref()))]
     Unknown {
-        /// What it should be the name of: `link`, `joint` or `DOF`.
+        /// Kind of name: `link`, `joint`, `DOF` or `kind of shapes`.
         what: &'static str,
         /// The name.
         name: String,
-        /// The name that is nearest to it.
+        /// The most similar known name.
         nearest: Option<String>,
     },
-    /// An index that is not there.
+    /// Index out of range.
     #[error("there is no {what} {index}: their number is {count}")]
     OutOfRange {
         /// What is indexed.
         what: &'static str,
         /// The index.
         index: usize,
-        /// How many there are.
+        /// Number of items.
         count: usize,
     },
-    /// A target of inverse kinematics that is none.
+    /// An invalid target or invalid bounds for inverse kinematics.
     #[error("inverse kinematics: {0}")]
     Target(&'static str),
-    /// An obstacle that is none.
+    /// An invalid obstacle.
     #[error("obstacle `{}`: {reason}", .name.escape_debug())]
     Obstacle {
         /// Its name.
@@ -104,13 +104,13 @@ pub enum RobotError {
         /// What is wrong with it.
         reason: String,
     },
-    /// It was asked to stop: [`Proximity::until`](super::Proximity::until).
+    /// The computation was cancelled: [`Proximity::until`](super::Proximity::until).
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// A mesh file that cannot be used.
+    /// An unusable mesh file.
     #[error("{}: {reason}", .path.escape_debug())]
     Mesh {
-        /// Its path, as the module has it.
+        /// Its path, as written in the module.
         path: String,
         /// What is wrong with it.
         reason: String,
@@ -123,7 +123,7 @@ fn nearest_text(nearest: Option<&str>) -> String {
     })
 }
 
-/// A module's name as `--modules` takes it.
+/// A module's name as `--modules` accepts it.
 fn short(kind: ModuleKind) -> &'static str {
     kind.name().strip_suffix("_module").unwrap_or(kind.name())
 }

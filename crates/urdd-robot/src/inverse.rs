@@ -1,4 +1,4 @@
-//! Inverse kinematics: from where a link should be to a configuration.
+//! Inverse kinematics.
 
 use nalgebra::{Isometry3, Point3, UnitQuaternion};
 
@@ -7,14 +7,14 @@ use super::error::RobotError;
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::inverse::{Goal, Inverse, InverseSettings};
 
-/// Where a link should be, in the root link's frame.
+/// The target of inverse kinematics, in the root link's frame.
 ///
-/// A point of the link has a place, and the link a rotation where [`Target::pose`] gives one.
+/// It is a position for a point of the link and, with [`Target::pose`], a rotation for the link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target(Goal);
 
 impl Target {
-    /// The link's frame should be at a pose.
+    /// A target pose for the link's frame.
     pub fn pose(link: usize, pose: Isometry3<f64>) -> Self {
         Self(Goal {
             link,
@@ -24,7 +24,7 @@ impl Target {
         })
     }
 
-    /// The origin of the link's frame should be at a place, metres; how the link is turned does not matter.
+    /// A target position for the origin of the link's frame, in metres. The link's rotation is free.
     pub fn position(link: usize, position: [f64; 3]) -> Self {
         Self(Goal {
             link,
@@ -34,8 +34,8 @@ impl Target {
         })
     }
 
-    /// Another point of the link should be there, and not the origin of its frame, such as the tip of a tool: in the
-    /// link's frame, metres. The rotation is that of the link's frame as before.
+    /// Applies the target position to another point of the link, such as a tool tip, instead of the origin of its
+    /// frame: in the link's frame, in metres. The target rotation remains that of the link's frame.
     pub fn of_point(mut self, point: [f64; 3]) -> Self {
         self.0.point = point.into();
         self
@@ -54,11 +54,11 @@ impl Target {
 }
 
 impl Robot {
-    /// Looks for a configuration, within bounds, in which a link is where it should be: by damped least squares from
-    /// `start`, then from random configurations.
+    /// Searches for a configuration within the bounds that reaches the target: by damped least squares from `start`,
+    /// then from random configurations.
     ///
-    /// Mimic joints follow, and joints of several DOFs take part. Whether the robot collides with itself is not looked
-    /// at. The answer is the first that is within the tolerances; it depends on `start` and the settings alone.
+    /// Supports mimic joints and joints with several DOFs. Does not check for self-collision. Returns the first
+    /// solution within the tolerances; it depends only on the target, `start` and the settings.
     ///
     /// ```
     /// use urdd_robot::{Inverse, InverseSettings, Robot, Target};
@@ -85,9 +85,10 @@ impl Robot {
     /// ```
     ///
     /// # Errors
-    /// [`RobotError::OutOfRange`] for a link that is not there; [`RobotError::Target`] for a target, or bounds of the
-    /// settings, that are not finite; [`RobotError::Configuration`] for a `start` of another length or with a value that
-    /// is not finite; and where `chain_module`, `dof_module` or `bounds_module` is missing or of no use.
+    /// [`RobotError::OutOfRange`] for a link index that is out of range; [`RobotError::Target`] if the target or the
+    /// bounds of the settings are not finite, or if there is not one pair of bounds for each DOF;
+    /// [`RobotError::Configuration`] if `start` has the wrong length or a value that is not finite; and if
+    /// `chain_module`, `dof_module` or `bounds_module` is missing or unusable.
     pub fn inverse_kinematics(
         &self,
         target: &Target,
@@ -97,7 +98,7 @@ impl Robot {
         self.inverse_kinematics_until(target, start, settings, &Cancellation::default())
     }
 
-    /// As [`Robot::inverse_kinematics`], until it is cancelled: it then ends before the next restart.
+    /// As [`Robot::inverse_kinematics`], with cancellation, which takes effect before the next restart.
     ///
     /// # Errors
     /// As there, and [`RobotError::Cancelled`].

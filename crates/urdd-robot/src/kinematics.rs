@@ -1,4 +1,4 @@
-//! Where links are, and how they move.
+//! Forward kinematics: link poses and Jacobians.
 
 use std::sync::Arc;
 
@@ -13,13 +13,13 @@ use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
 use urdd_kinematics::{ForwardKinematics, Place};
 
-/// 6 rows, one column for each DOF: velocity, then angular velocity.
+/// 6 rows, one column for each DOF: linear velocity, then angular velocity.
 pub type Jacobian = Matrix6xX<f64>;
 
-/// Configurations that one thread works on at once.
+/// Configurations in one block of work.
 const BLOCK: usize = 64;
 
-/// What moving a robot takes.
+/// The data that kinematics needs.
 #[derive(Debug)]
 pub(super) struct Motion {
     pub links: Vec<String>,
@@ -52,7 +52,7 @@ impl Motion {
         })
     }
 
-    /// How many configurations follow each other; of a robot without DOFs one, and no value.
+    /// Number of configurations in the slice. For a robot without DOFs, an empty slice is one configuration.
     pub(super) fn batch(&self, configurations: &[f64]) -> Result<usize, RobotError> {
         let (found, dofs) = (configurations.len(), self.kinematics.num_dofs());
         match dofs {
@@ -80,13 +80,13 @@ impl Robot {
     /// The pose of each link in the root link's frame, in link order.
     ///
     /// # Errors
-    /// [`RobotError::Configuration`] for another length than the number of DOFs, or a value that is not finite; and
-    /// where `chain_module` or `dof_module` is missing or of no use. Values beyond the bounds are allowed.
+    /// [`RobotError::Configuration`] if the length differs from the number of DOFs or a value is not finite; and if
+    /// `chain_module` or `dof_module` is missing or unusable. Values beyond the bounds are allowed.
     pub fn link_poses(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, RobotError> {
         Ok(self.motion()?.kinematics.link_poses(configuration)?)
     }
 
-    /// As [`Robot::link_poses`], into a vector that can be used again.
+    /// As [`Robot::link_poses`], into a reusable vector.
     ///
     /// # Errors
     /// As [`Robot::link_poses`].
@@ -99,13 +99,13 @@ impl Robot {
         Ok(kinematics.link_poses_into(configuration, poses)?)
     }
 
-    /// The poses of all links in each of many configurations, which follow each other in `configurations`: pose
-    /// `k * links + link` is that of `link` in configuration `k`. The work is done by all threads of rayon's pool, and
-    /// nothing is allocated for each configuration.
+    /// The poses of all links for a batch of configurations, stored one after another in `configurations`: pose
+    /// `k * links + link` is that of `link` in configuration `k`. Runs on rayon's thread pool, without allocations per
+    /// configuration.
     ///
     /// # Errors
-    /// [`RobotError::Batch`] where the values are no whole number of configurations; [`RobotError::Memory`] where there is
-    /// not enough memory; and as [`Robot::link_poses`], for the first configuration that has none.
+    /// [`RobotError::Batch`] if the number of values is not a multiple of the number of DOFs; [`RobotError::Memory`] if
+    /// there is not enough memory; and as [`Robot::link_poses`], for the first invalid configuration.
     pub fn link_poses_batch(
         &self,
         configurations: &[f64],
@@ -125,18 +125,18 @@ impl Robot {
         Ok(poses)
     }
 
-    /// The geometric Jacobian of a link's frame: 6 rows, one column for each DOF. Rows 0 to 2 are the velocity of the
-    /// frame's origin, rows 3 to 5 its angular velocity, along the axes of the root link's frame. Mimic joints count
-    /// into the column of the DOF that they follow; the columns of a rotation vector are derivatives by its
-    /// components.
+    /// The geometric Jacobian of a link's frame: 6 rows, one column for each DOF. Rows 0 to 2 are the linear velocity
+    /// of the frame's origin, rows 3 to 5 the angular velocity, both expressed in the root link's frame. A mimic joint
+    /// contributes to the column of the DOF that it follows. The columns of a rotation vector are derivatives with
+    /// respect to its components.
     ///
     /// # Errors
-    /// [`RobotError::OutOfRange`] for a link that is not there; and as [`Robot::link_poses`].
+    /// [`RobotError::OutOfRange`] for a link index that is out of range; and as [`Robot::link_poses`].
     pub fn jacobian(&self, configuration: &[f64], link: usize) -> Result<Jacobian, RobotError> {
         self.jacobian_at(configuration, link, [0.0; 3])
     }
 
-    /// As [`Robot::jacobian`], of a point given in the link's frame, metres.
+    /// As [`Robot::jacobian`], for a point in the link's frame, in metres.
     ///
     /// # Errors
     /// As [`Robot::jacobian`].
@@ -158,15 +158,15 @@ impl Robot {
         Ok(kinematics.jacobian(configuration, &poses, link, &point))
     }
 
-    /// The Jacobians of a link's frame in each of many configurations, which follow each other in `configurations`: as
-    /// [`Robot::jacobian`], column after column. Number `(k * dofs + dof) * 6 + row` is that of row `row` and DOF `dof`
-    /// in configuration `k`. Only the joints that move the link are looked at. The work is done by all threads of
-    /// rayon's pool, and nothing is allocated for each configuration.
+    /// The Jacobians of a link's frame for a batch of configurations, stored one after another in `configurations`: as
+    /// [`Robot::jacobian`], in column-major order. Value `(k * dofs + dof) * 6 + row` is the entry of row `row` and DOF
+    /// `dof` in configuration `k`. Evaluates only the joints that move the link. Runs on rayon's thread pool, without
+    /// allocations per configuration.
     ///
     /// # Errors
-    /// [`RobotError::OutOfRange`] for a link that is not there; [`RobotError::Batch`] where the values are no whole
-    /// number of configurations; [`RobotError::Memory`] where there is not enough memory; and as
-    /// [`Robot::link_poses`], for the first configuration in which the link has no pose.
+    /// [`RobotError::OutOfRange`] for a link index that is out of range; [`RobotError::Batch`] if the number of values
+    /// is not a multiple of the number of DOFs; [`RobotError::Memory`] if there is not enough memory; and as
+    /// [`Robot::link_poses`], for the first configuration without a pose of the link.
     pub fn jacobian_batch(
         &self,
         configurations: &[f64],
@@ -180,10 +180,10 @@ impl Robot {
         Ok(jacobians)
     }
 
-    /// As [`Robot::jacobian_batch`], of a point given in the link's frame, metres, into `out`.
+    /// As [`Robot::jacobian_batch`], for a point in the link's frame, in metres, into `out`.
     ///
     /// # Errors
-    /// As there; [`RobotError::Room`] where `out` has another number of values than there are answers, and
+    /// As there; [`RobotError::Room`] if the length of `out` differs from the number of results, and
     /// [`RobotError::Cancelled`].
     pub fn jacobian_batch_into(
         &self,

@@ -1,10 +1,9 @@
-//! A robot to ask about itself: what a URDD holds, with names, units and nothing derived.
+//! Queries on a robot: the contents of its URDD, with names and units, and results computed from them.
 //!
-//! [`Robot::open`] takes a folder or a zip archive, of version 1 or legacy; [`Robot::of`] any
-//! [`Source`], as one in memory. Each module is read when it is first asked for: a
-//! robot that is only moved reads `chain_module`, `dof_module` and `bounds_module`, and no mesh. A URDD that fails
-//! validation is a robot too, as far as the modules asked for can be read; what cannot be read is an error that names
-//! the module and says how to make it.
+//! [`Robot::open`] accepts a folder or a zip archive, version 1 or legacy. [`Robot::of`] accepts any [`Source`], such
+//! as one in memory. Modules are read on demand: kinematics reads `chain_module`, `dof_module` and `bounds_module`, and
+//! no mesh. A URDD that fails validation still works for every module that can be read. A module that cannot be read is
+//! an error that names the module and says how to generate it.
 //!
 //! ```
 //! use urdd_robot::{Robot, ShapeKind};
@@ -26,9 +25,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Lengths are metres, angles radians. Poses are in the frame of the root link. A configuration has one value for
-//! each DOF, in the order of [`Robot::dofs`]; values beyond the bounds are allowed. Links are in the order of
-//! `urdf_module`.
+//! Lengths are in metres, angles in radians. Poses are in the root link's frame. A configuration has one value for each
+//! DOF, in the order of [`Robot::dofs`]; values beyond the bounds are allowed. Links are in the order of `urdf_module`.
 
 mod batch;
 mod collision_model;
@@ -69,7 +67,7 @@ pub use urdd_kinematics::inverse::{Inverse, InverseSettings, InverseSolution};
 pub use urdd_kinematics::learn::{Clearance, CollisionModel};
 pub use world::{Among, Obstacle, ObstacleDistance, World};
 
-/// A robot, as its URDD describes it.
+/// A robot, described by a URDD.
 ///
 /// It can be shared between threads.
 #[derive(Debug)]
@@ -80,10 +78,10 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// The robot in a folder or a zip archive. Nothing of it is read yet.
+    /// Opens the robot in a folder or a zip archive. Reads no module yet.
     ///
     /// # Errors
-    /// [`RobotError::Open`] where there is none.
+    /// [`RobotError::Open`] if the path cannot be opened.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, RobotError> {
         let path = path.as_ref();
         let opened = Root::open(path).map_err(|error| RobotError::Open {
@@ -93,7 +91,7 @@ impl Robot {
         Ok(Self::at(opened))
     }
 
-    /// The robot whose files a source holds.
+    /// The robot whose files are in `source`.
     pub fn of(source: impl Source + 'static) -> Self {
         Self::at(Root::of(source))
     }

@@ -1,4 +1,4 @@
-//! The files of hulls and pieces.
+//! Mesh files: hulls, convex pieces and visual meshes.
 
 use std::io::Read;
 
@@ -19,8 +19,8 @@ use urdd_geometry::read::{GltfUp, Options, Part, Scene, read_with};
 pub(super) struct Meshes<'a> {
     part: &'a Urdd,
     meshes: meshes::Meshes<'a>,
-    /// The format that is read: the one that holds vertices most briefly, of those that have any file. A page in one
-    /// file leaves out formats as a whole.
+    /// The format to read: the first of STL, OBJ and GLB, ordered by how compactly they store vertices, that has any
+    /// file. A page in one file omits whole formats.
     format: Option<Format>,
 }
 
@@ -46,7 +46,7 @@ impl<'a> Meshes<'a> {
         })
     }
 
-    /// Reads all of them, by link and piece.
+    /// Reads all meshes, by link and piece.
     pub fn all(&self) -> Result<Vec<LinkShape>, RobotError> {
         let places: Vec<(usize, usize)> = (0..self.meshes.num_links())
             .flat_map(|link| (0..self.meshes.count(link)).map(move |piece| (link, piece)))
@@ -61,7 +61,7 @@ impl<'a> Meshes<'a> {
         places.into_par_iter().map(read).collect()
     }
 
-    /// Reads one.
+    /// Reads one mesh.
     fn read(&self, link: usize, piece: usize) -> Result<Mesh, RobotError> {
         let lists = self.meshes.lists.iter();
         let meshes = lists.filter_map(|list| list.links.get(link)?.get(piece));
@@ -71,7 +71,7 @@ impl<'a> Meshes<'a> {
         match path {
             Some(path) => {
                 let mut mesh = read(self.part, self.meshes.profile, path.path)?.merged();
-                // STL says a vertex again for each of its triangles.
+                // STL repeats each vertex for each of its triangles.
                 mesh.weld();
                 match mesh.vertices.is_empty() {
                     true => Err(fault(path.path, "it has no vertex".to_owned())),
@@ -82,7 +82,7 @@ impl<'a> Meshes<'a> {
         }
     }
 
-    /// The coloured parts of each link's mesh: only GLB has colours.
+    /// The coloured parts of each link's mesh. Prefers GLB, the only format with colours.
     fn visuals(&self) -> Result<Vec<LinkVisual>, RobotError> {
         let links = (0..self.meshes.num_links()).filter(|link| self.meshes.count(*link) > 0);
         let visual = |link: usize| {
@@ -106,7 +106,7 @@ impl<'a> Meshes<'a> {
     }
 }
 
-/// What a link looks like, in its frame, in metres.
+/// The visual mesh of a link, in its frame, in metres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinkVisual {
     /// The link.
@@ -116,10 +116,10 @@ pub struct LinkVisual {
 }
 
 impl Robot {
-    /// The plain mesh of each link that has one, with its colours. Textures are not read. Files are read each time.
+    /// The plain mesh of each link that has one, with its colours but without textures. Every call reads the files.
     ///
     /// # Errors
-    /// Where `plain_meshes_module` is missing or of no use, or a mesh cannot be read.
+    /// If `plain_meshes_module` is missing or unusable, or a mesh cannot be read.
     pub fn visuals(&self) -> Result<Vec<LinkVisual>, RobotError> {
         let part = self.part(&[ModuleKind::PlainMeshes])?;
         Meshes::new(&part, ModuleKind::PlainMeshes)?.visuals()

@@ -8,7 +8,7 @@ impl Robot {
     /// The name of each link.
     ///
     /// # Errors
-    /// Where `chain_module` or `dof_module` is missing or of no use.
+    /// If `chain_module` or `dof_module` is missing or unusable.
     pub fn links(&self) -> Result<&[String], RobotError> {
         Ok(&self.motion()?.links)
     }
@@ -29,7 +29,7 @@ impl Robot {
         Ok(&self.motion()?.joints)
     }
 
-    /// The name of each DOF: that of its joint, with the coordinate where the joint has several.
+    /// The name of each DOF: that of its joint, with the coordinate if the joint has several DOFs.
     ///
     /// # Errors
     /// As [`Robot::links`].

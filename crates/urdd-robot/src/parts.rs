@@ -1,4 +1,4 @@
-//! Reading what is asked for, and nothing else.
+//! Loading of only the modules that a query needs.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleKind, Profile};
 
 impl Robot {
-    /// These modules, all of which have to be there and of use.
+    /// These modules; an error if one is missing or unusable.
     pub(super) fn part(&self, kinds: &[ModuleKind]) -> Result<Urdd, RobotError> {
         let part = self.part_as_it_is(kinds)?;
         for kind in kinds {
@@ -18,13 +18,14 @@ impl Robot {
         Ok(part)
     }
 
-    /// These modules, as far as they are there and of use.
+    /// These modules, without a check that they are present and usable.
     pub(super) fn part_as_it_is(&self, kinds: &[ModuleKind]) -> Result<Urdd, RobotError> {
         let loaded = Loaded::read_only(self.root.clone(), kinds).map_err(RobotError::List)?;
         Ok(Urdd::new(Arc::new(loaded)))
     }
 
-    /// What kinematics is computed from. Of legacy URDDs `urdf_module` besides, which alone has origins and axes.
+    /// The modules that kinematics needs, and `more`. For a legacy URDD also `urdf_module`, which alone has origins and
+    /// axes.
     pub(super) fn moving_part(&self, more: &[ModuleKind]) -> Result<Urdd, RobotError> {
         let mut kinds = vec![ModuleKind::Chain, ModuleKind::Dof];
         kinds.extend_from_slice(more);
@@ -37,7 +38,7 @@ impl Robot {
     }
 }
 
-/// An error where a module is missing, or of no use.
+/// An error if a module is missing or unusable.
 pub(super) fn usable(part: &Urdd, kind: ModuleKind) -> Result<(), RobotError> {
     let module = part.module(kind).ok_or(RobotError::Missing(kind))?;
     match module.unusable() {

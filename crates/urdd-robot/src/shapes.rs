@@ -1,4 +1,4 @@
-//! Shapes of links: hulls, pieces, and the boxes and spheres about them.
+//! Shapes of links: convex hulls, convex pieces, and their bounding boxes and spheres.
 
 use std::fmt;
 use std::str::FromStr;
@@ -13,20 +13,20 @@ use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 use urdd_kinematics::rotation::from_rpy;
 
-/// A kind of shapes that stand for links.
+/// A kind of shapes that approximate links.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ShapeKind {
     /// The convex hull of each link.
     Hulls,
-    /// The box about each hull.
+    /// The bounding box of each hull.
     Boxes,
-    /// The sphere about each hull.
+    /// The bounding sphere of each hull.
     Spheres,
     /// The convex pieces of each link.
     Pieces,
-    /// The box about each piece.
+    /// The bounding box of each piece.
     PieceBoxes,
-    /// The sphere about each piece.
+    /// The bounding sphere of each piece.
     PieceSpheres,
 }
 
@@ -41,7 +41,7 @@ impl ShapeKind {
         ShapeKind::PieceSpheres,
     ];
 
-    /// Its short name, as command lines take it.
+    /// Its short name, as used on command lines.
     pub fn name(self) -> &'static str {
         match self {
             ShapeKind::Hulls => "hulls",
@@ -53,12 +53,12 @@ impl ShapeKind {
         }
     }
 
-    /// Whether each link has several shapes of it.
+    /// Whether a link can have several shapes of this kind.
     pub fn is_of_pieces(self) -> bool {
         !self.of_document().full
     }
 
-    /// As documents have it.
+    /// The corresponding kind in documents.
     pub(super) fn of_document(self) -> shapes::ShapeKind {
         KINDS[self as usize]
     }
@@ -97,22 +97,22 @@ impl FromStr for ShapeKind {
 pub struct LinkShape {
     /// The link.
     pub link: usize,
-    /// Which of the link's pieces it is or is about; 0 for a hull and what is about it.
+    /// Index of the link's piece that it is or bounds; 0 for a hull and its bounding volumes.
     pub piece: usize,
     /// The shape.
     pub solid: Solid,
 }
 
-/// A body. Lengths are metres, in the link's frame.
+/// A solid in the link's frame, in metres.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
     /// A convex mesh, each vertex once.
     Mesh(Mesh),
-    /// A box: the pose of its centre and axes, and half of each side.
+    /// An oriented box.
     Box {
-        /// The pose of the box's own frame.
+        /// The pose of its centre and axes.
         pose: Isometry3<f64>,
-        /// Half of each side, along its own axes.
+        /// Half extents along its axes.
         half_extents: [f64; 3],
     },
     /// A sphere.
@@ -125,11 +125,10 @@ pub enum Solid {
 }
 
 impl Robot {
-    /// The shapes of one kind, by link and piece. Links without geometry have none. Meshes are read from their files,
-    /// each time.
+    /// The shapes of one kind, by link and piece. Links without geometry have none. Every call reads the mesh files.
     ///
     /// # Errors
-    /// Where the module that has them is missing or of no use, or a mesh cannot be read.
+    /// If their module is missing or unusable, or a mesh cannot be read.
     pub fn shapes(&self, kind: ShapeKind) -> Result<Vec<LinkShape>, RobotError> {
         let part = self.part(&[kind.module()])?;
         if matches!(kind, ShapeKind::Hulls | ShapeKind::Pieces) {

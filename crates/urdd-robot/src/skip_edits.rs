@@ -1,4 +1,4 @@
-//! What a person's decisions on skips make of a URDD.
+//! The effect of a user's skip edits on a URDD.
 
 use std::collections::BTreeMap;
 
@@ -22,32 +22,32 @@ use urdd_format::skips::skips_module;
 const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
 const SIMPLE: ModuleKind = ModuleKind::LinkShapesSimpleSkips;
 
-/// A module with other edits, and the files of the URDD that change.
+/// A skips module with new edits, and the files of the URDD that change.
 #[derive(Debug)]
 pub struct EditedSkips {
     /// `link_shapes_skips_module`.
     pub module: LinkShapesSkipsModule,
-    /// By path, relative to the root: the module's JSON and YAML, and `urdd.json` with their sizes and hashes.
+    /// Changed files by path relative to the root: the module's JSON and YAML, and `urdd.json` with their sizes and
+    /// hashes.
     pub files: BTreeMap<String, Vec<u8>>,
-    /// Whether the URDD has a self-collision model. It was trained with the skips before, and has to be made again.
+    /// Whether the URDD has a self-collision model. It was trained with the previous skips and must be regenerated.
     pub model_is_stale: bool,
 }
 
 impl EditedSkips {
-    /// The skips between shapes of a kind as they are with the edits; `before` are those of the robot.
+    /// The skips between shapes of a kind with the edits applied; `before` are those of the robot.
     pub fn skips(&self, kind: ShapeKind, before: &Skips) -> Skips {
         before.of_module(kind, self.module.clone())
     }
 }
 
 impl Robot {
-    /// The URDD with these edits of skips instead of those that it has, and, where they are given, these skipped reasons.
-    /// Nothing is written.
+    /// Replaces the URDD's skip edits and, if given, its skipped reasons. Returns the changed files and writes nothing.
     ///
     /// # Errors
-    /// [`RobotError::Unknown`] for an edit that names no link; [`RobotError::Missing`] and [`RobotError::Unusable`] where
-    /// `urdf_module`, `link_shapes_simple_skips_module` or `link_shapes_skips_module` of version 1 is not there or of no
-    /// use; [`RobotError::Metadata`] where `urdd.json` is.
+    /// [`RobotError::Unknown`] if an edit names an unknown link; [`RobotError::Missing`] and [`RobotError::Unusable`]
+    /// if `urdf_module`, `link_shapes_simple_skips_module` or `link_shapes_skips_module` of version 1 is missing or
+    /// unusable; [`RobotError::Metadata`] if `urdd.json` is.
     pub fn with_skip_edits(
         &self,
         edits: Vec<SkipEdit>,
@@ -88,7 +88,7 @@ impl Robot {
         })
     }
 
-    /// `urdd.json` with the sizes and hashes of some files.
+    /// `urdd.json`, updated with the sizes and hashes of these files.
     fn metadata_with(&self, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, RobotError> {
         let text = self.root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES);
         let text = text.map_err(|error| RobotError::Metadata(error.to_string()))?;

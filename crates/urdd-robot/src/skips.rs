@@ -1,4 +1,4 @@
-//! Which pairs of shapes need no look, and why.
+//! Pairs of shapes that need no collision check, and the reasons: the robot's allowed collision matrix.
 
 use super::Robot;
 use super::error::RobotError;
@@ -14,10 +14,10 @@ use urdd_format::registry::{ModuleDocument, ModuleKind};
 const SKIPS: ModuleKind = ModuleKind::LinkShapesSkips;
 const SIMPLE: ModuleKind = ModuleKind::LinkShapesSimpleSkips;
 
-/// The skips between the shapes of one kind.
+/// The skips between the shapes of one kind: MoveIt's *allowed collision matrix*, for shapes instead of links.
 #[derive(Debug, Clone)]
 pub struct Skips {
-    /// Of each shape its link and its piece.
+    /// The link and the piece of each shape.
     places: Vec<(usize, usize)>,
     skipped: Matrix<bool>,
     reasons: Option<Matrix<SkipReason>>,
@@ -25,11 +25,11 @@ pub struct Skips {
     skipped_reasons: Option<Vec<SkippedReason>>,
 }
 
-/// Rows over the shapes themselves, or over hulls where those of pieces are left out (SPEC 8.4).
+/// A matrix over the shapes themselves, or over the links' hulls if the module omits that of the pieces (SPEC 8.4).
 #[derive(Debug, Clone)]
 struct Matrix<T> {
     rows: Vec<Vec<T>>,
-    /// For each shape its row.
+    /// The row of each shape.
     row_of: Vec<Option<usize>>,
 }
 
@@ -45,10 +45,10 @@ impl<T: Copy> Matrix<T> {
 
 impl Robot {
     /// The skips between the shapes of a kind: those of `link_shapes_skips_module`, or of
-    /// `link_shapes_simple_skips_module` where the former is not there.
+    /// `link_shapes_simple_skips_module` if the former is missing.
     ///
     /// # Errors
-    /// Where both are missing or one is of no use, or a module of meshes is.
+    /// If both are missing, if one is unusable, or if a mesh module of a legacy URDD is missing or unusable.
     pub fn skips(&self, kind: ShapeKind) -> Result<Skips, RobotError> {
         let meshes = [
             ModuleKind::ConvexHullMeshes,
@@ -86,17 +86,17 @@ impl Robot {
     }
 }
 
-/// How the shapes of a kind find their rows in the six matrices of a module.
+/// Maps the shapes of a kind to rows of the six matrices of a module.
 struct Rows {
     kind: ShapeKind,
-    /// Of each shape its link and its piece.
+    /// The link and the piece of each shape.
     places: Vec<(usize, usize)>,
-    /// For each shape the row of its link's hull.
+    /// For each shape, the row of its link's hull.
     of_hulls: Vec<Option<usize>>,
 }
 
 impl Rows {
-    /// `full` are the links that have a hull, in the order of its rows.
+    /// `full` lists the links that have a hull, in row order.
     fn new(kind: ShapeKind, places: Vec<(usize, usize)>, full: &[usize]) -> Self {
         let row = |link: usize| full.iter().position(|full| *full == link);
         Rows {
@@ -106,7 +106,7 @@ impl Rows {
         }
     }
 
-    /// The matrix of the kind; that of the hulls where it is left out (SPEC 8.4).
+    /// The matrix of the kind, or that of the hulls if it is omitted (SPEC 8.4).
     fn matrix<T: Copy>(&self, six: &[Option<&[Vec<T>]>; 6]) -> Matrix<T> {
         match six[self.kind as usize] {
             Some(rows) => Matrix {
@@ -121,7 +121,7 @@ impl Rows {
     }
 }
 
-/// What the rows stand for: as the module lists it, or, for a legacy module, as the meshes have it.
+/// The shapes of the rows: as listed in the module or, for a legacy module, derived from the meshes.
 fn shapes(part: &Urdd, from: ModuleKind, meshes: &[ModuleKind]) -> Result<Shapes, RobotError> {
     let document = part.document(from).ok_or(RobotError::Missing(from))?;
     if let Some((full, pieces)) = shape_lists(document) {
@@ -155,30 +155,30 @@ impl Skips {
         &self.places
     }
 
-    /// Whether a pair of shapes is skipped. One is not that the module says nothing of.
+    /// Whether a pair of shapes is skipped. A pair that is not in the module is not skipped; a shape with itself is.
     pub fn is_skipped(&self, i: usize, j: usize) -> bool {
         self.skipped.at(i, j).unwrap_or(i == j)
     }
 
-    /// Why a pair is what it is, by `link_shapes_simple_skips_module`: of two shapes on one link, of two that always or
-    /// never touch, and so on. Edits may decide otherwise. `None` for legacy URDDs, or without that module.
+    /// The reason that `link_shapes_simple_skips_module` gives for a pair: the same link, always or never in contact,
+    /// and so on. Edits can override it. `None` for legacy URDDs, or without that module.
     pub fn reason(&self, i: usize, j: usize) -> Option<SkipReason> {
         self.reasons.as_ref()?.at(i, j)
     }
 
-    /// A person's edits, in order. None where `link_shapes_skips_module` is not there, or in a legacy URDD.
+    /// The user's edits, in order. Empty without `link_shapes_skips_module`, or in a legacy URDD.
     pub fn edits(&self) -> &[SkipEdit] {
         &self.edits
     }
 
-    /// The reasons for which pairs are skipped, before the edits. `None` where `link_shapes_skips_module` is not there,
-    /// or in a legacy URDD.
+    /// The reasons for which pairs are skipped, before the edits. `None` without `link_shapes_skips_module`, or in a
+    /// legacy URDD.
     pub fn skipped_reasons(&self) -> Option<&[SkippedReason]> {
         self.skipped_reasons.as_deref()
     }
 
-    /// The same shapes and reasons with the skips of another `link_shapes_skips_module` of the same URDD. `kind` is
-    /// theirs.
+    /// The same shapes and reasons with the skips of another `link_shapes_skips_module` of the same URDD. `kind` is the
+    /// kind of these shapes.
     pub(super) fn of_module(&self, kind: ShapeKind, module: LinkShapesSkipsModule) -> Self {
         let full: Vec<usize> = module.full_shapes.iter().map(|link| link.get()).collect();
         let rows = Rows::new(kind, self.places.clone(), &full);

@@ -1,4 +1,4 @@
-//! Configurations: values for all DOFs.
+//! Configurations: one value for each DOF.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ impl Robot {
     /// The robot's configurations and their bounds.
     ///
     /// # Errors
-    /// Where `chain_module`, `dof_module` or `bounds_module` is missing or of no use.
+    /// If `chain_module`, `dof_module` or `bounds_module` is missing or unusable.
     pub fn configurations(&self) -> Result<&Configurations, RobotError> {
         let read = || {
             let part = self.moving_part(&[ModuleKind::Bounds])?;
@@ -40,7 +40,7 @@ impl Configurations {
             .bounds()
             .ok_or(RobotError::Missing(ModuleKind::Bounds))?;
         let space = ConfigurationSpace::within(&modules.dof, &modules.chain, bounds.bounds)?;
-        // A producer may write the two in either order.
+        // A producer may write the two bounds in either order.
         let sorted = |[a, b]: [f64; 2]| [a.min(b), a.max(b)];
         Ok(Self {
             space,
@@ -57,12 +57,13 @@ impl Configurations {
         self.bounds.len()
     }
 
-    /// The lower and the upper bound of each DOF. All rotations are within those of a rotation vector.
+    /// The lower and the upper bound of each DOF. The bounds of a rotation vector include all rotations.
     pub fn bounds(&self) -> &[[f64; 2]] {
         &self.bounds
     }
 
-    /// Every DOF 0, or the bound nearest to 0 where 0 is out of bounds (SPEC 9.4).
+    /// The default configuration (SPEC 9.4): every DOF at 0, or at the bound nearest to 0 if 0 is out of bounds.
+    /// Pinocchio's *neutral configuration* is the same, without the clamping to the bounds.
     pub fn zero(&self) -> Vec<f64> {
         self.space.default_configuration()
     }
@@ -82,14 +83,14 @@ impl Configurations {
         self.space.upper()
     }
 
-    /// Number `k` of the random configurations that the specification defines (SPEC 9.2): uniform within the bounds,
-    /// the same in every program and for every `k`.
+    /// Sample `k` of the pseudorandom sequence that the specification defines (SPEC 9.3): uniform within the bounds,
+    /// and the same in every implementation.
     pub fn random(&self, k: u64) -> Vec<f64> {
         self.space.sampled(k)
     }
 
-    /// A configuration with each value moved to the nearest bound where it is out of bounds. Rotation vectors, and
-    /// values that have no place in the bounds, stay.
+    /// Clamps each value of a configuration to its bounds. Leaves rotation vectors, and surplus values without bounds,
+    /// unchanged.
     pub fn clamp(&self, configuration: &mut [f64]) {
         let rotations = self.space.rotation_vectors();
         for (dof, (value, [lower, upper])) in configuration.iter_mut().zip(&self.bounds).enumerate()
@@ -100,7 +101,7 @@ impl Configurations {
         }
     }
 
-    /// Whether each value is within its bounds. Rotation vectors are.
+    /// Whether each value is within its bounds. Rotation vectors always are.
     pub fn is_within_bounds(&self, configuration: &[f64]) -> bool {
         let mut clamped = configuration.to_vec();
         self.clamp(&mut clamped);

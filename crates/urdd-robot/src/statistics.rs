@@ -1,4 +1,4 @@
-//! Distances of pairs over the robot's configurations, as the URDD records them.
+//! Distance statistics of pairs of shapes, as recorded in the URDD.
 
 use super::Robot;
 use super::error::RobotError;
@@ -7,7 +7,7 @@ use urdd_document::shape_matrices::{Statistics, at, statistics};
 use urdd_document::shapes::KINDS;
 use urdd_format::registry::ModuleKind;
 
-/// The distances of a pair of shapes over the sampled configurations, metres.
+/// Distance statistics of a pair of shapes over the sampled configurations, in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairStatistics {
     /// The mean.
@@ -45,7 +45,7 @@ impl AllStatistics {
 }
 
 impl Robot {
-    /// The statistics of a kind; `None` where the module is not there, or has none of this kind.
+    /// The statistics of a kind of shapes; `None` if the module is missing or has none for this kind.
     pub(super) fn statistics(&self, kind: ShapeKind) -> Result<Option<AllStatistics>, RobotError> {
         let module = ModuleKind::LinkShapesDistanceStatistics;
         let part = self.part_as_it_is(&[module])?;
@@ -55,10 +55,10 @@ impl Robot {
         Ok(one.map(AllStatistics::of))
     }
 
-    /// How many configurations the statistics were taken over; `None` where the URDD does not say.
+    /// Number of configurations that the statistics cover; `None` if the URDD does not record it.
     ///
     /// # Errors
-    /// Where the module cannot be listed.
+    /// If the files of the URDD cannot be listed.
     pub fn num_samples(&self) -> Result<Option<u32>, RobotError> {
         let module = ModuleKind::LinkShapesDistanceStatistics;
         let part = self.part_as_it_is(&[module])?;
@@ -66,10 +66,10 @@ impl Robot {
         Ok(six.and_then(|six| six.into_iter().flatten().find_map(|one| one.num_samples)))
     }
 
-    /// The statistics of a pair of shapes of a kind, by their indices (SPEC 8.1); `None` where the URDD has none.
+    /// The statistics of a pair of shapes of a kind, by their indices (SPEC 8.1); `None` if the URDD has none.
     ///
     /// # Errors
-    /// Where the module cannot be listed.
+    /// If the files of the URDD cannot be listed.
     pub fn pair_statistics(
         &self,
         kind: ShapeKind,

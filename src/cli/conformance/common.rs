@@ -1,4 +1,4 @@
-//! What the commands that run somebody's program have in common.
+//! Shared code of the commands that run an external program.
 
 use std::fmt::Display;
 use std::fs::{self, File};
@@ -20,17 +20,17 @@ use urdd_directory::regular;
 use urdd_format::escape;
 use urdd_generate::process;
 
-/// Longest skip list that is read, bytes.
+/// Maximum size of a skip list, in bytes.
 const MAX_SKIP_BYTES: u64 = 1 << 20;
 
-/// Longest line of a log, bytes; what a command printed is 2,000 at most.
+/// Maximum length of a log line, in bytes. A command's output is limited to 2,000 in it.
 const MAX_LOG_LINE: u64 = 1 << 20;
 
-/// Exit status: everything passed but what is skipped.
+/// Exit status: everything passed, except for skipped items.
 const PASSED: u8 = 0;
-/// Exit status: something did not, or a skip is stale.
+/// Exit status: something failed, or a skip is stale.
 const FAILED: u8 = 1;
-/// Exit status: wrong usage, or nothing could be run.
+/// Exit status: usage error, or nothing could be run.
 const USAGE: u8 = 2;
 
 /// Arguments of both commands.
@@ -89,12 +89,12 @@ impl RunArguments {
         Duration::from_secs(self.timeout)
     }
 
-    /// How many commands run at a time, where that was asked for.
+    /// The requested number of concurrent commands.
     pub fn jobs(&self) -> Option<usize> {
         self.jobs.map(usize::from)
     }
 
-    /// What shows how far the run is.
+    /// Creates the progress display and the log.
     pub fn follow(&self) -> Result<Follow, String> {
         let log = match &self.log {
             None => None,
@@ -125,13 +125,13 @@ impl RunArguments {
         })
     }
 
-    /// An error where the log would take the place of something else.
+    /// An error if the log would overwrite another file.
     fn check_log(&self, path: &Path) -> Result<(), String> {
         output::check_name(path)?;
         if self.output.as_deref() == Some(path) {
             return Err("--log and --output name the same file: give two".to_owned());
         }
-        // Devices and pipes are written to.
+        // Writing to devices and pipes is allowed.
         let is_there = fs::metadata(path).is_ok_and(|there| there.is_file() && there.len() > 0);
         match is_there && !self.force && !is_log(path) {
             true => Err(format!(
@@ -154,7 +154,7 @@ impl RunArguments {
         skips::read(&text, words, form).map_err(|error| format!("{shown}: {error}"))
     }
 
-    /// Prints a result, and writes it into the file that was asked for.
+    /// Prints a result, and writes it to the file of `--output`.
     pub fn print(&self, result: &impl Serialize, human: &str) -> Result<(), String> {
         let json = serde_json::to_string_pretty(result).map_err(|error| error.to_string())? + "\n";
         let json = escape::json(&json);
@@ -168,7 +168,7 @@ impl RunArguments {
     }
 }
 
-/// Whether a file begins as what [`Follow::done`] writes.
+/// Whether a file begins like the output of [`Follow::done`].
 fn is_log(file: &Path) -> bool {
     let Ok(file) = regular::open(file) else {
         return false;
@@ -181,7 +181,8 @@ fn is_log(file: &Path) -> bool {
     has("end") && (has("id") || has("robot"))
 }
 
-/// Runs a command that runs other programs, until a signal asks to stop; whether everything passed, or a message.
+/// Runs a command that starts other programs, until a signal cancels it. `result` returns whether everything passed, or
+/// an error message.
 pub fn run(result: impl FnOnce(&Signals) -> Result<bool, String>) -> ExitCode {
     let signals = match Signals::listen() {
         Ok(signals) => signals,
@@ -210,7 +211,7 @@ fn cannot_write(file: &Path, error: &std::io::Error) -> String {
     format!("{}: cannot be written: {error}", file.display())
 }
 
-/// A bar on a terminal, and the log.
+/// A progress bar on a terminal, and the log.
 pub struct Follow {
     bar: ProgressBar,
     state: Mutex<State>,
@@ -224,18 +225,18 @@ struct State {
 }
 
 impl Follow {
-    /// There are so many to run.
+    /// Sets the number of items to run.
     pub fn start(&self, of: usize) {
         self.bar.set_length(of as u64);
         self.bar.tick();
     }
 
-    /// One is done.
+    /// Records a finished item.
     pub fn done(&self, wrong: bool, result: Option<&impl Serialize>) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         state.wrong += usize::from(wrong);
         if let (Some(result), Some((path, file))) = (result, &mut state.log) {
-            // In one piece: a run that is stopped leaves whole lines.
+            // A single write, so that an interrupted run leaves complete lines.
             let line = serde_json::to_string(result).map_err(std::io::Error::from);
             let written = line.and_then(|line| file.write_all((line + "\n").as_bytes()));
             if let Err(error) = written {
@@ -250,7 +251,7 @@ impl Follow {
         self.bar.inc(1);
     }
 
-    /// Everything is done.
+    /// Ends the run.
     pub fn finish(self) -> Result<(), String> {
         self.bar.finish_and_clear();
         let state = self.state.into_inner();

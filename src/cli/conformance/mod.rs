@@ -1,4 +1,4 @@
-//! `urdd conformance`: a subcommand a file.
+//! `urdd conformance`: one file per subcommand.
 
 mod common;
 mod export;

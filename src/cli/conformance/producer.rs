@@ -128,7 +128,7 @@ fn one(robot: &RobotScore, out: &mut String) -> std::fmt::Result {
         };
         match module.status {
             ModuleStatus::Passed => {}
-            // Where nothing is there, that was said above.
+            // If there is no output at all, the text above says so.
             ModuleStatus::Missing if robot.unreadable.is_some() => {}
             ModuleStatus::Missing if robot.end != "exit status 0" => {}
             ModuleStatus::Missing => writeln!(out, "  {} is missing{skipped}", module.name)?,

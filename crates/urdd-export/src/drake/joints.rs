@@ -1,8 +1,8 @@
-//! Joints as Drake's URDF parser takes them.
+//! Joints in a form that Drake's URDF parser accepts.
 //!
-//! Drake has no spherical joint but `ball`, and its floating joints hang on the world alone: any other is three prismatic
-//! joints and a ball joint, with links without mass between them. Drake ends the process at limits that are crossed, and
-//! takes the limits of a continuous joint for limits.
+//! Drake names a spherical joint `ball`, and supports floating joints only below the world. Any other floating joint
+//! becomes three prismatic joints and a ball joint, with massless links between them. Drake aborts if a lower limit
+//! exceeds its upper limit, and applies the limits of a continuous joint.
 
 use super::super::element::Element;
 use super::super::error::{ExportError, Note};
@@ -20,17 +20,17 @@ const NEGATIVE: &str =
 const DAMPING: &str = "Drake wants three dampings of a planar joint; it has none";
 const FLOATING: &str = "Drake's floating joints hang on the world only; it is three prismatic joints and a ball joint, with links without mass between them";
 
-/// What stands in the file for the joints.
+/// The elements that represent the joints.
 pub(super) struct DrakeJoints<'a> {
-    /// The names of links that the robot does not have.
+    /// The names of added links.
     pub links: Vec<String>,
-    /// The elements, each with the joint that it is of.
+    /// The elements, each with its source joint.
     pub elements: Vec<(Element, &'a Joint)>,
-    /// The names of the joints that an actuator can drive, and those of all others.
+    /// The names of the joints that an actuator can drive, and those of fixed joints.
     pub driven: Driven,
 }
 
-/// The joints by what an actuator can do.
+/// Joint names by whether an actuator can drive them.
 #[derive(Default)]
 pub(super) struct Driven {
     /// Joints of one DOF.
@@ -85,20 +85,20 @@ pub(super) fn joints<'a>(
         }
     }
     check_unique(subject.format, "joint", names.iter().map(String::as_str))?;
-    // Each link is a frame, and each joint has one of its own.
+    // Each link has a frame, and each joint adds one.
     let frames: Vec<String> = names.iter().map(|name| format!("{name}_parent")).collect();
     let links = subject.links.iter().chain(&made.links).chain(&frames);
     check_unique(subject.format, "link", links.map(String::as_str))?;
     Ok(made)
 }
 
-/// Whether a floating joint is what Drake makes of one: a body that moves freely in the world.
+/// Whether Drake supports a floating joint: its child moves freely in the world.
 fn is_free(subject: &Subject, view: &View) -> bool {
     let root = &subject.links[subject.tree.root];
     root == "world" && view.parent == *root && view.origin == ViewOrigin::default()
 }
 
-/// Without what Drake refuses.
+/// Removes what Drake rejects.
 fn clean(joint: &mut Joint, view: &View, notes: &mut Vec<Note>) {
     let mut note = |what| {
         notes.push(Note::Joint {
@@ -137,7 +137,7 @@ fn clean(joint: &mut Joint, view: &View, notes: &mut Vec<Note>) {
     }
 }
 
-/// A floating joint in parts, from its parent to its child.
+/// Splits a floating joint into parts, from its parent to its child.
 fn parts(joint: &Joint) -> Vec<Joint> {
     let between = ["trans_x", "trans_y", "trans_z"].map(|part| format!("{}/{part}", joint.name));
     let mut parent = joint.parent.clone();

@@ -1,4 +1,4 @@
-//! URDF for Drake: convex OBJ meshes, joints as Drake's parser takes them, and pairs of links that need no check as
+//! URDF for Drake: convex OBJ meshes, joints that Drake's parser accepts, and pairs of links that need no check as
 //! collision filter groups.
 
 mod joints;
@@ -50,7 +50,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     })
 }
 
-/// A group of each link that is in a pair, which ignores those of its partners with a higher index.
+/// One collision filter group for each link in a pair. It ignores the groups of its partners with a higher index.
 fn groups(subject: &Subject) -> Vec<Element> {
     let mut partners: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for pair in subject.disabled() {

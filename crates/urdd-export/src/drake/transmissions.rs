@@ -1,4 +1,4 @@
-//! Transmissions and loops, as far as Drake's URDF parser takes them.
+//! Transmissions and loops that Drake's URDF parser accepts.
 
 use std::collections::HashSet;
 
@@ -8,7 +8,7 @@ use super::super::error::Note;
 use super::joints::Driven;
 use urdd_xml::Kind;
 
-/// Elements directly under `robot`, without those at which Drake stops.
+/// Elements directly under `robot`, without those that Drake rejects.
 pub(super) fn taken(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> Vec<String> {
     let mut actuators = HashSet::new();
     let mut is_taken = |text: &String| {
@@ -32,7 +32,7 @@ pub(super) fn taken(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) ->
         .collect()
 }
 
-/// Why Drake stops at a transmission.
+/// Why Drake rejects a transmission.
 fn refused(
     transmission: Node,
     driven: &Driven,
@@ -49,7 +49,7 @@ fn refused(
     };
     match kind {
         None | Some("") => return Some("it has no type"),
-        // Drake passes others over.
+        // Drake ignores other types.
         Some(kind) if !kind.contains("SimpleTransmission") => return None,
         Some(_) => {}
     }

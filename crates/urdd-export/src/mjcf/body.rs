@@ -1,4 +1,4 @@
-//! Bodies: one for each link, inside that of its parent.
+//! Bodies: one for each link, nested in that of its parent.
 
 use std::collections::HashSet;
 
@@ -14,16 +14,16 @@ use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
 use urdd_robot::{LinkShape, ShapeKind, Solid};
 
-/// Volumes below this are flat to MuJoCo (its mjMINVAL is 1e-15 m³).
+/// Smaller volumes are treated as flat, well above MuJoCo's mjMINVAL of 1e-15 m³.
 const SMALLEST_VOLUME: f64 = 1e-13;
-/// Half the thickness of a flat box, m.
+/// Half the thickness of a flat box, in metres.
 const HALF_THICKNESS: f64 = 1e-6;
 
-/// What was made while bodies were.
+/// The assets, files and notes created with the bodies.
 pub(super) struct Made {
     pub assets: Element,
     pub files: Vec<(String, Vec<u8>)>,
-    /// Whether moments break the triangle inequality.
+    /// Whether moments of inertia violate the triangle inequality.
     pub balanced: bool,
     pub notes: Vec<Note>,
 }
@@ -32,11 +32,11 @@ pub(super) struct Bodies<'a> {
     subject: &'a Subject<'a>,
     shapes: Vec<Vec<LinkShape>>,
     looks: Vec<Vec<Look>>,
-    /// Boxes of the shapes, for flat ones, by link and piece.
+    /// Bounding boxes, to replace flat shapes, by link and piece.
     boxes: Vec<LinkShape>,
     files: MeshFiles<'a>,
     assets: Element,
-    /// Paths that are assets already.
+    /// Paths that already have an asset.
     named: HashSet<String>,
     inertials: Vec<Option<Element>>,
     balanced: bool,
@@ -80,12 +80,12 @@ impl<'a> Bodies<'a> {
         }
     }
 
-    /// The world with all bodies in it.
+    /// The `worldbody` with all bodies.
     pub fn world(&mut self) -> Result<Element, ExportError> {
         let world = Element::new("worldbody");
         let root = self.subject.tree.root;
         let mut elements: Vec<Option<Element>> = self.subject.links.iter().map(|_| None).collect();
-        // From the leaves up, so that a long chain takes no deep stack here.
+        // From the leaves up, to avoid deep recursion for long chains.
         for &link in self.subject.tree.order.iter().rev() {
             let mut element = match self.is_world(link) {
                 true => world.clone(),
@@ -112,7 +112,7 @@ impl<'a> Bodies<'a> {
         link == self.subject.tree.root && self.subject.links[link] == "world"
     }
 
-    /// A body where its joint has it.
+    /// A body at the origin of its joint.
     fn frame(&self, link: usize) -> Element {
         let body = Element::new("body").with("name", self.subject.links[link].as_str());
         let Some(joint) = self.subject.tree.parent_joint[link] else {
@@ -125,7 +125,7 @@ impl<'a> Bodies<'a> {
         placed(body, &pose)
     }
 
-    /// Mass, joints, and geoms.
+    /// Adds mass, joints and geoms.
     fn fill(&mut self, link: usize, element: &mut Element) -> Result<(), ExportError> {
         let subject = self.subject;
         let joint = subject.tree.parent_joint[link];
@@ -210,7 +210,7 @@ impl<'a> Bodies<'a> {
             .with("name", name)
             .with("file", path.as_str());
         if format == MeshFormat::Obj {
-            // What is looked at need not enclose a volume.
+            // Visual meshes need not enclose a volume.
             asset = asset.with("inertia", "shell");
         }
         self.assets.push(asset);
@@ -220,7 +220,7 @@ impl<'a> Bodies<'a> {
     }
 }
 
-/// The name of the geom of a shape: no two are alike, whatever the links are called.
+/// The name of a shape's geom: unique for any link names.
 pub(super) fn geom_name(link: &str, piece: usize) -> String {
     format!("{link}/{piece}")
 }

@@ -1,8 +1,8 @@
-//! The masses of bodies, in the axes of their links.
+//! Masses and inertias of bodies, in their links' frames.
 //!
-//! MuJoCo asks of each group of bodies that moves as one that some body in it has a mass and three moments of inertia
-//! above its mjMINVAL; of a body that does not move it takes moments of 0. So masses are kept as they are, and where a
-//! group has too little of something, the least that is stable is assumed, with a note.
+//! In each group of rigidly connected moving bodies, MuJoCo requires one body with a mass and three moments of inertia
+//! above its mjMINVAL. A body that does not move may have moments of 0. So masses remain as given. If a group has too
+//! little, a minimal stable value is assumed, with a note.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
@@ -13,13 +13,13 @@ use super::super::subject::Subject;
 use urdd_document::rigid_groups::RigidGroups;
 use urdd_document::robot::Inertial;
 
-/// MuJoCo takes less for none: its mjMINVAL, kg and kg m².
+/// MuJoCo's mjMINVAL, below which it treats a value as 0: kg and kg m².
 const MIN_VALUE: f64 = 1e-15;
-/// What is assumed where a moving body needs a mass, kg.
+/// Assumed mass of a moving body that needs one, kg.
 const ASSUMED_MASS: f64 = 1e-9;
-/// What is assumed where a moving body needs a moment of inertia, kg m².
+/// Assumed moment of inertia of a moving body that needs one, kg m².
 const ASSUMED_INERTIA: f64 = 1e-9;
-/// Rounding of moments, as a part of the largest.
+/// Rounding tolerance of moments, relative to the largest.
 const ROUNDING: f64 = 1e-9;
 
 const NEGATIVE: &str = "its mass is negative, which MuJoCo takes for 0; so it is here";
@@ -29,20 +29,20 @@ const NO_INERTIA: &str = "it moves, and MuJoCo refuses a moment of inertia of 0;
 const NO_MASS: &str =
     "it moves without mass, which MuJoCo refuses; 1e-9 kg and 1e-9 kg m² are assumed";
 
-/// The mass of a body.
+/// The mass and inertia of a body.
 #[derive(Debug, Clone, PartialEq)]
 struct Mass {
     mass: f64,
     centre: [f64; 3],
     /// Principal moments of inertia, kg m².
     moments: Vector3<f64>,
-    /// Their axes, in those of the link.
+    /// The principal axes, in the link's frame.
     axes: Rotation3<f64>,
-    /// xx, yy, zz, xy, xz, yz in the axes of the link, where these say the same and MuJoCo takes them.
+    /// xx, yy, zz, xy, xz, yz in the link's frame, if these are equivalent and MuJoCo accepts them.
     full: Option<[f64; 6]>,
 }
 
-/// Of each link its `inertial` element, and whether MuJoCo has to mend moments.
+/// The `inertial` element of each link, and whether MuJoCo has to balance moments.
 pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option<Element>>, bool) {
     let mut balanced = false;
     let links = &subject.view.links;
@@ -74,7 +74,7 @@ pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option
             continue;
         }
         let weight = |link: &usize| of_link(link).map_or(0.0, |mass| mass.mass);
-        // The first of the heaviest.
+        // The heaviest link, the first one on ties.
         let heavier = |a: &usize, b: &usize| weight(a).total_cmp(&weight(b)).then(b.cmp(a));
         let Some(&link) = group.links.iter().max_by(|a, b| heavier(a, b)) else {
             continue;
@@ -93,7 +93,7 @@ pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option
     (elements.collect(), balanced)
 }
 
-/// The mass that MuJoCo takes for that of a link, and what there is to say.
+/// The mass that MuJoCo uses for a link, and in `said` how it differs from the URDF.
 fn mass(inertial: &Inertial, said: &mut Option<&'static str>) -> Option<Mass> {
     let given = inertial.mass.unwrap_or(0.0);
     if given < 0.0 {
@@ -117,7 +117,7 @@ fn mass(inertial: &Inertial, said: &mut Option<&'static str>) -> Option<Mass> {
     let others = moments.sum() - moments.max();
     let largest = moments.imax();
     if moments.max() > others {
-        // Of a thin plate the two are the same, but for rounding.
+        // For a thin plate, the two are equal up to rounding.
         match moments.max() <= others * (1.0 + ROUNDING) {
             true => moments[largest] = others,
             false => *said = Some(TRIANGLE),
@@ -146,12 +146,12 @@ impl Mass {
         full: None,
     };
 
-    /// Whether MuJoCo lets it move.
+    /// Whether MuJoCo accepts it for a moving body.
     fn is_enough(&self) -> bool {
         self.mass > MIN_VALUE && self.moments.min() > MIN_VALUE
     }
 
-    /// Adds what a moving body needs.
+    /// Raises mass and moments to what a moving body needs.
     fn raise(&mut self) {
         if self.mass <= MIN_VALUE {
             self.mass = ASSUMED_MASS;
@@ -212,7 +212,7 @@ mod tests {
         }
         assert_eq!(of(0.0, [0.0; 3]), (None, None));
         assert_eq!(of(-1.0, [0.0; 3]), (None, Some(NEGATIVE)));
-        // A disc: rounding of the moments is not more than the other two together.
+        // A disc: after rounding, the largest moment does not exceed the sum of the other two.
         let (disc, _) = of(1.0, [0.1, 0.2, 0.1 + 0.2]);
         let moments = disc.expect("a mass").moments;
         assert!(2.0 * moments.max() <= moments.sum());

@@ -9,7 +9,7 @@ use urdd_document::robot::Joint;
 use urdd_format::urdf::{Joint as Source, JointType};
 use urdd_kinematics::rotation::{planar_basis, unit_axis};
 
-/// The joints that together move as a URDF's joint does, in the order in which MuJoCo applies them.
+/// The MJCF joints that together represent a URDF joint, in the order in which MuJoCo applies them.
 pub(super) fn joints(joint: &Joint, source: &Source, notes: &mut Vec<Note>) -> Vec<Element> {
     let name = joint.name.as_str();
     let slide = |coordinate: &str, axis: Vector3<f64>| {
@@ -46,7 +46,7 @@ pub(super) fn joints(joint: &Joint, source: &Source, notes: &mut Vec<Note>) -> V
     }
 }
 
-/// The names of the joints that together are a URDF's.
+/// The names of the MJCF joints that represent a URDF joint.
 pub(super) fn names(joint: &Joint) -> Vec<String> {
     let name = joint.name.as_str();
     let part = |part: &str| format!("{name}/{part}");

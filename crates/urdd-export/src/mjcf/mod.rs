@@ -1,11 +1,11 @@
-//! MJCF: bodies, joints, our shapes as geoms, and pairs that need no check, piece by piece.
+//! MJCF: bodies, joints, the URDD's shapes as geoms, and pairs that need no collision check, per piece.
 //!
-//! A floating joint is three slides and a ball, whatever it sits on, so that its position is that of the child in the
-//! joint's frame, as here; a free joint's would be in the world. The root link is fixed to the world. Mimics are
-//! equality constraints, chains resolved, which MuJoCo holds in simulation: whoever sets positions sets those of mimic
-//! joints too.
-//! MuJoCo's own filter of parents and children is switched off, so that the pairs are those of the URDD; it never
-//! checks two bodies without a joint between them.
+//! A floating joint becomes three slide joints and a ball joint, regardless of its parent, so that its position is
+//! relative to the joint's frame; a free joint's position would be in the world frame. The root link is fixed to the
+//! world. Mimic joints become equality constraints with chains resolved, which MuJoCo enforces only in simulation: a
+//! caller that sets positions must set those of mimic joints too. MuJoCo's own parent-child filter is switched off, so
+//! that the pairs are those of the URDD. MuJoCo never checks two rigidly connected bodies, those without a joint
+//! between them.
 
 mod body;
 mod inertia;
@@ -61,7 +61,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     })
 }
 
-/// Links have the mass of the URDF, so geoms have none.
+/// Masses come from the URDF, so geoms have no density.
 fn classes() -> Element {
     let geom = |class: &'static str, geom: Element| {
         let geom = geom.with("density", "0");
@@ -77,9 +77,9 @@ fn classes() -> Element {
         .holding(geom("visual", visual))
 }
 
-/// What MuJoCo does not check, and, where the shapes of two links differ, what it does: an `<exclude>` is of two bodies,
-/// and a `<pair>` of two geoms is checked in spite of it. Bits (`contype`, `conaffinity`) would not do: there are 32, and
-/// a robot has hundreds of shapes that differ.
+/// The pairs that MuJoCo does not check and, for mixed pairs, those that it does: an `<exclude>` applies to two bodies,
+/// and a `<pair>` of two geoms is checked in spite of it. Bit masks (`contype`, `conaffinity`) are insufficient: they
+/// have 32 bits, and a robot can have hundreds of distinct shapes.
 fn contact(subject: &Subject) -> Element {
     let mut contact = Element::new("contact");
     let groups = RigidGroups::new(&subject.view, &subject.tree);
@@ -91,7 +91,7 @@ fn contact(subject: &Subject) -> Element {
         let [a, b] = pair.names.each_ref().map(String::as_str);
         contact.push(Element::new("exclude").with("body1", a).with("body2", b));
         let [one, other] = pair.links.map(|link| groups.of_link[link]);
-        // Links that never move against each other touch always or never: MuJoCo does not look at them.
+        // Links that are fixed to each other touch always or never: MuJoCo does not check them.
         if let Some(mixed) = &pair.mixed
             && one != other
         {
@@ -108,14 +108,14 @@ fn contact(subject: &Subject) -> Element {
     contact
 }
 
-/// Joints of several DOFs are several joints here, whose names may be those of others.
+/// Joints with several DOFs become several joints, whose names can collide with others.
 fn check_joints(subject: &Subject) -> Result<(), ExportError> {
     let names = subject.view.joints.iter().flat_map(joint::names);
     let names: Vec<String> = names.collect();
     check_unique(subject.format, "joint", names.iter().map(String::as_str))
 }
 
-/// The mimics: `position = offset + multiplier * position of the driver`.
+/// Mimic joints: `position = offset + multiplier * position of the driver`.
 fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
     let mut equality = Element::new("equality");
     for (joint, mimic) in subject.view.joints.iter().zip(&subject.mimics.by_joint) {
@@ -129,7 +129,7 @@ fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
                 element = element.with("joint2", driver.name.as_str());
                 mimic.multiplier
             }
-            // A fixed joint stands at 0.
+            // A fixed joint is at 0.
             0 => 0.0,
             _ => {
                 notes.push(Note::Joint {

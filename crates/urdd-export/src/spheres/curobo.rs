@@ -1,5 +1,5 @@
-//! cuRobo's spheres: `collision_spheres` of each link, and beside them what else its robot file takes by link. The keys
-//! are those of `robot_cfg: kinematics:`; a file of its own with `collision_spheres` is read by that name too.
+//! cuRobo's spheres: `collision_spheres` of each link, and the other entries by link of its robot file. The keys are
+//! those of `robot_cfg: kinematics:`. cuRobo also reads `collision_spheres` from a separate file.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -63,7 +63,7 @@ pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError>
     })
 }
 
-/// A key, with its value where that is empty.
+/// A key, with its value if that is empty.
 fn key(key: &str, empty: &str, is_empty: bool) -> String {
     match is_empty {
         true => format!("{key}: {empty}\n"),
@@ -71,8 +71,8 @@ fn key(key: &str, empty: &str, is_empty: bool) -> String {
     }
 }
 
-/// A string in double quotes, which every reader of YAML has back as it was. It is JSON's, but for characters beyond
-/// U+FFFF that are not printed raw: JSON writes them as two surrogates, which YAML does not join.
+/// A double-quoted string that every YAML reader decodes exactly. It is JSON's, except for characters beyond U+FFFF
+/// that are escaped: JSON uses two surrogates, which YAML does not combine.
 fn quoted(name: &str) -> String {
     let mut text = String::new();
     for c in serde_json::Value::from(name).to_string().chars() {

@@ -1,54 +1,54 @@
-//! Fitting spheres to links and to contacts.
+//! Fits spheres to surfaces and contacts.
 //!
-//! Each link begins with one sphere. Descent (Adam) on the surface's loss alone alternates with splitting the spheres that
-//! cost most, until half of the spheres are there. Pairs of links that are in no sampled collision, and whose spheres
-//! touch all the same, are ignored from then on. Then contacts count too: in each round the spheres that contribute least
-//! go, and those with the largest part in wrong contacts are split, so that spheres gather where links come near each
-//! other. There is no chance in it, and sums are taken in one order.
+//! Each link begins with one sphere. Gradient descent (Adam) on the surface loss alone alternates with splitting the
+//! spheres with the highest cost, until half of the budget is used. From then on, pairs of links without a sampled
+//! collision whose spheres touch anyway are ignored. Then the contact loss is added. Each round removes the spheres
+//! that contribute least and splits those with the largest share in wrong contacts, so that spheres concentrate where
+//! links approach each other. The algorithm is deterministic, with a fixed order of summation.
 
 use super::frame::{Point, add, length, scaled, sub};
 use super::loss::{Goal, Slope, middle, nearest};
 use super::model::{Placeable, Placed, Sphere, Spheres, count};
 use super::samples::Sample;
 
-/// How many spheres there may be.
+/// Limits on the number of spheres.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
     pub total: usize,
     pub per_link: usize,
 }
 
-/// Rounds of splitting by the surface alone, and steps in each.
+/// Rounds of splitting by the surface loss alone, and steps in each.
 const SURFACE_ROUNDS: usize = 4;
 const SURFACE_STEPS: usize = 30;
-/// The part of the spheres that the surface alone decides on.
+/// The fraction of the spheres that are placed by the surface loss alone.
 const BY_SURFACE: f64 = 0.5;
 
-/// Rounds of splitting by contacts, and steps in each; then the last steps.
+/// Rounds of splitting by contacts, and steps in each; then the final steps.
 const CONTACT_ROUNDS: usize = 10;
 const CONTACT_STEPS: usize = 20;
 const LAST_STEPS: usize = 120;
-/// The part of the spheres that go in each round, to be put where they are of more use.
+/// The fraction of the spheres that each round moves to a more useful place.
 const MOVED: f64 = 0.05;
-/// How much contacts count when spheres are split, beside the surface.
+/// The share of contacts, as opposed to the surface, in a sphere's blame.
 const CONTACT_SHARE: f64 = 0.8;
-/// Contact rounds look at one of so many samples: the last steps look at all.
+/// Contact rounds use every `STRIDE`-th sample; the final steps use all.
 const STRIDE: usize = 3;
 
-/// After so many steps it is looked again which configurations matter.
+/// Steps between updates of the active configurations.
 const LOOK_AGAIN: usize = 10;
-/// Blame is summed over so many steps at the end of a round.
+/// Number of steps at the end of a round over which blame is summed.
 const BLAMED: usize = 5;
 
-/// Steps at the beginning and at the end, in units of lengths.
+/// Step sizes at the beginning and at the end, in units of `Goal::size`.
 const SURFACE_STEP: [f64; 2] = [0.02, 0.005];
 const CONTACT_STEP: [f64; 2] = [0.02, 0.005];
 const LAST_STEP: [f64; 2] = [0.01, 0.0005];
 
-/// No sphere is smaller, in units of lengths.
+/// Minimum radius, in units of `Goal::size`.
 const SMALLEST: f64 = 0.02;
 
-/// Fits spheres. `ignored` says which pairs are to be ignored, and gets those that need no check.
+/// Fits spheres. `ignored` marks the pairs to ignore; the fit adds those that need no check.
 pub(super) fn fit(
     surface: &[Vec<Point>],
     samples: &[Sample],
@@ -62,7 +62,7 @@ pub(super) fn fit(
         return spheres;
     }
     let size = spheres.iter().flatten().map(|s| s.radius).sum::<f64>() / links as f64;
-    // All links are points: there is nothing to fit.
+    // All links are points, so there is nothing to fit.
     if size <= 0.0 {
         return spheres;
     }
@@ -109,7 +109,7 @@ pub(super) fn fit(
     spheres
 }
 
-/// One sphere for all points of a link: about their middle, as large as they are far from it on average.
+/// One sphere for all points of a link: centred at their mean, with their mean distance as radius.
 fn one_sphere(points: &[Point]) -> Vec<Sphere> {
     let sphere = |centre: Point| {
         let far = points.iter().map(|p| length(sub(*p, centre))).sum::<f64>();
@@ -119,7 +119,7 @@ fn one_sphere(points: &[Point]) -> Vec<Sphere> {
     middle(points).map(sphere).into_iter().collect()
 }
 
-/// Ignores the pairs that are in no sampled collision, and whose spheres touch in some sample.
+/// Ignores the pairs without a sampled collision whose spheres touch in some sample.
 fn ignore_what_never_touches(
     spheres: &Spheres,
     samples: &[Sample],
@@ -146,7 +146,7 @@ fn ignore_what_never_touches(
     }
 }
 
-/// Steps down the slope; the contacts count where a stride of samples is given. Returns each sphere's blame.
+/// Runs gradient descent, with the contact loss if a stride of samples is given. Returns each sphere's blame.
 fn descend(
     goal: &Goal,
     spheres: &mut Spheres,
@@ -248,7 +248,7 @@ impl Adam {
     }
 }
 
-/// Splits the spheres that are to blame most, until there are `wanted`; each once, and none of a full link.
+/// Splits the spheres with the most blame until there are `wanted`; each at most once, and none of a link at its limit.
 fn split(
     spheres: &mut Spheres,
     surface: &[Vec<Point>],
@@ -273,7 +273,7 @@ fn split(
     }
 }
 
-/// A value of each sphere, with its link and its number there.
+/// The value of each sphere, with its link and its index in the link.
 fn numbered(spheres: &Spheres, values: &[f64]) -> Vec<(f64, usize, usize)> {
     let places = spheres.iter().enumerate();
     let places = places.flat_map(|(link, own)| (0..own.len()).map(move |number| (link, number)));
@@ -282,7 +282,7 @@ fn numbered(spheres: &Spheres, values: &[f64]) -> Vec<(f64, usize, usize)> {
         .collect()
 }
 
-/// Two spheres in place of one: apart along the direction in which the points that are its own are spread most.
+/// Replaces a sphere by two, separated along the direction of greatest spread of the points nearest to it.
 fn halves(own: &[Sphere], number: usize, surface: &[Point]) -> [Sphere; 2] {
     let sphere = own[number];
     let is_its_own = |p: &&Point| nearest(own, **p).is_some_and(|(found, _)| found == number);
@@ -306,7 +306,7 @@ fn halves(own: &[Sphere], number: usize, surface: &[Point]) -> [Sphere; 2] {
     [add(sphere.centre, shift), sub(sphere.centre, shift)].map(|centre| Sphere { centre, radius })
 }
 
-/// Takes away spheres without which the surface is about as good, and that have no part in contacts.
+/// Removes the spheres that contribute least to the surface and have no part in contacts.
 fn drop_idle(goal: &Goal, spheres: &mut Spheres, blame: &mut Vec<f64>) {
     let mut costs = Vec::new();
     for (own, points) in spheres.iter().zip(goal.surface) {
@@ -328,7 +328,7 @@ fn drop_idle(goal: &Goal, spheres: &mut Spheres, blame: &mut Vec<f64>) {
         }
         costs.extend(cost);
     }
-    // Blame outweighs everything on the surface.
+    // Blame outweighs any surface cost.
     let costs: Vec<f64> = costs
         .iter()
         .zip(&*blame)

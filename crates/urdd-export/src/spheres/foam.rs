@@ -1,4 +1,4 @@
-//! Spheres as Foam writes them (`mean`, `best`, `worst`, `spheres`), by link, with what is known of them beside.
+//! Spheres in Foam's format (`mean`, `best`, `worst`, `spheres`), by link, with additional metadata.
 
 use serde_json::{Map, Value, json};
 

@@ -1,8 +1,8 @@
-//! Points, and poses of links as matrices: each is used many times.
+//! Points, and poses of links as matrices, since each pose is used many times.
 
 use nalgebra::Isometry3;
 
-/// A point or a vector, metres.
+/// A point or a vector, in metres.
 pub(super) type Point = [f64; 3];
 
 #[inline]
@@ -30,7 +30,7 @@ pub(super) fn length(a: Point) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// A pose: the columns of the rotation, and the shift.
+/// A pose: the columns of the rotation matrix, and the translation.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pose {
     columns: [Point; 3],
@@ -48,14 +48,14 @@ impl From<&Isometry3<f64>> for Pose {
 }
 
 impl Pose {
-    /// A point of the link's frame in the root link's frame.
+    /// Transforms a point from the link's frame to the root link's frame.
     #[inline]
     pub fn place(&self, p: Point) -> Point {
         let [x, y, z] = self.columns;
         [0, 1, 2].map(|k| x[k] * p[0] + y[k] * p[1] + z[k] * p[2] + self.shift[k])
     }
 
-    /// A direction of the root link's frame in the link's frame.
+    /// Rotates a direction from the root link's frame to the link's frame.
     #[inline]
     pub fn turn_back(&self, v: Point) -> Point {
         self.columns.map(|column| dot(column, v))

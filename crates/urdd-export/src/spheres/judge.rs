@@ -1,4 +1,4 @@
-//! How spheres answer beside the exact shapes: collisions that they miss, and contacts that are none.
+//! Compares spheres with the exact shapes: missed collisions and false contacts.
 
 use std::collections::BTreeMap;
 
@@ -7,32 +7,32 @@ use rayon::prelude::*;
 use super::model::{Placeable, Placed, Spheres};
 use super::samples::Sample;
 
-/// Of collisions so many may be missed, and of free configurations so many may be in contact.
+/// Allowed rates of missed collisions, and of false contacts in free configurations.
 pub const MAX_MISSED: f64 = 0.01;
 pub const MAX_FALSE: f64 = 0.05;
 
-/// Answers of spheres in sampled configurations, counted.
+/// Counts of the spheres' results in sampled configurations.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct SphereRates {
-    /// Configurations in which exact shapes collide.
+    /// Configurations in which the exact shapes collide.
     pub colliding: usize,
-    /// Those of them in which no spheres touch.
+    /// Colliding configurations in which no spheres touch.
     pub missed: usize,
-    /// Configurations in which no exact shapes touch.
+    /// Configurations in which the exact shapes do not touch.
     pub free: usize,
-    /// Those of them in which spheres touch.
+    /// Free configurations in which spheres touch.
     pub false_contacts: usize,
 }
 
 impl SphereRates {
-    /// Whether at most 1 % of collisions are missed, and at most 5 % of free configurations are in contact.
+    /// Whether at most 1 % of collisions are missed, and at most 5 % of free configurations have a false contact.
     pub fn are_within_goals(&self) -> bool {
         self.missed as f64 <= MAX_MISSED * self.colliding as f64
             && self.false_contacts as f64 <= MAX_FALSE * self.free as f64
     }
 }
 
-/// The 95 % interval of a rate (E. B. Wilson, JASA 22, 1927): 0 to 1 of nothing.
+/// The 95 % confidence interval of a rate (E. B. Wilson, JASA 22, 1927): 0 to 1 if `of` is 0.
 pub fn interval(hits: usize, of: usize) -> [f64; 2] {
     const Z: f64 = 1.959_963_984_540_054;
     if of == 0 {
@@ -55,14 +55,14 @@ pub fn interval(hits: usize, of: usize) -> [f64; 2] {
     [low.max(0.0), high.min(1.0)]
 }
 
-/// In how many samples the answer of a pair of links was behind a wrong one of the robot.
+/// Number of samples in which a pair of links caused a wrong result for the robot.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct PairFaults {
     pub missed: usize,
     pub false_contacts: usize,
 }
 
-/// The least distance of spheres in each sample, of the pairs that are not ignored: `limit` where it is more.
+/// The minimum signed distance of spheres in each sample, over the pairs that are not ignored, capped at `limit`.
 pub(super) fn gaps(
     spheres: &Spheres,
     pairs: &[[usize; 2]],
@@ -90,7 +90,7 @@ fn checked(pairs: &[[usize; 2]], ignored: &[bool]) -> Vec<(usize, [usize; 2])> {
     each.filter(|(number, _)| !ignored[*number]).collect()
 }
 
-/// Counts the answers of spheres whose least distances are given.
+/// Counts results, given the minimum distances from [`gaps`].
 pub(super) fn rates(samples: &[Sample], gaps: &[f64]) -> SphereRates {
     let mut rates = SphereRates::default();
     for (sample, gap) in samples.iter().zip(gaps) {
@@ -106,7 +106,7 @@ pub(super) fn rates(samples: &[Sample], gaps: &[f64]) -> SphereRates {
     rates
 }
 
-/// The pairs behind wrong answers. `samples` say which pairs are in contact.
+/// The pairs that cause wrong results. `samples` list the pairs in contact.
 pub(super) fn faults(
     spheres: &Spheres,
     pairs: &[[usize; 2]],
@@ -143,8 +143,8 @@ pub(super) fn faults(
     found
 }
 
-/// By how much all radii should grow, metres, so that the two rates are in balance: the greater of the upper ends of their
-/// intervals, each as a part of its goal, is least.
+/// The growth of all radii, in metres, that balances the two rates: it minimizes the larger of the upper ends of their
+/// confidence intervals, each relative to its goal.
 pub(super) fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
     let colliding = samples.iter().filter(|sample| sample.collides()).count();
     let free = samples.len() - colliding;
@@ -162,7 +162,7 @@ pub(super) fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
         }
         let gap = gaps[*sample];
         let next = order.get(place + 1).map_or(limit, |next| gaps[*next]);
-        // Spheres with gaps up to here touch when all radii grow by half of it.
+        // Spheres with gaps up to this threshold touch if all radii grow by half of it.
         let threshold = 0.5 * (gap + next);
         if threshold <= -limit || threshold >= limit || next <= gap {
             continue;
@@ -204,7 +204,8 @@ mod tests {
 
     #[test]
     fn radii_grow_until_the_rates_are_in_balance() {
-        // Free ones from 1 mm on, collisions up to 3 mm: in between each millimetre costs as much of its goal.
+        // Free ones from 1 mm on, collisions up to 3 mm: in between, each millimetre costs as much relative to its
+        // goal.
         let mut collide = vec![false];
         let mut gaps = vec![0.009];
         for k in 0..100 {
@@ -217,7 +218,7 @@ mod tests {
         let after: Vec<f64> = gaps.iter().map(|gap| gap - 2.0 * grown).collect();
         let rates = rates(&samples(&collide), &after);
         assert_eq!([rates.missed, rates.colliding, rates.free], [1, 100, 101]);
-        // By scipy's intervals, of all thresholds.
+        // From SciPy's intervals, over all thresholds.
         assert_eq!(rates.false_contacts, 18);
         // Without collisions, or without free configurations, there is nothing to balance.
         assert_eq!(growth(&samples(&[false, false]), &[-0.01, 0.01], 0.02), 0.0);

@@ -1,10 +1,10 @@
-//! What spheres cost, and which way each should move.
+//! The loss of spheres, and its gradient.
 //!
-//! Two terms. *Surface*: the surface of a link's spheres together should be where the link's is, so each point of the
-//! link's surface costs the square of its distance from it, outside or inside. *Contacts*: the spheres should answer as
-//! the exact shapes do. In a free configuration each pair of spheres costs as far as it reaches beyond a margin; in a
-//! colliding one, the pair of spheres that is nearest to contact (of the pairs of links that are in contact) costs as far
-//! as it misses a margin.
+//! Two terms. *Surface*: the union of a link's spheres should have the same surface as the link. Each point of the
+//! link's surface costs its squared distance to the surface of the spheres, outside or inside. *Contacts*: the spheres
+//! should give the same collision results as the exact shapes. In a free configuration, each pair of spheres costs as
+//! much as its distance falls short of a margin. In a colliding one, the pair of spheres nearest to contact, among the
+//! pairs of links in contact, costs as much as its penetration falls short of a margin.
 
 use rayon::prelude::*;
 
@@ -12,42 +12,42 @@ use super::frame::{Point, add, dot, length, scaled, sub};
 use super::model::{Placeable, Placed, Spheres};
 use super::samples::Sample;
 
-/// Configurations that are summed up together, in order: so sums do not depend on the number of threads.
+/// Configurations per block. Blocks are summed in order, so results do not depend on the number of threads.
 const BLOCK: usize = 256;
 
-/// What spheres are fitted to.
+/// The target of the fit.
 pub(super) struct Goal<'a> {
     /// Points on the surface of each link.
     pub surface: &'a [Vec<Point>],
-    /// The configurations; the first counts as much as [`FIRST`] others.
+    /// The sampled configurations; the first has the weight of [`FIRST`] others.
     pub samples: &'a [Sample],
     /// The pairs of links that are checked.
     pub pairs: &'a [[usize; 2]],
-    /// Whether each is written as ignored.
+    /// For each pair, whether it is written as ignored.
     pub ignored: &'a [bool],
-    /// A typical radius, metres: the unit of lengths.
+    /// A typical radius, in metres: the unit of length of the constants.
     pub size: f64,
 }
 
-/// How often the default configuration counts.
+/// Weight of the default configuration.
 const FIRST: f64 = 50.0;
 
-/// What all collisions count together, and all free configurations, beside a surface that is off by the unit of lengths:
-/// as one to the parts of them that may be wrong.
+/// Total weights of all collisions and of all free configurations, relative to a surface error of one unit of length:
+/// the inverse of the error rates allowed for each.
 const COLLIDING: f64 = 100.0;
 const FREE: f64 = 20.0;
 
-/// So far beyond contact, and so far apart, spheres should be: in units of lengths.
+/// Margin of penetration and of separation, in units of length.
 const MARGIN: f64 = 0.01;
 
-/// A configuration whose pairs of links are near enough to contact to matter, and these pairs.
+/// A configuration with pairs of links near enough to contact to affect the loss, and these pairs.
 pub(super) struct Active {
     sample: usize,
     pairs: Vec<usize>,
     weight: f64,
 }
 
-/// The slope of the loss, 4 numbers a sphere (centre, radius), and each sphere's part in the loss.
+/// The gradient of the loss, 4 numbers per sphere (centre, radius), and each sphere's share of the loss.
 pub(super) struct Slope {
     pub by: Vec<[f64; 4]>,
     pub blame: Vec<f64>,
@@ -69,7 +69,7 @@ impl Slope {
         *radius -= by_gap;
     }
 
-    /// Adds another slope, of spheres from number `first` on.
+    /// Adds another gradient, whose first sphere has index `first`.
     fn merge(&mut self, first: usize, other: &Slope) {
         for (to, from) in self.by[first..].iter_mut().zip(&other.by) {
             for (to, from) in to.iter_mut().zip(from) {
@@ -82,7 +82,7 @@ impl Slope {
     }
 }
 
-/// The number of the first sphere of each link, and of all.
+/// The index of each link's first sphere, and the total number of spheres.
 fn firsts(spheres: &Spheres) -> (Vec<usize>, usize) {
     let mut all = 0;
     let first = |own: &Vec<_>| {
@@ -93,7 +93,7 @@ fn firsts(spheres: &Spheres) -> (Vec<usize>, usize) {
 }
 
 impl Goal<'_> {
-    /// The slope of the surface's term.
+    /// The gradient of the surface term.
     pub fn of_surface(&self, spheres: &Spheres) -> Slope {
         let (firsts, count) = firsts(spheres);
         let of_link = |(own, points): (&Vec<_>, &Vec<Point>)| {
@@ -105,7 +105,7 @@ impl Goal<'_> {
                 };
                 let between = sub(*p, own[nearest].centre);
                 let toward = scaled(between, 1.0 / length(between).max(f64::MIN_POSITIVE));
-                // The distance falls as the centre moves toward the point, and as the sphere grows.
+                // The distance decreases as the centre moves towards the point, and as the radius grows.
                 slope.add(nearest, scaled(toward, -1.0), 2.0 * weight * off);
                 slope.blame[nearest] += weight * off * off;
             }
@@ -119,8 +119,9 @@ impl Goal<'_> {
         sum
     }
 
-    /// The configurations that matter as long as no sphere moves or grows by more than about half of `band`, metres.
-    /// `looked_at` are the samples to look at; those that will not matter before spheres did so by half of `far` go.
+    /// The configurations that can affect the loss while no sphere moves or grows by more than about half of `band`, in
+    /// metres. `looked_at` lists the samples to check. Removes those that cannot affect it until spheres have moved or
+    /// grown by half of `far`.
     pub fn active(
         &self,
         spheres: &Spheres,
@@ -133,7 +134,7 @@ impl Goal<'_> {
             FREE / (self.size * free.max(1) as f64),
             COLLIDING / (self.size * colliding.max(1) as f64),
         ];
-        // The pairs that matter; `None` where none will.
+        // The pairs that can affect the loss; `None` if the sample can be removed.
         let near = |placed: &mut Placed, k: &usize| -> Option<Vec<usize>> {
             let sample = &self.samples[*k];
             model.place(sample, placed);
@@ -191,7 +192,7 @@ impl Goal<'_> {
         now.map(active).collect()
     }
 
-    /// The slope of the contacts' term.
+    /// The gradient of the contact term.
     pub fn of_contacts(&self, spheres: &Spheres, active: &[Active]) -> Slope {
         let (firsts, count) = firsts(spheres);
         let block = |active: &[Active]| {
@@ -218,7 +219,7 @@ impl Goal<'_> {
     ) {
         let sample = &self.samples[active.sample];
         let margin = MARGIN * self.size;
-        // Two spheres, by link and number, and the vector from the second centre to the first.
+        // Two spheres, by link and index, and the vector from the second centre to the first.
         let mut push = |[(a, i), (b, j)]: [(usize, usize); 2], between: Point, by_gap: f64| {
             let toward = scaled(between, 1.0 / length(between).max(f64::MIN_POSITIVE));
             let (first, second) = (firsts[a] + i, firsts[b] + j);
@@ -265,13 +266,13 @@ impl Goal<'_> {
     }
 }
 
-/// The sphere whose surface is nearest outside of a point, or under which it is deepest, and how far: negative inside.
+/// The sphere with the smallest signed distance to a point, and that distance: negative inside.
 pub(super) fn nearest(own: &[super::model::Sphere], p: Point) -> Option<(usize, f64)> {
     let each = own.iter().map(|sphere| sphere.to(p)).enumerate();
     each.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The middle of points; `None` without any.
+/// The mean of points; `None` if there are none.
 pub(super) fn middle(points: &[Point]) -> Option<Point> {
     let sum = points.iter().copied().reduce(add)?;
     Some(scaled(sum, 1.0 / points.len() as f64))

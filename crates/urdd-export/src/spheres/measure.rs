@@ -1,4 +1,4 @@
-//! Measuring spheres in configurations that had no part in the fit.
+//! Evaluates spheres in configurations that were not used for the fit.
 
 use super::judge::{self, PairFaults, SphereRates};
 use super::model::Spheres;
@@ -6,34 +6,35 @@ use super::pairs::Pairs;
 use super::samples::{Ask, Region, Sample, nth, sample, samples};
 use urdd_robot::{Robot, RobotError};
 
-/// How many configurations are sampled. The numbers of the first are such that none is in two sets, nor among those that
-/// a URDD's own statistics and skips come from.
+/// Numbers of sampled configurations. The first indices keep the sets disjoint, and apart from the samples of a URDD's
+/// own statistics and skips.
 pub(super) struct Numbers {
     pub fit: usize,
     pub grow: usize,
     pub measure: usize,
 }
 
-/// Fewer would say nothing.
+/// Minimum number of samples for a meaningful rate.
 const LEAST: usize = 100;
-/// Poses that are kept at most.
+/// Maximum number of stored poses.
 const POSES: usize = 2_000_000;
-/// Pairs of links, and pairs of spheres of two links, that are looked at, at most.
+/// Maximum number of checks of pairs of links, and of pairs of spheres.
 const LOOKS: usize = 200_000_000;
-/// So many spheres of a link are few.
+/// Number of spheres per link that counts as small. The limit on samples shrinks with the square of the multiple of
+/// this.
 const FEW: usize = 16;
-/// Wrong answers of which the pairs are found, at most.
+/// Maximum number of wrong results that are traced to pairs.
 const TRACED: usize = 2000;
 
 impl Numbers {
-    /// The number of the first sample (SPEC 9.3) of those that spheres are fitted to.
+    /// Index of the first sample (SPEC 9.3) for the fit.
     pub const FIT: u64 = 1_000_000;
-    /// Of those that balance the two rates.
+    /// Index of the first sample for balancing the two rates.
     pub const GROW: u64 = 2_000_000;
-    /// Of those that the rates are counted in.
+    /// Index of the first sample for counting the rates.
     pub const MEASURE: u64 = 3_000_000;
 
-    /// `wanted` samples are measured, or fewer where that is much work.
+    /// Evaluates `wanted` samples, or fewer if that is too expensive.
     pub fn new(wanted: usize, pairs: &Pairs, spheres_per_link: usize) -> Self {
         let many = (spheres_per_link / FEW).max(1);
         let most = (POSES / pairs.links.len().max(1)).min(LOOKS / pairs.checked.len().max(1))
@@ -47,28 +48,29 @@ impl Numbers {
     }
 }
 
-/// How spheres answer.
+/// The results of an evaluation.
 #[derive(Debug)]
 pub(super) struct Measured {
-    /// In configurations from all that bounds allow; `None` where no pair is checked.
+    /// Rates in configurations throughout the bounds; `None` if no pair is checked.
     pub rates: Option<SphereRates>,
-    /// In configurations near the default one, where these had a part in the fit.
+    /// Rates in configurations near the default one, if the fit used such configurations.
     pub near_default: Option<SphereRates>,
-    /// Whether the exact shapes collide in the default configuration, and whether spheres touch.
+    /// Whether the exact shapes collide in the default configuration, and whether the spheres touch.
     pub default: [bool; 2],
-    /// The pairs of links behind wrong answers, the worst first.
+    /// The pairs of links that cause wrong results, worst first.
     pub faults: Vec<([usize; 2], PairFaults)>,
 }
 
 impl Measured {
-    /// Whether both rates are within the goals, and the default configuration is free where it is.
+    /// Whether both rates are within the goals, and the spheres are free in the default configuration if the shapes
+    /// are.
     pub fn is_good(&self) -> bool {
         let all = self.rates.iter().chain(&self.near_default);
         let [collides, touches] = self.default;
         let is_few =
             |rates: &SphereRates| self.near_default.is_some() && Some(rates) == self.rates.as_ref();
         let is_good = |rates: &SphereRates| match is_few(rates) {
-            // Too few are free to count what is wrong in them.
+            // Too few free configurations to count false contacts.
             true => SphereRates {
                 free: 0,
                 false_contacts: 0,
@@ -99,7 +101,7 @@ pub(super) fn measure(
         return Ok(measured);
     }
     let gaps = |samples: &[Sample]| {
-        // Whether they touch is all that counts.
+        // Only whether they touch matters here.
         judge::gaps(spheres, &pairs.checked, ignored, samples, f64::MIN_POSITIVE)
     };
     let zero = sample(robot, pairs, &robot.configurations()?.zero(), Ask::Any)?;
@@ -128,7 +130,7 @@ pub(super) fn measure(
         .into_iter()
         .map(|(pair, faults)| (pairs.checked[pair].map(|link| pairs.links[link]), faults))
         .collect();
-    // A missed collision counts as much beside its goal as five false contacts beside theirs.
+    // A missed collision weighs as much as five false contacts, in line with the goals of 1 % and 5 %.
     faults.sort_by_key(|(links, faults)| {
         (
             std::cmp::Reverse(5 * faults.missed + faults.false_contacts),

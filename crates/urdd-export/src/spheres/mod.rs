@@ -1,8 +1,8 @@
-//! Spheres that stand for links, and the pairs of links that a planner ignores with them.
+//! Sphere approximations of links, and the pairs of links that a planner ignores with them.
 //!
-//! [`fit`](mod@fit) makes spheres that answer as the exact shapes do, [`cover`] such that hold all of each link.
-//! Either way [`judge`] counts how the spheres and the pairs that are written answer in configurations that had no part
-//! in the fit, and the counts are written with them.
+//! [`fit`](mod@fit) fits spheres that give the same collision results as the exact shapes; [`cover`] covers each link
+//! completely. In both cases [`judge`] evaluates the written spheres and pairs in configurations that were not used for
+//! the fit. The counts are written with them.
 
 mod cover;
 pub(super) mod curobo;
@@ -31,47 +31,46 @@ use pairs::Pairs;
 use samples::{Ask, Region, Sample, sample, samples};
 use urdd_robot::{RobotError, ShapeKind};
 
-/// How many spheres stand for links.
+/// Number of spheres.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SphereBudget {
-    /// Twelve for each link that has shapes, on average, and at most 150 for all. Of spheres that cover: at most eight
-    /// for each link.
+    /// Twelve per link with shapes on average, at most 150 in total. For covering spheres: at most eight per link.
     #[default]
     Auto,
-    /// At most so many for each link.
+    /// Maximum number per link.
     PerLink(usize),
-    /// At most so many for all links together, but at least one for each.
+    /// Maximum number for all links together, but at least one per link.
     Total(usize),
 }
 
 const AUTO_PER_LINK: usize = 12;
 const AUTO_TOTAL: usize = 150;
 
-/// Decimal places of what is written, in metres.
+/// Rounding factor of written lengths: 6 decimal places, in metres.
 const DIGITS: f64 = 1e6;
 
-/// Fewer free configurations than this part of all are too few to fit to: then some are taken near the default
+/// Minimum fraction of free configurations for the fit. With fewer, some samples are taken near the default
 /// configuration.
 const FEW_FREE: f64 = 0.02;
 
-/// Points on the surface of a link: at least, for each sphere, and at most.
+/// Points on the surface of a link: minimum, per sphere, and maximum.
 const POINTS: [usize; 3] = [600, 40, 4000];
 
-/// All radii grow or shrink by no more than this part of their mean after the fit.
+/// Maximum change of all radii after the fit, relative to their mean.
 const GROWTH: f64 = 0.25;
 
-/// So far apart spheres are in the default configuration where it is free: as a part of the same.
+/// Minimum distance of spheres in the default configuration, if it is free, relative to the maximum change of radii.
 const APART: f64 = 0.02;
 
-/// What is written.
+/// The data of the file.
 struct Model {
     /// The links that have shapes, ascending, with their spheres.
     links: Vec<(usize, Vec<Sphere>)>,
-    /// Points on the surface of each.
+    /// Points on the surface of each link.
     surface: Vec<Vec<Point>>,
-    /// Pairs of links that are ignored, ascending: the URDD skips all their pieces, or they never came into contact.
+    /// Ignored pairs of links, ascending: the URDD skips all their pairs of pieces, or they were never in contact.
     ignored: Vec<[usize; 2]>,
-    /// How many of them never came into contact, though the URDD does not skip them.
+    /// How many of these were never in contact, although the URDD does not skip them.
     ignored_as_never: usize,
     measured: Measured,
 }
@@ -148,7 +147,8 @@ fn covering(subject: &Subject, pairs: &Pairs) -> Spheres {
         .collect()
 }
 
-/// Spheres that answer as the exact shapes do, and whether configurations near the default one had a part in that.
+/// Fits spheres that give the same collision results as the exact shapes. Also returns whether the fit used
+/// configurations near the default one.
 fn fitted(
     subject: &Subject,
     pairs: &Pairs,
@@ -208,7 +208,7 @@ fn fitted(
     }
     let rounded = |x: f64| (x * DIGITS).round() / DIGITS + 0.0;
     for sphere in spheres.iter_mut().flatten() {
-        // What is written is what is judged. A robot of micrometres keeps all digits.
+        // Rounds before the evaluation. Tiny spheres keep all digits.
         if sphere.radius * DIGITS > 1e2 {
             sphere.centre = sphere.centre.map(rounded);
             sphere.radius = rounded(sphere.radius);

@@ -1,4 +1,4 @@
-//! Spheres of links, and how they are in sampled configurations.
+//! Spheres of links, and their placement in sampled configurations.
 
 use super::frame::{Point, Pose, add, dot, length, scaled, sub};
 use super::samples::Sample;
@@ -11,7 +11,7 @@ pub(super) struct Sphere {
 }
 
 impl Sphere {
-    /// How far a point is outside; negative inside.
+    /// Signed distance of a point; negative inside.
     pub fn to(&self, p: Point) -> f64 {
         length(sub(p, self.centre)) - self.radius
     }
@@ -24,7 +24,7 @@ pub(super) fn count(spheres: &Spheres) -> usize {
     spheres.iter().map(Vec::len).sum()
 }
 
-/// A sphere about all spheres of a link. A link without any has none.
+/// A bounding sphere of all spheres of a link; `None` if it has none.
 fn about(own: &[Sphere]) -> Option<Sphere> {
     let mut low = own.first()?.centre;
     let mut high = low;
@@ -42,13 +42,13 @@ fn about(own: &[Sphere]) -> Option<Sphere> {
     })
 }
 
-/// Spheres with what makes finding near pairs quick.
+/// Spheres, with bounding spheres for fast rejection of distant pairs.
 pub(super) struct Placeable<'a> {
     spheres: &'a Spheres,
     about: Vec<Option<Sphere>>,
 }
 
-/// The spheres in one configuration. It is used again for the next one.
+/// The spheres placed in one configuration. Reusable for the next configuration.
 #[derive(Default)]
 pub(super) struct Placed {
     about: Vec<Option<Point>>,
@@ -63,7 +63,7 @@ impl<'a> Placeable<'a> {
         }
     }
 
-    /// Places the spheres about links; the spheres themselves are placed when they are needed.
+    /// Places the links' bounding spheres. The spheres themselves are placed on demand.
     pub fn place(&self, sample: &Sample, placed: &mut Placed) {
         let centre = |(about, pose): (&Option<Sphere>, &Pose)| Some(pose.place((*about)?.centre));
         placed.about.clear();
@@ -74,7 +74,7 @@ impl<'a> Placeable<'a> {
         placed.centres.iter_mut().for_each(Vec::clear);
     }
 
-    /// Whether the spheres of two links may be no farther apart than `limit`.
+    /// Whether the distance of two links' spheres may be `limit` or less.
     pub fn may_be_near(&self, placed: &Placed, [a, b]: [usize; 2], limit: f64) -> bool {
         let centres = placed.about[a].zip(placed.about[b]);
         let spheres = self.about[a].zip(self.about[b]);
@@ -86,7 +86,7 @@ impl<'a> Placeable<'a> {
         reach > 0.0 && dot(between, between) <= reach * reach
     }
 
-    /// The least distance of two links' spheres; negative where they overlap.
+    /// The minimum distance of two links' spheres; negative if they overlap.
     pub fn gap(&self, sample: &Sample, placed: &mut Placed, [a, b]: [usize; 2]) -> f64 {
         for link in [a, b] {
             if placed.centres[link].is_empty() {
@@ -118,7 +118,7 @@ pub(super) fn part(spheres: &mut Spheres, pairs: &[[usize; 2]], sample: &Sample,
                 let p = sample.poses[a].place(of_a.centre);
                 let q = sample.poses[b].place(of_b.centre);
                 let excess = of_a.radius + of_b.radius + apart - length(sub(p, q));
-                // Each gives half of it, and keeps half of its radius at least.
+                // Each sphere shrinks by half of the shortfall, but keeps at least half of its radius.
                 if excess > 0.0 {
                     spheres[a][i].radius = (of_a.radius - 0.5 * excess).max(0.5 * of_a.radius);
                     spheres[b][j].radius = (of_b.radius - 0.5 * excess).max(0.5 * of_b.radius);

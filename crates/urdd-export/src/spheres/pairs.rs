@@ -12,12 +12,12 @@ use urdd_geometry::Mesh;
 use urdd_geometry::convex::BodyPairs;
 use urdd_robot::{LinkShape, RobotError, Skips, Solid};
 
-/// Pairs of links that have shapes, and of which the URDD checks some pair of pieces.
+/// Pairs of links with shapes of which the URDD checks at least one pair of pieces.
 #[derive(Debug)]
 pub(super) struct Pairs {
-    /// The links that have shapes, ascending: all other numbers of links here are places in this list.
+    /// The links that have shapes, ascending. All other link numbers here are indices into this list.
     pub links: Vec<usize>,
-    /// The pieces of each.
+    /// The pieces of each of these links.
     pub pieces: Vec<Vec<Mesh>>,
     /// The pairs of links that are checked, each ascending.
     pub checked: Vec<[usize; 2]>,
@@ -86,7 +86,7 @@ impl Pairs {
         })
     }
 
-    /// The pairs in contact, by number, ascending. `poses` are those of all links of the robot.
+    /// The indices of the pairs in contact, ascending. `poses` are those of all links of the robot.
     pub fn touching(&self, poses: &[Isometry3<f64>]) -> Vec<u32> {
         let found = self.exact.touching(poses);
         found
@@ -101,7 +101,7 @@ impl Pairs {
     }
 }
 
-/// Whether a pair of shapes is skipped: as a person edited it, else for the reasons asked for, else as the URDD has it.
+/// Whether a pair of shapes is skipped: by the user's edit, else by the requested reasons, else by the URDD.
 fn is_skipped(
     skips: &Skips,
     links: &[String],

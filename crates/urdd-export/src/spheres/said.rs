@@ -1,4 +1,4 @@
-//! What is said of spheres, in files and in notes: sentences, and the same as JSON.
+//! The description of spheres in files and notes, as sentences and as JSON.
 
 use serde_json::{Value, json};
 
@@ -8,20 +8,20 @@ use super::model::Sphere;
 use super::{Model, Point};
 use urdd_format::escape;
 
-/// Pairs of links that are named, at most.
+/// Maximum number of pairs of links that are named.
 const NAMED: usize = 10;
 
-/// How far the surface of a link is from that of its spheres, metres.
+/// Distance between the surface of a link and that of its spheres, in metres.
 pub(super) struct Stand {
-    /// Mean distance, whether outside or inside.
+    /// Mean absolute distance.
     pub mean: f64,
-    /// Least distance.
+    /// Minimum distance.
     pub best: f64,
-    /// Greatest distance.
+    /// Maximum distance.
     pub worst: f64,
-    /// The greatest distance outside of all spheres; 0 where there is none.
+    /// Maximum distance outside all spheres; 0 if no point is outside.
     pub outside: f64,
-    /// Points that are in a sphere, and points.
+    /// Number of points inside a sphere, and number of points.
     pub held: [usize; 2],
 }
 
@@ -50,7 +50,7 @@ impl Stand {
 }
 
 impl Model {
-    /// What is said of the spheres, a sentence an element.
+    /// Describes the spheres, one sentence per element.
     pub fn said(&self, names: &[String], covers: bool) -> Vec<String> {
         let mut lines = vec!["Lengths in metres, in the frame of the link.".to_owned()];
         if self.links.is_empty() {
@@ -116,7 +116,7 @@ impl Measured {
         lines
     }
 
-    /// The pairs of links behind wrong answers.
+    /// Names the pairs of links that cause wrong results.
     pub fn named(&self, names: &[String]) -> String {
         let named = self.faults.iter().take(NAMED).map(|(links, faults)| {
             let [a, b] = links.map(|link| names.get(link).map_or("", String::as_str));
@@ -180,7 +180,7 @@ fn rates_json(rates: SphereRates) -> Value {
     })
 }
 
-/// What is noted, beside the file, where spheres are not good enough to plan with.
+/// The note on spheres that are not good enough for planning.
 pub(super) fn note(model: &Model, names: &[String]) -> Option<String> {
     if model.measured.is_good() {
         return None;

@@ -1,4 +1,4 @@
-//! Sampled configurations, and which pairs of links are in contact in them by exact shapes.
+//! Sampled configurations, and the pairs of links in contact in them according to the exact shapes.
 
 use rayon::prelude::*;
 
@@ -6,25 +6,27 @@ use super::frame::Pose;
 use super::pairs::Pairs;
 use urdd_robot::{Configurations, Robot, RobotError};
 
-/// The fractions of the way from the default configuration: the additive sequence of the golden ratio fills [0, 1).
+/// Step of the fractions of the way from the default configuration: the additive golden-ratio sequence fills [0, 1)
+/// evenly.
 const STEP: f64 = 0.618_033_988_749_894_9;
 
-/// Where configurations are taken from.
+/// The region that configurations are sampled from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Region {
-    /// All that bounds allow: sample `k` is number `k` of SPEC 9.3.
+    /// Throughout the bounds: sample `k` is sample `k` of SPEC 9.3.
     Bounds,
-    /// Each sample is moved to the default configuration by a part of the way, and the parts are even in 0 to 1.
+    /// Each sample is moved towards the default configuration by a fraction of the way; the fractions are uniform in 0
+    /// to 1.
     NearDefault,
 }
 
-/// A configuration.
+/// A sampled configuration.
 #[derive(Debug)]
 pub(super) struct Sample {
     /// The poses of the links that have shapes, in the order of [`Pairs::links`].
     pub poses: Vec<Pose>,
-    /// The pairs in contact, by number, ascending. Where only yes or no was asked: of a collision one pair at most is
-    /// listed, and it may be any.
+    /// The indices of the pairs in contact, ascending. With [`Ask::Any`], a collision lists at most one pair, which can
+    /// be any of them.
     pub touching: Vec<u32>,
 }
 
@@ -34,16 +36,16 @@ impl Sample {
     }
 }
 
-/// What is to be known of each sample.
+/// What to compute for each sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ask {
-    /// Which pairs are in contact.
+    /// The pairs in contact.
     Pairs,
-    /// Whether any is.
+    /// Whether any pair is in contact.
     Any,
 }
 
-/// `count` samples from number `first` on.
+/// `count` samples from index `first` on.
 pub(super) fn samples(
     robot: &Robot,
     pairs: &Pairs,
@@ -60,7 +62,7 @@ pub(super) fn samples(
     (0..count).into_par_iter().map(one).collect()
 }
 
-/// Sample `k` of those from number `first` on, with the pairs in contact.
+/// Sample `k` of those from index `first` on, with the pairs in contact.
 pub(super) fn nth(
     robot: &Robot,
     pairs: &Pairs,

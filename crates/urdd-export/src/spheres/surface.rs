@@ -1,19 +1,19 @@
-//! Points on the surface of a link: where its spheres' surface should be.
+//! Points on the surface of a link, the target of its spheres' surface.
 
 use super::frame::{Point, add, dot, length, scaled, sub};
 use urdd_geometry::Mesh;
 
-/// So far below the faces of another piece a point is inside of it, metres.
+/// Minimum depth below the faces of another piece for a point to count as inside, in metres.
 const INSIDE: f64 = 1e-7;
 
-/// Steps of the additive sequence in the plane whose steps are made of the root of x^3 = x + 1: it fills a square evenly.
+/// Steps of the two-dimensional additive sequence from the root of x^3 = x + 1, which fills a square evenly.
 const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
-/// The faces of a piece: outward normals, and how far along them.
+/// The faces of a piece: outward normals, and offsets along them.
 type Faces = Vec<(Point, f64)>;
 
-/// About `count` points, evenly on the pieces of a link where no other piece holds them; fewer where pieces overlap, and
-/// the vertices themselves where the pieces have no area.
+/// About `count` points, evenly distributed on the pieces of a link outside other pieces. Fewer if pieces overlap; the
+/// vertices themselves if the pieces have no area.
 pub(super) fn points(pieces: &[Mesh], count: usize) -> Vec<Point> {
     let mut triangles: Vec<(f64, usize, [Point; 3])> = Vec::new();
     let mut area = 0.0;
@@ -87,7 +87,7 @@ mod tests {
     fn points_are_on_the_outside_of_all_pieces_together() {
         let pieces = [cube(0.0, 1.0), cube(0.5, 1.0)];
         let found = points(&pieces, 2000);
-        // Of each cube's six faces three have a quarter in the other.
+        // Three of each cube's six faces have a quarter in the other cube.
         assert!((found.len() as f64 / 2000.0 - 0.875).abs() < 0.01);
         for p in &found {
             let on = |low: f64, high: f64| {

@@ -1,4 +1,4 @@
-//! Questions about many configurations, which follow each other in one list.
+//! Queries on batches of configurations, stored one after another in one slice.
 
 use rayon::prelude::*;
 
@@ -7,10 +7,10 @@ use crate::batch::{check_room, fill, room};
 use crate::error::RobotError;
 use urdd_directory::cancellation::Cancellation;
 
-/// Configurations that one thread works on at once.
+/// Configurations in one block of work.
 const BLOCK: usize = 32;
 
-/// Questions about many configurations that end where they are asked to stop: [`Proximity::until`].
+/// Batch queries with cancellation: [`Proximity::until`].
 #[derive(Debug, Clone, Copy)]
 pub struct Until<'a> {
     proximity: &'a Proximity,
@@ -18,8 +18,8 @@ pub struct Until<'a> {
 }
 
 impl Proximity {
-    /// Questions about many configurations that can be stopped: each then ends soon, within some configurations, with
-    /// [`RobotError::Cancelled`].
+    /// Batch queries with cancellation. After a cancellation, a query returns [`RobotError::Cancelled`] as soon as each
+    /// thread has finished its current configuration.
     ///
     /// ```
     /// use urdd_directory::cancellation::Cancellation;
@@ -51,14 +51,15 @@ impl Proximity {
     /// Whether the robot collides with itself in each configuration, as [`Proximity::in_collision`].
     ///
     /// # Errors
-    /// [`RobotError::Batch`] where the values are no whole number of configurations; [`RobotError::Memory`] where there is
-    /// not enough memory; and as [`Proximity::distances`], for the first configuration that has none.
+    /// [`RobotError::Batch`] if the number of values is not a multiple of the number of DOFs; [`RobotError::Memory`] if
+    /// there is not enough memory; and as [`Proximity::distances`], for the first invalid configuration.
     pub fn in_collision_batch(&self, configurations: &[f64]) -> Result<Vec<bool>, RobotError> {
         self.until(&Cancellation::default())
             .in_collision_batch(configurations)
     }
 
-    /// For each two links with pairs of shapes, by index: in how many of the configurations shapes of theirs touch.
+    /// For each two links with checked pairs of shapes, by index: the number of configurations in which any of these
+    /// pairs is in contact.
     ///
     /// # Errors
     /// As [`Proximity::in_collision_batch`].
@@ -82,8 +83,8 @@ impl Proximity {
             .collect())
     }
 
-    /// The least distance in each configuration, metres, as [`Proximity::self_distance`]: infinite where there is no
-    /// pair.
+    /// The minimum distance in each configuration, in metres, as [`Proximity::self_distance`]: infinite if there are no
+    /// pairs.
     ///
     /// # Errors
     /// As [`Proximity::in_collision_batch`].
@@ -92,7 +93,7 @@ impl Proximity {
             .self_distance_batch(configurations)
     }
 
-    /// The distances of all pairs in each configuration, metres: value `k * pairs + pair` is that of `pair`, in the
+    /// The distances of all pairs in each configuration, in metres: value `k * pairs + pair` is that of `pair`, in the
     /// order of [`Proximity::pairs`], in configuration `k`.
     ///
     /// # Errors
@@ -117,7 +118,7 @@ impl Until<'_> {
     /// As [`Proximity::in_collision_batch`], into `out`.
     ///
     /// # Errors
-    /// As there, [`RobotError::Room`] where `out` has another number of values than there are answers, and
+    /// As there, [`RobotError::Room`] if the length of `out` differs from the number of results, and
     /// [`RobotError::Cancelled`].
     pub fn in_collision_batch_into(
         &self,
@@ -198,7 +199,7 @@ impl Until<'_> {
         })
     }
 
-    /// How many configurations follow each other; of a robot without DOFs one, and no value.
+    /// Number of configurations in the slice. For a robot without DOFs, an empty slice is one configuration.
     fn count(&self, configurations: &[f64]) -> Result<usize, RobotError> {
         self.proximity.motion.batch(configurations)
     }

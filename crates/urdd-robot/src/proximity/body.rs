@@ -1,15 +1,15 @@
-//! Shapes prepared for distances, and the spheres about them.
+//! Shapes prepared for distance queries, and their bounding spheres.
 
 use super::{Shape, dot};
 use crate::shapes::Solid;
 use urdd_geometry::convex::{ConvexShape, ShapeError};
 
-/// A shape, prepared.
+/// A shape prepared for distance queries.
 #[derive(Debug)]
 pub(crate) enum Body {
-    /// A hull, a piece, or a box by its corners.
+    /// A hull, a piece, or the corners of a box.
     Convex(ConvexShape),
-    /// A sphere, by its centre: it is all in the sphere about it.
+    /// A sphere, as its centre. Its bounding sphere has the radius.
     Round(ConvexShape),
 }
 
@@ -20,10 +20,10 @@ pub(crate) struct Sphere {
     pub radius: f64,
 }
 
-/// So much more than its farthest point a sphere reaches, as a part: more than rounding can hide.
+/// Relative margin of a bounding sphere's radius, larger than any rounding error.
 const MARGIN: f64 = 1e-12;
 
-/// Prepares a shape.
+/// Prepares a shape, and computes its bounding sphere.
 pub(super) fn body(solid: &Solid) -> Result<(Body, Sphere), ShapeError> {
     let of_points = |points: &[[f64; 3]]| {
         let shape = ConvexShape::of_points(points)?;
@@ -63,7 +63,7 @@ fn around(centre: [f64; 3], points: &[[f64; 3]]) -> Sphere {
     }
 }
 
-/// A sphere about all shapes of a link; `None` where it has none.
+/// A bounding sphere of all shapes of a link; `None` if it has none.
 pub(super) fn about(shapes: &[Shape], link: usize) -> Option<Sphere> {
     let own = || {
         shapes

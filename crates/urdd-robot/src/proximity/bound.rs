@@ -1,16 +1,16 @@
-//! Lower bounds of distances, by spheres.
+//! Lower bounds of distances from bounding spheres.
 
 use super::{Placed, Proximity, dot, to_root};
 
 impl Proximity {
-    /// Places the centre of the sphere about each shape.
+    /// Transforms the centre of each shape's bounding sphere to the root link's frame.
     pub(crate) fn place_centres(&self, placed: &mut Placed) {
         placed.centres.clear();
         let centre = |shape: &super::Shape| to_root(&placed.links[shape.link], shape.sphere.centre);
         placed.centres.extend(self.shapes.iter().map(centre));
     }
 
-    /// No less than this are the shapes of a pair apart, metres; not positive where they may touch.
+    /// A lower bound of the distance of a pair of shapes, in metres; not positive if they may touch.
     pub(super) fn bound(&self, placed: &Placed, pair: usize) -> f64 {
         let [a, b] = self.pairs[pair].shapes;
         let (p, q) = (placed.centres[a], placed.centres[b]);
@@ -18,7 +18,7 @@ impl Proximity {
         dot(between, between).sqrt() - self.shapes[a].sphere.radius - self.shapes[b].sphere.radius
     }
 
-    /// Whether the spheres about all shapes of two links are apart.
+    /// Whether the bounding spheres of two links are disjoint. True if a link has no shapes.
     pub(super) fn are_apart(&self, placed: &Placed, links: [usize; 2]) -> bool {
         let [Some(a), Some(b)] = links.map(|link| self.spheres[link]) else {
             return true;

@@ -1,14 +1,13 @@
-//! How near the parts of a robot are to each other.
+//! Distances and collisions between the links of a robot.
 //!
-//! [`Robot::proximity`] prepares the shapes of one kind and the pairs of them that are not skipped; then
-//! [`Proximity::distances`] gives all pairs, [`Proximity::nearest`] the nearest ones, [`Proximity::self_distance`] the
-//! least distance, and [`Proximity::in_collision`] yes or no, which is answered soonest. Each has a form for many
-//! configurations, which uses all threads of rayon's pool. Results do not depend on the number of threads, nor on what
-//! is asked together.
+//! [`Robot::proximity`] prepares the shapes of one kind and their pairs that are not skipped. Then
+//! [`Proximity::distances`] returns all pairs, [`Proximity::nearest`] the nearest pairs, [`Proximity::self_distance`]
+//! the minimum distance, and [`Proximity::in_collision`] a yes or no, which is the fastest query. The batch methods run
+//! on rayon's thread pool. Results do not depend on the number of threads or on the batch.
 //!
-//! Distances are right within 1e-9 m, and 0 for shapes that touch or overlap: depths of penetration are not given.
-//! Pairs far apart are passed over by spheres about the shapes and about all shapes of a link, which are made from the
-//! shapes themselves; so a wrong box or sphere in the URDD hides no collision of hulls or pieces.
+//! Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: penetration depths are not computed.
+//! Bounding spheres, of each shape and of all shapes of a link, exclude distant pairs. They are computed from the
+//! shapes themselves, so a wrong box or sphere in the URDD cannot hide a collision between hulls or pieces.
 
 mod batch;
 mod body;
@@ -32,22 +31,22 @@ use urdd_geometry::convex::Level;
 pub use batch::Until;
 pub(super) use body::Body;
 
-/// What is nearest in a pair of shapes.
+/// The distance between two shapes, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairDistance {
     /// The names of the two links.
     pub links: [Arc<str>; 2],
     /// The indices of the two links.
     pub link_idxs: [usize; 2],
-    /// Which pieces of the links they are; 0 for hulls and what is about them.
+    /// The indices of the pieces; 0 for hulls and their bounding volumes.
     pub pieces: [usize; 2],
-    /// Metres; 0 where they touch or overlap.
+    /// In metres; 0 if they touch or overlap.
     pub distance: f64,
-    /// The distance over the pair's mean distance in `link_shapes_distance_statistics_module`: a measure of nearness
-    /// that is alike for large links and small ones. `None` where that module has none, or a mean of 0.
+    /// The distance divided by the pair's mean distance in `link_shapes_distance_statistics_module`, which makes large
+    /// and small links comparable. `None` if that module has no mean for the pair, or a mean of 0.
     pub relative: Option<f64>,
-    /// The point of each shape at which the distance is, in the root link's frame, metres; where they overlap, both are
-    /// one point of both.
+    /// The closest points of the two shapes, in the root link's frame, in metres. If the shapes overlap, both are the
+    /// same point, which is in both shapes.
     pub points: [[f64; 3]; 2],
 }
 
@@ -58,7 +57,7 @@ pub struct Proximity {
     pub(super) kind: ShapeKind,
     pub(super) names: Vec<Arc<str>>,
     pub(super) shapes: Vec<Shape>,
-    /// For each link the sphere about all its shapes.
+    /// For each link, the bounding sphere of all its shapes.
     spheres: Vec<Option<Sphere>>,
     pairs: Vec<Pair>,
     groups: Vec<Group>,
@@ -80,7 +79,7 @@ struct Pair {
     mean: Option<f64>,
 }
 
-/// The pairs between two links: a stretch of all pairs.
+/// The pairs between two links: the range `first..end` of all pairs.
 #[derive(Debug, Clone, Copy)]
 struct Group {
     links: [usize; 2],
@@ -89,20 +88,19 @@ struct Group {
 }
 
 impl Robot {
-    /// Prepares the shapes of a kind, with the skips between them. Shapes that the URDD does not have take no part: a
-    /// link without geometry never collides.
+    /// Prepares the shapes of a kind, with the skips between them. A link without geometry never collides.
     ///
     /// # Errors
-    /// Where a module is missing or of no use: that of the shapes, of the skips, `chain_module` or `dof_module`; and
-    /// where a mesh cannot be read.
+    /// If the module of the shapes, a skips module, `chain_module` or `dof_module` is missing or unusable, or a mesh
+    /// cannot be read.
     pub fn proximity(&self, kind: ShapeKind) -> Result<Proximity, RobotError> {
         let skips = self.skips(kind)?;
         let is_skipped = |(i, j)| skips.is_skipped(i, j);
         self.prepared(kind, &skips, |_, both| !both.is_some_and(is_skipped))
     }
 
-    /// As [`Robot::proximity`], for the pairs of shapes that are `wanted` instead of those that are not skipped. A shape
-    /// is given by its link and its piece.
+    /// As [`Robot::proximity`], for the pairs of shapes that `wanted` selects instead of those that are not skipped.
+    /// `wanted` receives the link and the piece of each shape.
     ///
     /// # Errors
     /// As [`Robot::proximity`].
@@ -116,7 +114,7 @@ impl Robot {
         })
     }
 
-    /// `wanted` says which pairs of shapes count, by the shapes and by their indices in the skips.
+    /// `wanted` selects pairs of shapes, given the shapes and their indices in the skips.
     fn prepared(
         &self,
         kind: ShapeKind,
@@ -197,7 +195,7 @@ impl Robot {
 }
 
 impl Proximity {
-    /// Of which kind the shapes are.
+    /// The kind of the shapes.
     pub fn kind(&self) -> ShapeKind {
         self.kind
     }
@@ -207,18 +205,18 @@ impl Proximity {
         self.shapes.len()
     }
 
-    /// Number of pairs that are not skipped.
+    /// Number of pairs that are checked.
     pub fn num_pairs(&self) -> usize {
         self.pairs.len()
     }
 
-    /// Number of values of a configuration.
+    /// Number of DOFs: the length of a configuration.
     pub fn num_dofs(&self) -> usize {
         self.motion.kinematics.num_dofs()
     }
 
-    /// The links and the pieces of each pair that is not skipped, in the order of [`Proximity::distances`]: by the
-    /// first link, the second link, and their pieces.
+    /// The link and the piece of both shapes of each pair that is checked, in the order of [`Proximity::distances`]: by
+    /// first link, second link, and pieces.
     pub fn pairs(&self) -> impl ExactSizeIterator<Item = [(usize, usize); 2]> {
         let place = |shape: usize| (self.shapes[shape].link, self.shapes[shape].piece);
         self.pairs.iter().map(move |pair| pair.shapes.map(place))
@@ -230,13 +228,13 @@ impl Proximity {
     }
 }
 
-/// Where everything is in one configuration. It is used again for the next one.
+/// The placement of all links in one configuration. Reusable for the next configuration.
 #[derive(Default)]
 pub(super) struct Placed {
     poses: Vec<Isometry3<f64>>,
-    /// Of each link the columns of the rotation, then the shift.
+    /// For each link, the columns of its rotation matrix, then its translation.
     pub links: Vec<[[f64; 3]; 4]>,
-    /// The centre of the sphere about each shape.
+    /// The centre of each shape's bounding sphere.
     pub centres: Vec<[f64; 3]>,
 }
 
@@ -258,7 +256,7 @@ impl Proximity {
         Ok(())
     }
 
-    /// The pose of the link of `b` in the frame of that of `a`.
+    /// The pose of link `b` in the frame of link `a`.
     fn relative(placed: &Placed, a: usize, b: usize) -> [[f64; 3]; 4] {
         let (a, b) = (&placed.links[a], &placed.links[b]);
         let back = |v: [f64; 3]| [0, 1, 2].map(|k| dot(a[k], v));
@@ -271,7 +269,7 @@ pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// A point of a link's frame in the root link's frame.
+/// Transforms a point from a link's frame to the root link's frame.
 pub(super) fn to_root(link: &[[f64; 3]; 4], p: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| link[0][k] * p[0] + link[1][k] * p[1] + link[2][k] * p[2] + link[3][k])
 }

@@ -1,4 +1,4 @@
-//! Questions about one configuration.
+//! Queries on one configuration.
 
 use super::body::Body;
 use super::{Group, PairDistance, Placed, Proximity, dot, to_root};
@@ -6,11 +6,11 @@ use crate::error::RobotError;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
 
 impl Proximity {
-    /// Every pair that is not skipped, in the order of [`Proximity::pairs`]. `configuration` has one value for each
-    /// DOF, rad or m; values beyond the bounds are allowed.
+    /// All pairs that are checked, in the order of [`Proximity::pairs`]. `configuration` has one value for each DOF,
+    /// rad or m; values beyond the bounds are allowed.
     ///
     /// # Errors
-    /// [`RobotError::Configuration`]: another length, or a value that is not finite.
+    /// [`RobotError::Configuration`] if the length differs from the number of DOFs or a value is not finite.
     pub fn distances(&self, configuration: &[f64]) -> Result<Vec<PairDistance>, RobotError> {
         let mut placed = Placed::default();
         self.place(configuration, &mut placed)?;
@@ -19,7 +19,7 @@ impl Proximity {
         Ok(self.witnesses(&placed, &all))
     }
 
-    /// The distances alone, metres, in the order of [`Proximity::pairs`].
+    /// The distances only, in metres, in the order of [`Proximity::pairs`].
     ///
     /// # Errors
     /// As [`Proximity::distances`].
@@ -29,8 +29,8 @@ impl Proximity {
         Ok(values)
     }
 
-    /// The `k` pairs that are nearest, nearest first; of pairs that are as near the first by [`Proximity::pairs`].
-    /// Fewer where there are fewer pairs.
+    /// The `k` nearest pairs, nearest first; all pairs if there are fewer. Ties are in the order of
+    /// [`Proximity::pairs`].
     ///
     /// # Errors
     /// As [`Proximity::distances`].
@@ -45,7 +45,7 @@ impl Proximity {
         Ok(self.witnesses(&placed, &pairs))
     }
 
-    /// The least distance of all pairs, metres; `None` where there is no pair.
+    /// The minimum distance over all pairs, in metres; `None` if there are no pairs.
     ///
     /// # Errors
     /// As [`Proximity::distances`].
@@ -54,7 +54,7 @@ impl Proximity {
         Ok(least.first().map(|(distance, _)| *distance))
     }
 
-    /// Whether any pair touches or overlaps: is at distance 0. It ends with the first that does.
+    /// Whether any pair touches or overlaps, that is, has distance 0. Stops at the first collision.
     ///
     /// # Errors
     /// As [`Proximity::distances`].
@@ -95,7 +95,7 @@ impl Proximity {
         Ok(self.any_touches(placed, &self.groups))
     }
 
-    /// Whether shapes of one of these groups touch, in the pose in which the robot is placed.
+    /// Whether any pair in these groups touches, for the given placement of the links.
     pub(super) fn any_touches(&self, placed: &Placed, groups: &[Group]) -> bool {
         let mut near: Vec<PlacedPair> = Vec::with_capacity(AT_ONCE);
         for group in groups {
@@ -122,7 +122,7 @@ impl Proximity {
         !near.is_empty() && across::any_touches(self.level, &near)
     }
 
-    /// The distances and pairs of the `k` nearest, nearest first.
+    /// The distances and indices of the `k` nearest pairs, nearest first.
     pub(super) fn least(
         &self,
         configuration: &[f64],
@@ -137,7 +137,8 @@ impl Proximity {
         bounds.sort_unstable_by(by);
         let mut best: Vec<(f64, usize)> = Vec::new();
         for bounds in bounds.chunks(AT_ONCE) {
-            // None of those that follow can be nearer, or as near and come first, than the last of enough.
+            // The bounds are sorted: no later pair can be nearer than the worst of `k` results, or equal to it and
+            // earlier in order.
             let enough = best.len() >= k;
             if enough && best.last().is_none_or(|worst| bounds[0].0 > worst.0) {
                 break;
@@ -179,7 +180,7 @@ impl Proximity {
         if convex.len() == pairs.len() {
             across::distances(self.level, &convex, values);
         } else {
-            // Spheres: the bound is the distance.
+            // For spheres, the bound is the distance.
             for (value, pair) in values.iter_mut().zip(pairs) {
                 *value = self.bound(placed, *pair).max(0.0);
             }
@@ -191,7 +192,7 @@ impl Proximity {
         Self::relative(placed, a, b)
     }
 
-    /// The two shapes of a pair, where they are no spheres.
+    /// The two shapes of a pair; `None` for spheres.
     fn convex(&self, pair: usize, b_in_a: [[f64; 3]; 4]) -> Option<PlacedPair<'_>> {
         let [a, b] = self.pairs[pair]
             .shapes
@@ -240,7 +241,7 @@ impl Proximity {
         }
     }
 
-    /// The distance of two spheres, and where it is.
+    /// The distance of two spheres, and their closest points.
     fn of_spheres(&self, placed: &Placed, pair: usize) -> (f64, [[f64; 3]; 2]) {
         let [a, b] = self.pairs[pair].shapes;
         let (p, q) = (placed.centres[a], placed.centres[b]);
@@ -252,7 +253,7 @@ impl Proximity {
             true => between.map(|x| x / length),
             false => [1.0, 0.0, 0.0],
         };
-        // Of spheres that overlap: a point on the line of the centres that is in both.
+        // If the spheres overlap: a point on the line between the centres that is in both.
         let along = match distance > 0.0 {
             true => [radii[0], length - radii[1]],
             false => [radii[0].min(0.5 * (length + radii[0] - radii[1]).max(0.0)); 2],

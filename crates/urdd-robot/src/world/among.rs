@@ -1,4 +1,4 @@
-//! A robot among obstacles.
+//! Distances and collisions between a robot and obstacles.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -10,51 +10,51 @@ use crate::proximity::{Body, Placed, Proximity, dot, to_root};
 use urdd_geometry::convex::Witness;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
 
-/// How near a shape of the robot is to an obstacle.
+/// The distance between a shape of the robot and an obstacle, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ObstacleDistance {
     /// The name of the link.
     pub link: Arc<str>,
     /// The index of the link.
     pub link_idx: usize,
-    /// Which piece of the link it is; 0 for a hull and what is about it.
+    /// The index of the link's piece; 0 for a hull and its bounding volumes.
     pub piece: usize,
     /// The name of the obstacle.
     pub obstacle: Arc<str>,
     /// The index of the obstacle in its world.
     pub obstacle_idx: usize,
-    /// Metres; 0 where they touch or overlap.
+    /// In metres; 0 if they touch or overlap.
     pub distance: f64,
-    /// The point of the link's shape and that of the obstacle at which the distance is, in the root link's frame,
-    /// metres; where they overlap, both are one point of both.
+    /// The closest points, of the link's shape and of the obstacle, in the root link's frame, in metres. If the two
+    /// overlap, both are the same point, which is in both.
     pub points: [[f64; 3]; 2],
 }
 
-/// A pair of a shape and a part, and a distance.
+/// A distance or its lower bound, and the pair of a shape and a part.
 type Bounded = (f64, (usize, usize));
 
-/// A robot's shapes and a world, prepared for distances.
+/// A robot's shapes and a world, prepared for distance queries.
 #[derive(Debug)]
 pub struct Among<P> {
     proximity: P,
     names: Vec<Arc<str>>,
     parts: Vec<(usize, Part)>,
-    /// Of each obstacle the links that are not tested against it.
+    /// For each obstacle, the links that are not tested against it.
     ignored: Vec<Vec<usize>>,
 }
 
 impl Proximity {
-    /// Prepares the robot's shapes with a world.
+    /// Combines the robot's shapes with a world.
     ///
     /// # Errors
-    /// [`RobotError::Unknown`] for a link that an obstacle is to ignore and that is not there.
+    /// [`RobotError::Unknown`] if an obstacle ignores a link that does not exist.
     pub fn among(&self, world: &World) -> Result<Among<&Proximity>, RobotError> {
         Among::new(self, world)
     }
 }
 
 impl<P: Deref<Target = Proximity>> Among<P> {
-    /// As [`Proximity::among`], with the shapes borrowed or shared.
+    /// As [`Proximity::among`], with borrowed or shared shapes.
     ///
     /// # Errors
     /// As there.
@@ -77,8 +77,8 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         })
     }
 
-    /// The pairs that are told apart: each shape of the robot, as the indices of its link and piece, with each obstacle
-    /// that does not ignore it, as its index; by the shapes, then by the obstacles.
+    /// The tested pairs: each shape of the robot, as the indices of its link and piece, with the index of each obstacle
+    /// that does not ignore its link. Sorted by shape, then by obstacle.
     pub fn pairs(&self) -> impl Iterator<Item = ([usize; 2], usize)> {
         let shapes = self.proximity.shapes.iter();
         shapes.flat_map(|shape| {
@@ -87,7 +87,7 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         })
     }
 
-    /// The distance of each of the [pairs](Among::pairs), metres: as [`Among::distances`], without the points.
+    /// The distance of each of the [pairs](Among::pairs), in metres: as [`Among::distances`], without the points.
     ///
     /// # Errors
     /// As [`Proximity::distances`].
@@ -97,7 +97,7 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         let values = self.values(&placed, &tested).into_iter().zip(&tested);
         let mut found: Vec<f64> = Vec::new();
         let mut last = None;
-        // The parts of an obstacle are one after the other.
+        // The parts of an obstacle are contiguous.
         for (value, (shape, part)) in values {
             let pair = Some((*shape, self.parts[*part].0));
             match found.last_mut() {
@@ -109,7 +109,7 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         Ok(found)
     }
 
-    /// The least distance of all pairs, metres; `None` without pairs.
+    /// The minimum distance over all pairs, in metres; `None` if there are no pairs.
     ///
     /// # Errors
     /// As [`Proximity::distances`].
@@ -119,8 +119,8 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         Ok(nearest.first().map(|(distance, _)| *distance))
     }
 
-    /// The nearest part of each obstacle to each shape of the robot: by the shapes, in the order of their links and
-    /// pieces, then by the obstacles.
+    /// For each shape of the robot and each tested obstacle, the distance to the obstacle's nearest part. Sorted by
+    /// shape, in the order of links and pieces, then by obstacle.
     ///
     /// # Errors
     /// As [`Proximity::distances`].
@@ -184,13 +184,13 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         Ok(placed)
     }
 
-    /// No less than this is a pair apart, metres; not positive where it may touch.
+    /// A lower bound of the distance of a pair, in metres; not positive if it may touch.
     fn bound(&self, placed: &Placed, (shape, part): (usize, usize)) -> f64 {
         let part = &self.parts[part].1;
         let (p, q) = (placed.centres[shape], part.shape.centre());
         let between = [0, 1, 2].map(|k| q[k] - p[k]);
         let reach = self.proximity.shapes[shape].sphere.radius + part.reach + part.radius;
-        // Less by what rounding can hide.
+        // Reduced by more than any rounding error.
         dot(between, between).sqrt() * (1.0 - 1e-12) - reach
     }
 
@@ -205,7 +205,7 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         self.witnesses(placed, &pairs)
     }
 
-    /// The `k` nearest of some pairs, with their distances.
+    /// The `k` nearest of these pairs, with their distances.
     fn least_pairs(&self, placed: &Placed, pairs: Vec<(usize, usize)>, k: usize) -> Vec<Bounded> {
         let by = |a: &Bounded, b: &Bounded| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
         let bound = |pair| (self.bound(placed, pair).max(0.0), pair);
@@ -225,7 +225,7 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         best
     }
 
-    /// A shape of the robot and a part of an obstacle, the second in the frame of the first's link.
+    /// A shape of the robot and a part of an obstacle, with the part placed in the frame of the shape's link.
     fn placed_pair(&self, placed: &Placed, (shape, part): (usize, usize)) -> PlacedPair<'_> {
         let own = &self.proximity.shapes[shape];
         let link = &placed.links[own.link];
@@ -241,7 +241,7 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         }
     }
 
-    /// The radii of a pair, by which its shapes reach beyond what is convex by itself.
+    /// The radii by which a pair's shapes extend beyond their `ConvexShape`.
     fn radii(&self, (shape, part): (usize, usize)) -> [f64; 2] {
         let own = &self.proximity.shapes[shape];
         let own = match own.body {
@@ -251,7 +251,7 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         [own, self.parts[part].1.radius]
     }
 
-    /// The distances of some pairs.
+    /// The distances of these pairs.
     fn values(&self, placed: &Placed, pairs: &[(usize, usize)]) -> Vec<f64> {
         let both = pairs.iter().map(|pair| self.placed_pair(placed, *pair));
         let both: Vec<PlacedPair> = both.collect();
@@ -286,7 +286,7 @@ impl<P: Deref<Target = Proximity>> Among<P> {
     }
 }
 
-/// The distance of all that is within radii of two shapes, and where it is.
+/// The distance and closest points of two shapes enlarged by radii.
 fn rounded(witness: &Witness, [a, b]: [f64; 2]) -> (f64, [[f64; 3]; 2]) {
     let [p, q] = witness.points;
     let between = [0, 1, 2].map(|k| q[k] - p[k]);
@@ -295,7 +295,7 @@ fn rounded(witness: &Witness, [a, b]: [f64; 2]) -> (f64, [[f64; 3]; 2]) {
     if length == 0.0 {
         return (distance, [p, q]);
     }
-    // Along the line from p to q; of bodies that overlap, the middle of what is in both.
+    // Positions along the line from p to q. If the bodies overlap, the middle of their common segment.
     let along = match distance > 0.0 {
         true => [a, length - b],
         false => [0.5 * ((length - b).max(0.0) + a.min(length)); 2],

@@ -1,8 +1,8 @@
-//! What stands around a robot, and how near its links are to it.
+//! Obstacles around a robot, and its distances to them.
 //!
-//! A [`World`] is a list of [`Obstacle`]s: boxes, spheres, capsules, cylinders and meshes. [`Proximity::among`] prepares
-//! a robot's shapes of one kind with a world; then [`Among`] answers as [`Proximity`] does. Skips do not count: every
-//! shape of the robot is tested against every obstacle, but for links that the obstacle ignores.
+//! A [`World`] is a list of [`Obstacle`]s: boxes, spheres, capsules, cylinders and meshes. [`Proximity::among`]
+//! combines a robot's shapes of one kind with a world. [`Among`] then offers queries like those of [`Proximity`]. Skips
+//! do not apply: every shape of the robot is tested against every obstacle, except for links that the obstacle ignores.
 //!
 //! ```
 //! use nalgebra::Isometry3;
@@ -24,7 +24,7 @@
 //! # }
 //! ```
 //!
-//! Places are in the root link's frame, metres: to move the robot's base, move the world the other way.
+//! Positions are in the root link's frame, in metres. To move the robot's base, apply the inverse motion to the world.
 
 mod among;
 mod obstacle;

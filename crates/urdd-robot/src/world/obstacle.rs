@@ -9,10 +9,10 @@ use urdd_geometry::Mesh;
 use urdd_geometry::convex::{ConvexShape, ShapeError};
 use urdd_geometry::decompose::{self, decompose};
 
-/// Sides of the prism that stands for a cylinder.
+/// Sides of the prism that approximates a cylinder.
 const SIDES: u32 = 64;
 
-/// A body that a robot should keep away from.
+/// A body that a robot must not touch.
 #[derive(Debug, Clone)]
 pub struct Obstacle {
     pub(super) name: Arc<str>,
@@ -21,12 +21,12 @@ pub struct Obstacle {
     pub(super) ignored: Vec<String>,
 }
 
-/// All points within a radius of a convex shape, in the root link's frame.
+/// A convex shape swept by a sphere: all points within `radius` of the shape, in the root link's frame.
 #[derive(Debug, Clone)]
 pub(super) struct Part {
     pub shape: ConvexShape,
     pub radius: f64,
-    /// From the centre of the shape to its farthest point, metres; the radius is not in it.
+    /// Distance from the centre of the shape to its farthest point, in metres, without `radius`.
     pub reach: f64,
 }
 
@@ -37,7 +37,7 @@ pub struct World {
 }
 
 impl World {
-    /// A world of some obstacles.
+    /// Creates a world from obstacles.
     pub fn new(obstacles: impl IntoIterator<Item = Obstacle>) -> Self {
         Self {
             obstacles: obstacles.into_iter().collect(),
@@ -51,10 +51,11 @@ impl World {
 }
 
 impl Obstacle {
-    /// A box: the pose of its centre and axes, and half of each side, metres.
+    /// A box: the pose of its centre and axes, and its half extents, in metres.
     ///
     /// # Errors
-    /// [`RobotError::Obstacle`] for numbers that are not finite, below 0, or larger than 1e9 m; as all of these.
+    /// [`RobotError::Obstacle`] if a size is not finite, negative or larger than 1e9 m, or if a corner or point in the
+    /// root link's frame is not finite or too far away.
     pub fn cuboid(
         name: &str,
         pose: Isometry3<f64>,
@@ -71,7 +72,7 @@ impl Obstacle {
         Self::swept(name, &pose, &corners, 0.0)
     }
 
-    /// A ball.
+    /// A sphere: its centre and radius, in metres.
     ///
     /// # Errors
     /// As [`Obstacle::cuboid`].
@@ -79,8 +80,8 @@ impl Obstacle {
         Self::swept(name, &Isometry3::identity(), &[centre], radius)
     }
 
-    /// All points within a radius of a line, which lies along the z axis of its frame and reaches `half_length` both
-    /// ways from its origin.
+    /// A capsule: all points within `radius` of a segment along the z axis of its frame, from `-half_length` to
+    /// `half_length`.
     ///
     /// # Errors
     /// As [`Obstacle::cuboid`].
@@ -95,8 +96,8 @@ impl Obstacle {
         Self::swept(name, &pose, &ends, radius)
     }
 
-    /// A cylinder about the z axis of its frame, which reaches `half_length` both ways from its origin. A prism of 64
-    /// sides about it stands for it, which is larger by up to 0.13 % of the radius.
+    /// A cylinder along the z axis of its frame, from `-half_length` to `half_length`. It is approximated by a
+    /// circumscribed prism with 64 sides, which exceeds the radius by up to 0.13 %.
     ///
     /// # Errors
     /// As [`Obstacle::cuboid`].
@@ -118,21 +119,21 @@ impl Obstacle {
         Self::swept(name, &pose, &corners, 0.0)
     }
 
-    /// The convex hull of points, metres.
+    /// The convex hull of points, in metres.
     ///
     /// # Errors
-    /// As [`Obstacle::cuboid`], and where there is no point.
+    /// As [`Obstacle::cuboid`], and if there are no points.
     pub fn hull(name: &str, pose: Isometry3<f64>, points: &[[f64; 3]]) -> Result<Self, RobotError> {
         Self::swept(name, &pose, points, 0.0)
     }
 
-    /// A mesh, of which convex pieces are made as `urdd generate` makes them of links: its cavities are kept as far as
-    /// the pieces do. It takes as long as there. [`Obstacle::hull`] is soon done, and fills cavities.
+    /// A mesh, decomposed into convex pieces as `urdd generate` does for links, at the same cost. Cavities remain as
+    /// far as the decomposition preserves them. [`Obstacle::hull`] is fast, and fills cavities.
     ///
     /// # Errors
     /// As [`Obstacle::hull`].
     pub fn mesh(name: &str, pose: Isometry3<f64>, mesh: &Mesh) -> Result<Self, RobotError> {
-        // The limits of points hold before anything is computed of them.
+        // Checks the limits of the points before the decomposition.
         let mut whole = Self::hull(name, pose, &mesh.vertices)?;
         let pieces = decompose(mesh, &decompose::Settings::default()).pieces;
         if pieces.is_empty() {
@@ -144,8 +145,8 @@ impl Obstacle {
         Ok(whole)
     }
 
-    /// The same for all but one link, which is then not tested against it: the base that stands on it, the gripper that
-    /// holds it. [`Proximity::among`](crate::Proximity::among) refuses a link that is not there.
+    /// Excludes a link from the tests against this obstacle, such as the base mounted on it or the gripper that holds
+    /// it. [`Proximity::among`](crate::Proximity::among) rejects an unknown link.
     pub fn ignoring(mut self, link: &str) -> Self {
         self.ignored.push(link.to_owned());
         self
@@ -156,7 +157,7 @@ impl Obstacle {
         &self.name
     }
 
-    /// Number of convex shapes that stand for it.
+    /// Number of its convex parts.
     pub fn num_parts(&self) -> usize {
         self.parts.len()
     }

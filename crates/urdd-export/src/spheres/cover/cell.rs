@@ -1,4 +1,4 @@
-//! A part of a link: convex parts, and the smallest sphere about them.
+//! A cell of a link: convex parts, and their smallest enclosing sphere.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -9,12 +9,12 @@ use urdd_geometry::hull::ConvexHull;
 #[derive(Debug, Clone)]
 struct Chunk {
     points: Vec<Vector3<f64>>,
-    /// Pairs of `points`; none where the points are on one line, so that nothing can be cut.
+    /// Pairs of `points`; empty if the points are collinear, so that nothing can be cut.
     edges: Vec<[usize; 2]>,
     volume: f64,
 }
 
-/// A part of a link.
+/// A cell of a link.
 #[derive(Debug, Clone)]
 pub(super) struct Cell {
     chunks: Vec<Chunk>,
@@ -22,7 +22,7 @@ pub(super) struct Cell {
     volume: f64,
 }
 
-/// Where cuts are tried along a direction, as parts of the extent.
+/// Positions of cuts along a direction, as fractions of the extent.
 const PLACES: [f64; 5] = [0.3, 0.4, 0.5, 0.6, 0.7];
 
 impl Chunk {
@@ -53,7 +53,7 @@ impl Chunk {
         }
     }
 
-    /// The parts below and above a plane; each holds the points on it.
+    /// The parts below and above a plane; both include the points on it.
     fn cut(&self, normal: &Vector3<f64>, offset: f64) -> [Option<Chunk>; 2] {
         let heights: Vec<f64> = self.points.iter().map(|p| normal.dot(p) - offset).collect();
         let below = heights.iter().any(|height| *height < 0.0);
@@ -65,7 +65,7 @@ impl Chunk {
             return [None, Some(self.clone())];
         }
         if self.edges.is_empty() {
-            // On one line, and no edge to cut: whole on both sides, so that no point is lost.
+            // Collinear, without an edge to cut: whole on both sides, so that no point is lost.
             return [Some(self.clone()), Some(self.clone())];
         }
         let mut sides = [Vec::new(), Vec::new()];
@@ -73,7 +73,7 @@ impl Chunk {
         sides.map(|points| (!points.is_empty()).then(|| Chunk::new(points)))
     }
 
-    /// Adds the points below and above a plane, and those where edges cross it to both.
+    /// Adds the points below and above a plane to their sides, and the points where edges cross it to both.
     fn sides(&self, normal: &Vector3<f64>, offset: f64, sides: &mut [Vec<Vector3<f64>>; 2]) {
         let heights: Vec<f64> = self.points.iter().map(|p| normal.dot(p) - offset).collect();
         if self.edges.is_empty()
@@ -105,7 +105,7 @@ impl Chunk {
 }
 
 impl Cell {
-    /// All pieces of a link, each by its vertices.
+    /// A cell of all pieces of a link, each given by its vertices.
     pub fn new(pieces: &[Vec<[f64; 3]>]) -> Self {
         let chunk = |piece: &Vec<[f64; 3]>| Chunk::new(piece.iter().map(|p| (*p).into()).collect());
         Cell::of(pieces.iter().map(chunk).collect())
@@ -123,18 +123,18 @@ impl Cell {
         }
     }
 
-    /// The smallest sphere about it.
+    /// Its smallest enclosing sphere.
     pub fn sphere(&self) -> BoundingSphere {
         self.sphere
     }
 
-    /// The volume of the sphere beyond the cell's own, m³. Where pieces overlap, that counts twice.
+    /// The volume of the sphere beyond the cell's own, m³. Overlaps of pieces count twice in the cell's volume.
     pub fn waste(&self) -> f64 {
         (volume(&self.sphere) - self.volume).max(0.0)
     }
 
-    /// The cell in two: of all cuts the one with the least volume of spheres. (That may be more than before: a cube is
-    /// not held better by two spheres, but by eight; a disc needs four.)
+    /// Cuts the cell in two, with the smallest total volume of spheres over all cuts. That can exceed the volume
+    /// before: for a cube, eight spheres are better than one, but two are not; a disc needs four.
     pub fn cut(&self) -> Option<[Cell; 2]> {
         let directions = self.directions();
         let mut best: Option<(f64, Vector3<f64>, f64)> = None;
@@ -153,7 +153,7 @@ impl Cell {
                 if sides.iter().any(Vec::is_empty) {
                     continue;
                 }
-                // Hulls are made of the best cut alone.
+                // Computes hulls only for the best cut.
                 let about = sides.map(|points| {
                     let points: Vec<[f64; 3]> = points.into_iter().map(Into::into).collect();
                     volume(&BoundingSphere::of_points(&points))

@@ -1,18 +1,18 @@
-//! How much spheres fill together.
+//! The volume of a union of spheres.
 
 use std::sync::OnceLock;
 
 use super::cell::volume;
 use urdd_geometry::bounding_sphere::BoundingSphere;
 
-/// Points in each sphere. Of a link's spheres together, the estimate is some percent off at most.
+/// Sample points per sphere. For a link's spheres together, the estimate is accurate to a few percent.
 const POINTS: usize = 1000;
 
-/// Points evenly in the unit ball: the same on every machine.
+/// Evenly distributed points in the unit ball, the same on every machine.
 fn ball() -> &'static [[f64; 3]] {
     static BALL: OnceLock<Vec<[f64; 3]>> = OnceLock::new();
     BALL.get_or_init(|| {
-        // The additive sequence whose step is made of the root of x^4 = x + 1 fills a cube evenly.
+        // The additive sequence with steps from the root of x^4 = x + 1 fills a cube evenly.
         let root = 1.220_744_084_605_759_5_f64;
         let steps = [1.0 / root, 1.0 / (root * root), 1.0 / (root * root * root)];
         let point = |n: u32| steps.map(|step| (2.0 * (0.5 + step * f64::from(n))) % 2.0 - 1.0);
@@ -21,7 +21,7 @@ fn ball() -> &'static [[f64; 3]] {
     })
 }
 
-/// The volume of the union of spheres, m³, about: of each sphere the points that none before it holds.
+/// Estimates the volume of the union of spheres, m³: counts the points of each sphere that are in no earlier sphere.
 pub(super) fn filled(spheres: &[BoundingSphere]) -> f64 {
     let own = spheres.iter().enumerate().map(|(idx, sphere)| {
         let near: Vec<&BoundingSphere> = (spheres[..idx].iter())
@@ -58,7 +58,7 @@ mod tests {
         };
         let whole = volume(&sphere(0.0, 0.3));
         for d in [0.0, 0.1, 0.3, 0.5, 0.6, 1.0] {
-            // What both hold is two caps.
+            // The intersection is two caps.
             let height = (0.6_f64 - d).max(0.0);
             let lens = std::f64::consts::PI * (4.0 * 0.3 + d) * height * height / 12.0;
             let expected = 2.0 * whole - lens;

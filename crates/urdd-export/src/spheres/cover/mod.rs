@@ -1,9 +1,8 @@
-//! Spheres that hold each link: its pieces cut into cells, and the smallest sphere about each cell.
+//! Spheres that cover each link: its pieces are cut into cells, each with its smallest enclosing sphere.
 //!
-//! A link begins as one cell. The cell that wastes most, by the volume of its sphere beyond its own, is cut in two by a
-//! plane, as long as spheres are left; of all steps on the way, the one whose spheres fill the least volume together
-//! counts. Every convex piece is whole in the cells that it was cut into, so the spheres of a link together hold all of
-//! its pieces.
+//! A link begins as one cell. A plane cuts the cell with the most waste, the volume of its sphere beyond its own, in
+//! two, as long as the budget allows. The result is the step whose spheres have the smallest volume of their union. The
+//! cells of a convex piece together contain all of it, so the spheres of a link cover all its pieces.
 
 mod cell;
 mod filled;
@@ -15,13 +14,13 @@ use cell::Cell;
 use filled::filled;
 use urdd_geometry::bounding_sphere::BoundingSphere;
 
-/// Most cuts for each sphere that is asked for: some cuts alone give no other sphere.
+/// Maximum number of cuts per requested sphere: some cuts do not add a sphere.
 const CUTS: usize = 4;
 
-/// Spheres of a link where no number is asked for.
+/// Spheres per link by default.
 const AUTO: usize = 8;
 
-/// The spheres of each link, in link order, from the vertices of its pieces; none for one without pieces.
+/// The spheres of each link, in link order, from the vertices of its pieces; none for a link without pieces.
 pub(super) fn cover(
     links: &[Vec<Vec<[f64; 3]>>],
     budget: SphereBudget,
@@ -51,7 +50,7 @@ pub(super) fn cover(
     links.into_iter().map(|link| link.best).collect()
 }
 
-/// Cuts cells of all links until their spheres are so many: each time the link whose worst cell wastes most.
+/// Cuts cells of all links until there are `count` spheres: each time in the link whose worst cell has the most waste.
 fn share(links: &mut [Cover], count: usize) {
     let mut wastes: Vec<f64> = links.iter().map(Cover::waste).collect();
     for _ in 0..CUTS * count {
@@ -74,7 +73,7 @@ fn share(links: &mut [Cover], count: usize) {
 /// The cells of a link, and the best spheres so far.
 struct Cover {
     cells: Vec<Cell>,
-    /// Those that fill the least volume together.
+    /// The spheres with the smallest volume of their union.
     best: Vec<BoundingSphere>,
     volume: f64,
 }
@@ -89,12 +88,12 @@ impl Cover {
         }
     }
 
-    /// The volume that the worst sphere has beyond its cell, m³.
+    /// The waste of the worst cell, m³.
     fn waste(&self) -> f64 {
         self.cells.iter().map(Cell::waste).fold(0.0, f64::max)
     }
 
-    /// Cuts the worst cell. Whether there is more to try with at most so many spheres.
+    /// Cuts the worst cell. Returns whether to continue, with at most `most` spheres.
     fn cut(&mut self, most: usize) -> bool {
         if !cut(&mut self.cells) {
             return false;
@@ -104,7 +103,7 @@ impl Cover {
             return false;
         }
         let volume = filled(&spheres);
-        // Some cuts make things worse before the next makes them better.
+        // Some cuts increase the volume before the next one reduces it.
         if volume < self.volume {
             (self.best, self.volume) = (spheres, volume);
         }
@@ -112,7 +111,7 @@ impl Cover {
     }
 }
 
-/// The spheres of cells, without those that lie in another.
+/// The spheres of cells, without those that are inside another.
 fn held(cells: &[Cell]) -> Vec<BoundingSphere> {
     let mut spheres: Vec<BoundingSphere> = Vec::new();
     let inside = |a: &BoundingSphere, b: &BoundingSphere| {
@@ -131,7 +130,7 @@ fn held(cells: &[Cell]) -> Vec<BoundingSphere> {
     spheres
 }
 
-/// Cuts the cell that wastes most and can be cut. Whether there was one.
+/// Cuts the cell with the most waste that can be cut. Returns whether there was one.
 fn cut(cells: &mut Vec<Cell>) -> bool {
     let mut order: Vec<usize> = (0..cells.len()).collect();
     order.sort_by(|a, b| cells[*b].waste().total_cmp(&cells[*a].waste()));
