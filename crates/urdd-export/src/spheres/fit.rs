@@ -7,8 +7,8 @@
 //! other. There is no chance in it, and sums are taken in one order.
 
 use super::frame::{Point, add, length, scaled, sub};
-use super::loss::{Goal, Slope, middle, nearest};
-use super::model::{Placeable, Placed, Sphere, Spheres, count};
+use super::loss::{Goal, Looked, Slope, middle, nearest};
+use super::model::{Sphere, Spheres, count};
 use super::samples::Sample;
 
 /// How many spheres there may be.
@@ -34,6 +34,9 @@ const MOVED: f64 = 0.05;
 const CONTACT_SHARE: f64 = 0.8;
 /// Contact rounds look at one of so many samples: the last steps look at all.
 const STRIDE: usize = 3;
+
+/// Links that are farther apart in a free configuration than this have no part in it, in units of lengths.
+const NEAR: f64 = 1.0;
 
 /// After so many steps it is looked again which configurations matter.
 const LOOK_AGAIN: usize = 10;
@@ -72,7 +75,6 @@ pub(super) fn fit(
         surface,
         samples,
         pairs,
-        ignored: &[],
         size,
     };
     for round in 1..=SURFACE_ROUNDS {
@@ -88,24 +90,24 @@ pub(super) fn fit(
         );
     }
     descend(&of_surface, &mut spheres, SURFACE_STEPS, SURFACE_STEP, None);
-    ignore_what_never_touches(&spheres, samples, pairs, ignored);
-    let goal = Goal {
-        ignored,
-        ..of_surface
-    };
+    let goal = of_surface;
+    let looked = goal.look(&spheres, ignored, NEAR * size);
+    let some: Vec<Looked> = looked.into_iter().step_by(STRIDE).collect();
     for round in 1..=CONTACT_ROUNDS {
         let mut blame = descend(
             &goal,
             &mut spheres,
             CONTACT_STEPS,
             CONTACT_STEP,
-            Some(STRIDE),
+            Some(some.clone()),
         );
         drop_idle(&goal, &mut spheres, &mut blame);
         let now = first + (total - first) * round / CONTACT_ROUNDS;
         split(&mut spheres, surface, blame, now, limits.per_link);
     }
-    descend(&goal, &mut spheres, LAST_STEPS, LAST_STEP, Some(1));
+    let all = goal.look(&spheres, ignored, NEAR * size);
+    descend(&goal, &mut spheres, LAST_STEPS, LAST_STEP, Some(all));
+    goal.look(&spheres, ignored, f64::MIN_POSITIVE);
     spheres
 }
 
@@ -119,50 +121,22 @@ fn one_sphere(points: &[Point]) -> Vec<Sphere> {
     middle(points).map(sphere).into_iter().collect()
 }
 
-/// Ignores the pairs that are in no sampled collision, and whose spheres touch in some sample.
-fn ignore_what_never_touches(
-    spheres: &Spheres,
-    samples: &[Sample],
-    pairs: &[[usize; 2]],
-    ignored: &mut [bool],
-) {
-    let mut touches = vec![false; pairs.len()];
-    for pair in samples.iter().flat_map(|sample| &sample.touching) {
-        touches[*pair as usize] = true;
-    }
-    let model = Placeable::new(spheres);
-    let mut placed = Placed::default();
-    for sample in samples {
-        model.place(sample, &mut placed);
-        for (number, pair) in pairs.iter().enumerate() {
-            if !touches[number]
-                && !ignored[number]
-                && model.may_be_near(&placed, *pair, 0.0)
-                && model.gap(sample, &mut placed, *pair) <= 0.0
-            {
-                ignored[number] = true;
-            }
-        }
-    }
-}
-
-/// Steps down the slope; the contacts count where a stride of samples is given. Returns each sphere's blame.
+/// Steps down the slope; the contacts count where configurations to look at are given. Returns each sphere's blame.
 fn descend(
     goal: &Goal,
     spheres: &mut Spheres,
     steps: usize,
     [from, to]: [f64; 2],
-    stride: Option<usize>,
+    looked_at: Option<Vec<Looked>>,
 ) -> Vec<f64> {
     let number = count(spheres);
     let mut adam = Adam::new(number);
     let mut active = Vec::new();
-    let mut looked_at: Vec<usize> = (0..goal.samples.len())
-        .step_by(stride.unwrap_or(1))
-        .collect();
+    let by_contact = looked_at.is_some();
+    let mut looked_at = looked_at.unwrap_or_default();
     let colliding = looked_at
         .iter()
-        .filter(|k| goal.samples[**k].collides())
+        .filter(|looked| goal.samples[looked.sample].collides())
         .count();
     let classes = [colliding, looked_at.len() - colliding];
     let length_of = |step: usize| goal.size * from * (to / from).powf(step as f64 / steps as f64);
@@ -175,7 +149,7 @@ fn descend(
         if is_blamed {
             sum_up(&mut by_surface, &slope.blame);
         }
-        if stride.is_some() {
+        if by_contact {
             if step.is_multiple_of(LOOK_AGAIN) {
                 let left: f64 = (step..steps).map(length_of).sum();
                 active = goal.active(
@@ -197,7 +171,7 @@ fn descend(
         }
         adam.step(spheres, &slope.by, length, SMALLEST * goal.size);
     }
-    let share = if stride.is_some() { CONTACT_SHARE } else { 0.0 };
+    let share = if by_contact { CONTACT_SHARE } else { 0.0 };
     let [of_surface, of_contacts] =
         [&by_surface, &by_contacts].map(|blame| blame.iter().sum::<f64>().max(f64::MIN_POSITIVE));
     let both = by_surface.iter().zip(&by_contacts);

@@ -77,7 +77,7 @@ pub(super) fn gaps(
         let mut least = limit;
         for (_, pair) in &checked {
             if model.may_be_near(placed, *pair, least) {
-                least = least.min(model.gap(sample, placed, *pair));
+                least = model.gap(sample, placed, *pair, least);
             }
         }
         least
@@ -122,7 +122,7 @@ pub(super) fn faults(
             .into_iter()
             .filter(|(_, pair)| {
                 model.may_be_near(&placed, *pair, 0.0)
-                    && model.gap(sample, &mut placed, *pair) <= 0.0
+                    && model.gap(sample, &mut placed, *pair, f64::MIN_POSITIVE) <= 0.0
             })
             .map(|(number, _)| number)
             .collect();

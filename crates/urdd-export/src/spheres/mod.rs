@@ -192,19 +192,22 @@ fn fitted(
         )?);
         let radii = spheres.iter().flatten().map(|sphere| sphere.radius);
         let limit = GROWTH * radii.sum::<f64>() / model::count(&spheres).max(1) as f64;
+        let checked = pairs.checked.iter().zip(&*ignored);
+        let checked = checked.filter(|(_, ignored)| !**ignored);
+        let checked: Vec<[usize; 2]> = checked.map(|(pair, _)| *pair).collect();
+        let part = |spheres: &mut Spheres| {
+            if !known[0].collides() {
+                model::part(spheres, &checked, &known[0], APART * limit);
+            }
+        };
+        // What parting costs is balanced, and what growing costs is parted.
+        part(&mut spheres);
         let gaps = judge::gaps(&spheres, &pairs.checked, ignored, &known, limit);
         let by = judge::growth(&known, &gaps, limit);
         for sphere in spheres.iter_mut().flatten() {
             sphere.radius = (sphere.radius + by).max(0.5 * sphere.radius);
         }
-        if !known[0].collides() {
-            let checked = pairs.checked.iter().zip(&*ignored);
-            let checked = checked
-                .filter(|(_, ignored)| !**ignored)
-                .map(|(pair, _)| *pair);
-            let checked: Vec<[usize; 2]> = checked.collect();
-            model::part(&mut spheres, &checked, &known[0], APART * limit);
-        }
+        part(&mut spheres);
     }
     let rounded = |x: f64| (x * DIGITS).round() / DIGITS + 0.0;
     for sphere in spheres.iter_mut().flatten() {
