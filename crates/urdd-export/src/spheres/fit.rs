@@ -7,7 +7,8 @@
 //! other. There is no chance in it, and sums are taken in one order.
 
 use super::frame::{Point, add, length, scaled, sub};
-use super::loss::{Goal, Looked, Slope, middle, nearest};
+pub(super) use super::loss::Goal;
+use super::loss::{Looked, Slope, middle, nearest};
 use super::model::{Sphere, Spheres, count};
 use super::samples::Sample;
 
@@ -27,7 +28,7 @@ const BY_SURFACE: f64 = 0.5;
 /// Rounds of splitting by contacts, and steps in each; then the last steps.
 const CONTACT_ROUNDS: usize = 10;
 const CONTACT_STEPS: usize = 20;
-const LAST_STEPS: usize = 120;
+const LAST_STEPS: usize = 160;
 /// The part of the spheres that go in each round, to be put where they are of more use.
 const MOVED: f64 = 0.05;
 /// How much contacts count when spheres are split, beside the surface.
@@ -45,8 +46,10 @@ const BLAMED: usize = 5;
 
 /// Steps at the beginning and at the end, in units of lengths.
 const SURFACE_STEP: [f64; 2] = [0.02, 0.005];
-const CONTACT_STEP: [f64; 2] = [0.02, 0.005];
 const LAST_STEP: [f64; 2] = [0.01, 0.0005];
+/// In rounds of splitting by contacts. Where a fit ends hangs on them: the second is tried where the first is not within
+/// the goals.
+pub(super) const CONTACT_STEP: [[f64; 2]; 2] = [[0.02, 0.005], [0.01, 0.003]];
 
 /// No sphere is smaller, in units of lengths.
 const SMALLEST: f64 = 0.02;
@@ -58,6 +61,7 @@ pub(super) fn fit(
     pairs: &[[usize; 2]],
     ignored: &mut [bool],
     limits: Limits,
+    contact_step: [f64; 2],
 ) -> Spheres {
     let mut spheres: Spheres = surface.iter().map(|points| one_sphere(points)).collect();
     let links = count(&spheres);
@@ -98,7 +102,7 @@ pub(super) fn fit(
             &goal,
             &mut spheres,
             CONTACT_STEPS,
-            CONTACT_STEP,
+            contact_step,
             Some(some.clone()),
         );
         drop_idle(&goal, &mut spheres, &mut blame);

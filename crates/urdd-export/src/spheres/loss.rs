@@ -137,7 +137,11 @@ impl Goal<'_> {
             model.place(sample, placed);
             let mut found = Vec::new();
             for (pair, (number, links)) in (0u32..).zip(self.pairs.iter().enumerate()) {
-                let limit = if sample.collides() { f64::MIN_POSITIVE } else { reach };
+                let limit = if sample.collides() {
+                    f64::MIN_POSITIVE
+                } else {
+                    reach
+                };
                 if !is_ignored[number]
                     && !(sample.collides() && touches[number])
                     && model.may_be_near(placed, *links, limit)
@@ -161,7 +165,10 @@ impl Goal<'_> {
                 false => near.into_iter().map(|(pair, _)| pair).collect(),
             };
             let pairs = pairs.into_iter().filter(|pair| !ignored[*pair as usize]);
-            Looked { sample, pairs: pairs.collect() }
+            Looked {
+                sample,
+                pairs: pairs.collect(),
+            }
         };
         found.into_iter().enumerate().map(looked).collect()
     }

@@ -19,7 +19,7 @@ pub(super) enum Region {
 }
 
 /// A configuration.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Sample {
     /// The poses of the links that have shapes, in the order of [`Pairs::links`].
     pub poses: Vec<Pose>,
