@@ -142,8 +142,7 @@ impl Goal<'_> {
                 } else {
                     reach
                 };
-                if !is_ignored[number]
-                    && !(sample.collides() && touches[number])
+                if !(is_ignored[number] || sample.collides() && touches[number])
                     && model.may_be_near(placed, *links, limit)
                 {
                     let gap = model.gap(sample, placed, *links, limit);
