@@ -267,9 +267,9 @@ fn a_robot_without_shapes_has_no_spheres() {
             cover,
             ..Options::default()
         };
-        let text = export(&robot, Format::Curobo, &options)
-            .expect("an export")
-            .text;
+        let Export { text, notes, .. } =
+            export(&robot, Format::Curobo, &options).expect("an export");
+        assert_eq!(notes, [Note::NoShapes(ShapeKind::Pieces)]);
         let document: serde_yaml::Value = serde_yaml::from_str(&text).expect("YAML");
         assert!(
             document["collision_link_names"]
@@ -281,9 +281,8 @@ fn a_robot_without_shapes_has_no_spheres() {
                 .as_mapping()
                 .is_some_and(|links| links.is_empty())
         );
-        let text = export(&robot, Format::Foam, &options)
-            .expect("an export")
-            .text;
+        let Export { text, notes, .. } = export(&robot, Format::Foam, &options).expect("an export");
+        assert_eq!(notes, [Note::NoShapes(ShapeKind::Pieces)]);
         let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
         assert!(
             document["links"]

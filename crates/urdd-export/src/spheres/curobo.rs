@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use super::super::Export;
 use super::super::error::ExportError;
 use super::super::numbers::{number, numbers};
 use super::super::subject::Subject;
-use super::super::{Export, Note};
 use super::{Model, said};
 use urdd_format::escape;
 
@@ -56,10 +56,7 @@ pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError>
     Ok(Export {
         text,
         files: Vec::new(),
-        notes: said::note(&model, &subject.links)
-            .map(Note::Spheres)
-            .into_iter()
-            .collect(),
+        notes: said::note(&model, subject).into_iter().collect(),
     })
 }
 

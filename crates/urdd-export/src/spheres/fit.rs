@@ -7,8 +7,9 @@
 //! links approach each other. The algorithm is deterministic, with a fixed order of summation.
 
 use super::frame::{Point, add, length, scaled, sub};
-use super::loss::{Goal, Slope, middle, nearest};
-use super::model::{Placeable, Placed, Sphere, Spheres, count};
+pub(super) use super::loss::Goal;
+use super::loss::{Looked, Slope, middle, nearest};
+use super::model::{Sphere, Spheres, count};
 use super::samples::Sample;
 
 /// Limits on the number of spheres.
@@ -27,23 +28,28 @@ const BY_SURFACE: f64 = 0.5;
 /// Rounds of splitting by contacts, and steps in each; then the final steps.
 const CONTACT_ROUNDS: usize = 10;
 const CONTACT_STEPS: usize = 20;
-const LAST_STEPS: usize = 120;
-/// The fraction of the spheres that each round moves to a more useful place.
+const LAST_STEPS: usize = 160;
+/// The part of the spheres that go in each round, to be put where they are of more use.
 const MOVED: f64 = 0.05;
 /// The share of contacts, as opposed to the surface, in a sphere's blame.
 const CONTACT_SHARE: f64 = 0.8;
 /// Contact rounds use every `STRIDE`-th sample; the final steps use all.
 const STRIDE: usize = 3;
 
-/// Steps between updates of the active configurations.
+/// Links that are farther apart in a free configuration than this have no part in it, in units of lengths.
+const NEAR: f64 = 1.0;
+
+/// After so many steps it is looked again which configurations matter.
 const LOOK_AGAIN: usize = 10;
 /// Number of steps at the end of a round over which blame is summed.
 const BLAMED: usize = 5;
 
 /// Step sizes at the beginning and at the end, in units of `Goal::size`.
 const SURFACE_STEP: [f64; 2] = [0.02, 0.005];
-const CONTACT_STEP: [f64; 2] = [0.02, 0.005];
 const LAST_STEP: [f64; 2] = [0.01, 0.0005];
+/// In rounds of splitting by contacts. Where a fit ends hangs on them: the second is tried where the first is not within
+/// the goals.
+pub(super) const CONTACT_STEP: [[f64; 2]; 2] = [[0.02, 0.005], [0.01, 0.003]];
 
 /// Minimum radius, in units of `Goal::size`.
 const SMALLEST: f64 = 0.02;
@@ -55,6 +61,7 @@ pub(super) fn fit(
     pairs: &[[usize; 2]],
     ignored: &mut [bool],
     limits: Limits,
+    contact_step: [f64; 2],
 ) -> Spheres {
     let mut spheres: Spheres = surface.iter().map(|points| one_sphere(points)).collect();
     let links = count(&spheres);
@@ -72,7 +79,6 @@ pub(super) fn fit(
         surface,
         samples,
         pairs,
-        ignored: &[],
         size,
     };
     for round in 1..=SURFACE_ROUNDS {
@@ -88,24 +94,24 @@ pub(super) fn fit(
         );
     }
     descend(&of_surface, &mut spheres, SURFACE_STEPS, SURFACE_STEP, None);
-    ignore_what_never_touches(&spheres, samples, pairs, ignored);
-    let goal = Goal {
-        ignored,
-        ..of_surface
-    };
+    let goal = of_surface;
+    let looked = goal.look(&spheres, ignored, NEAR * size);
+    let some: Vec<Looked> = looked.into_iter().step_by(STRIDE).collect();
     for round in 1..=CONTACT_ROUNDS {
         let mut blame = descend(
             &goal,
             &mut spheres,
             CONTACT_STEPS,
-            CONTACT_STEP,
-            Some(STRIDE),
+            contact_step,
+            Some(some.clone()),
         );
         drop_idle(&goal, &mut spheres, &mut blame);
         let now = first + (total - first) * round / CONTACT_ROUNDS;
         split(&mut spheres, surface, blame, now, limits.per_link);
     }
-    descend(&goal, &mut spheres, LAST_STEPS, LAST_STEP, Some(1));
+    let all = goal.look(&spheres, ignored, NEAR * size);
+    descend(&goal, &mut spheres, LAST_STEPS, LAST_STEP, Some(all));
+    goal.look(&spheres, ignored, f64::MIN_POSITIVE);
     spheres
 }
 
@@ -119,50 +125,22 @@ fn one_sphere(points: &[Point]) -> Vec<Sphere> {
     middle(points).map(sphere).into_iter().collect()
 }
 
-/// Ignores the pairs without a sampled collision whose spheres touch in some sample.
-fn ignore_what_never_touches(
-    spheres: &Spheres,
-    samples: &[Sample],
-    pairs: &[[usize; 2]],
-    ignored: &mut [bool],
-) {
-    let mut touches = vec![false; pairs.len()];
-    for pair in samples.iter().flat_map(|sample| &sample.touching) {
-        touches[*pair as usize] = true;
-    }
-    let model = Placeable::new(spheres);
-    let mut placed = Placed::default();
-    for sample in samples {
-        model.place(sample, &mut placed);
-        for (number, pair) in pairs.iter().enumerate() {
-            if !touches[number]
-                && !ignored[number]
-                && model.may_be_near(&placed, *pair, 0.0)
-                && model.gap(sample, &mut placed, *pair) <= 0.0
-            {
-                ignored[number] = true;
-            }
-        }
-    }
-}
-
-/// Runs gradient descent, with the contact loss if a stride of samples is given. Returns each sphere's blame.
+/// Steps down the slope; the contacts count where configurations to look at are given. Returns each sphere's blame.
 fn descend(
     goal: &Goal,
     spheres: &mut Spheres,
     steps: usize,
     [from, to]: [f64; 2],
-    stride: Option<usize>,
+    looked_at: Option<Vec<Looked>>,
 ) -> Vec<f64> {
     let number = count(spheres);
     let mut adam = Adam::new(number);
     let mut active = Vec::new();
-    let mut looked_at: Vec<usize> = (0..goal.samples.len())
-        .step_by(stride.unwrap_or(1))
-        .collect();
+    let by_contact = looked_at.is_some();
+    let mut looked_at = looked_at.unwrap_or_default();
     let colliding = looked_at
         .iter()
-        .filter(|k| goal.samples[**k].collides())
+        .filter(|looked| goal.samples[looked.sample].collides())
         .count();
     let classes = [colliding, looked_at.len() - colliding];
     let length_of = |step: usize| goal.size * from * (to / from).powf(step as f64 / steps as f64);
@@ -175,7 +153,7 @@ fn descend(
         if is_blamed {
             sum_up(&mut by_surface, &slope.blame);
         }
-        if stride.is_some() {
+        if by_contact {
             if step.is_multiple_of(LOOK_AGAIN) {
                 let left: f64 = (step..steps).map(length_of).sum();
                 active = goal.active(
@@ -197,7 +175,7 @@ fn descend(
         }
         adam.step(spheres, &slope.by, length, SMALLEST * goal.size);
     }
-    let share = if stride.is_some() { CONTACT_SHARE } else { 0.0 };
+    let share = if by_contact { CONTACT_SHARE } else { 0.0 };
     let [of_surface, of_contacts] =
         [&by_surface, &by_contacts].map(|blame| blame.iter().sum::<f64>().max(f64::MIN_POSITIVE));
     let both = by_surface.iter().zip(&by_contacts);

@@ -2,9 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
+use super::super::Export;
 use super::super::error::ExportError;
 use super::super::subject::Subject;
-use super::super::{Export, Note};
 use super::said::{self, Stand};
 use super::{Model, Sphere};
 use urdd_format::escape;
@@ -40,9 +40,6 @@ pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError>
     Ok(Export {
         text: escape::json(&text).into_owned(),
         files: Vec::new(),
-        notes: said::note(&model, &subject.links)
-            .map(Note::Spheres)
-            .into_iter()
-            .collect(),
+        notes: said::note(&model, subject).into_iter().collect(),
     })
 }

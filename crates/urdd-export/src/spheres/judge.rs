@@ -32,7 +32,15 @@ impl SphereRates {
     }
 }
 
-/// The 95 % confidence interval of a rate (E. B. Wilson, JASA 22, 1927): 0 to 1 if `of` is 0.
+impl SphereRates {
+    /// The greater of the upper ends of the intervals of both rates, each as a part of its goal.
+    pub(super) fn worse(&self) -> f64 {
+        (interval(self.missed, self.colliding)[1] / MAX_MISSED)
+            .max(interval(self.false_contacts, self.free)[1] / MAX_FALSE)
+    }
+}
+
+/// The 95 % interval of a rate (E. B. Wilson, JASA 22, 1927): 0 to 1 of nothing.
 pub fn interval(hits: usize, of: usize) -> [f64; 2] {
     const Z: f64 = 1.959_963_984_540_054;
     if of == 0 {
@@ -77,7 +85,7 @@ pub(super) fn gaps(
         let mut least = limit;
         for (_, pair) in &checked {
             if model.may_be_near(placed, *pair, least) {
-                least = least.min(model.gap(sample, placed, *pair));
+                least = model.gap(sample, placed, *pair, least);
             }
         }
         least
@@ -122,7 +130,7 @@ pub(super) fn faults(
             .into_iter()
             .filter(|(_, pair)| {
                 model.may_be_near(&placed, *pair, 0.0)
-                    && model.gap(sample, &mut placed, *pair) <= 0.0
+                    && model.gap(sample, &mut placed, *pair, f64::MIN_POSITIVE) <= 0.0
             })
             .map(|(number, _)| number)
             .collect();
@@ -167,8 +175,13 @@ pub(super) fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
         if threshold <= -limit || threshold >= limit || next <= gap {
             continue;
         }
-        let worse = (interval(missed, colliding)[1] / MAX_MISSED)
-            .max(interval(false_contacts, free)[1] / MAX_FALSE);
+        let rates = SphereRates {
+            colliding,
+            missed,
+            free,
+            false_contacts,
+        };
+        let worse = rates.worse();
         if worse < best.0 {
             best = (worse, threshold);
         }

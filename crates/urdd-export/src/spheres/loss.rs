@@ -8,7 +8,7 @@
 
 use rayon::prelude::*;
 
-use super::frame::{Point, add, dot, length, scaled, sub};
+use super::frame::{Point, add, length, scaled, sub};
 use super::model::{Placeable, Placed, Spheres};
 use super::samples::Sample;
 
@@ -23,9 +23,7 @@ pub(super) struct Goal<'a> {
     pub samples: &'a [Sample],
     /// The pairs of links that are checked.
     pub pairs: &'a [[usize; 2]],
-    /// For each pair, whether it is written as ignored.
-    pub ignored: &'a [bool],
-    /// A typical radius, in metres: the unit of length of the constants.
+    /// A typical radius, metres: the unit of lengths.
     pub size: f64,
 }
 
@@ -40,10 +38,17 @@ const FREE: f64 = 20.0;
 /// Margin of penetration and of separation, in units of length.
 const MARGIN: f64 = 0.01;
 
-/// A configuration with pairs of links near enough to contact to affect the loss, and these pairs.
+/// A configuration that may matter, and its pairs of links that may.
+#[derive(Clone)]
+pub(super) struct Looked {
+    pub sample: usize,
+    pub pairs: Vec<u32>,
+}
+
+/// A configuration that matters, and the pairs of spheres that may: link and number of each.
 pub(super) struct Active {
     sample: usize,
-    pairs: Vec<usize>,
+    near: Vec<[(usize, usize); 2]>,
     weight: f64,
 }
 
@@ -119,13 +124,60 @@ impl Goal<'_> {
         sum
     }
 
-    /// The configurations that can affect the loss while no sphere moves or grows by more than about half of `band`, in
-    /// metres. `looked_at` lists the samples to check. Removes those that cannot affect it until spheres have moved or
-    /// grown by half of `far`.
+    /// The pairs that are nearer than `reach` in each free configuration, and in contact in each colliding one. Pairs that
+    /// are in no sampled collision, and whose spheres touch in some sample, are ignored from then on.
+    pub fn look(&self, spheres: &Spheres, ignored: &mut [bool], reach: f64) -> Vec<Looked> {
+        let mut touches = vec![false; self.pairs.len()];
+        for pair in self.samples.iter().flat_map(|sample| &sample.touching) {
+            touches[*pair as usize] = true;
+        }
+        let model = Placeable::new(spheres);
+        let is_ignored = &*ignored;
+        let near = |placed: &mut Placed, sample: &Sample| -> Vec<(u32, f64)> {
+            model.place(sample, placed);
+            let mut found = Vec::new();
+            for (pair, (number, links)) in (0u32..).zip(self.pairs.iter().enumerate()) {
+                let limit = if sample.collides() {
+                    f64::MIN_POSITIVE
+                } else {
+                    reach
+                };
+                if !(is_ignored[number] || sample.collides() && touches[number])
+                    && model.may_be_near(placed, *links, limit)
+                {
+                    let gap = model.gap(sample, placed, *links, limit);
+                    if gap < limit {
+                        found.push((pair, gap));
+                    }
+                }
+            }
+            found
+        };
+        let found = self.samples.par_iter().map_init(Placed::default, near);
+        let found: Vec<Vec<(u32, f64)>> = found.collect();
+        for (pair, gap) in found.iter().flatten() {
+            ignored[*pair as usize] |= *gap <= 0.0 && !touches[*pair as usize];
+        }
+        let looked = |(sample, near): (usize, Vec<(u32, f64)>)| {
+            let pairs = match self.samples[sample].collides() {
+                true => self.samples[sample].touching.clone(),
+                false => near.into_iter().map(|(pair, _)| pair).collect(),
+            };
+            let pairs = pairs.into_iter().filter(|pair| !ignored[*pair as usize]);
+            Looked {
+                sample,
+                pairs: pairs.collect(),
+            }
+        };
+        found.into_iter().enumerate().map(looked).collect()
+    }
+
+    /// The configurations that matter as long as no sphere moves or grows by more than about half of `band`, metres.
+    /// Of `looked_at` what will not matter before spheres did so by half of `far` goes.
     pub fn active(
         &self,
         spheres: &Spheres,
-        looked_at: &mut Vec<usize>,
+        looked_at: &mut Vec<Looked>,
         [colliding, free]: [usize; 2],
         [band, far]: [f64; 2],
     ) -> Vec<Active> {
@@ -134,62 +186,61 @@ impl Goal<'_> {
             FREE / (self.size * free.max(1) as f64),
             COLLIDING / (self.size * colliding.max(1) as f64),
         ];
-        // The pairs that can affect the loss; `None` if the sample can be removed.
-        let near = |placed: &mut Placed, k: &usize| -> Option<Vec<usize>> {
-            let sample = &self.samples[*k];
+        let margin = MARGIN * self.size + band;
+        let far = margin.max(MARGIN * self.size + far);
+        let near = |placed: &mut Placed, looked: &mut Looked| -> Active {
+            let sample = &self.samples[looked.sample];
             model.place(sample, placed);
-            let margin = MARGIN * self.size + band;
-            let far = margin.max(MARGIN * self.size + far);
-            let mut matters = sample.collides();
-            let mut pairs = Vec::new();
+            let mut near = Vec::new();
+            let mut add = |placed: &mut Placed, pair: u32, limit| {
+                let [a, b] = self.pairs[pair as usize];
+                model.near(sample, placed, [a, b], limit, |_, [i, j]| {
+                    near.push([(a, i), (b, j)]);
+                    limit
+                });
+            };
             if sample.collides() {
-                let touching = sample.touching.iter().map(|pair| *pair as usize);
                 let mut deepest = f64::INFINITY;
-                for pair in touching.filter(|pair| !self.ignored[*pair]) {
-                    pairs.push(pair);
-                    if model.may_be_near(placed, self.pairs[pair], 0.0) {
-                        deepest = deepest.min(model.gap(sample, placed, self.pairs[pair]));
+                for pair in &looked.pairs {
+                    let links = self.pairs[*pair as usize];
+                    if model.may_be_near(placed, links, deepest) {
+                        deepest = model.gap(sample, placed, links, deepest);
                     }
                     if deepest < -far {
-                        return None;
+                        looked.pairs.clear();
+                        break;
                     }
                 }
-                matters = !pairs.is_empty();
-                if deepest < -margin {
-                    pairs.clear();
+                if deepest >= -margin {
+                    for pair in &looked.pairs {
+                        add(placed, *pair, deepest + 2.0 * band);
+                    }
                 }
             } else {
-                for (pair, links) in self.pairs.iter().enumerate() {
-                    if !self.ignored[pair] && model.may_be_near(placed, *links, far) {
-                        let gap = model.gap(sample, placed, *links);
-                        matters |= gap < far;
-                        if gap < margin {
-                            pairs.push(pair);
-                        }
+                looked.pairs.retain(|pair| {
+                    let links = self.pairs[*pair as usize];
+                    let gap = match model.may_be_near(placed, links, far) {
+                        true => model.gap(sample, placed, links, far),
+                        false => far,
+                    };
+                    if gap < margin {
+                        add(placed, *pair, margin);
                     }
-                }
+                    gap < far
+                });
             }
-            matters.then_some(pairs)
-        };
-        let found: Vec<Option<Vec<usize>>> = looked_at
-            .par_iter()
-            .map_init(Placed::default, near)
-            .collect();
-        let both = looked_at.iter().copied().zip(found);
-        let left: Vec<(usize, Vec<usize>)> = both
-            .filter_map(|(sample, pairs)| Some((sample, pairs?)))
-            .collect();
-        *looked_at = left.iter().map(|(sample, _)| *sample).collect();
-        let active = |(sample, pairs): (usize, Vec<usize>)| {
-            let first = if sample == 0 { FIRST } else { 1.0 };
+            let first = if looked.sample == 0 { FIRST } else { 1.0 };
             Active {
-                sample,
-                pairs,
-                weight: weights[usize::from(self.samples[sample].collides())] * first,
+                sample: looked.sample,
+                near,
+                weight: weights[usize::from(sample.collides())] * first,
             }
         };
-        let now = left.into_iter().filter(|(_, pairs)| !pairs.is_empty());
-        now.map(active).collect()
+        let found = looked_at.par_iter_mut().map_init(Placed::default, near);
+        let mut found: Vec<Active> = found.collect();
+        looked_at.retain(|looked| !looked.pairs.is_empty());
+        found.retain(|active| !active.near.is_empty());
+        found
     }
 
     /// The gradient of the contact term.
@@ -234,28 +285,17 @@ impl Goal<'_> {
         };
         let mut nearest = None;
         let mut least = f64::INFINITY;
-        for pair in &active.pairs {
-            let [a, b] = self.pairs[*pair];
-            let of_b: Vec<Point> = spheres[b]
-                .iter()
-                .map(|s| sample.poses[b].place(s.centre))
-                .collect();
-            for (i, of_a) in spheres[a].iter().enumerate() {
-                let p = sample.poses[a].place(of_a.centre);
-                for (j, (q, of_b)) in of_b.iter().zip(&spheres[b]).enumerate() {
-                    let between = sub(p, *q);
-                    let squared = dot(between, between);
-                    let reach = of_a.radius + of_b.radius;
-                    if sample.collides() {
-                        let near = least + reach;
-                        if near > 0.0 && squared < near * near {
-                            least = squared.sqrt() - reach;
-                            nearest = Some(([(a, i), (b, j)], between));
-                        }
-                    } else if squared < (reach + margin) * (reach + margin) {
-                        push([(a, i), (b, j)], between, -active.weight);
-                    }
-                }
+        for both in &active.near {
+            let [of_a, of_b] = both.map(|(link, number)| spheres[link][number]);
+            let [p, q] = [(both[0].0, of_a), (both[1].0, of_b)]
+                .map(|(link, sphere)| sample.poses[link].place(sphere.centre));
+            let between = sub(p, q);
+            let gap = length(between) - of_a.radius - of_b.radius;
+            if !sample.collides() && gap < margin {
+                push(*both, between, -active.weight);
+            } else if sample.collides() && gap < least {
+                least = gap;
+                nearest = Some((*both, between));
             }
         }
         if let Some((both, between)) = nearest

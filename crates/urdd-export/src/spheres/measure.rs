@@ -41,7 +41,7 @@ impl Numbers {
             / (many * many);
         let most = most.max(LEAST);
         Numbers {
-            fit: wanted.saturating_mul(2).min(most),
+            fit: wanted.saturating_add(wanted / 2).min(most),
             grow: wanted.min(most),
             measure: wanted.min(most),
         }

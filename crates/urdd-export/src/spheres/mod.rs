@@ -163,48 +163,46 @@ fn fitted(
     if !pairs.checked.is_empty() {
         let zero = robot.configurations()?.zero();
         known.push(sample(robot, pairs, &zero, Ask::Pairs)?);
-        let third = numbers.fit / 3;
+        let some = numbers.fit / 10;
         let take = |region, first, count| samples(robot, pairs, region, first, count, Ask::Pairs);
         let first = Numbers::FIT;
-        known.extend(take(Region::Bounds, first, third)?);
+        known.extend(take(Region::Bounds, first, some)?);
         let free = known.iter().filter(|sample| !sample.collides()).count();
         near = (free as f64) < FEW_FREE * known.len() as f64;
         known.extend(match near {
-            true => take(Region::NearDefault, first, numbers.fit - third)?,
-            false => take(Region::Bounds, first + third as u64, numbers.fit - third)?,
+            true => take(Region::NearDefault, first, numbers.fit - some)?,
+            false => take(Region::Bounds, first + some as u64, numbers.fit - some)?,
         });
     }
-    let mut spheres = fit::fit(surface, &known, &pairs.checked, ignored, limits);
-    if !known.is_empty() {
-        let region = if near {
-            Region::NearDefault
-        } else {
-            Region::Bounds
+    let mut to_balance = Vec::new();
+    if let Some(default) = known.first() {
+        let region = match near {
+            true => Region::NearDefault,
+            false => Region::Bounds,
         };
-        known.truncate(1);
-        known.extend(samples(
-            robot,
-            pairs,
-            region,
-            Numbers::GROW,
-            numbers.grow,
-            Ask::Any,
-        )?);
-        let radii = spheres.iter().flatten().map(|sphere| sphere.radius);
-        let limit = GROWTH * radii.sum::<f64>() / model::count(&spheres).max(1) as f64;
-        let gaps = judge::gaps(&spheres, &pairs.checked, ignored, &known, limit);
-        let by = judge::growth(&known, &gaps, limit);
-        for sphere in spheres.iter_mut().flatten() {
-            sphere.radius = (sphere.radius + by).max(0.5 * sphere.radius);
+        let (first, count) = (Numbers::GROW, numbers.grow);
+        to_balance = samples(robot, pairs, region, first, count, Ask::Any)?;
+        to_balance.insert(0, default.clone());
+    }
+    let mut best: Option<(f64, Spheres, Vec<bool>)> = None;
+    for steps in fit::CONTACT_STEP {
+        let mut own = ignored.to_vec();
+        let mut spheres = fit::fit(surface, &known, &pairs.checked, &mut own, limits, steps);
+        let worse = match to_balance.is_empty() {
+            true => 0.0,
+            false => balance(&mut spheres, surface, pairs, &mut own, &known, &to_balance),
+        };
+        if best.as_ref().is_none_or(|best| worse < best.0) {
+            best = Some((worse, spheres, own));
         }
-        if !known[0].collides() {
-            let checked = pairs.checked.iter().zip(&*ignored);
-            let checked = checked
-                .filter(|(_, ignored)| !**ignored)
-                .map(|(pair, _)| *pair);
-            let checked: Vec<[usize; 2]> = checked.collect();
-            model::part(&mut spheres, &checked, &known[0], APART * limit);
+        if worse <= 1.0 {
+            break;
         }
+    }
+    let mut spheres = Spheres::new();
+    if let Some((_, found, own)) = best {
+        spheres = found;
+        ignored.copy_from_slice(&own);
     }
     let rounded = |x: f64| (x * DIGITS).round() / DIGITS + 0.0;
     for sphere in spheres.iter_mut().flatten() {
@@ -215,4 +213,41 @@ fn fitted(
         }
     }
     Ok((spheres, near))
+}
+
+/// Grows or shrinks all radii so that the rates are in balance, with the default configuration free; twice, since a pair
+/// that is ignored on the way changes the balance. Returns how the worse rate is, as a part of its goal.
+fn balance(
+    spheres: &mut Spheres,
+    surface: &[Vec<Point>],
+    pairs: &Pairs,
+    ignored: &mut [bool],
+    known: &[Sample],
+    to_balance: &[Sample],
+) -> f64 {
+    let checked = &pairs.checked;
+    let radii = spheres.iter().flatten().map(|sphere| sphere.radius);
+    let limit = GROWTH * radii.sum::<f64>() / model::count(spheres).max(1) as f64;
+    for _ in 0..2 {
+        let gaps = judge::gaps(spheres, checked, ignored, to_balance, limit);
+        let by = judge::growth(to_balance, &gaps, limit);
+        for sphere in spheres.iter_mut().flatten() {
+            sphere.radius = (sphere.radius + by).max(0.5 * sphere.radius);
+        }
+        let goal = fit::Goal {
+            surface,
+            samples: known,
+            pairs: checked,
+            size: limit,
+        };
+        goal.look(spheres, ignored, f64::MIN_POSITIVE);
+        if !known[0].collides() {
+            let left = checked.iter().zip(&*ignored);
+            let left = left.filter(|(_, ignored)| !**ignored);
+            let left: Vec<[usize; 2]> = left.map(|(pair, _)| *pair).collect();
+            model::part(spheres, &left, &known[0], APART * limit);
+        }
+    }
+    let gaps = judge::gaps(spheres, checked, ignored, to_balance, limit);
+    judge::rates(to_balance, &gaps).worse()
 }

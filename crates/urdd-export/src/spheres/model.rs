@@ -86,27 +86,53 @@ impl<'a> Placeable<'a> {
         reach > 0.0 && dot(between, between) <= reach * reach
     }
 
-    /// The minimum distance of two links' spheres; negative if they overlap.
-    pub fn gap(&self, sample: &Sample, placed: &mut Placed, [a, b]: [usize; 2]) -> f64 {
+    /// The least distance of two links' spheres, negative where they overlap; `limit` where it is more.
+    pub fn gap(&self, sample: &Sample, placed: &mut Placed, links: [usize; 2], limit: f64) -> f64 {
+        let mut least = limit;
+        self.near(sample, placed, links, limit, |gap, _| {
+            least = gap;
+            gap
+        });
+        least
+    }
+
+    /// Finds spheres of two links that are nearer than `limit`, with their distance and their numbers in their links.
+    /// What `found` returns is the limit from then on.
+    pub fn near(
+        &self,
+        sample: &Sample,
+        placed: &mut Placed,
+        [a, b]: [usize; 2],
+        mut limit: f64,
+        mut found: impl FnMut(f64, [usize; 2]) -> f64,
+    ) {
         for link in [a, b] {
             if placed.centres[link].is_empty() {
                 let own = self.spheres[link].iter();
                 placed.centres[link].extend(own.map(|s| sample.poses[link].place(s.centre)));
             }
         }
-        let mut least = f64::INFINITY;
-        for (p, of_a) in placed.centres[a].iter().zip(&self.spheres[a]) {
-            for (q, of_b) in placed.centres[b].iter().zip(&self.spheres[b]) {
-                let between = sub(*p, *q);
-                let squared = dot(between, between);
-                let near = least + of_a.radius + of_b.radius;
-                if near > 0.0 && squared < near * near {
-                    least = squared.sqrt() - of_a.radius - of_b.radius;
+        let Some((about, of_all)) = placed.about[b].zip(self.about[b]) else {
+            return;
+        };
+        for (i, (p, of_a)) in placed.centres[a].iter().zip(&self.spheres[a]).enumerate() {
+            if !is_nearer(*p, about, of_a.radius + of_all.radius + limit) {
+                continue;
+            }
+            for (j, (q, of_b)) in placed.centres[b].iter().zip(&self.spheres[b]).enumerate() {
+                let reach = of_a.radius + of_b.radius;
+                if is_nearer(*p, *q, reach + limit) {
+                    limit = found(length(sub(*p, *q)) - reach, [i, j]);
                 }
             }
         }
-        least
     }
+}
+
+#[inline]
+fn is_nearer(p: Point, q: Point, than: f64) -> bool {
+    let between = sub(p, q);
+    than > 0.0 && dot(between, between) < than * than
 }
 
 /// Shrinks the spheres of pairs of links that are nearer than `apart` in a sample, so that they are that far apart.

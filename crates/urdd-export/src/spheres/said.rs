@@ -2,6 +2,8 @@
 
 use serde_json::{Value, json};
 
+use super::super::Note;
+use super::super::subject::Subject;
 use super::judge::{MAX_FALSE, MAX_MISSED, SphereRates, interval};
 use super::measure::{Measured, Numbers};
 use super::model::Sphere;
@@ -180,16 +182,19 @@ fn rates_json(rates: SphereRates) -> Value {
     })
 }
 
-/// The note on spheres that are not good enough for planning.
-pub(super) fn note(model: &Model, names: &[String]) -> Option<String> {
+/// What is noted, beside the file: that there is nothing to fit to, or spheres that are not good enough to plan with.
+pub(super) fn note(model: &Model, subject: &Subject) -> Option<Note> {
+    if model.links.is_empty() {
+        return Some(Note::NoShapes(subject.options.shapes));
+    }
     if model.measured.is_good() {
         return None;
     }
     let mut lines: Vec<String> = model.measured.said().into_iter().skip(1).collect();
-    lines.push(model.measured.named(names));
+    lines.push(model.measured.named(&subject.links));
     let lines: Vec<String> = lines
         .iter()
         .map(|line| escape::line(line.trim()).into_owned())
         .collect();
-    Some(lines.join("; "))
+    Some(Note::Spheres(lines.join("; ")))
 }

@@ -20,8 +20,8 @@ pub(super) enum Region {
     NearDefault,
 }
 
-/// A sampled configuration.
-#[derive(Debug)]
+/// A configuration.
+#[derive(Debug, Clone)]
 pub(super) struct Sample {
     /// The poses of the links that have shapes, in the order of [`Pairs::links`].
     pub poses: Vec<Pose>,
