@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::error::GenerateError;
-use super::robot::{Generated, Progress, generate};
+use super::progress::Progress;
+use super::robot::{Generated, generate};
 use super::settings::Settings;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_FOLDER_DEPTH;

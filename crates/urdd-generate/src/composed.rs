@@ -1,15 +1,10 @@
 //! A robot composed of other robots; `combine` writes its URDF.
 
 use std::collections::HashSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::edits::Decisions;
-use super::error::GenerateError;
 use super::old::Old;
-use super::robot::{Generated, Progress, make};
-use super::settings::Settings;
-use super::source;
-use urdd_directory::path::portable;
 use urdd_format::composition::CompositionModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 
@@ -43,21 +38,4 @@ impl Composed {
         there.edits.splice(..0, self.edits.iter().cloned());
         there
     }
-}
-
-/// Generates the URDD of a composed robot, as [`generate_text`](super::generate_text) does for any robot. The URDF is
-/// stored in it under the robot's name.
-///
-/// # Errors
-/// Those of [`generate`](super::generate).
-pub fn generate_composed(
-    urdf: Vec<u8>,
-    composed: &Composed,
-    target: &Path,
-    settings: &Settings,
-    progress: &dyn Progress,
-) -> Result<Generated, GenerateError> {
-    let mut source = source::load_text(urdf, &composed.shown, &composed.folder)?;
-    source.file_name = portable(&format!("{}.urdf", source.reading.robot.name));
-    make(None, &source, Some(composed), target, settings, progress)
 }

@@ -13,6 +13,7 @@ use super::meshes::MeshCount;
 use super::metadata::{self, Entry};
 use super::note::Note;
 use super::old::Old;
+use super::progress::Progress;
 use super::reuse::Reusable;
 use super::settings::Settings;
 use super::size;
@@ -21,6 +22,7 @@ use super::stages::{self, Make, Stage};
 use super::work::Work;
 use urdd_directory::canonical;
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::path::portable;
 use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
 use urdd_format::registry::ModuleKind;
@@ -29,19 +31,6 @@ use urdd_format::root_metadata::{ConformanceClass, FileEntry};
 /// Sizes and hashes refer to bytes: Git must not convert line endings.
 const GIT_ATTRIBUTES: &str = "# The hashes in urdd.json are of these very bytes.\n* -text\n";
 const GIT_ATTRIBUTES_FILE: &str = ".gitattributes";
-
-/// Receives the progress of a run.
-pub trait Progress: Sync {
-    /// A module is started; `done` of `total` modules are finished.
-    fn module(&self, kind: ModuleKind, done: usize, total: usize);
-
-    /// Progress within a slow module: `done` of `total` steps are finished.
-    fn part(&self, _kind: ModuleKind, _done: usize, _total: usize) {}
-}
-
-impl Progress for () {
-    fn module(&self, _: ModuleKind, _: usize, _: usize) {}
-}
 
 /// A generated URDD.
 #[derive(Debug, Clone, PartialEq)]
@@ -113,7 +102,24 @@ pub fn generate_text(
     make(None, &source, None, target, settings, progress)
 }
 
-pub(super) fn make(
+/// Generates the URDD of a composed robot, as [`generate_text`] does for any robot. The URDF is
+/// stored in it under the robot's name.
+///
+/// # Errors
+/// Those of [`generate`].
+pub fn generate_composed(
+    urdf: Vec<u8>,
+    composed: &Composed,
+    target: &Path,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<Generated, GenerateError> {
+    let mut source = source::load_text(urdf, &composed.shown, &composed.folder)?;
+    source.file_name = portable(&format!("{}.urdf", source.reading.robot.name));
+    make(None, &source, Some(composed), target, settings, progress)
+}
+
+fn make(
     path: Option<&Path>,
     source: &Source,
     composed: Option<&Composed>,
