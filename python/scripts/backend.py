@@ -11,7 +11,9 @@ from typing import Any
 
 import maturin
 
-WANTED = re.search(r'^rust-version = "(\d+)\.(\d+)"$', Path("Cargo.toml").read_text(encoding="utf-8"), re.MULTILINE)
+# The workspace's manifest: in a clone above this package, in a source distribution beside pyproject.toml.
+MANIFESTS = [path.read_text(encoding="utf-8") for path in (Path("../Cargo.toml"), Path("Cargo.toml")) if path.is_file()]
+WANTED = re.search(r'^rust-version = "(\d+)\.(\d+)"$', "\n".join(MANIFESTS), re.MULTILINE)
 
 
 def check_rust() -> None:

@@ -31,7 +31,7 @@ def version_of(manifest: Path, key: str = "version") -> str:
 
 def test_versions_are_equal() -> None:
     crate = version_of(REPOSITORY / "Cargo.toml")
-    assert version_of(PYTHON / "Cargo.toml") == crate
+    assert re.search(r"^version\.workspace = true$", (PYTHON / "Cargo.toml").read_text(encoding="utf-8"), re.MULTILINE)
     assert urdd.__version__ == crate
     assert importlib.metadata.version("urdd") == crate
 
@@ -122,7 +122,7 @@ def test_pip_says_that_it_needs_rust(rustc: str | None, words: str | None, tmp_p
         assert found.returncode == 1
         # No trace: one sentence.
         assert found.stderr.strip().count("\n") == 0
-        needed = version_of(PYTHON / "Cargo.toml", "rust-version").removesuffix(".0")
+        needed = version_of(REPOSITORY / "Cargo.toml", "rust-version").removesuffix(".0")
         assert found.stderr.strip().startswith(f"urdd is compiled here, which needs Rust {needed} or later: {words}")
 
 

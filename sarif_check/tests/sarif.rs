@@ -71,7 +71,7 @@ fn robots() -> tempfile::TempDir {
 /// serde-sarif brings it.
 fn sarif_schema() -> Value {
     let metadata = ["metadata", "--format-version=1", "--locked"];
-    let metadata = cargo(&metadata, &repository());
+    let metadata = cargo(&metadata, Path::new(env!("CARGO_MANIFEST_DIR")));
     let metadata: Value = serde_json::from_slice(&metadata).expect("cargo's metadata");
     let packages = metadata["packages"].as_array().expect("a list");
     let package = packages
