@@ -6,14 +6,7 @@
 //! rows grow. The paths of pairs stop at 300 links, or 2,000,000 links in them: in a line after 180 (SPEC 6.4.6).
 
 // A test may stop anywhere.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    missing_docs
-)]
+#![allow(clippy::restriction)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

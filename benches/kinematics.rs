@@ -10,14 +10,7 @@
 //! `tests/figures/kinematics_pinocchio.py` holds these to Pinocchio.
 
 // A test may stop anywhere.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    missing_docs
-)]
+#![allow(clippy::restriction)]
 
 use std::path::PathBuf;
 use std::time::Instant;

@@ -6,14 +6,7 @@
 //! `benches/evaluation/learned.py` makes the models and runs it.
 
 // A test may stop anywhere.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    missing_docs
-)]
+#![allow(clippy::restriction)]
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};

@@ -6,14 +6,7 @@
 //! `target/bench/welding_arm`, which it makes.
 
 // A test may stop anywhere.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    missing_docs
-)]
+#![allow(clippy::restriction)]
 
 use std::path::PathBuf;
 use std::time::Instant;

@@ -6,14 +6,7 @@
 //! ratios, the machine's speed cancels in them.
 
 // A test may stop anywhere.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    missing_docs
-)]
+#![allow(clippy::restriction)]
 
 use std::fs;
 use std::hint::black_box;

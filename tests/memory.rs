@@ -1,14 +1,7 @@
 //! How much memory inputs take: the multiples that docs/security.md states, held by the system's limit.
 
 // A test may stop anywhere.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    missing_docs
-)]
+#![allow(clippy::restriction)]
 #![cfg(target_os = "linux")]
 
 use std::fmt::Write as _;

@@ -21,6 +21,7 @@ pub mod dice;
 pub mod difference;
 pub mod documents;
 pub mod emit;
+pub mod files;
 pub mod fixture;
 pub mod folder;
 pub mod meshes;

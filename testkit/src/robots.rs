@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use crate::files;
 use urdd_generate::{Settings, generate};
 
 /// The URDFs of the project's robots.
@@ -32,7 +33,7 @@ pub fn our_robots() -> Vec<(String, PathBuf)> {
 }
 
 /// The files of a URDD, by their paths in it.
-type Files = Vec<(PathBuf, Vec<u8>)>;
+type Files = BTreeMap<String, Vec<u8>>;
 
 /// A URDD of one of these robots, generated once, in a temporary folder that is removed with the returned guard.
 pub fn made(urdf: &Path) -> (tempfile::TempDir, PathBuf) {
@@ -44,7 +45,7 @@ pub fn made(urdf: &Path) -> (tempfile::TempDir, PathBuf) {
     let target = folder.path().join("robot");
     let generated = || {
         generate(urdf, &target, &Settings::default(), &()).expect("a URDD");
-        let files = files_below(&target, &target);
+        let files = files::below(&target);
         std::fs::remove_dir_all(&target).expect("a folder");
         files
     };
@@ -54,19 +55,6 @@ pub fn made(urdf: &Path) -> (tempfile::TempDir, PathBuf) {
         std::fs::write(path, bytes).expect("a file");
     }
     (folder, target)
-}
-
-fn files_below(folder: &Path, root: &Path) -> Files {
-    let entries = std::fs::read_dir(folder).expect("a folder");
-    let below = |entry: std::io::Result<std::fs::DirEntry>| {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            return files_below(&path, root);
-        }
-        let bytes = std::fs::read(&path).expect("a file");
-        vec![(path.strip_prefix(root).expect("below").to_owned(), bytes)]
-    };
-    entries.flat_map(below).collect()
 }
 
 /// A URDD generated from the text of a URDF.

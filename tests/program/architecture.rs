@@ -1,20 +1,17 @@
 //! What Cargo does not keep of the house: the wall between generator and validator, how large a file may grow, and that
 //! every rule on disk is registered.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use testkit::repository;
 use urdd_validate::code::Code;
 use urdd_validate::rules;
 
 /// Files under about 400 lines, rules under about 200: what "about" lets pass.
 const LONGEST_FILE: usize = 420;
 const LONGEST_RULE: usize = 210;
-
-fn repository() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
 
 /// The folders of the program's source and of each crate's.
 fn sources() -> Vec<PathBuf> {
@@ -30,18 +27,13 @@ fn rules_folder() -> PathBuf {
     repository().join("crates/urdd-validate/src/rules")
 }
 
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).expect("a folder of the source") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            files.extend(rust_files(&path));
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.push(path);
-        }
-    }
-    files.sort();
+/// The Rust files below a folder: their texts, by their paths.
+fn rust_files(folder: &Path) -> BTreeMap<PathBuf, String> {
+    let files = testkit::files::below(folder).into_iter();
     files
+        .filter(|(path, _)| path.ends_with(".rs"))
+        .map(|(path, bytes)| (folder.join(path), String::from_utf8(bytes).expect("UTF-8")))
+        .collect()
 }
 
 #[test]
@@ -68,11 +60,8 @@ fn the_wall_between_generate_and_validate_stands() {
 #[test]
 fn files_stay_small() {
     let rules = rules_folder();
-    for file in sources().iter().flat_map(|folder| rust_files(folder)) {
-        let lines = fs::read_to_string(&file)
-            .expect("a source file")
-            .lines()
-            .count();
+    for (file, text) in sources().iter().flat_map(|folder| rust_files(folder)) {
+        let lines = text.lines().count();
         let limit = if file.starts_with(&rules) {
             LONGEST_RULE
         } else {
@@ -89,8 +78,7 @@ fn files_stay_small() {
 #[test]
 fn every_rule_on_disk_is_registered() {
     let mut on_disk = BTreeSet::new();
-    for file in rust_files(&rules_folder()) {
-        let text = fs::read_to_string(&file).expect("a source file");
+    for text in rust_files(&rules_folder()).into_values() {
         let Some(place) = text.find("declare_rule! {") else {
             continue;
         };

@@ -9,6 +9,7 @@ use std::process::{Command, Output};
 use std::sync::Arc;
 
 use serde_json::Value;
+use testkit::files;
 use urdd_directory::archive_fault::{ArchiveFault, EntryFault};
 use urdd_directory::digest;
 use urdd_directory::listing::EntryKind;
@@ -30,25 +31,6 @@ fn urdd(arguments: &[&str], path: &Path) -> Output {
         .expect("the program runs")
 }
 
-/// Every file below a folder, by path.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut files = BTreeMap::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(at) = folders.pop() {
-        for entry in fs::read_dir(at).expect("a folder").flatten() {
-            if entry.path().is_dir() {
-                folders.push(entry.path());
-                continue;
-            }
-            let path = entry.path();
-            let path = path.strip_prefix(folder).expect("below");
-            let path = path.to_str().expect("UTF-8").replace('\\', "/");
-            files.insert(path, fs::read(entry.path()).expect("a file"));
-        }
-    }
-    files
-}
-
 /// An archive of files, each under a prefix.
 fn pack(files: &BTreeMap<String, Vec<u8>>, prefix: &str) -> Vec<u8> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
@@ -62,7 +44,7 @@ fn pack(files: &BTreeMap<String, Vec<u8>>, prefix: &str) -> Vec<u8> {
 }
 
 fn arm() -> BTreeMap<String, Vec<u8>> {
-    files(&examples().join("arm"))
+    files::below(&examples().join("arm"))
 }
 
 fn refused(bytes: Vec<u8>) -> ArchiveFault {
@@ -83,7 +65,7 @@ fn a_urdd_in_memory_has_the_report_of_its_folder() {
     use urdd_validate::{validate, validate_source};
     for (name, errors) in [("arm", 0), ("stale_gripper", 1)] {
         let folder = examples().join(name);
-        let shared = files(&folder)
+        let shared = files::below(&folder)
             .into_iter()
             .map(|(path, bytes)| (path, Arc::from(bytes)))
             .collect();

@@ -1,14 +1,7 @@
 //! The program from outside, and what holds the repository together: SPEC.md, the suite, the page, figures.
 
 // A test may stop anywhere.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    missing_docs
-)]
+#![allow(clippy::restriction)]
 
 mod architecture;
 mod bad_input;

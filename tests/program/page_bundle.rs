@@ -1,8 +1,9 @@
 //! `page/dist` is what `page/` and `wasm/` make: `page/build.mjs` leaves a hash of all that it was made from. Built again
 //! with `.ci/page`.
 
+use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use sha2::{Digest, Sha256};
 use urdd_format::hexadecimal::hexadecimal;
@@ -25,35 +26,27 @@ fn is_in_it(name: &str) -> bool {
     !is_test && !WITHOUT.iter().any(|start| name.starts_with(start))
 }
 
-fn files_below(folder: &Path, files: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        match path.is_dir() {
-            true => files_below(&path, files),
-            false => files.push(path),
-        }
-    }
-}
-
 #[test]
 fn the_committed_page_is_made_of_these_sources() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut paths: Vec<PathBuf> = FILES.iter().map(|file| root.join(file)).collect();
+    let mut files: BTreeMap<String, Vec<u8>> = FILES
+        .iter()
+        .map(|file| {
+            (
+                (*file).to_owned(),
+                fs::read(root.join(file)).expect("a file"),
+            )
+        })
+        .collect();
     for folder in FOLDERS {
-        files_below(&root.join(folder), &mut paths);
+        let below = testkit::files::below(&root.join(folder)).into_iter();
+        files.extend(below.map(|(path, bytes)| (format!("{folder}/{path}"), bytes)));
     }
-    let name = |path: &PathBuf| {
-        let relative = path.strip_prefix(root).expect("below the root");
-        relative.to_str().expect("UTF-8").replace('\\', "/")
-    };
-    let mut names: Vec<String> = paths.iter().map(name).collect();
-    names.retain(|name| is_in_it(name));
-    names.sort();
-    assert!(names.len() > 300, "{} files", names.len());
+    files.retain(|name, _| is_in_it(name));
+    assert!(files.len() > 300, "{} files", files.len());
     let mut hash = Sha256::new();
-    for name in &names {
-        let content = Sha256::digest(fs::read(root.join(name)).expect("a file"));
-        hash.update(format!("{}  {name}\n", hexadecimal(&content)));
+    for (name, bytes) in &files {
+        hash.update(format!("{}  {name}\n", hexadecimal(&Sha256::digest(bytes))));
     }
     assert_eq!(
         urdd::view::assets::STAMP.trim(),

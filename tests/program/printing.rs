@@ -16,9 +16,7 @@ const HOSTILE: &str = "a\u{1b}[2J\u{1b}[32m\u{9b}2J\u{202e}\u{2066}\u{200b}\u{fe
 const HOSTILE_IN_XML: &str = "a\u{9b}2J\u{202e}\u{2066}\u{200b}\u{2028}\u{85}&#10;FORGED pass";
 
 fn urdd(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
-    command.args(arguments).current_dir(folder);
-    command.output().expect("the program")
+    crate::program::output(arguments, folder)
 }
 
 /// Whether a terminal would act upon a character, or show nothing: by Unicode's own lists, not by the

@@ -113,24 +113,13 @@ fn our_robots_are_what_their_script_writes() {
         .output()
         .unwrap_or_else(|e| panic!("this test runs python3, which must be on the PATH: {e}"));
     assert!(output.status.success(), "{output:?}");
-    let mut written = 0;
-    let mut folders = vec![folder.path().to_owned()];
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(next).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-                continue;
-            }
-            let name = path.strip_prefix(folder.path()).expect("below it");
-            let ours = fs::read(robots.join(name)).unwrap_or_default();
-            assert!(
-                ours == fs::read(&path).expect("written"),
-                "{} is not what the script writes: run it",
-                name.display()
-            );
-            written += 1;
-        }
+    let written = testkit::files::below(folder.path());
+    for (name, bytes) in &written {
+        let ours = fs::read(robots.join(name)).unwrap_or_default();
+        assert!(
+            ours == *bytes,
+            "{name} is not what the script writes: run it"
+        );
     }
-    assert!(written >= 20, "{written} files");
+    assert!(written.len() >= 20, "{} files", written.len());
 }

@@ -1,15 +1,20 @@
 //! `urdd` as a program.
 
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output};
 
-/// Runs it in a folder: its status, and what it says on standard output and standard error.
-pub fn urdd(arguments: &[&str], folder: &Path) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_urdd"))
+/// Runs it in a folder.
+pub fn output(arguments: &[&str], folder: &Path) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_urdd"))
         .args(arguments)
         .current_dir(folder)
         .output()
-        .expect("the program");
+        .expect("the program")
+}
+
+/// Runs it in a folder: its status, and what it says on standard output and standard error.
+pub fn urdd(arguments: &[&str], folder: &Path) -> (i32, String, String) {
+    let output = output(arguments, folder);
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
     (
         output.status.code().expect("a status"),

@@ -4,15 +4,13 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use serde_json::{Value, json};
 use testkit::fixture::{Fixture, ROOT};
 
 fn validate(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
-    command.arg("validate").args(arguments).current_dir(folder);
-    command.output().expect("the program")
+    crate::program::output(&[&["validate"], arguments].concat(), folder)
 }
 
 fn text(folder: &Path, format: &str, arguments: &[&str]) -> String {

@@ -1,7 +1,6 @@
 //! What the reports say of many URDDs, and of geometry that could not be verified.
 
 use std::path::Path;
-use std::process::Command;
 
 use serde_json::{Value, json};
 use testkit::fixture::Fixture;
@@ -32,9 +31,8 @@ fn robot() -> Robot {
 }
 
 fn urdd(folder: &Path, arguments: &[&str]) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
-    let output = command.args(arguments).current_dir(folder).output();
-    String::from_utf8(output.expect("the program").stdout).expect("UTF-8")
+    let output = crate::program::output(arguments, folder);
+    String::from_utf8(output.stdout).expect("UTF-8")
 }
 
 #[test]

@@ -6,19 +6,15 @@ use std::path::Path;
 
 /// Names of all tests in a folder: functions under `#[test]`, also in macros that make them, and those of pytest.
 fn tests_below(folder: &Path, names: &mut BTreeSet<String>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            tests_below(&path, names);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            let text = fs::read_to_string(&path).unwrap();
+    for (path, bytes) in testkit::files::below(folder) {
+        let text = String::from_utf8_lossy(&bytes);
+        if path.ends_with(".rs") {
             for after in text.split("#[test]").skip(1) {
                 let name = after.split_once("fn ").map(|(_, rest)| rest);
                 let name = name.and_then(|rest| rest.split(['(', '<']).next());
                 names.extend(name.map(|name| name.trim().to_owned()));
             }
-        } else if path.extension().is_some_and(|extension| extension == "py") {
-            let text = fs::read_to_string(&path).unwrap();
+        } else if path.ends_with(".py") {
             let starts = text.lines().filter_map(|line| line.strip_prefix("def "));
             let functions = starts.filter_map(|rest| rest.split('(').next());
             names.extend(functions.map(ToOwned::to_owned));

@@ -2,16 +2,11 @@
 //! examples, which docs/validate.md shows too.
 
 use std::fs;
-use std::process::Command;
 
 use urdd_validate::rules;
 
 fn urdd(arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_urdd"))
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(arguments)
-        .output()
-        .expect("the program runs");
+    let output = crate::program::output(arguments, testkit::repository());
     assert!(
         output.stderr.is_empty(),
         "{}",

@@ -4,14 +4,7 @@
 //! shares nothing with the validator.
 
 // A test may stop anywhere.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    missing_docs
-)]
+#![allow(clippy::restriction)]
 
 #[cfg(unix)]
 mod as_data;

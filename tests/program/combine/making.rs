@@ -10,6 +10,8 @@ use urdd_generate::combine::Note;
 use urdd_generate::{Settings, generate, generate_text};
 use urdd_robot::{Robot, ShapeKind};
 
+use testkit::files;
+
 use crate::combine::support::{core, findings, ours, put_together, with_ours};
 
 /// Few samples: these tests are not about distances.
@@ -25,25 +27,6 @@ fn edits_of(urdd: &Path) -> Vec<SkipEdit> {
     let robot = Robot::open(urdd).expect("a robot");
     let skips = robot.skips(ShapeKind::Hulls).expect("skips");
     skips.edits().to_vec()
-}
-
-/// Every file below a folder, by its path.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(next) = folders.pop() {
-        for entry in std::fs::read_dir(next).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-                continue;
-            }
-            let name = path.strip_prefix(folder).expect("inside");
-            let name = name.to_string_lossy().replace('\\', "/");
-            found.insert(name, std::fs::read(&path).expect("a file"));
-        }
-    }
-    found
 }
 
 /// A quadruped with a welding arm on it, and a gripper on that, all as URDDs, in `folder`.
@@ -113,7 +96,7 @@ fn the_urdd_of_a_composed_robot_is_the_one_that_is_made_of_its_urdf() {
     let again = folder.join("again");
     let from_nothing = generate_text(text, "dog", &target, &again, &quick(), &());
     assert_eq!(from_nothing.expect("a URDD").robot_name, "dog");
-    let (mut ours, mut theirs) = (files(&target), files(&again));
+    let (mut ours, mut theirs) = (files::below(&target), files::below(&again));
     // Meshes that are read have their vertices in another order than those that are made: where faces touch, the last bit
     // of a distance may differ.
     let distances = |files: &BTreeMap<String, Vec<u8>>| -> Value {
@@ -146,7 +129,7 @@ fn meshes_are_carried_once() {
     let recipe = "[base]\n[[part]]\nid = \"left\"\nsource = \"hand\"\n[[part]]\nid = \"right\"\nsource = \"hand\"\nattach = { to = \"left/palm\", xyz = [0, 1, 0] }";
     let (_, target) = put_together(recipe, folder, &quick()).expect("a robot");
     let meshes = |urdd: &Path| {
-        let all = files(&urdd.join("mesh_modules/original_meshes_module/meshes"));
+        let all = files::below(&urdd.join("mesh_modules/original_meshes_module/meshes"));
         let mut contents: Vec<Vec<u8>> = all.into_values().collect();
         contents.sort();
         contents

@@ -8,18 +8,16 @@ mod valid;
 mod validator;
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use serde_json::Value;
 
 /// Runs `urdd conformance` in the repository's folder.
 fn conformance(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_urdd"))
-        .arg("conformance")
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .expect("the program")
+    crate::program::output(
+        &[&["conformance"], arguments].concat(),
+        testkit::repository(),
+    )
 }
 
 /// The result that a command writes as JSON, and its exit status.

@@ -16,12 +16,12 @@ mod strict;
 mod writing;
 mod xacro;
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
+pub use testkit::files::below as bytes_below;
+pub use testkit::robots::our_robots;
 use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 use urdd_validate::{rules, validate_with};
@@ -64,44 +64,4 @@ pub fn urdd(arguments: &[&str]) -> Command {
         command.env_remove(name);
     }
     command
-}
-
-/// The robots of `conformance/robots`: their names, and their URDFs.
-pub fn our_robots() -> Vec<(String, PathBuf)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/robots");
-    let mut robots: Vec<(String, PathBuf)> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| {
-            path.extension()
-                .is_some_and(|extension| extension == "urdf")
-        })
-        .map(|path| (path.file_stem().unwrap().to_str().unwrap().to_owned(), path))
-        .collect();
-    robots.sort();
-    assert!(robots.len() >= 9, "{robots:?}");
-    robots
-}
-
-/// Every file below a folder, by its path from there.
-pub fn bytes_below(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut files = BTreeMap::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(&next).unwrap_or_else(|e| panic!("{}: {e}", next.display())) {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let name = path
-                    .strip_prefix(folder)
-                    .unwrap()
-                    .to_str()
-                    .unwrap()
-                    .to_owned();
-                files.insert(name, fs::read(path).unwrap());
-            }
-        }
-    }
-    files
 }

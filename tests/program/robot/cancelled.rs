@@ -1,6 +1,6 @@
 //! What is stopped in the middle says so, and leaves nothing behind.
 
-use std::path::Path;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use urdd_directory::cancellation::Cancellation;
@@ -11,6 +11,8 @@ use urdd_generate::{GenerateError, Progress, Settings, generate};
 use urdd_robot::{Robot, RobotError, ShapeKind};
 use urdd_validate::settings::Settings as ValidateSettings;
 use urdd_validate::{ValidateError, validate, validate_source};
+
+use testkit::files::below;
 
 use crate::robot::{made, our_robots};
 
@@ -23,20 +25,6 @@ impl Progress for StopsAt {
             self.1.cancel();
         }
     }
-}
-
-/// The paths and bytes of all files below a folder.
-fn below(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        match path.is_dir() {
-            true => files.extend(below(&path)),
-            false => files.push((path.display().to_string(), std::fs::read(&path).unwrap())),
-        }
-    }
-    files.sort();
-    files
 }
 
 #[test]
@@ -59,7 +47,7 @@ fn generate_leaves_what_was_there() {
             "{stop}: {stopped}"
         );
         assert_eq!(stopped.code(), "cancelled");
-        assert_eq!(below(folder.path()), [], "{stop}");
+        assert_eq!(below(folder.path()), BTreeMap::new(), "{stop}");
     }
     // Over a URDD that is there.
     let (folder, target) = made(&urdf);

@@ -10,25 +10,10 @@ use urdd_robot::{Robot, RobotError, ShapeKind};
 
 use crate::robot::{made, our_robots};
 
-/// Every file below a folder.
+/// The files of a URDD, as a source in memory takes them.
 fn files(root: &Path) -> BTreeMap<String, Arc<[u8]>> {
-    fn add(root: &Path, folder: &Path, files: &mut BTreeMap<String, Arc<[u8]>>) {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                add(root, &path, files);
-            } else {
-                let name = path.strip_prefix(root).unwrap().to_str().unwrap();
-                files.insert(
-                    name.replace('\\', "/"),
-                    std::fs::read(&path).unwrap().into(),
-                );
-            }
-        }
-    }
-    let mut all = BTreeMap::new();
-    add(root, root, &mut all);
-    all
+    let files = testkit::files::below(root).into_iter();
+    files.map(|(path, bytes)| (path, bytes.into())).collect()
 }
 
 #[test]

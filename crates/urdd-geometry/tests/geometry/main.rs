@@ -2,14 +2,7 @@
 //! are made by the scripts in `tests/figures/geometry`.
 
 // A test may stop anywhere.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    missing_docs
-)]
+#![allow(clippy::restriction)]
 
 mod across;
 mod bounding_sphere;

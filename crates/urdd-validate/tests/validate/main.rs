@@ -1,14 +1,7 @@
 //! The validator as a library: sound robots, random faults, documents that only fit their schemas, figures by peers.
 
 // A test may stop anywhere.
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    clippy::print_stderr,
-    missing_docs
-)]
+#![allow(clippy::restriction)]
 
 mod core_rules_random;
 mod corpus;
