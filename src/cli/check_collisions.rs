@@ -104,7 +104,7 @@ pub fn run(arguments: &CheckCollisionsArguments) -> ExitCode {
     match check(arguments) {
         Ok(true) => ExitCode::from(1),
         Ok(false) => ExitCode::SUCCESS,
-        Err(message) => super::printed(Err(message)),
+        Err(message) => output::printed(Err(message)),
     }
 }
 

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::{output, printed};
+use super::output::{self, printed};
 use urdd_format::escape;
 use urdd_validate::code::RetiredCode;
 use urdd_validate::rule::Rule;

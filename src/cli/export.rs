@@ -116,7 +116,7 @@ impl Target {
 
 /// Runs `urdd export`.
 pub fn run(arguments: &ExportArguments) -> ExitCode {
-    super::printed(write(arguments))
+    output::printed(write(arguments))
 }
 
 fn write(arguments: &ExportArguments) -> Result<(), String> {

@@ -33,8 +33,8 @@ enum Format {
 /// Runs `urdd info`.
 pub fn run(arguments: &InfoArguments) -> ExitCode {
     match tell(arguments) {
-        Ok(text) => super::printed(output::print(&text)),
-        Err(message) => super::printed(Err(message)),
+        Ok(text) => output::printed(output::print(&text)),
+        Err(message) => output::printed(Err(message)),
     }
 }
 

@@ -103,7 +103,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "urdd", &mut script);
-            printed(output::print(&String::from_utf8_lossy(&script)))
+            output::printed(output::print(&String::from_utf8_lossy(&script)))
         }
     }
 }
@@ -122,16 +122,5 @@ fn usage(error: clap::Error, words: &[OsString]) -> ExitCode {
         let _ = writeln!(std::io::stderr().lock(), "{text}");
         return ExitCode::from(output::USAGE);
     }
-    printed(output::print(&error.render().to_string()))
-}
-
-/// The exit status of a command that only prints.
-fn printed(result: Result<(), String>) -> ExitCode {
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            output::error(&message);
-            ExitCode::from(output::USAGE)
-        }
-    }
+    output::printed(output::print(&error.render().to_string()))
 }

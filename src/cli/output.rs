@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::ValueEnum;
@@ -310,5 +311,16 @@ fn reason(error: &io::Error) -> String {
             io::ErrorKind::Other => error.to_string(),
             kind => kind.to_string(),
         },
+    }
+}
+
+/// The exit status of a command that only prints.
+pub fn printed(result: Result<(), String>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            error(&message);
+            ExitCode::from(USAGE)
+        }
     }
 }

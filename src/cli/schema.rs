@@ -135,9 +135,9 @@ fn report(faults: &[SchemaFault], folder: &Path) -> String {
 }
 
 fn print(text: &str) -> ExitCode {
-    super::printed(output::print(text))
+    output::printed(output::print(text))
 }
 
 fn fail(message: &str) -> ExitCode {
-    super::printed(Err(message.to_owned()))
+    output::printed(Err(message.to_owned()))
 }

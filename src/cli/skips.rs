@@ -55,7 +55,7 @@ enum SkipsCommand {
 /// Runs `urdd skips`.
 pub fn run(arguments: &SkipsArguments) -> ExitCode {
     let SkipsCommand::Import { srdf, urdd, force } = &arguments.command;
-    super::printed(import(srdf, urdd, *force).and_then(|text| output::print(&text)))
+    output::printed(import(srdf, urdd, *force).and_then(|text| output::print(&text)))
 }
 
 fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {

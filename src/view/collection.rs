@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::revision;
-use super::save::Files;
 use urdd_directory::carried::carried;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA, discover};
+use urdd_directory::replacement::Files;
 use urdd_directory::root::{ReadError, Root};
 
 /// A displayed robot.

@@ -4,15 +4,14 @@
 //! of a URDD do not become file names of the site. So no name is too long for a file system or collides with another,
 //! and no extension makes a server declare a page or a program. Browsers do not execute `.bin` files.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-use thiserror::Error;
 
 use super::assets::{self, ASSETS};
 use super::collection::{Collection, Shown};
+use super::export_error::ExportError;
 use super::route;
 use super::site_list::{FOLDER, PAGE, SiteList};
 use urdd_directory::cancellation::Cancellation;
@@ -23,69 +22,6 @@ use urdd_format::hexadecimal::hexadecimal;
 
 /// Maximum size of a copied file, in bytes.
 const MAX_FILE_BYTES: u64 = 1 << 30;
-
-/// Why a site was not written. The previous content is still in place.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum ExportError {
-    /// The folder contains something else.
-    #[error("{}: this folder is not empty, and not a site that `urdd view --export` wrote; give another one", .0.display())]
-    Occupied(PathBuf),
-    /// The folder contains a site of 0.2.0, which has no list of its files.
-    #[error(
-        "{}: urdd 0.2.0 wrote this site without a list of its files, so nothing was changed. Delete what it wrote ({}; see \
-         that nothing below robots is yours) and run this again: all other files stay",
-        folder.display(), names(left)
-    )]
-    Unlisted {
-        /// The folder.
-        folder: PathBuf,
-        /// The paths written by 0.2.0 that still exist.
-        left: Vec<PathBuf>,
-    },
-    /// The user's files are at the paths of the site's files.
-    #[error(
-        "{}: not written by the last export, or changed since, and would be overwritten; nothing was changed. Move it \
-         away, and run this again",
-        names(files)
-    )]
-    InTheWay {
-        /// The files.
-        files: Vec<PathBuf>,
-    },
-    /// It cannot be written.
-    #[error(transparent)]
-    Write(#[from] StagingError),
-    /// The page's built-in data is corrupt.
-    #[error("the page cannot be unpacked: {0}")]
-    Page(io::Error),
-    /// A robot is too large for one file.
-    #[error("{robot}: {size} bytes are too much for a page in one file; give a folder")]
-    TooLarge {
-        /// Its name.
-        robot: String,
-        /// Its size in bytes.
-        size: u64,
-    },
-    /// A robot cannot be read.
-    #[error("{robot}: {error}")]
-    Robot {
-        /// Its name.
-        robot: String,
-        /// Why.
-        error: ReadError,
-    },
-}
-
-fn names(paths: &[PathBuf]) -> String {
-    const MOST: usize = 8;
-    let shown = paths.iter().take(MOST);
-    let mut names: Vec<String> = shown.map(|path| path.display().to_string()).collect();
-    if paths.len() > MOST {
-        names.push(format!("and {} more", paths.len() - MOST));
-    }
-    names.join(", ")
-}
 
 /// Writes the site into a folder: a new one, an empty one, or one with a site. In an existing site, it replaces the
 /// files that the last export listed, and keeps all others. Calls `tell` after each robot. Returns the files of the

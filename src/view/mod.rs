@@ -5,6 +5,7 @@ pub mod assets;
 pub mod collection;
 mod connections;
 pub mod export;
+mod export_error;
 mod guard;
 mod http;
 mod keep;
@@ -19,7 +20,8 @@ mod site_list;
 pub mod temporary;
 
 pub use collection::{Collection, Making, Shown};
-pub use export::{ExportError, export};
+pub use export::export;
+pub use export_error::ExportError;
 pub use one_file::{may_hold_page, page_with};
 pub use server::{Server, ServerError};
 pub use temporary::Temporary;

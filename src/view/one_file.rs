@@ -16,7 +16,8 @@ use zip::write::{SimpleFileOptions, ZipWriter};
 
 use super::assets;
 use super::collection::Shown;
-use super::export::{ExportError, Published, published, unread};
+use super::export::{Published, published, unread};
+use super::export_error::ExportError;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::regular;
 use urdd_directory::root::{EntryKind, ReadError, Root};

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use super::export::ExportError;
+use super::export_error::ExportError;
 use urdd_directory::regular;
 use urdd_directory::staging::StagingError;
 use urdd_format::hexadecimal::hexadecimal;

@@ -11,6 +11,7 @@
 //! - [`emit`]: JSON and YAML text
 //! - [`documents`]: documents that fit a JSON Schema
 //! - [`difference`]: comparing two producers' documents
+//! - [`transform`]: rotations and rigid transforms as matrices
 //! - [`core_modules`], [`urdf_to_core`]: joints and robots -> core modules of a URDD
 //!
 //! [`robots`] generates URDDs of the project's robots.
@@ -29,6 +30,7 @@ pub mod model;
 pub mod robot;
 pub mod robots;
 pub mod shapes;
+pub mod transform;
 pub mod urdf_to_core;
 
 /// The root folder of the repository.

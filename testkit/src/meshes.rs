@@ -12,8 +12,8 @@ use urdd_format::plain_meshes::{PlainMesh, PlainMeshesModule};
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::{Geometry, Link, Origin, Visual};
 
-use super::core::{Rotation, apply, rotation_of_rpy, transform};
 use super::robot::Robot;
+use super::transform::{Rotation, apply, rotation_of_rpy, transform};
 
 pub type Point = [f64; 3];
 
@@ -324,7 +324,7 @@ pub fn stl(corners: &[Point; 8]) -> Vec<u8> {
     out.extend(12u32.to_le_bytes());
     for [a, b, c] in TRIANGLES {
         let [a, b, c] = [a, b, c].map(|i| corners[usize::from(i)]);
-        let normal = super::core::unit(cross(minus(b, a), minus(c, a)));
+        let normal = super::transform::unit(cross(minus(b, a), minus(c, a)));
         for v in [normal, a, b, c] {
             v.iter()
                 .for_each(|x| out.extend((*x as f32 + 0.0).to_le_bytes()));

@@ -9,14 +9,12 @@ use sha2::{Digest, Sha256};
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::JointType;
 
-use super::core::{
-    Core, Transform, apply, default_configuration, link_transforms, rotation_about,
-    sampled_configuration,
-};
+use super::core::{Core, default_configuration, link_transforms, sampled_configuration};
 use super::fixture::{Fixture, size_and_hash};
 use super::meshes::{Meshes, Point};
 use super::robot::{Robot, collision, cuboid, joint, limit, link, origin, solid_box};
 use super::shapes::boxes_touch;
+use super::transform::{Transform, apply, norm, rotation_about, unit};
 
 /// Name of the module.
 pub const MODEL: &str = "self_collision_model_module";
@@ -274,9 +272,9 @@ fn inputs(q: &[f64]) -> Vec<f64> {
         ]);
     }
     values.push((q[2] - 0.2) / 0.4);
-    let angle = super::core::norm([q[3], q[4], q[5]]);
+    let angle = norm([q[3], q[4], q[5]]);
     let axis = match angle > 0.0 {
-        true => super::core::unit([q[3], q[4], q[5]]),
+        true => unit([q[3], q[4], q[5]]),
         false => [1.0, 0.0, 0.0],
     };
     values.extend(rotation_about(axis, angle).into_iter().flatten());

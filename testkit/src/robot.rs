@@ -801,7 +801,7 @@ fn inertial() -> impl Strategy<Value = Inertial> {
         |(origin, mass, spread, rpy)| {
             let [x, y, z] = spread.map(|s| mass * s);
             let moments = [y + z, x + z, x + y];
-            let r = super::core::rotation_of_rpy(rpy);
+            let r = super::transform::rotation_of_rpy(rpy);
             let element = |i: usize, j: usize| {
                 Some((0..3).map(|k| r[i][k] * moments[k] * r[j][k]).sum::<f64>())
             };

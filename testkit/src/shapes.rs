@@ -9,12 +9,10 @@ use urdd_format::link_shapes_simple_skips::*;
 use urdd_format::link_shapes_skips::*;
 use urdd_format::shapes::PieceShape;
 
-use super::core::{
-    Core, Transform, apply, default_configuration, link_transforms, norm, rotation_of_rpy,
-    sampled_configuration, transform, unit,
-};
+use super::core::{Core, default_configuration, link_transforms, sampled_configuration};
 use super::meshes::{Meshes, Point, Solid, TRIANGLES, cross, dot, minus};
 use super::robot::Robot;
+use super::transform::{Transform, apply, norm, rotation_of_rpy, transform, unit};
 
 /// Number of sampled configurations in the statistics.
 pub const NUM_SAMPLES: u32 = 8;

@@ -5,6 +5,7 @@
 
 mod architecture;
 mod bad_input;
+mod circles;
 mod cli_schema;
 mod cli_validate;
 mod combine;

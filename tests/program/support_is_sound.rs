@@ -8,11 +8,11 @@ use serde_json::{Value, json};
 use urdd_format::registry::{ModuleKind, SPEC_VERSION, find};
 use urdd_format::root_metadata::RootMetadata;
 
-use testkit::core::{apply, norm, rotation_of_rpy, transform};
 use testkit::fixture::{Fixture, ROOT, URDF};
 use testkit::meshes::{Point, dot, minus};
 use testkit::robot::{arbitrary_box_robot, arbitrary_robot};
 use testkit::shapes::box_distance;
+use testkit::transform::{apply, norm, rotation_of_rpy, transform};
 
 #[test]
 fn toy_is_accepted() {

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::Options;
+use super::options::Options;
 use super::pairs::{Contacts, LinkPair, pairs};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_robot::{Robot, RobotError, ShapeKind};

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::Format;
+use super::format::Format;
 use super::pairs::{Contacts, LinkPair};
 use urdd_geometry::write::WriteError;
 use urdd_robot::{RobotError, ShapeKind};

@@ -30,11 +30,14 @@ mod contacts;
 mod drake;
 mod element;
 mod error;
+mod format;
 mod joints;
 mod meshes;
 mod mjcf;
 mod names;
 mod numbers;
+mod options;
+mod output;
 mod pairs;
 mod spheres;
 mod srdf;
@@ -44,108 +47,19 @@ mod subject;
 mod urdf;
 mod urdf_elements;
 
-use urdd_format::link_shapes_skips::SkippedReason;
-use urdd_robot::{Robot, ShapeKind};
+use urdd_robot::Robot;
 
 pub use contacts::link_pairs;
 pub use error::{ExportError, Note};
+pub use format::Format;
+pub use options::Options;
+pub use output::Export;
 pub use pairs::{Contacts, LinkPair, MixedPair};
 pub use spheres::{SphereBudget, SphereRates, interval};
 pub use srdf_import::{ImportError, ImportedSkips, import_srdf};
 pub use srdf_merge::{MergedSrdf, SrdfError, merge_srdf};
 
 use subject::Subject;
-
-/// An export format.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Format {
-    /// MoveIt's Semantic Robot Description Format.
-    Srdf,
-    /// URDF with the URDD's shapes as collision geometry.
-    Urdf,
-    /// URDF for Drake.
-    Drake,
-    /// MuJoCo's XML.
-    Mjcf,
-    /// cuRobo's spheres, YAML.
-    Curobo,
-    /// Foam's spheres, JSON.
-    Foam,
-}
-
-impl Format {
-    /// All formats.
-    pub const ALL: &[Format] = &[
-        Format::Srdf,
-        Format::Urdf,
-        Format::Drake,
-        Format::Mjcf,
-        Format::Curobo,
-        Format::Foam,
-    ];
-
-    /// Its name in messages and comments.
-    pub fn name(self) -> &'static str {
-        match self {
-            Format::Srdf => "SRDF",
-            Format::Urdf => "URDF",
-            Format::Drake => "URDF for Drake",
-            Format::Mjcf => "MJCF",
-            Format::Curobo => "cuRobo's YAML",
-            Format::Foam => "Foam's JSON",
-        }
-    }
-}
-
-/// Options of an export.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// The shapes that approximate links: the collision geometry, and the shapes of the pairs.
-    pub shapes: ShapeKind,
-    /// The reasons for which pairs are disabled; `None` for those of the URDD. The user's edits apply in either case.
-    pub reasons: Option<Vec<SkippedReason>>,
-    /// Whether a link-level format checks a pair of links of which the URDD skips some pairs of pieces and checks
-    /// others. Otherwise the pair is disabled, since pieces that are always in contact would collide in every
-    /// configuration.
-    pub keep_pairs: bool,
-    /// Number of spheres, for the sphere formats.
-    pub spheres: SphereBudget,
-    /// Whether the spheres cover each link completely. Otherwise they are fitted to give the same collision results as
-    /// the shapes.
-    pub cover: bool,
-    /// Number of sampled configurations in which the spheres are evaluated; fewer if that is too expensive.
-    pub samples: usize,
-    /// Whether to add visual geometry: the plain meshes by colour, besides the shapes.
-    pub visuals: bool,
-    /// The folder of the mesh files, relative to the text: without a trailing `/`, and empty for the same folder.
-    pub mesh_folder: String,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Options {
-            shapes: ShapeKind::Pieces,
-            reasons: None,
-            keep_pairs: false,
-            spheres: SphereBudget::default(),
-            cover: false,
-            samples: 10_000,
-            visuals: true,
-            mesh_folder: "meshes".to_owned(),
-        }
-    }
-}
-
-/// The result of an export.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Export {
-    /// The text of the file.
-    pub text: String,
-    /// The files that it references, with paths relative to it, sorted.
-    pub files: Vec<(String, Vec<u8>)>,
-    /// What the format cannot express, or expresses differently.
-    pub notes: Vec<Note>,
-}
 
 /// Exports a robot.
 ///

@@ -2,9 +2,9 @@
 
 use std::collections::HashSet;
 
-use super::Format;
 use super::element::is_character;
 use super::error::ExportError;
+use super::format::Format;
 use urdd_document::robot::Robot;
 use urdd_document::tree::Tree;
 use urdd_format::escape;

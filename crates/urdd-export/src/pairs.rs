@@ -9,7 +9,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::Options;
+use super::options::Options;
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_robot::{Robot, RobotError};

@@ -1,8 +1,8 @@
 //! SRDF: the pairs of links that MoveIt does not check. Writes no groups or other elements.
 
-use super::Export;
 use super::element::Element;
 use super::error::ExportError;
+use super::output::Export;
 use super::pairs::LinkPair;
 use super::subject::Subject;
 use urdd_format::link_shapes_simple_skips::SkipReason;

@@ -4,8 +4,10 @@ use std::cmp::Reverse;
 
 use super::contacts::link_pairs;
 use super::error::{ExportError, Note};
+use super::format::Format;
+use super::names;
+use super::options::Options;
 use super::pairs::{LinkPair, pairs};
-use super::{Format, Options, names};
 use urdd_document::mimics::Mimics;
 use urdd_document::robot::{Robot as View, of_urdf};
 use urdd_document::tree::Tree;

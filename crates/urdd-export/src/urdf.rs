@@ -1,8 +1,8 @@
 //! URDF: the robot as in its source, with the URDD's shapes as collision geometry.
 
-use super::Export;
 use super::error::{ExportError, Note};
 use super::joints::joints;
+use super::output::Export;
 use super::subject::Subject;
 use super::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, element_of_joint, links, push_unknown, robot, type_name,

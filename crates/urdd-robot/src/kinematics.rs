@@ -1,17 +1,12 @@
 //! Forward kinematics: link poses and Jacobians.
 
-use std::sync::Arc;
-
 use nalgebra::{Isometry3, Matrix6xX, Point3};
 
 use super::Robot;
 use super::batch::{check_room, fill, room};
 use super::error::RobotError;
 use urdd_directory::cancellation::Cancellation;
-use urdd_document::consumer;
-use urdd_document::urdd::Urdd;
-use urdd_format::dof::Quantity;
-use urdd_kinematics::{ForwardKinematics, Place};
+use urdd_kinematics::Place;
 
 /// 6 rows, one column for each DOF: linear velocity, then angular velocity.
 pub type Jacobian = Matrix6xX<f64>;
@@ -19,64 +14,7 @@ pub type Jacobian = Matrix6xX<f64>;
 /// Configurations in one block of work.
 const BLOCK: usize = 64;
 
-/// The data that kinematics needs.
-#[derive(Debug)]
-pub(super) struct Motion {
-    pub links: Vec<String>,
-    pub joints: Vec<String>,
-    pub dofs: Vec<String>,
-    pub units: Vec<&'static str>,
-    pub kinematics: ForwardKinematics,
-}
-
-impl Motion {
-    fn new(part: &Urdd) -> Result<Self, RobotError> {
-        let modules = consumer::modules(part).ok_or(RobotError::MotionOpen)?;
-        let kinematics = ForwardKinematics::new(&modules.chain, &modules.dof)?;
-        let unit = |quantity: &Quantity| match quantity {
-            Quantity::Angle => "rad",
-            Quantity::Length => "m",
-        };
-        let (links, joints) = (modules.chain.links_in_chain, modules.chain.joints_in_chain);
-        Ok(Self {
-            links: links.into_iter().map(|link| link.name).collect(),
-            joints: joints.into_iter().map(|joint| joint.joint_name).collect(),
-            units: modules
-                .dof
-                .dofs
-                .iter()
-                .map(|dof| unit(&dof.quantity))
-                .collect(),
-            dofs: modules.dof.dofs.into_iter().map(|dof| dof.name).collect(),
-            kinematics,
-        })
-    }
-
-    /// Number of configurations in the slice. For a robot without DOFs, an empty slice is one configuration.
-    pub(super) fn batch(&self, configurations: &[f64]) -> Result<usize, RobotError> {
-        let (found, dofs) = (configurations.len(), self.kinematics.num_dofs());
-        match dofs {
-            0 if found == 0 => Ok(1),
-            0 => Err(RobotError::Batch { found, dofs }),
-            _ if !found.is_multiple_of(dofs) => Err(RobotError::Batch { found, dofs }),
-            _ => Ok(found / dofs),
-        }
-    }
-}
-
 impl Robot {
-    pub(super) fn motion(&self) -> Result<&Motion, RobotError> {
-        Ok(self.shared_motion()?)
-    }
-
-    pub(super) fn shared_motion(&self) -> Result<&Arc<Motion>, RobotError> {
-        let read = || Ok(Arc::new(Motion::new(&self.moving_part(&[])?)?));
-        match self.motion.get_or_init(read) {
-            Ok(motion) => Ok(motion),
-            Err(error) => Err(error.clone()),
-        }
-    }
-
     /// The pose of each link in the root link's frame, in link order.
     ///
     /// # Errors

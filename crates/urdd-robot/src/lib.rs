@@ -35,21 +35,16 @@ mod error;
 mod inverse;
 mod kinematics;
 mod mesh;
+mod motion;
 mod names;
-mod parts;
 pub mod proximity;
+mod robot;
 mod shapes;
 mod skip_edits;
 mod skips;
 mod space;
 mod statistics;
 pub mod world;
-
-use std::path::Path;
-use std::sync::{Arc, OnceLock};
-
-use urdd_directory::root::Root;
-use urdd_directory::source::Source;
 
 pub use batch::fill;
 pub use description::SourceFile;
@@ -58,6 +53,7 @@ pub use inverse::Target;
 pub use kinematics::Jacobian;
 pub use mesh::LinkVisual;
 pub use proximity::{PairDistance, Proximity, Until};
+pub use robot::Robot;
 pub use shapes::{LinkShape, ShapeKind, Solid};
 pub use skip_edits::EditedSkips;
 pub use skips::Skips;
@@ -66,46 +62,3 @@ pub use statistics::PairStatistics;
 pub use urdd_kinematics::inverse::{Inverse, InverseSettings, InverseSolution};
 pub use urdd_kinematics::learn::{Clearance, CollisionModel};
 pub use world::{Among, Obstacle, ObstacleDistance, World};
-
-/// A robot, described by a URDD.
-///
-/// It can be shared between threads.
-#[derive(Debug)]
-pub struct Robot {
-    root: Root,
-    motion: OnceLock<Result<Arc<kinematics::Motion>, RobotError>>,
-    configurations: OnceLock<Result<Arc<Configurations>, RobotError>>,
-}
-
-impl Robot {
-    /// Opens the robot in a folder or a zip archive. Reads no module yet.
-    ///
-    /// # Errors
-    /// [`RobotError::Open`] if the path cannot be opened.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, RobotError> {
-        let path = path.as_ref();
-        let opened = Root::open(path).map_err(|error| RobotError::Open {
-            path: path.display().to_string(),
-            error,
-        })?;
-        Ok(Self::at(opened))
-    }
-
-    /// The robot whose files are in `source`.
-    pub fn of(source: impl Source + 'static) -> Self {
-        Self::at(Root::of(source))
-    }
-
-    fn at(root: Root) -> Self {
-        Self {
-            root,
-            motion: OnceLock::new(),
-            configurations: OnceLock::new(),
-        }
-    }
-
-    /// The name of the folder or archive.
-    pub fn folder_name(&self) -> String {
-        self.root.folder_name()
-    }
-}

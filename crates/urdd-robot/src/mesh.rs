@@ -6,7 +6,6 @@ use rayon::prelude::*;
 
 use super::Robot;
 use super::error::RobotError;
-use super::shapes::{LinkShape, Solid};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_document::mesh_files::{Absence, MeshFiles};
 use urdd_document::meshes::{self, Format, MeshPath};
@@ -46,18 +45,12 @@ impl<'a> Meshes<'a> {
         })
     }
 
-    /// Reads all meshes, by link and piece.
-    pub fn all(&self) -> Result<Vec<LinkShape>, RobotError> {
+    /// Reads all meshes; each with its link and its piece, in their order.
+    pub fn all(&self) -> Result<Vec<(usize, usize, Mesh)>, RobotError> {
         let places: Vec<(usize, usize)> = (0..self.meshes.num_links())
             .flat_map(|link| (0..self.meshes.count(link)).map(move |piece| (link, piece)))
             .collect();
-        let read = |(link, piece): (usize, usize)| {
-            Ok(LinkShape {
-                link,
-                piece,
-                solid: Solid::Mesh(self.read(link, piece)?),
-            })
-        };
+        let read = |(link, piece)| Ok((link, piece, self.read(link, piece)?));
         places.into_par_iter().map(read).collect()
     }
 

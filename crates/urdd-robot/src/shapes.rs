@@ -132,7 +132,13 @@ impl Robot {
     pub fn shapes(&self, kind: ShapeKind) -> Result<Vec<LinkShape>, RobotError> {
         let part = self.part(&[kind.module()])?;
         if matches!(kind, ShapeKind::Hulls | ShapeKind::Pieces) {
-            return Meshes::new(&part, kind.module())?.all();
+            let meshes = Meshes::new(&part, kind.module())?.all()?.into_iter();
+            let shape = |(link, piece, mesh)| LinkShape {
+                link,
+                piece,
+                solid: Solid::Mesh(mesh),
+            };
+            return Ok(meshes.map(shape).collect());
         }
         let lists = part
             .document(ModuleKind::LinkShapesApproximations)

@@ -6,7 +6,7 @@ use sha2::{Digest, Sha256};
 
 use super::Robot;
 use super::error::RobotError;
-use super::parts::usable;
+use super::robot::usable;
 use super::shapes::ShapeKind;
 use super::skips::Skips;
 use urdd_directory::canonical;

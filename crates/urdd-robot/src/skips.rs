@@ -2,7 +2,7 @@
 
 use super::Robot;
 use super::error::RobotError;
-use super::parts::usable;
+use super::robot::usable;
 use super::shapes::ShapeKind;
 use urdd_document::shape_matrices::{at, reasons, shape_lists, skips};
 use urdd_document::shapes::Shapes;

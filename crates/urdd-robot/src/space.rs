@@ -1,8 +1,5 @@
 //! Configurations: one value for each DOF.
 
-use std::sync::Arc;
-
-use super::Robot;
 use super::error::RobotError;
 use urdd_document::consumer;
 use urdd_document::urdd::Urdd;
@@ -16,25 +13,8 @@ pub struct Configurations {
     bounds: Vec<[f64; 2]>,
 }
 
-impl Robot {
-    /// The robot's configurations and their bounds.
-    ///
-    /// # Errors
-    /// If `chain_module`, `dof_module` or `bounds_module` is missing or unusable.
-    pub fn configurations(&self) -> Result<&Configurations, RobotError> {
-        let read = || {
-            let part = self.moving_part(&[ModuleKind::Bounds])?;
-            Ok(Arc::new(Configurations::new(&part)?))
-        };
-        match self.configurations.get_or_init(read) {
-            Ok(configurations) => Ok(configurations),
-            Err(error) => Err(error.clone()),
-        }
-    }
-}
-
 impl Configurations {
-    fn new(part: &Urdd) -> Result<Self, RobotError> {
+    pub(super) fn new(part: &Urdd) -> Result<Self, RobotError> {
         let modules = consumer::modules(part).ok_or(RobotError::MotionOpen)?;
         let bounds = part
             .bounds()

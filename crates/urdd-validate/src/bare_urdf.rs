@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use super::context::Context;
 use super::engine::{Check, Outcomes, run_all};
+use super::examined::{Examined, RobotSize};
 use super::rule::{Judges, Need, Rule};
-use super::{Examined, RobotSize};
 use urdd_directory::discover::Found;
 use urdd_directory::root::{Listing, ReadError, Root};
 use urdd_document::carried_urdf::{self, CarriedUrdf};

@@ -1,7 +1,7 @@
 //! How much of what was found is kept of a run of many URDDs: places beyond a bound are counted, and
 //! not kept. What is kept depends on the URDDs alone, not on the order in which they were examined.
 
-use super::Examined;
+use super::examined::Examined;
 use super::finding::Occurrence;
 
 /// About how many bytes of places are kept of a run, and of each URDD where there are very many.

@@ -9,6 +9,7 @@ pub mod code;
 pub mod context;
 pub mod distances;
 pub mod engine;
+mod examined;
 mod find_errors;
 pub mod finding;
 pub mod fold;
@@ -35,6 +36,7 @@ pub mod urdf_text;
 pub mod views;
 mod worst;
 
+pub use examined::{Examined, ExaminedModule, RobotSize};
 pub use find_errors::find_errors;
 pub use model_verified::{ModelVerdict, verify_model};
 
@@ -45,7 +47,6 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use self::context::Context;
-use self::engine::{Check, Outcome};
 use self::rule::Rule;
 use self::settings::{Settings, StaleIgnore};
 use urdd_directory::cancellation::Cancelled;
@@ -53,20 +54,6 @@ use urdd_directory::discover::{DiscoverError, Found, discover};
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::Source;
 use urdd_document::urdd::Urdd;
-use urdd_format::registry::Profile;
-
-/// A module of an examined URDD.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ExaminedModule {
-    /// Its name.
-    pub name: String,
-    /// Its folder, relative to the URDD's root.
-    pub path: String,
-    /// Its version; `None` where it has none.
-    pub version: Option<String>,
-    /// The family of formats it is of; `None` for extensions and unknown modules.
-    pub profile: Option<Profile>,
-}
 
 /// What was examined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,33 +62,6 @@ pub enum Kind {
     Urdd,
     /// A URDF by itself.
     Urdf,
-}
-
-/// A URDD, or a URDF by itself, that was examined.
-pub struct Examined {
-    /// How it is called: its path from the folder that was searched.
-    pub name: String,
-    /// How the program crashed outside of any rule, where it did.
-    pub crashed: Option<String>,
-    /// The robot's name, where a module says it.
-    pub robot_name: Option<String>,
-    /// Number of links, joints and DOFs, where modules say them.
-    pub size: RobotSize,
-    /// Its modules.
-    pub modules: Vec<ExaminedModule>,
-    /// Every rule and what became of it, in order of code; settings applied.
-    pub checks: Vec<Check>,
-}
-
-/// How large a robot is.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct RobotSize {
-    /// Number of links.
-    pub links: Option<usize>,
-    /// Number of joints.
-    pub joints: Option<usize>,
-    /// Number of degrees of freedom.
-    pub dofs: Option<usize>,
 }
 
 /// A URDD that was found, and what came of examining it.
@@ -307,14 +267,6 @@ fn examine_urdd(
         modules,
         checks,
     })
-}
-
-impl Examined {
-    /// Whether the program crashed, so that the URDD was not fully examined.
-    pub fn incomplete(&self) -> bool {
-        let mut checks = self.checks.iter();
-        self.crashed.is_some() || checks.any(|check| matches!(check.outcome, Outcome::Crashed(_)))
-    }
 }
 
 #[cfg(test)]

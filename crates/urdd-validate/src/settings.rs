@@ -6,9 +6,9 @@ use globset::{Glob, GlobSet};
 use serde::Deserialize;
 use thiserror::Error;
 
-use super::Examined;
 use super::code::Code;
 use super::engine::Outcome;
+use super::examined::Examined;
 use super::rule::Severity;
 use super::selection::Selection;
 use super::skip::SkipReason;

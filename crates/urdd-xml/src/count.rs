@@ -2,7 +2,8 @@
 
 use std::collections::HashSet;
 
-use super::{Kind, MOST_ATTRIBUTES, MOST_LEVELS, MOST_PREFIXES, XmlError, text_pos};
+use super::error::{XmlError, text_pos};
+use super::limits::{Kind, MOST_ATTRIBUTES, MOST_LEVELS, MOST_PREFIXES};
 
 /// Checks the limits tag by tag. Malformed XML is left to the parser.
 pub(super) fn check(text: &str, kind: Kind) -> Result<(), XmlError> {

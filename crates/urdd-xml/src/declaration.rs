@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{XmlError, text_pos};
+use super::error::{XmlError, text_pos};
 
 /// Checks that the declaration, if present, names a version 1.x and no encoding other than UTF-8. The parser accepts
 /// any.

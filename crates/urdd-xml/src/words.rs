@@ -2,10 +2,11 @@
 
 use roxmltree::Error;
 
-use super::{MOST_NODES, XmlError};
+use super::error::XmlError;
+use super::limits::MOST_NODES;
 
 /// The message for a parser error, without the position.
-pub(super) fn of_parser(error: &Error, text: &str) -> String {
+fn of_parser(error: &Error, text: &str) -> String {
     match error {
         Error::InvalidXmlPrefixUri(_)
         | Error::UnexpectedXmlUri(_)
@@ -125,20 +126,22 @@ fn unknown_token(text: &str, pos: roxmltree::TextPos) -> &'static str {
     }
 }
 
-/// The error message, without the position.
-pub(super) fn of(error: &XmlError, text: &str) -> String {
-    match error {
-        XmlError::Parser(error) => of_parser(error, text),
-        XmlError::Entities(_) => {
-            "it declares entities (`<!ENTITY`), which are not read; `xmllint --noent FILE` writes the file without them".to_owned()
+impl XmlError {
+    /// The error message for `text`, without the position: what is wrong and what to do.
+    pub fn words(&self, text: &str) -> String {
+        match self {
+            XmlError::Parser(error) => of_parser(error, text),
+            XmlError::Entities(_) => {
+                "it declares entities (`<!ENTITY`), which are not read; `xmllint --noent FILE` writes the file without them".to_owned()
+            }
+            XmlError::Version { found, .. } => {
+                format!("the XML declaration names version `{}`; write `1.0`", found.escape_debug())
+            }
+            XmlError::Encoding { found, .. } => format!(
+                "the XML declaration names the encoding `{}`; save the file as UTF-8 and declare that",
+                found.escape_debug()
+            ),
+            XmlError::TooMany { what, limit, .. } => format!("there are more than {limit} {what}"),
         }
-        XmlError::Version { found, .. } => {
-            format!("the XML declaration names version `{}`; write `1.0`", found.escape_debug())
-        }
-        XmlError::Encoding { found, .. } => format!(
-            "the XML declaration names the encoding `{}`; save the file as UTF-8 and declare that",
-            found.escape_debug()
-        ),
-        XmlError::TooMany { what, limit, .. } => format!("there are more than {limit} {what}"),
     }
 }

@@ -20,7 +20,7 @@ pub struct ExportArguments {
 /// Runs `urdd conformance export`.
 pub fn run(arguments: &ExportArguments) -> ExitCode {
     match export(&arguments.folder) {
-        Ok(exported) => crate::cli::printed(output::print(&told(&exported))),
+        Ok(exported) => output::printed(output::print(&told(&exported))),
         Err(error) => {
             output::error(&error.to_string());
             ExitCode::from(2)

@@ -6,9 +6,9 @@ mod transmissions;
 
 use std::collections::BTreeMap;
 
-use super::Export;
 use super::element::Element;
 use super::error::{ExportError, Note};
+use super::output::Export;
 use super::subject::Subject;
 use super::urdf_elements::{Geometry, IN_JOINT, IN_LINK, IN_ROBOT, links, push_unknown, robot};
 

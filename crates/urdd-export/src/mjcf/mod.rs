@@ -11,11 +11,11 @@ mod body;
 mod inertia;
 mod joint;
 
-use super::Export;
 use super::element::Element;
 use super::error::{ExportError, Note};
 use super::names::check_unique;
 use super::numbers::numbers;
+use super::output::Export;
 use super::subject::Subject;
 use body::{Bodies, Made, geom_name};
 use urdd_document::rigid_groups::RigidGroups;

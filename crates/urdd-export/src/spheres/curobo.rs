@@ -4,9 +4,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::super::Export;
 use super::super::error::ExportError;
 use super::super::numbers::{number, numbers};
+use super::super::output::Export;
 use super::super::subject::Subject;
 use super::{Model, said};
 use urdd_format::escape;

@@ -2,8 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
-use super::super::Export;
 use super::super::error::ExportError;
+use super::super::output::Export;
 use super::super::subject::Subject;
 use super::said::{self, Stand};
 use super::{Model, Sphere};

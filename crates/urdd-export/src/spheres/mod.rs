@@ -4,6 +4,7 @@
 //! completely. In both cases [`judge`] evaluates the written spheres and pairs in configurations that were not used for
 //! the fit. The counts are written with them.
 
+mod budget;
 mod cover;
 pub(super) mod curobo;
 mod fit;
@@ -22,6 +23,7 @@ use rayon::prelude::*;
 
 use super::error::ExportError;
 use super::subject::Subject;
+pub use budget::SphereBudget;
 use fit::Limits;
 use frame::Point;
 pub use judge::{SphereRates, interval};
@@ -30,18 +32,6 @@ use model::{Sphere, Spheres};
 use pairs::Pairs;
 use samples::{Ask, Region, Sample, sample, samples};
 use urdd_robot::{RobotError, ShapeKind};
-
-/// Number of spheres.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum SphereBudget {
-    /// Twelve per link with shapes on average, at most 150 in total. For covering spheres: at most eight per link.
-    #[default]
-    Auto,
-    /// Maximum number per link.
-    PerLink(usize),
-    /// Maximum number for all links together, but at least one per link.
-    Total(usize),
-}
 
 const AUTO_PER_LINK: usize = 12;
 const AUTO_TOTAL: usize = 150;

@@ -6,7 +6,7 @@
 
 use super::clean::Surface;
 use super::part::Plane;
-use super::search::Node;
+use super::tree::Node;
 use super::vector::{cross, dot, lerp, norm, sub};
 use crate::hull::ConvexHull;
 

@@ -6,10 +6,10 @@
 //! is sliced once, and a hull that grows slice by slice gives the cost of everything below each plane. The reverse
 //! sweep gives the cost of everything above.
 
-use super::grower::{Bounds, Frame, Grower, Places, SEED};
+use super::grower::{Frame, Grower, Places, SEED};
 use super::part::{Part, Plane};
 use super::slices::Slices;
-use super::vector::dot;
+use super::vector::{Bounds, dot};
 
 /// Evenly spaced planes per axis; flat coordinates come on top.
 const EVEN: usize = 9;

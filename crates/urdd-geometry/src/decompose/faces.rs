@@ -7,10 +7,10 @@
 use rayon::join;
 use rayon::prelude::*;
 
-use super::grower::{Bounds, Grower, Places};
+use super::grower::{Grower, Places};
 use super::part::{Part, Plane};
-use super::search::Node;
-use super::vector::{cross, dot, norm, sub};
+use super::tree::{Node, divide};
+use super::vector::{Bounds, cross, dot, norm, sub};
 
 /// Depths below this many steps of the hull are within the hull's error.
 const LEAST: f64 = 1.2;
@@ -118,10 +118,8 @@ impl Tree {
         let Some([mut below, mut above]) = self.parts[k].split(&plane, places) else {
             return false;
         };
-        (below.node, above.node) = (self.nodes.len(), self.nodes.len() + 1);
-        self.nodes[self.parts[k].node] = Node::Cut(plane, [below.node, above.node]);
-        self.nodes.push(Node::Leaf(k));
-        self.nodes.push(Node::Leaf(self.parts.len()));
+        let leaves = [k, self.parts.len()];
+        [below.node, above.node] = divide(&mut self.nodes, self.parts[k].node, plane, leaves);
         self.parts[k] = below;
         self.parts.push(above);
         true

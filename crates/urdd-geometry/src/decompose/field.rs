@@ -4,11 +4,10 @@
 //! of a grid store signed distances, negative inside, which are interpolated. Sweeps that pass triangles from node to
 //! node find each node's nearest triangle (Danielsson, "Euclidean distance mapping", 1980).
 
-use super::grower::Bounds;
 use super::growing_hull::GrowingHull;
 use super::inside::{State, flood, parts};
 use super::part::{Part, Plane};
-use super::vector::{cross, dot, nearest_on_triangle, norm, sub};
+use super::vector::{Bounds, cross, dot, nearest_on_triangle, norm, sub};
 
 /// Nodes along the largest extent.
 const ALONG: f64 = 40.0;

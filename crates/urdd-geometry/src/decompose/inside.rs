@@ -6,9 +6,8 @@
 //! between cuts are not lost. Inside is what a flood fill from the grid's border does not reach. So a surface need not
 //! be closed, only tight to within a cell. Otherwise it has no inside, and no points are added.
 
-use super::grower::Bounds;
 use super::part::Part;
-use super::vector::{norm, sub};
+use super::vector::{Bounds, norm, sub};
 
 /// Approximate number of grid cells.
 const CELLS: f64 = 8000.0;

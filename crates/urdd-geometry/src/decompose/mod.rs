@@ -46,6 +46,7 @@ mod proxy;
 mod search;
 mod slices;
 mod support;
+mod tree;
 mod vector;
 
 use rayon::prelude::*;

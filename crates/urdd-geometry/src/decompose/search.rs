@@ -7,14 +7,7 @@ use super::cut::{Cut, best_cuts};
 use super::faces;
 use super::grower::{AXES, Grower, Places, bulk};
 use super::part::{Part, Plane};
-
-/// A node of the tree of cuts. Leaf numbers are indices of `Search::leaves`.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Node {
-    Leaf(usize),
-    /// The child nodes below and above, as indices of the node list.
-    Cut(Plane, [usize; 2]),
-}
+use super::tree::{Node, divide};
 
 /// A leaf's hull in the search.
 #[derive(Clone)]
@@ -156,10 +149,8 @@ fn grow(
         else {
             continue;
         };
-        (below.node, above.node) = (nodes.len(), nodes.len() + 1);
-        nodes[leaves[k].node] = Node::Cut(plane, [below.node, above.node]);
-        nodes.push(Node::Leaf(k));
-        nodes.push(Node::Leaf(leaves.len()));
+        let sides = [k, leaves.len()];
+        [below.node, above.node] = divide(&mut nodes, leaves[k].node, plane, sides);
         leaves[k] = below;
         leaves.push(above);
     }

@@ -1,9 +1,9 @@
 //! Slices of a part between parallel planes, and hulls that grow slice by slice.
 
-use super::grower::{Bounds, Grower, Places};
+use super::grower::{Grower, Places};
 use super::part::Part;
 use super::support::{Candidate, support};
-use super::vector::{dot, lerp};
+use super::vector::{Bounds, dot, lerp};
 
 /// The support points of a part's slices between parallel planes, and of the sections in these planes.
 pub(super) struct Slices {

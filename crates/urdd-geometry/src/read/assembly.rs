@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use nalgebra::Matrix4;
 
 use super::error::{Failure, Fault, NoteCode, Notes};
-use super::{Format, Part, Scene};
+use super::format::Format;
+use super::scene::{Part, Scene};
 use crate::mesh::Mesh;
 
 /// A scene under construction: one part per material, in the order of first use.

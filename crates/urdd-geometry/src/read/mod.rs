@@ -48,108 +48,23 @@
 mod assembly;
 mod collada;
 mod error;
+mod format;
 mod gltf;
 mod mtl;
 mod number;
 mod obj;
+mod options;
+mod scene;
 mod sniff;
 mod stl;
 
 pub use error::{Fault, MeshError, Note, NoteCode, Place};
+pub use format::Format;
+pub use options::{GltfUp, Options};
+pub use scene::{Part, Scene};
 
-use super::mesh::Mesh;
 use assembly::Assembly;
 use error::Failure;
-
-/// The content of a mesh file with all placements applied, in metres.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
-    /// The detected format of the content.
-    pub format: Format,
-    /// One part per material, in the order of first use. Empty without triangles.
-    pub parts: Vec<Part>,
-    /// Files that the mesh references (.mtl, .bin, textures), relative to it, sorted, including missing ones.
-    pub side_files: Vec<String>,
-    /// Assumptions, repairs and omissions.
-    pub notes: Vec<Note>,
-}
-
-/// Triangles of one material.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Part {
-    /// The triangles, in the axes of the URDF's mesh element.
-    pub mesh: Mesh,
-    /// Red, green, blue and opacity, each from 0 to 1; `None` if the file gives no colour or uses a texture.
-    pub color: Option<[f64; 4]>,
-    /// The material's name.
-    pub material: Option<String>,
-}
-
-/// A mesh format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Binary STL.
-    StlBinary,
-    /// STL as text.
-    StlAscii,
-    /// COLLADA (.dae).
-    Collada,
-    /// Wavefront OBJ.
-    Obj,
-    /// glTF as JSON.
-    Gltf,
-    /// Binary glTF.
-    Glb,
-}
-
-/// How to treat the y-up axes of glTF.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum GltfUp {
-    /// Rotate by +90 degrees about x: (x, y, z) becomes (x, -z, y).
-    #[default]
-    Turn,
-    /// Keep the file's axes.
-    Keep,
-}
-
-/// Reader options.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// Treatment of the glTF axes.
-    pub gltf_up: GltfUp,
-    /// Maximum number of triangles; a file with more is an error.
-    pub max_triangles: usize,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            gltf_up: GltfUp::Turn,
-            max_triangles: 20_000_000,
-        }
-    }
-}
-
-impl Scene {
-    /// All parts merged into one mesh, in order.
-    #[must_use]
-    pub fn merged(&self) -> Mesh {
-        let mut mesh = Mesh::default();
-        for part in &self.parts {
-            mesh.append(&part.mesh);
-        }
-        mesh
-    }
-
-    /// Number of triangles in all parts.
-    #[must_use]
-    pub fn triangle_count(&self) -> usize {
-        self.parts
-            .iter()
-            .map(|part| part.mesh.triangles.len())
-            .sum()
-    }
-}
 
 /// Reads a mesh file as a URDF's mesh element uses it.
 ///
@@ -205,28 +120,4 @@ fn read_format(
         Format::Glb => gltf::read_binary(bytes, fetch, options.gltf_up, &mut assembly)?,
     }
     Ok(assembly.into_scene(format))
-}
-
-impl Format {
-    fn label(self) -> &'static str {
-        match self {
-            Self::StlBinary | Self::StlAscii => "STL",
-            Self::Collada => "COLLADA",
-            Self::Obj => "OBJ",
-            Self::Gltf => "glTF",
-            Self::Glb => "GLB",
-        }
-    }
-
-    /// The file extension of this format, without the dot.
-    #[must_use]
-    pub fn extension(self) -> &'static str {
-        match self {
-            Self::StlBinary | Self::StlAscii => "stl",
-            Self::Collada => "dae",
-            Self::Obj => "obj",
-            Self::Gltf => "gltf",
-            Self::Glb => "glb",
-        }
-    }
 }

@@ -1,6 +1,7 @@
 //! Detects the mesh format from the content, or from the extension if the content is ambiguous.
 
-use super::{Fault, Format};
+use super::error::Fault;
+use super::format::Format;
 
 /// Number of leading bytes searched for format markers. Long comments may precede the root element of XML.
 const HEAD: usize = 64 * 1024;

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
+use super::goal::{Goal, InverseSettings};
 use super::path::{Kind, Path, within};
-use super::{Goal, InverseSettings};
 use crate::branch::Place;
 use crate::rotation::to_rotation_vector;
 

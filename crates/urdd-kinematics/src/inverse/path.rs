@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Point3, Vector3, Vector6};
 
-use super::Goal;
+use super::goal::Goal;
 use crate::branch::{Branch, Place};
 use crate::forward::ForwardKinematics;
 use crate::jacobian::{add_to, columns};

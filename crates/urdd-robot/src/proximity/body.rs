@@ -1,6 +1,6 @@
 //! Shapes prepared for distance queries, and their bounding spheres.
 
-use super::{Shape, dot};
+use super::vector::dot;
 use crate::shapes::Solid;
 use urdd_geometry::convex::{ConvexShape, ShapeError};
 
@@ -18,6 +18,15 @@ pub(crate) enum Body {
 pub(crate) struct Sphere {
     pub centre: [f64; 3],
     pub radius: f64,
+}
+
+/// A shape with its bounding sphere.
+#[derive(Debug)]
+pub(crate) struct Shape {
+    pub link: usize,
+    pub piece: usize,
+    pub body: Body,
+    pub sphere: Sphere,
 }
 
 /// Relative margin of a bounding sphere's radius, larger than any rounding error.

@@ -1,12 +1,14 @@
 //! Lower bounds of distances from bounding spheres.
 
-use super::{Placed, Proximity, dot, to_root};
+use super::body::Shape;
+use super::vector::{dot, to_root};
+use super::{Placed, Proximity};
 
 impl Proximity {
     /// Transforms the centre of each shape's bounding sphere to the root link's frame.
     pub(crate) fn place_centres(&self, placed: &mut Placed) {
         placed.centres.clear();
-        let centre = |shape: &super::Shape| to_root(&placed.links[shape.link], shape.sphere.centre);
+        let centre = |shape: &Shape| to_root(&placed.links[shape.link], shape.sphere.centre);
         placed.centres.extend(self.shapes.iter().map(centre));
     }
 

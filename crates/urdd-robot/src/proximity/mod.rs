@@ -13,16 +13,17 @@ mod batch;
 mod body;
 mod bound;
 mod query;
+mod vector;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use nalgebra::Isometry3;
 
-use self::body::{Sphere, body};
+use self::body::{Shape, Sphere, body};
 use super::Robot;
 use super::error::RobotError;
-use super::kinematics::Motion;
+use super::motion::Motion;
 use super::shapes::ShapeKind;
 use super::skips::Skips;
 use super::statistics::AllStatistics;
@@ -30,6 +31,7 @@ use urdd_geometry::convex::Level;
 
 pub use batch::Until;
 pub(super) use body::Body;
+pub(super) use vector::{dot, to_root};
 
 /// The distance between two shapes, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,14 +64,6 @@ pub struct Proximity {
     pairs: Vec<Pair>,
     groups: Vec<Group>,
     pub(super) level: Level,
-}
-
-#[derive(Debug)]
-pub(super) struct Shape {
-    pub link: usize,
-    pub piece: usize,
-    pub body: Body,
-    pub sphere: Sphere,
 }
 
 /// Two shapes that are not skipped.
@@ -263,13 +257,4 @@ impl Proximity {
         let between = [0, 1, 2].map(|k| b[3][k] - a[3][k]);
         [back(b[0]), back(b[1]), back(b[2]), back(between)]
     }
-}
-
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Transforms a point from a link's frame to the root link's frame.
-pub(super) fn to_root(link: &[[f64; 3]; 4], p: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|k| link[0][k] * p[0] + link[1][k] * p[1] + link[2][k] * p[2] + link[3][k])
 }

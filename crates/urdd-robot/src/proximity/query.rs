@@ -1,7 +1,8 @@
 //! Queries on one configuration.
 
 use super::body::Body;
-use super::{Group, PairDistance, Placed, Proximity, dot, to_root};
+use super::vector::{dot, to_root};
+use super::{Group, PairDistance, Placed, Proximity};
 use crate::error::RobotError;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
 

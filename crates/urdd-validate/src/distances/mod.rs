@@ -22,9 +22,6 @@ use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::convex::{Motion, PairStatistics};
 
-/// As many configurations are held in memory at once.
-const AT_ONCE: u32 = 4096;
-
 /// The distances of all kinds of shapes.
 pub struct Distances {
     /// In the order of [`KINDS`]; `None` for a kind without statistics.
@@ -87,7 +84,7 @@ impl Distances {
         let configurations = plan::configurations(&work, num_samples, budget);
 
         let default = poses.default_motion()?;
-        let first = poses.motion(0..num_samples.min(AT_ONCE))?;
+        let first = poses.motion(0..num_samples.min(plan::AT_ONCE))?;
         let mut kinds: [Option<KindDistances>; 6] = Default::default();
         for ((kind, set), n) in kinds.iter_mut().zip(sets).zip(configurations) {
             let Some(shapes) = set else {
@@ -164,7 +161,7 @@ fn over(
     let mut all = PairStatistics::default();
     let mut start = 0;
     while start < n {
-        let end = n.min(start + AT_ONCE);
+        let end = n.min(start + plan::AT_ONCE);
         let part = shapes.statistics(&poses.motion(start..end)?);
         match start {
             0 => all = part,

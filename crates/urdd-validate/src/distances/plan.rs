@@ -17,6 +17,9 @@ pub const HULL: u64 = 40;
 /// What the pose of a link takes.
 pub const POSE: u64 = 50;
 
+/// As many configurations are held in memory at once.
+pub(super) const AT_ONCE: u32 = 4096;
+
 /// The work that a validation does by default: about a quarter of a second of one core.
 const DEFAULT: u64 = 250_000_000;
 /// The work with `--deep`: minutes. It bounds what a number in a document can ask for.
@@ -67,7 +70,7 @@ pub fn configurations(kinds: &[Option<Work>], num_samples: u32, budget: u64) -> 
     let each = others.each.max(1).saturating_mul(u64::from(LEAST));
     let eights = left.saturating_sub(others.once) / each;
     let some = u32::try_from(eights).unwrap_or(u32::MAX).max(1);
-    let some = some.saturating_mul(LEAST).min(super::AT_ONCE);
+    let some = some.saturating_mul(LEAST).min(AT_ONCE);
     for n in &mut planned {
         if *n != num_samples {
             *n = some.min(num_samples) * u32::from(*n > 0);

@@ -4,7 +4,8 @@ use roxmltree::{Document, Node};
 
 use super::numbers;
 use super::problem::{Fault, Problem, Repeated};
-use super::{Reading, xml};
+use super::reading::Reading;
+use super::xml;
 use urdd_document::pose::has_quaternions;
 use urdd_format::urdf as v1;
 

@@ -1,4 +1,5 @@
 use super::*;
+use urdd_directory::position::LineIndex;
 use urdd_format::urdf::{Geometry, JointType};
 
 fn robot(inside: &str) -> Reading {

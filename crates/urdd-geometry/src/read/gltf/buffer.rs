@@ -7,8 +7,10 @@ use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 use super::super::assembly::Assembly;
 use super::super::collada::path_of_url;
 use super::super::error::{Failure, Fault};
-use super::Fetch;
 use super::json::Root;
+
+/// Returns the bytes of a side file.
+pub(super) type Fetch<'f> = &'f mut dyn FnMut(&str) -> Option<Vec<u8>>;
 
 /// Buffers, loaded on first use.
 pub(super) struct Buffers<'r, 'f> {

@@ -5,12 +5,11 @@ mod buffer;
 mod json;
 mod scene;
 
-use super::GltfUp;
 use super::assembly::Assembly;
 use super::error::{Failure, Fault, NoteCode, Place};
+use super::options::GltfUp;
 use super::sniff::skip_byte_order_mark;
-
-type Fetch<'f> = &'f mut dyn FnMut(&str) -> Option<Vec<u8>>;
+use buffer::Fetch;
 
 /// Reads a .gltf.
 pub(super) fn read_json(

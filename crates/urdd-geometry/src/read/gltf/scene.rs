@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, HashMap};
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3};
 use serde_json::Value;
 
-use super::super::GltfUp;
 use super::super::assembly::{Assembly, Material, Picker};
 use super::super::collada::strip;
 use super::super::error::{Failure, Fault, NoteCode};
+use super::super::options::GltfUp;
 use super::accessor;
 use super::buffer::Buffers;
 use super::json::{Node, Primitive, Root};

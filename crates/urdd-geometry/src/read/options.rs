@@ -1,0 +1,29 @@
+//! Options of the readers.
+
+/// How to treat the y-up axes of glTF.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GltfUp {
+    /// Rotate by +90 degrees about x: (x, y, z) becomes (x, -z, y).
+    #[default]
+    Turn,
+    /// Keep the file's axes.
+    Keep,
+}
+
+/// Reader options.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Treatment of the glTF axes.
+    pub gltf_up: GltfUp,
+    /// Maximum number of triangles; a file with more is an error.
+    pub max_triangles: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            gltf_up: GltfUp::Turn,
+            max_triangles: 20_000_000,
+        }
+    }
+}

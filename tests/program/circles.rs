@@ -1,0 +1,216 @@
+//! No circle between the files of a crate: each can be read after the files that it uses.
+
+mod names;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use testkit::repository;
+
+use names::{Crate, Ties};
+
+/// Folders with a circle that is known. Remove those that are untied; add none.
+const KNOWN: &[&str] = &[
+    "crates/urdd-generate/src/combine",
+    "crates/urdd-generate/src/process",
+    "crates/urdd-generate/src/train",
+    "crates/urdd-generate/src/urdf",
+    "crates/urdd-validate/src/rules/bounds",
+    "crates/urdd-validate/src/rules/chain",
+    "crates/urdd-validate/src/rules/composition",
+    "crates/urdd-validate/src/rules/connections",
+    "crates/urdd-validate/src/rules/learned",
+];
+
+/// Files that all reach each other.
+type Circle<'a> = BTreeSet<&'a Path>;
+
+fn circles<'a>(ties: &Ties<'a>) -> BTreeSet<Circle<'a>> {
+    let reached = |from: &'a Path| {
+        let mut reached = Circle::new();
+        let mut open = vec![from];
+        while let Some(file) = open.pop() {
+            let next = ties.get(file).into_iter().flat_map(BTreeMap::keys);
+            open.extend(next.filter(|next| reached.insert(next)));
+        }
+        reached
+    };
+    let all: BTreeMap<&Path, Circle> = ties.keys().map(|file| (*file, reached(file))).collect();
+    let circle = |(file, reached): (&&'a Path, &Circle<'a>)| -> Circle<'a> {
+        let is_back = |other: &&&Path| all.get(**other).is_some_and(|back| back.contains(file));
+        reached.iter().filter(is_back).copied().collect()
+    };
+    let circles = all.iter().map(circle);
+    circles.filter(|circle| !circle.is_empty()).collect()
+}
+
+/// What ties the files of a circle, one line each.
+fn ties_of(circle: &Circle<'_>, ties: &Ties<'_>, folder: &Path) -> String {
+    let short = |file: &Path| {
+        file.strip_prefix(folder)
+            .unwrap_or(file)
+            .display()
+            .to_string()
+    };
+    let mut lines = String::new();
+    for from in circle {
+        for (to, names) in ties[from].iter().filter(|(to, _)| circle.contains(*to)) {
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            lines += &format!("  {} -> {}: {}\n", short(from), short(to), names.join(", "));
+        }
+    }
+    lines
+}
+
+/// The folders of the repository's packages.
+fn packages() -> Vec<PathBuf> {
+    let mut packages = vec![repository().to_owned()];
+    for folder in [repository().to_owned(), repository().join("crates")] {
+        let entries = fs::read_dir(&folder).expect("a folder");
+        packages.extend(entries.map(|entry| entry.expect("an entry").path()));
+    }
+    packages.retain(|folder| folder.join("Cargo.toml").is_file() && folder.join("src").is_dir());
+    assert!(packages.len() > 15, "{packages:?}");
+    packages
+}
+
+#[test]
+fn no_circle_between_files() {
+    let mut known: BTreeSet<&str> = BTreeSet::new();
+    let mut unknown = String::new();
+    for package in packages() {
+        let read = Crate::read(&package);
+        let ties = read.ties();
+        for circle in circles(&ties) {
+            let is_in = |folder: &&&str| {
+                let folder = repository().join(folder);
+                circle.iter().all(|file| file.starts_with(&folder))
+            };
+            match KNOWN.iter().find(is_in) {
+                Some(folder) => _ = known.insert(folder),
+                None => {
+                    unknown += &format!("a circle of {} files:\n", circle.len());
+                    unknown += &ties_of(&circle, &ties, repository());
+                }
+            }
+        }
+    }
+    assert!(
+        unknown.is_empty(),
+        "{unknown}Move what both need into the file where it belongs, or join the files."
+    );
+    for folder in KNOWN {
+        assert!(
+            known.contains(folder),
+            "{folder}: no circle any more; remove it from KNOWN"
+        );
+    }
+}
+
+/// What ties the files of a crate in circles.
+fn planted(files: &[(&str, &str)]) -> String {
+    let package = tempfile::tempdir().expect("a folder");
+    for (path, text) in files {
+        let file = package.path().join("src").join(path);
+        fs::create_dir_all(file.parent().expect("a folder")).expect("a folder");
+        fs::write(file, text).expect("a file");
+    }
+    let read = Crate::read(package.path());
+    let ties = read.ties();
+    let source = package.path().join("src");
+    let circles = circles(&ties).into_iter();
+    circles
+        .map(|circle| ties_of(&circle, &ties, &source))
+        .collect()
+}
+
+#[test]
+fn circles_are_found_however_names_are_written() {
+    let mods = ("lib.rs", "mod a; mod b; pub use b::B;");
+    let a = ("a.rs", "use super::b::B; pub struct A(B);");
+    for b in [
+        "use super::a::A; pub struct B(Option<Box<A>>);",
+        "use crate::{a::{A as Other}}; pub struct B(Vec<Other>);",
+        "use super::*; pub struct B(Vec<a::A>);",
+        "pub struct B; impl B { fn f() -> usize { 1 + crate::a::A::N } }",
+        "pub struct B; fn f() { println!(\"{}\", super::a::A::new()); }",
+        "pub struct B(#[serde(with = \"super::a::A\")] u8);",
+        "mod inner { use super::super::a::A; } pub struct B;",
+    ] {
+        let ties = planted(&[mods, a, ("b.rs", b)]);
+        assert_eq!(ties, "  a.rs -> b.rs: B\n  b.rs -> a.rs: A\n", "{b}");
+    }
+    // Handed on by another file, and taken from there.
+    let a = ("a.rs", "use crate::B; pub struct A(B);");
+    let ties = planted(&[mods, a, ("b.rs", "use super::a::A; pub struct B(A);")]);
+    assert_eq!(ties, "  a.rs -> b.rs: B\n  b.rs -> a.rs: A\n");
+    // Round three files.
+    let files = [
+        ("lib.rs", "mod a; mod b; mod c;"),
+        ("a.rs", "use super::b::B; pub struct A;"),
+        ("b.rs", "use super::c::C; pub struct B;"),
+        ("c.rs", "use super::a::A; pub struct C;"),
+    ];
+    let ties = "  a.rs -> b.rs: B\n  b.rs -> c.rs: C\n  c.rs -> a.rs: A\n";
+    assert_eq!(planted(&files), ties);
+    // A parent uses its child, which uses the parent's item: in code, and by a macro that lists children.
+    let child = ("a/child.rs", "use super::helper; pub fn run() { helper() }");
+    for (parent, name) in [
+        (
+            "mod child; fn helper() {} pub fn run() { child::run() }",
+            "run",
+        ),
+        ("mod child; fn helper() {} list! { child }", "child"),
+    ] {
+        let ties = planted(&[("lib.rs", "mod a;"), ("a/mod.rs", parent), child]);
+        let expected =
+            format!("  a/child.rs -> a/mod.rs: helper\n  a/mod.rs -> a/child.rs: {name}\n");
+        assert_eq!(ties, expected);
+    }
+}
+
+#[test]
+fn what_is_no_circle_is_not_found() {
+    for (a, b) in [
+        ("use super::b::B; pub struct A(B);", "pub struct B;"),
+        // Only in tests.
+        (
+            "use super::b::B; pub struct A(B);",
+            "pub struct B; #[cfg(test)] mod tests { use super::super::a::A; }",
+        ),
+        (
+            "use super::b::B; pub struct A(B);",
+            "#[cfg(test)] use super::a::A; pub struct B;",
+        ),
+        // In words.
+        (
+            "use super::b::B; pub struct A(B);",
+            "/// See [`super::a::A`].\npub struct B;",
+        ),
+        // Another crate's name.
+        (
+            "use super::b::B; pub use other::Name; pub struct A(B);",
+            "use super::a::Name; pub struct B(Name);",
+        ),
+        // Fields and methods.
+        (
+            "use super::b::B; pub struct A(B);",
+            "pub struct B; fn f(b: B) { b.a.A() }",
+        ),
+    ] {
+        let ties = planted(&[("lib.rs", "mod a; mod b;"), ("a.rs", a), ("b.rs", b)]);
+        assert_eq!(ties, "", "{a} {b}");
+    }
+    // A parent that hands on what its children define.
+    let files = [
+        ("lib.rs", "mod a;"),
+        (
+            "a/mod.rs",
+            "mod x; mod y; pub use x::X; pub fn f() -> y::Y { y::Y }",
+        ),
+        ("a/x.rs", "pub struct X;"),
+        ("a/y.rs", "use super::X; pub struct Y(X);"),
+    ];
+    assert_eq!(planted(&files), "");
+}
