@@ -51,6 +51,7 @@ use std::sync::{Arc, OnceLock};
 use urdd_directory::root::Root;
 use urdd_directory::source::Source;
 
+#[doc(hidden)]
 pub use batch::fill;
 pub use description::SourceFile;
 pub use error::RobotError;
