@@ -1,44 +1,70 @@
 //! The validator: checks a URDD from any producer against the specification.
 //!
 //! [`validate`] finds URDDs and runs every rule over each; what comes out is a [`Run`], plain
-//! data. Rules are one file each, in [`rules`].
+//! data. Rules are one file each, in `rules/`.
+//!
+//! ```
+//! use urdd_format::report::Severity;
+//! use urdd_validate::{settings::Settings, validate};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("toy");
+//! # urdd_testkit::fixture::Fixture::toy().write_to(&path);
+//! let run = validate(&[path], &Settings::default())?; // URDDs, and folders with URDDs at any depth
+//! let report = run.report(Severity::Error);
+//! for finding in report.urdds.iter().flat_map(|urdd| &urdd.findings) {
+//!     println!("{}: {}", finding.code, finding.message);
+//! }
+//! assert_eq!(report.urdds[0].findings, []);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
-pub mod bare_urdf;
+mod bare_urdf;
 mod bound;
 pub mod code;
-pub mod context;
-pub mod distances;
+mod context;
+mod distances;
+#[doc(hidden)]
 pub mod engine;
 mod examined;
 mod find_errors;
+#[doc(hidden)]
 pub mod finding;
-pub mod fold;
+mod fold;
+#[doc(hidden)]
 pub mod learned;
 mod locate;
 mod model_verified;
 mod names;
-pub mod needs;
+mod needs;
+#[doc(hidden)]
 pub mod part;
-pub mod place;
+mod place;
+#[doc(hidden)]
 pub mod reference;
 pub mod report;
+#[doc(hidden)]
 pub mod rule;
+#[doc(hidden)]
 pub mod rules;
-pub mod scope;
+mod scope;
 pub mod selection;
 pub mod settings;
+#[doc(hidden)]
 pub mod skip;
+#[doc(hidden)]
 pub mod solids;
-pub mod tolerance;
+mod tolerance;
 mod two_robots;
 mod unverified;
+#[doc(hidden)]
 pub mod urdf_text;
-pub mod views;
+mod views;
 mod worst;
 
 pub use examined::{Examined, ExaminedModule, RobotSize};
 pub use find_errors::find_errors;
-pub use model_verified::{ModelVerdict, verify_model};
+use model_verified::{ModelVerdict, verify_model};
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
