@@ -7,14 +7,16 @@ use std::sync::Arc;
 use super::context::Context;
 use super::engine::{Check, Outcomes, run_all};
 use super::rule::{Judges, Need, Rule};
-use super::{Examined, RobotSize};
+use super::{Examined, report};
 use urdd_directory::discover::Found;
 use urdd_directory::root::{Listing, ReadError, Root};
 use urdd_document::carried_urdf::{self, CarriedUrdf};
 use urdd_document::load::Loaded;
 use urdd_document::module::{JsonFile, MetadataFile};
 use urdd_document::urdd::Urdd;
+use urdd_format::index::Count;
 use urdd_format::registry::Profile;
+use urdd_format::report::{self as format, Kind, Size};
 
 /// Whether a path is a URDF, by its name.
 pub fn is_urdf(path: &Path) -> bool {
@@ -54,18 +56,16 @@ pub(super) fn examine(found: &Found, rules: &[&'static Rule]) -> Result<Examined
     let mut checks: Vec<Check> = run_all(judged, rules.collect(), &mut outcomes);
     checks.sort_by_key(|check| check.rule.code);
     let robot = judged.robot();
-    Ok(Examined {
-        name: found.name.clone(),
-        crashed: None,
-        robot_name: robot.map(|robot| robot.name.clone()),
-        size: RobotSize {
-            links: robot.map(|robot| robot.links.len()),
-            joints: robot.map(|robot| robot.joints.len()),
+    let report = format::Urdd {
+        name: robot.map(|robot| robot.name.clone()),
+        size: Size {
+            links: robot.map(|robot| Count::saturating(robot.links.len())),
+            joints: robot.map(|robot| Count::saturating(robot.joints.len())),
             dofs: None,
         },
-        modules: Vec::new(),
-        checks,
-    })
+        ..report::blank(Kind::Urdf, &found.name)
+    };
+    Ok(Examined { report, checks })
 }
 
 /// Whether a rule needs nothing but the source.

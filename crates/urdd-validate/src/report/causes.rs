@@ -4,8 +4,8 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::model::{Consequence, Finding, Place, Report, Severity};
 use super::place::file_in;
+use urdd_format::report::{Consequence, Finding, Place, Report, Severity};
 
 /// One cause.
 pub(super) struct Cause<'a> {
@@ -206,15 +206,8 @@ mod tests {
     #[test]
     fn a_pair_is_the_same_either_way_round() {
         let at = |subject: &str| Place {
-            file: None,
-            pointer: None,
-            line: None,
-            column: None,
-            expected: None,
-            actual: None,
             subject: Some(subject.to_owned()),
-            message: None,
-            magnitude: None,
+            ..Place::default()
         };
         let one = subject(&at("`b` piece 3, `a` piece 1"));
         assert_eq!(one.as_deref(), Some("`a`, `b`"));

@@ -3,9 +3,9 @@
 
 use std::fmt::{self, Write};
 
-use super::model::{Report, Severity, Status};
 use super::place::file_in;
 use urdd_format::escape;
+use urdd_format::report::{Report, Severity, Status};
 
 /// Writes the report. `places` says where its URDDs lie (see [`super::place::places`]).
 ///

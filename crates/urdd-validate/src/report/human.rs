@@ -10,12 +10,12 @@ use std::fmt::{self, Write};
 use urdd_format::escape::{self, line as safe};
 use urdd_format::readable::number;
 
-use super::model::{
-    CheckStatus, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict,
-};
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::words::{list, plural};
 use super::{summary, unverified};
+use urdd_format::report::{
+    CheckStatus, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict,
+};
 
 /// More URDDs than these are summed up, not shown one by one.
 pub const FEW: usize = 3;

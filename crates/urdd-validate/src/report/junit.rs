@@ -10,28 +10,21 @@ use std::io;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 
-use super::human;
-use super::model::{CheckStatus, Finding, Report, Severity, Status, Urdd};
-use crate::rule::Rule;
-use crate::{Run, Subject};
+use super::{human, rule};
 use urdd_format::escape;
+use urdd_format::report::{CheckStatus, Finding, Report, Severity, Status, Urdd};
 
 type Out = Writer<Vec<u8>>;
 
-/// Writes the report of a run that fails on findings of `fail_on` and worse. `places` says where its
-/// URDDs lie (see [`super::place::places`]).
+/// Writes the report of a run that fails on findings of `fail_on` and worse. `places` are the folders of its URDDs (see
+/// [`super::place::places`]).
 ///
 /// # Errors
 /// Never: it is written to memory.
-pub fn junit(
-    run: &Run,
-    report: &Report,
-    places: &[String],
-    fail_on: Severity,
-) -> io::Result<String> {
-    let urdds = run.subjects.iter().zip(&report.urdds).zip(places);
+pub fn junit(report: &Report, places: &[String], fail_on: Severity) -> io::Result<String> {
+    let urdds = report.urdds.iter().zip(places);
     let suites: Vec<Suite> = urdds
-        .map(|((subject, urdd), place)| Suite::new(subject, urdd, place, fail_on))
+        .map(|(urdd, place)| Suite::new(urdd, place, fail_on))
         .collect();
     let sum = |count: fn(&Suite) -> usize| suites.iter().map(count).sum::<usize>().to_string();
     let mut out = Writer::new_with_indent(Vec::new(), b' ', 2);
@@ -62,12 +55,9 @@ struct Case {
 }
 
 impl Suite {
-    fn new(subject: &Subject, urdd: &Urdd, place: &str, fail_on: Severity) -> Suite {
-        let ran = subject.result.iter().flat_map(|examined| &examined.checks);
-        let mut cases: Vec<Case> = ran
-            .zip(&urdd.checks)
-            .map(|(ran, check)| case(urdd, ran.rule, check, fail_on))
-            .collect();
+    fn new(urdd: &Urdd, place: &str, fail_on: Severity) -> Suite {
+        let checks = urdd.checks.iter();
+        let mut cases: Vec<Case> = checks.map(|check| case(urdd, check, fail_on)).collect();
         if let Some(reason) = &urdd.reason {
             let kind = urdd.verdict.as_str().to_owned();
             let outcome = ("error", kind, allowed(reason), String::new());
@@ -139,7 +129,7 @@ impl Case {
     }
 }
 
-fn case(urdd: &Urdd, rule: &Rule, check: &CheckStatus, fail_on: Severity) -> Case {
+fn case(urdd: &Urdd, check: &CheckStatus, fail_on: Severity) -> Case {
     let findings: Vec<&Finding> = urdd
         .findings
         .iter()
@@ -162,9 +152,10 @@ fn case(urdd: &Urdd, rule: &Rule, check: &CheckStatus, fail_on: Severity) -> Cas
         (Status::Skipped, _) => plain("skipped", "skipped"),
         (Status::Crashed, _) => plain("error", "crashed"),
     };
+    let name = rule(&check.code).map_or("", |rule| rule.name);
     Case {
-        // The same on every run, or nobody can follow a case through runs.
-        name: format!("{} {}", rule.code, rule.name),
+        // The same on every run, so that a case can be followed through runs.
+        name: format!("{} {name}", check.code),
         output: match outcome {
             None => text,
             Some(_) => String::new(),

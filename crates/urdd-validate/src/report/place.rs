@@ -3,16 +3,17 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use crate::{Run, Subject};
+use crate::Run;
+use urdd_format::report::Urdd;
 
 /// The folder of every URDD of a run, relative to `current`, with forward slashes: empty where it is
 /// that folder. A URDD outside of `current` goes by its name.
 pub fn places(run: &Run, current: &Path) -> Vec<String> {
-    let place = |subject: &Subject| {
-        let found = &subject.found;
-        relative(&found.path, current).unwrap_or_else(|| found.name.clone())
+    let urdds = run.report.urdds.iter().zip(&run.folders);
+    let place = |(urdd, folder): (&Urdd, &PathBuf)| {
+        relative(folder, current).unwrap_or_else(|| urdd.path.clone())
     };
-    run.subjects.iter().map(place).collect()
+    urdds.map(place).collect()
 }
 
 /// A file of a URDD, seen from where its place is seen; the URDD's folder where there is no file, or

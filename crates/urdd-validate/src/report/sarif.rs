@@ -10,16 +10,15 @@ use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
-use super::model::{Finding, Place, Report, Severity, Status, Urdd, Verdict};
 use super::place::file_in;
-use super::unverified;
-use crate::Run;
+use super::{rule, unverified};
 use crate::code::Code;
 use crate::rule::Rule;
 use urdd_format::escape;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::index::Count;
 use urdd_format::readable::number;
+use urdd_format::report::{CheckStatus, Finding, Place, Report, Severity, Status, Urdd, Verdict};
 
 /// What paths are relative to: the folder in which the program ran, by the name that readers of
 /// SARIF have for the root of a repository.
@@ -41,13 +40,8 @@ const KEPT: &AsciiSet = &NON_ALPHANUMERIC
 ///
 /// # Errors
 /// Never for a report that [`Run::report`](crate::Run::report) made.
-pub fn sarif(
-    run: &Run,
-    report: &Report,
-    places: &[String],
-    exit_code: u8,
-) -> serde_json::Result<String> {
-    let rules = Rules::used(run, report);
+pub fn sarif(report: &Report, places: &[String], exit_code: u8) -> serde_json::Result<String> {
+    let rules = Rules::used(report);
     let placed = || report.urdds.iter().zip(places);
     let results: Vec<Value> = placed()
         .flat_map(|(urdd, place)| results(urdd, place, &rules))
@@ -114,19 +108,12 @@ pub fn sarif(
 struct Rules(BTreeMap<Code, &'static Rule>);
 
 impl Rules {
-    fn used(run: &Run, report: &Report) -> Rules {
-        let mut rules = BTreeMap::new();
-        for (subject, urdd) in run.subjects.iter().zip(&report.urdds) {
-            let Ok(examined) = &subject.result else {
-                continue;
-            };
-            for (check, status) in examined.checks.iter().zip(&urdd.checks) {
-                if matches!(status.status, Status::Failed | Status::Crashed) {
-                    rules.insert(check.rule.code, check.rule);
-                }
-            }
-        }
-        Rules(rules)
+    fn used(report: &Report) -> Rules {
+        let checks = report.urdds.iter().flat_map(|urdd| &urdd.checks);
+        let used = checks
+            .filter(|check| matches!(check.status, Status::Failed | Status::Crashed))
+            .filter_map(|check| rule(&check.code));
+        Rules(used.map(|rule| (rule.code, rule)).collect())
     }
 
     fn index(&self, code: &str) -> Option<usize> {
@@ -300,7 +287,7 @@ fn notifications(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
         notifications
             .push(json!({"level": "error", "message": message(&text), "locations": locations}));
     }
-    let crashed = |check: &&super::model::CheckStatus| check.status == Status::Crashed;
+    let crashed = |check: &&CheckStatus| check.status == Status::Crashed;
     for check in urdd.checks.iter().filter(crashed) {
         let text = format!(
             "{} ran into a fault of its own and checked nothing: {}. Please report this.",

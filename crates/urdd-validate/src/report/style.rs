@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::model::Severity;
+use urdd_format::report::Severity;
 
 /// How the human report looks.
 #[derive(Debug, Clone, Copy)]

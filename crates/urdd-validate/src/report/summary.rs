@@ -6,11 +6,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
 use super::causes::{Cause, causes};
-use super::model::{Consequence, Report, Severity, Status, Urdd, Verdict};
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::unverified::{self, not_verified};
 use super::words::plural;
 use urdd_format::escape::line as safe;
+use urdd_format::report::{Consequence, Report, Severity, Status, Urdd, Verdict};
 
 /// Families of rules, as columns: a title, and the families.
 const COLUMNS: &[(&str, &[&str])] = &[

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::model::{LinkNotVerified, Urdd};
 use super::words::{list, plural};
 use urdd_format::escape::line as safe;
+use urdd_format::report::{LinkNotVerified, Urdd};
 
 /// Most links that are named for a reason.
 const LINKS: usize = 8;
