@@ -1,24 +1,24 @@
-//! How much of what was found is kept of a run of many URDDs: places beyond a bound are counted, and
-//! not kept. What is kept depends on the URDDs alone, not on the order in which they were examined.
+//! Bounds the memory of a run of many URDDs: places beyond a limit are counted and dropped. The result depends on the
+//! URDDs alone, not on the order of their examination.
 
 use super::engine::Check;
 use urdd_format::report::Place;
 
-/// About how many bytes of places are kept of a run, and of each URDD where there are very many.
+/// Approximate memory limit for the places of a run, in bytes, and the lower limit for each URDD.
 const KEPT_OF_RUN: usize = 256 << 20;
 const LEAST_OF_URDD: usize = 256 << 10;
 
-/// How many bytes of places are kept of each URDD of a run.
+/// Memory limit for the places of each URDD of a run, in bytes.
 pub(super) fn of_each(urdds: usize) -> usize {
     (KEPT_OF_RUN / urdds.max(1)).max(LEAST_OF_URDD)
 }
 
-/// About how much memory a place and a finding take without their texts, in bytes. Constants, so that a report is the
+/// Approximate memory of a place and of a finding without their texts, in bytes. Constants, so that a report is the
 /// same on every machine.
 const PLACE: usize = 184;
 const FINDING: usize = 256;
 
-/// About how much memory a place takes, in bytes.
+/// Approximate memory of a place, in bytes.
 pub(super) fn bytes(place: &Place) -> usize {
     let texts = [
         &place.file,
@@ -32,8 +32,8 @@ pub(super) fn bytes(place: &Place) -> usize {
     PLACE + texts.sum::<usize>()
 }
 
-/// Keeps at most so many bytes of places: of each finding the worst ones, of each rule one finding
-/// at least. What is left out stays in the counts.
+/// Drops places beyond `most` bytes. Keeps the worst places of each finding and at least one finding of each rule.
+/// Counts include what is dropped.
 pub(super) fn trim(checks: &mut [Check], most: usize) {
     let mut left = most;
     for check in checks {

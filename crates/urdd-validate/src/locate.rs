@@ -1,5 +1,5 @@
-//! Line, column and names for places that only have a pointer. Done for what is kept of the
-//! findings, and in one walk through each text.
+//! Adds line, column and subject to places that only have a pointer: for the findings that are kept, in one pass
+//! through each text.
 
 use std::collections::BTreeMap;
 
@@ -38,7 +38,7 @@ pub(super) fn locate(context: &Context, findings: &mut [Finding]) {
             for place in places {
                 place.subject = names.subject(ModuleKind::Urdf, &pointer(place));
                 if place.line.is_none() {
-                    // The pointer is that of the value in urdf_module, and leads nowhere in XML.
+                    // The pointer is into urdf_module, not into the XML.
                     put_position(place, reading.position(&lines, &pointer(place)));
                     place.pointer = None;
                 }
@@ -47,7 +47,7 @@ pub(super) fn locate(context: &Context, findings: &mut [Finding]) {
     }
 }
 
-/// Puts line and column where there are none.
+/// Sets line and column if the place has none.
 fn put_position(place: &mut Place, position: Option<Position>) {
     if let (None, Some(position)) = (place.line, position) {
         place.line = Some(Count(position.line));
@@ -59,7 +59,7 @@ fn pointer(place: &Place) -> String {
     place.pointer.clone().unwrap_or_default()
 }
 
-/// The text of a document, and the module that it is of.
+/// The text of a document, and its module.
 fn json_text<'a>(context: &'a Context, file: &str) -> Option<(&'a str, Option<ModuleKind>)> {
     if file == ROOT_METADATA {
         return Some((context.metadata_file().json.text()?, None));

@@ -1,4 +1,4 @@
-//! Whether the rates of a URDD's self-collision model are true, without judging the rest.
+//! Verifies the rates of a URDD's self-collision model, without validating the rest.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -9,18 +9,18 @@ use super::settings::Settings;
 use super::{rules, validate_with};
 use urdd_format::report::Status;
 
-/// What came of counting again how often a model is right (SPEC 8.8.9 to 8.8.12).
+/// The result of recounting the rates of a model (SPEC 8.8.9 to 8.8.12).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ModelVerdict {
-    /// The rates that it states are true.
+    /// The stated rates are right.
     Verified,
-    /// They are not: the rules that say so.
+    /// The stated rates are wrong: the codes of the rules that found it.
     Refuted(Vec<String>),
-    /// It was not found out, for these reasons.
+    /// The rates were not verified, for these reasons.
     NotVerified(Vec<String>),
 }
 
-/// Runs the rules that verify the self-collision model of the URDD at `path`, and those that they need.
+/// Runs the rules that verify the self-collision model of the URDD at `path`, and the rules that they need.
 pub fn verify_model(path: &Path) -> ModelVerdict {
     let all = rules::all();
     let mut wanted = BTreeSet::from([Code::LRN010, Code::LRN011]);

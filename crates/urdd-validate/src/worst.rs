@@ -1,10 +1,10 @@
-//! Which of many places of a finding comes first.
+//! Orders the places of a finding.
 
 use super::finding::{Finding, Place};
 
-/// Puts the worst place of a finding first, where its places say how bad they are.
+/// Puts the worst place of a finding first, by magnitude.
 pub(super) fn worst_first(finding: &mut Finding) {
-    // What is not a finite number is as bad as it gets.
+    // A magnitude that is not finite is the worst.
     let size = |place: &Place| match &place.magnitude {
         None => f64::NEG_INFINITY,
         Some(magnitude) => magnitude.value.unwrap_or(f64::INFINITY),
@@ -25,7 +25,7 @@ pub(super) fn worst_first(finding: &mut Finding) {
                 }
             }
         }
-        // The one that was first goes to its place among the others.
+        // Sorts the former first place in among the others.
         finding.more.sort_by(|a, b| size(b).total_cmp(&size(a)));
     }
 }

@@ -1,8 +1,8 @@
-//! The report as JUnit XML, for GitLab, Jenkins, GitHub actions and others that show tests: a suite
-//! for each URDD, a case for each rule.
+//! The report as JUnit XML, for GitLab, Jenkins, GitHub Actions and other viewers of test results: one suite per URDD,
+//! one case per rule.
 //!
-//! A case fails as the run does: on findings at or above the severity at which runs fail. What is
-//! below that stands in the output of a case that passes.
+//! A case fails on findings at or above the severity at which the run fails. Lesser findings are in the output of a
+//! passed case.
 
 use std::cmp::Reverse;
 use std::io;
@@ -48,9 +48,9 @@ struct Suite {
 
 struct Case {
     name: String,
-    /// The element that says what came of it, with its type, message and text; none where it passed.
+    /// The result element, with its type, message and text; `None` for a passed case.
     outcome: Option<(&'static str, String, String, String)>,
-    /// Findings with which a case passes.
+    /// Findings of a passed case.
     output: String,
 }
 
@@ -164,17 +164,17 @@ fn case(urdd: &Urdd, check: &CheckStatus, fail_on: Severity) -> Case {
     }
 }
 
-/// A finding as the report for people has it, but for the margin.
+/// A finding as in the report for people, without the margin.
 fn described(finding: &Finding) -> String {
     let mut text = String::new();
-    // Writing to a string does not fail.
+    // Writing to a string cannot fail.
     let _ = human::write_finding(finding, super::style::Style::default(), &mut text);
     let lines = text.lines();
     let lines = lines.map(|line| line.strip_prefix("    ").unwrap_or(line));
     escape::lines(&(lines.collect::<Vec<_>>().join("\n") + "\n")).into_owned()
 }
 
-/// With escapes for what XML 1.0 cannot say at all, and for what readers would show raw.
+/// Escapes characters that XML 1.0 cannot represent, and those that viewers would interpret.
 fn allowed(text: &str) -> String {
     escape::line(text).into_owned()
 }
