@@ -127,8 +127,13 @@ fn usage(error: clap::Error, words: &[OsString]) -> ExitCode {
 
 /// The exit status of a command that only prints.
 fn printed(result: Result<(), String>) -> ExitCode {
+    ended(result.map(|()| 0))
+}
+
+/// The exit status of a command. Prints its error message.
+fn ended(result: Result<u8, String>) -> ExitCode {
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(status) => ExitCode::from(status),
         Err(message) => {
             output::error(&message);
             ExitCode::from(output::USAGE)

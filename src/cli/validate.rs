@@ -126,13 +126,7 @@ impl Format {
 
 /// Runs `urdd validate`.
 pub fn run(arguments: &ValidateArguments, color: Color) -> ExitCode {
-    match validate(arguments, color) {
-        Ok(status) => ExitCode::from(status),
-        Err(message) => {
-            output::error(&message);
-            ExitCode::from(output::USAGE)
-        }
-    }
+    super::ended(validate(arguments, color))
 }
 
 fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
@@ -203,7 +197,7 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
     let text = render(arguments.format)?;
     let printed = match arguments.format {
         Format::Github => {
-            output::print_commands(&text).and_then(|()| output::print(&render(Format::Human)?))
+            output::print_raw(&text).and_then(|()| output::print(&render(Format::Human)?))
         }
         _ => output::print(&text),
     };

@@ -14,10 +14,11 @@ mod summary;
 mod unverified;
 mod words;
 
+use serde::Serialize;
+
 use crate::rule::Rule;
 use crate::rules;
 use urdd_format::escape;
-use urdd_format::report::Report;
 
 pub(crate) use fill::{blank, fill};
 pub use github::github;
@@ -30,11 +31,11 @@ fn rule(code: &str) -> Option<&'static Rule> {
     all.find(|rule| rule.code.as_str() == code)
 }
 
-/// The report as JSON, indented, with a newline at its end.
+/// A report, or other output, as JSON, indented, with a newline at its end.
 ///
 /// # Errors
-/// Never for the report of a [`Run`](crate::Run): every number in it is finite.
-pub fn json(report: &Report) -> serde_json::Result<String> {
-    let text = serde_json::to_string_pretty(report)?;
+/// If `output` cannot be JSON. Never for the report of a [`Run`](crate::Run): every number in it is finite.
+pub fn json(output: &impl Serialize) -> serde_json::Result<String> {
+    let text = serde_json::to_string_pretty(output)?;
     Ok(escape::json(&text).into_owned() + "\n")
 }

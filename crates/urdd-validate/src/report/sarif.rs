@@ -99,8 +99,7 @@ pub fn sarif(report: &Report, places: &[String], exit_code: u8) -> serde_json::R
             "results": results,
         }],
     });
-    let text = serde_json::to_string_pretty(&log)?;
-    Ok(escape::json(&text).into_owned() + "\n")
+    super::json(&log)
 }
 
 /// The rules that the report names, in order of code.
