@@ -178,7 +178,7 @@ fn examine(out: &PathBuf, plan: &Plan) -> Result<Urdd, Option<String>> {
         let text = error.to_string();
         Some(text.replace(&out.display().to_string(), "{out}"))
     })?;
-    let mut urdds = run.report(Severity::Error).urdds;
+    let mut urdds = run.report.urdds;
     match (urdds.pop(), urdds.is_empty()) {
         (Some(urdd), true) if urdd.verdict == Verdict::Unreadable => Err(urdd.reason),
         (Some(urdd), true) if urdd.path == folder_name(out) => Ok(urdd),
@@ -312,10 +312,6 @@ fn apply_skips(plan: &Plan, score: &mut RobotScore) -> BTreeSet<usize> {
 /// The rule that reports a missing module of the class.
 const MODULE_MISSING: &str = "DIR019";
 
-fn count(number: usize) -> Count {
-    Count(u32::try_from(number).unwrap_or(u32::MAX))
-}
-
 fn classes(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ClassScore> {
     let below = ConformanceClass::ALL.iter().copied();
     below
@@ -334,8 +330,8 @@ fn classes(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ClassScore> {
             };
             ClassScore {
                 class,
-                passed: count(robots.iter().filter(passes).count()),
-                of: count(robots.len()),
+                passed: Count::saturating(robots.iter().filter(passes).count()),
+                of: Count::saturating(robots.len()),
             }
         })
         .collect()
@@ -354,10 +350,10 @@ fn modules(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ModuleScore> {
         let codes: BTreeSet<&String> = own.iter().flat_map(|module| &module.codes).collect();
         scores.push(ModuleScore {
             name: kind.name().to_owned(),
-            present: count(passed + failed),
-            passed: count(passed),
-            failed: count(failed),
-            of: count(robots.len()),
+            present: Count::saturating(passed + failed),
+            passed: Count::saturating(passed),
+            failed: Count::saturating(failed),
+            of: Count::saturating(robots.len()),
             codes: codes.into_iter().cloned().collect(),
         });
     }
