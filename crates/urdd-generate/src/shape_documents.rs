@@ -55,95 +55,73 @@ pub(super) fn statistics(module: &Arc<StatisticsModule>) -> Result<Document, ser
     Ok(Document::Object(members))
 }
 
+/// The members of a module that are matrices: three over links, and three over pieces, which may be missing.
+macro_rules! matrices {
+    ($module:ident, |$m:ident| $place:expr, [$($full:ident),*], [$($pieces:ident),*]) => {
+        [
+            $((stringify!($full), matrix($module, |$m| Some(&$place.$full))),)*
+            $((stringify!($pieces), matrix($module, |$m| $place.$pieces.as_ref())),)*
+        ]
+    };
+}
+
 /// `link_shapes_simple_skips_module`.
 pub(super) fn simple_skips(module: &Arc<SimpleSkipsModule>) -> Result<Document, serde_json::Error> {
-    let m = module;
-    let reasons = vec![
-        (
-            "full_convex_hulls",
-            matrix(m, |m| Some(&m.reasons.full_convex_hulls)),
-        ),
-        ("full_obbs", matrix(m, |m| Some(&m.reasons.full_obbs))),
-        (
-            "full_bounding_spheres",
-            matrix(m, |m| Some(&m.reasons.full_bounding_spheres)),
-        ),
-        (
-            "decomposition_convex_hulls",
-            matrix(m, |m| m.reasons.decomposition_convex_hulls.as_ref()),
-        ),
-        (
-            "decomposition_obbs",
-            matrix(m, |m| m.reasons.decomposition_obbs.as_ref()),
-        ),
-        (
-            "decomposition_bounding_spheres",
-            matrix(m, |m| m.reasons.decomposition_bounding_spheres.as_ref()),
-        ),
+    let reasons = matrices!(
+        module,
+        |m| m.reasons,
+        [full_convex_hulls, full_obbs, full_bounding_spheres],
+        [
+            decomposition_convex_hulls,
+            decomposition_obbs,
+            decomposition_bounding_spheres
+        ]
+    );
+    let mut members = vec![
+        ("full_shapes", value(&module.full_shapes)?),
+        ("decomposition_shapes", value(&module.decomposition_shapes)?),
     ];
-    Ok(Document::Object(vec![
-        ("full_shapes", value(&m.full_shapes)?),
-        ("decomposition_shapes", value(&m.decomposition_shapes)?),
-        (
-            "full_convex_hulls_simple_skips",
-            matrix(m, |m| Some(&m.full_convex_hulls_simple_skips)),
-        ),
-        (
-            "full_obbs_simple_skips",
-            matrix(m, |m| Some(&m.full_obbs_simple_skips)),
-        ),
-        (
-            "full_bounding_spheres_simple_skips",
-            matrix(m, |m| Some(&m.full_bounding_spheres_simple_skips)),
-        ),
-        (
-            "decomposition_convex_hulls_simple_skips",
-            matrix(m, |m| m.decomposition_convex_hulls_simple_skips.as_ref()),
-        ),
-        (
-            "decomposition_obbs_simple_skips",
-            matrix(m, |m| m.decomposition_obbs_simple_skips.as_ref()),
-        ),
-        (
-            "decomposition_bounding_spheres_simple_skips",
-            matrix(m, |m| {
-                m.decomposition_bounding_spheres_simple_skips.as_ref()
-            }),
-        ),
-        ("reasons", Member::Object(reasons)),
-    ]))
+    members.extend(matrices!(
+        module,
+        |m| m,
+        [
+            full_convex_hulls_simple_skips,
+            full_obbs_simple_skips,
+            full_bounding_spheres_simple_skips
+        ],
+        [
+            decomposition_convex_hulls_simple_skips,
+            decomposition_obbs_simple_skips,
+            decomposition_bounding_spheres_simple_skips
+        ]
+    ));
+    members.push(("reasons", Member::Object(reasons.into())));
+    Ok(Document::Object(members))
 }
 
 /// `link_shapes_skips_module`.
 pub(super) fn skips(module: &Arc<SkipsModule>) -> Result<Document, serde_json::Error> {
-    let m = module;
-    Ok(Document::Object(vec![
-        ("skipped_reasons", value(&m.skipped_reasons)?),
-        ("edits", value(&m.edits)?),
-        ("full_shapes", value(&m.full_shapes)?),
-        ("decomposition_shapes", value(&m.decomposition_shapes)?),
-        (
-            "full_convex_hulls_skips",
-            matrix(m, |m| Some(&m.full_convex_hulls_skips)),
-        ),
-        ("full_obbs_skips", matrix(m, |m| Some(&m.full_obbs_skips))),
-        (
-            "full_bounding_spheres_skips",
-            matrix(m, |m| Some(&m.full_bounding_spheres_skips)),
-        ),
-        (
-            "decomposition_convex_hulls_skips",
-            matrix(m, |m| m.decomposition_convex_hulls_skips.as_ref()),
-        ),
-        (
-            "decomposition_obbs_skips",
-            matrix(m, |m| m.decomposition_obbs_skips.as_ref()),
-        ),
-        (
-            "decomposition_bounding_spheres_skips",
-            matrix(m, |m| m.decomposition_bounding_spheres_skips.as_ref()),
-        ),
-    ]))
+    let mut members = vec![
+        ("skipped_reasons", value(&module.skipped_reasons)?),
+        ("edits", value(&module.edits)?),
+        ("full_shapes", value(&module.full_shapes)?),
+        ("decomposition_shapes", value(&module.decomposition_shapes)?),
+    ];
+    members.extend(matrices!(
+        module,
+        |m| m,
+        [
+            full_convex_hulls_skips,
+            full_obbs_skips,
+            full_bounding_spheres_skips
+        ],
+        [
+            decomposition_convex_hulls_skips,
+            decomposition_obbs_skips,
+            decomposition_bounding_spheres_skips
+        ]
+    ));
+    Ok(Document::Object(members))
 }
 
 fn value(of: &impl Serialize) -> Result<Member, serde_json::Error> {
