@@ -18,54 +18,54 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod artifacts;
 pub mod batch;
 mod bounded;
 mod bounds;
-mod carry_over;
 mod chain;
 pub mod combine;
 mod composed;
 mod connections;
+mod context;
 mod distinct;
 mod dof;
-mod edits;
+mod donor;
 mod error;
 pub mod fault;
-mod geometry_stages;
+mod inputs;
 mod kinematics_samples;
 mod learned;
 mod made;
+mod mesh_stages;
 mod meshes;
 mod metadata;
+mod modules;
 pub mod note;
-mod old;
 mod pose;
 #[doc(hidden)]
 pub mod process;
+mod product;
 mod progress;
-mod reuse;
 mod robot;
 mod selection;
 mod settings;
 mod shape_documents;
+mod shape_stages;
 mod shapes;
 mod size;
 mod source;
 mod stages;
-mod taken;
 pub mod train;
 mod urdf;
-mod work;
 
 pub use bounded::MAX_SOURCE_BYTES;
 pub(crate) use composed::Composed;
 pub use error::{EditsFault, GenerateError, OutsideMesh};
 pub use meshes::{MeshCount, PackagePathError, Packages};
+pub use modules::MadeModule;
 pub(crate) use pose::{has_quaternions, of as origin_pose};
 pub use progress::Progress;
 pub(crate) use robot::generate_composed;
-pub use robot::{Generated, MadeModule, generate, generate_text};
+pub use robot::{Generated, generate, generate_text};
 pub use selection::{Selection, UnknownModule};
 pub use settings::{MeshFormats, Pieces, Settings};
 pub(crate) use size::MOST_LINKS;
