@@ -52,10 +52,10 @@ use urdd_robot::Robot;
 pub use contacts::link_pairs;
 pub use error::{ExportError, Note};
 pub use format::Format;
-pub use options::Options;
+pub use options::{Options, SphereBudget};
 pub use output::Export;
 pub use pairs::{Contacts, LinkPair, MixedPair};
-pub use spheres::{SphereBudget, SphereRates, interval};
+pub use spheres::{SphereRates, interval};
 pub use srdf_import::{ImportError, ImportedSkips, import_srdf};
 pub use srdf_merge::{MergedSrdf, SrdfError, merge_srdf};
 

@@ -1,6 +1,5 @@
 //! Options of an export.
 
-use super::spheres::SphereBudget;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_robot::ShapeKind;
 
@@ -41,4 +40,16 @@ impl Default for Options {
             mesh_folder: "meshes".to_owned(),
         }
     }
+}
+
+/// Number of spheres.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SphereBudget {
+    /// Twelve per link with shapes on average, at most 150 in total. For covering spheres: at most eight per link.
+    #[default]
+    Auto,
+    /// Maximum number per link.
+    PerLink(usize),
+    /// Maximum number for all links together, but at least one per link.
+    Total(usize),
 }

@@ -1,49 +1,13 @@
-//! The modules of a crate, and the paths in them: which file defines a name that another uses.
-//!
-//! Reads tokens, those of macro calls too. A path is followed through modules and imports to the file that defines the
-//! name, not to one that hands it on. Tests and methods do not count.
+//! Which file takes which names from which other: a path is followed through modules and imports to the file that defines
+//! the name, not to one that hands it on. Methods do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
-
-/// The segments of a path.
-type Names = Vec<String>;
+use super::modules::Crate;
 
 /// The names that a file takes from others.
 pub type Ties<'a> = BTreeMap<&'a Path, BTreeMap<&'a Path, BTreeSet<String>>>;
-
-/// A module, in a file of its own or inline.
-#[derive(Default)]
-struct Module {
-    file: PathBuf,
-    /// The folder of the files of its children.
-    folder: PathBuf,
-    /// Itself for a root.
-    parent: usize,
-    children: BTreeMap<String, usize>,
-    imports: BTreeMap<String, Names>,
-    globs: Vec<Names>,
-    /// The modules that the globs name.
-    opened: Vec<usize>,
-    /// The items that it defines, in macro calls too.
-    defined: BTreeSet<String>,
-    /// The paths in its code and in its private imports.
-    used: BTreeSet<Names>,
-    /// The words of macro calls between its items: lists of its children.
-    listed: BTreeSet<String>,
-}
-
-/// All modules of a crate; the first is the root of the library, if there is one.
-#[derive(Default)]
-pub struct Crate {
-    name: String,
-    modules: Vec<Module>,
-    /// Where the macros are that can be called without a path, by name.
-    macros: BTreeMap<String, usize>,
-}
 
 /// Where a path leads.
 enum Place {
@@ -55,200 +19,29 @@ enum Place {
 /// The modules and names whose imports are being followed.
 type Seen = BTreeSet<(usize, String)>;
 
-impl Crate {
-    /// Reads the crate of the package in a folder.
-    pub fn read(package: &Path) -> Crate {
-        let name = package.file_name().expect("a name").to_string_lossy();
-        let mut read = Crate {
-            name: name.replace('-', "_"),
-            ..Crate::default()
-        };
-        let source = package.join("src");
-        for root in ["lib.rs", "main.rs"] {
-            if source.join(root).is_file() {
-                let index = read.modules.len();
-                read.add_file(source.join(root), source.clone(), index);
-            }
-        }
-        for index in 0..read.modules.len() {
-            let globs = read.modules[index].globs.iter();
-            let opened = globs.filter_map(|glob| match read.resolve(index, glob)? {
-                Place::Module(at) if at != index => Some(at),
-                _ => None,
-            });
-            read.modules[index].opened = opened.collect();
-        }
-        read
+struct Resolver<'a> {
+    read: &'a Crate,
+    /// For each module, those that its globs name.
+    opened: Vec<Vec<usize>>,
+}
+
+impl<'a> Resolver<'a> {
+    fn new(read: &'a Crate) -> Self {
+        let count = read.modules.len();
+        let opened = vec![Vec::new(); count];
+        let mut resolver = Resolver { read, opened };
+        resolver.opened = (0..count).map(|module| resolver.globs(module)).collect();
+        resolver
     }
 
-    fn add_file(&mut self, file: PathBuf, folder: PathBuf, parent: usize) -> usize {
-        let text = fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
-        let tokens = text.parse();
-        let tokens = tokens.unwrap_or_else(|e| panic!("{}: {e}", file.display()));
-        self.add(file, folder, parent, tokens)
-    }
-
-    fn add(&mut self, file: PathBuf, folder: PathBuf, parent: usize, code: TokenStream) -> usize {
-        let index = self.modules.len();
-        self.modules.push(Module {
-            file,
-            folder,
-            parent,
-            ..Module::default()
-        });
-        self.scan(index, code, true);
-        index
-    }
-
-    /// Reads tokens of a module: its items, or what is between two brackets.
-    fn scan(&mut self, module: usize, code: TokenStream, are_items: bool) {
-        let tokens: Vec<TokenTree> = code.into_iter().collect();
-        let word = |at: usize| match tokens.get(at) {
-            Some(TokenTree::Ident(ident)) => Some(ident.to_string()),
+    /// The modules that the globs of a module name.
+    fn globs(&self, module: usize) -> Vec<usize> {
+        let globs = self.read.modules[module].globs.iter();
+        let opened = globs.filter_map(|glob| match self.resolve(module, glob)? {
+            Place::Module(at) if at != module => Some(at),
             _ => None,
-        };
-        let mut file = None;
-        let mut at = 0;
-        while at < tokens.len() {
-            if let Some(attribute) = attribute(&tokens[at..]) {
-                at += 2;
-                let text = attribute.to_string().replace(' ', "");
-                if text == "cfg(test)" || text.starts_with("cfg(all(test,") {
-                    at = after_item(&tokens, at);
-                } else if let Some(path) = text.strip_prefix("path=") {
-                    file = Some(path.trim_matches('"').to_owned());
-                } else if !text.starts_with("doc=") {
-                    self.scan_attribute(module, attribute);
-                }
-                continue;
-            }
-            match (&tokens[at], word(at).as_deref(), word(at + 1)) {
-                (_, Some("use"), _) => {
-                    let ends = |at: &usize| is_punct(tokens.get(*at), ';');
-                    let end = (at..tokens.len()).find(ends).unwrap_or(tokens.len());
-                    let is_public = ends_in_visibility(&tokens[..at]);
-                    self.import(module, &tokens[at + 1..end], &[], is_public);
-                    at = end;
-                }
-                (_, Some("mod"), Some(name)) => {
-                    at += 2;
-                    let child = match &tokens[at] {
-                        TokenTree::Group(body) => {
-                            let Module { file, folder, .. } = &self.modules[module];
-                            let (file, folder) = (file.clone(), folder.join(&name));
-                            self.add(file, folder, module, body.stream())
-                        }
-                        _ => self.add_child(module, &name, file.take()),
-                    };
-                    self.modules[module].children.insert(name, child);
-                }
-                (_, Some("macro_rules"), _) => {
-                    at += 2;
-                    let name = word(at).expect("a macro's name");
-                    self.macros.insert(name.clone(), module);
-                    self.modules[module].defined.insert(name);
-                }
-                (_, Some(keyword), Some(name)) if DEFINING.contains(&keyword) => {
-                    at += 1;
-                    self.modules[module].defined.insert(name);
-                }
-                (TokenTree::Ident(_), ..) => {
-                    let (names, length) = path(&tokens[at..]);
-                    let follows_dot = ends_in_dot(&tokens[..at]);
-                    at += length - 1;
-                    if let Some(TokenTree::Group(group)) = tokens.get(at + 2)
-                        && are_items
-                        && names[0].ends_with('!')
-                    {
-                        let words = group.stream().into_iter();
-                        let words = words.filter(|token| matches!(token, TokenTree::Ident(_)));
-                        let listed = &mut self.modules[module].listed;
-                        listed.extend(words.map(|word| word.to_string()));
-                    }
-                    if !follows_dot {
-                        self.modules[module].used.insert(names);
-                    }
-                }
-                (TokenTree::Group(group), ..) => self.scan(module, group.stream(), false),
-                _ => {}
-            }
-            at += 1;
-        }
-    }
-
-    /// Reads `mod name;`, with the path of a `#[path = "..."]`.
-    fn add_child(&mut self, module: usize, name: &str, path: Option<String>) -> usize {
-        let Module { file, folder, .. } = &self.modules[module];
-        let (plain, inside) = (folder.join(format!("{name}.rs")), folder.join(name));
-        match path {
-            Some(path) => {
-                let file = file.with_file_name(path);
-                let beside = file.parent().expect("a folder").to_owned();
-                self.add_file(file, beside, module)
-            }
-            None if plain.is_file() => self.add_file(plain, inside, module),
-            None => self.add_file(inside.join("mod.rs"), inside, module),
-        }
-    }
-
-    /// Attributes name functions in quotes too: `#[serde(with = "super::hexadecimal")]`.
-    fn scan_attribute(&mut self, module: usize, content: TokenStream) {
-        for token in content.clone() {
-            match token {
-                TokenTree::Literal(literal) => {
-                    let quoted = literal.to_string();
-                    let quoted = quoted.trim_matches('"');
-                    if let (true, Ok(path)) = (quoted.contains("::"), quoted.parse()) {
-                        self.scan(module, path, false);
-                    }
-                }
-                TokenTree::Group(group) => self.scan_attribute(module, group.stream()),
-                _ => {}
-            }
-        }
-        self.scan(module, content, false);
-    }
-
-    /// Reads one tree of a `use`, which is below the path `above`.
-    fn import(&mut self, module: usize, tree: &[TokenTree], above: &[String], is_public: bool) {
-        let mut names = above.to_vec();
-        let mut alias = None;
-        let mut tokens = tree.iter();
-        while let Some(token) = tokens.next() {
-            match token {
-                TokenTree::Ident(ident) if ident == "as" => {
-                    alias = tokens.next().map(ToString::to_string);
-                }
-                TokenTree::Ident(ident) => names.push(ident.to_string()),
-                TokenTree::Group(group) => {
-                    let inner: Vec<TokenTree> = group.stream().into_iter().collect();
-                    for tree in inner.split(|token| is_punct(Some(token), ',')) {
-                        self.import(module, tree, &names, is_public);
-                    }
-                    return;
-                }
-                other if is_punct(Some(other), '*') => {
-                    self.modules[module].globs.push(names);
-                    return;
-                }
-                _ => {}
-            }
-        }
-        if names.last().is_some_and(|last| last == "self") {
-            names.pop();
-        }
-        let Some(last) = names.last() else {
-            return;
-        };
-        let name = alias.unwrap_or_else(|| last.clone());
-        let module = &mut self.modules[module];
-        if !is_public {
-            module.used.insert(names.clone());
-        }
-        // Otherwise a macro's name, made visible: `pub(crate) use object;`.
-        if names != [name.as_str()] {
-            module.imports.insert(name, names);
-        }
+        });
+        opened.collect()
     }
 
     /// Where a path in a module leads; `None` for another crate's.
@@ -258,12 +51,11 @@ impl Crate {
 
     fn follow(&self, module: usize, path: &[String], seen: &mut Seen) -> Option<Place> {
         let (first, mut rest) = path.split_first()?;
-        let known = &self.modules[module];
+        let known = &self.read.modules[module];
         let mut at = match first.as_str() {
             "crate" => self.root(module),
             "self" => module,
             "super" => known.parent,
-            name if name == self.name => 0,
             name => match self.inside(module, name, rest.is_empty(), seen) {
                 Some(Place::Module(at)) => at,
                 None if known.defined.contains(name) => module,
@@ -272,7 +64,7 @@ impl Crate {
         };
         while let Some((name, after)) = rest.split_first() {
             match self.inside(at, name, after.is_empty(), seen) {
-                _ if name == "super" => at = self.modules[at].parent,
+                _ if name == "super" => at = self.read.modules[at].parent,
                 Some(Place::Module(child)) => at = child,
                 Some(other) => return Some(other),
                 None => return Some(Place::Item(at, name.clone())),
@@ -284,7 +76,7 @@ impl Crate {
 
     /// What a name in a module stands for; `None` if the module itself defines it, or nothing in this crate does.
     fn inside(&self, module: usize, name: &str, is_last: bool, seen: &mut Seen) -> Option<Place> {
-        let known = &self.modules[module];
+        let known = &self.read.modules[module];
         let child = known.children.get(name).copied().map(Place::Module);
         let import = known.imports.get(name);
         if child.is_some() && !(is_last && import.is_some()) {
@@ -297,8 +89,8 @@ impl Crate {
         let found = match import {
             Some(path) => self.follow(module, path, seen).or(Some(Place::OtherCrate)),
             None if known.defined.contains(name) => None,
-            None => known.opened.iter().find_map(|at| {
-                let is_defined = self.modules[*at].defined.contains(name);
+            None => self.opened[module].iter().find_map(|at| {
+                let is_defined = self.read.modules[*at].defined.contains(name);
                 let item = || is_defined.then(|| Place::Item(*at, name.to_owned()));
                 self.inside(*at, name, is_last, seen).or_else(item)
             }),
@@ -308,19 +100,19 @@ impl Crate {
     }
 
     fn root(&self, module: usize) -> usize {
-        match self.modules[module].parent {
+        match self.read.modules[module].parent {
             parent if parent == module => module,
             parent => self.root(parent),
         }
     }
 
     /// What each file takes from each other one.
-    pub fn ties(&self) -> Ties<'_> {
+    fn ties(&self) -> Ties<'a> {
         let mut ties = Ties::new();
-        for (index, module) in self.modules.iter().enumerate() {
+        for (index, module) in self.read.modules.iter().enumerate() {
             let own = ties.entry(&module.file).or_default();
             let mut tie = |to: usize, name: &str| {
-                let to = &*self.modules[to].file;
+                let to = &*self.read.modules[to].file;
                 if to != module.file {
                     own.entry(to).or_default().insert(name.to_owned());
                 }
@@ -334,7 +126,7 @@ impl Crate {
                     Some(name) => {
                         let place = self.resolve(index, &[name.to_owned()]);
                         let textual =
-                            || Some(Place::Item(*self.macros.get(name)?, name.to_owned()));
+                            || Some(Place::Item(*self.read.macros.get(name)?, name.to_owned()));
                         place.or_else(textual)
                     }
                     None => self.resolve(index, path),
@@ -353,69 +145,7 @@ impl Crate {
     }
 }
 
-/// The words before the name of an item.
-const DEFINING: [&str; 8] = [
-    "const", "enum", "fn", "static", "struct", "trait", "type", "union",
-];
-
-/// The content of the attribute that the tokens begin with.
-fn attribute(tokens: &[TokenTree]) -> Option<TokenStream> {
-    match tokens {
-        [hash, TokenTree::Group(group), ..]
-            if is_punct(Some(hash), '#') && group.delimiter() == Delimiter::Bracket =>
-        {
-            Some(group.stream())
-        }
-        _ => None,
-    }
-}
-
-/// The index after the item that begins at `at`.
-fn after_item(tokens: &[TokenTree], at: usize) -> usize {
-    let ends = |token: &TokenTree| match token {
-        TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
-        token => is_punct(Some(token), ';'),
-    };
-    let length = tokens[at..].iter().position(ends);
-    length.map_or(tokens.len(), |length| at + length + 1)
-}
-
-/// Whether the tokens end in `pub` or `pub(...)`.
-fn ends_in_visibility(tokens: &[TokenTree]) -> bool {
-    let is_pub = |token: &TokenTree| matches!(token, TokenTree::Ident(ident) if ident == "pub");
-    match tokens {
-        [.., before, TokenTree::Group(_)] | [.., before] => is_pub(before),
-        [] => false,
-    }
-}
-
-/// Whether a name after the tokens is a field or a method, a lifetime, or within another path.
-fn ends_in_dot(tokens: &[TokenTree]) -> bool {
-    let back = |count: usize| tokens.len().checked_sub(count).map(|at| &tokens[at]);
-    let is = |count, character| is_punct(back(count), character);
-    is(1, '.') && !is(2, '.') || is(1, '\'') || is(1, ':') && is(2, ':')
-}
-
-/// The path that the tokens begin with, and how many of them it has. The name of a macro call ends in `!`.
-fn path(tokens: &[TokenTree]) -> (Names, usize) {
-    let mut names = Names::new();
-    let mut at = 0;
-    while let Some(TokenTree::Ident(ident)) = tokens.get(at) {
-        names.push(ident.to_string());
-        at += 1;
-        let is_longer = is_punct(tokens.get(at), ':') && is_punct(tokens.get(at + 1), ':');
-        match (is_longer, tokens.get(at + 2)) {
-            (true, Some(TokenTree::Ident(_))) => at += 2,
-            _ => break,
-        }
-    }
-    let is_call = matches!(tokens.get(at + 1), Some(TokenTree::Group(_)));
-    if names.len() == 1 && is_call && is_punct(tokens.get(at), '!') {
-        names[0].push('!');
-    }
-    (names, at)
-}
-
-fn is_punct(token: Option<&TokenTree>, character: char) -> bool {
-    matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == character)
+/// What each file of a crate takes from each other one.
+pub fn ties(read: &Crate) -> Ties<'_> {
+    Resolver::new(read).ties()
 }

@@ -4,7 +4,6 @@
 //! completely. In both cases [`judge`] evaluates the written spheres and pairs in configurations that were not used for
 //! the fit. The counts are written with them.
 
-mod budget;
 mod cover;
 pub(super) mod curobo;
 mod fit;
@@ -22,8 +21,8 @@ mod surface;
 use rayon::prelude::*;
 
 use super::error::ExportError;
+use super::options::SphereBudget;
 use super::subject::Subject;
-pub use budget::SphereBudget;
 use fit::Limits;
 use frame::Point;
 pub use judge::{SphereRates, interval};

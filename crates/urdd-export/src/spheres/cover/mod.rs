@@ -9,7 +9,7 @@ mod filled;
 
 use rayon::prelude::*;
 
-use super::budget::SphereBudget;
+use super::super::options::SphereBudget;
 use cell::Cell;
 use filled::filled;
 use urdd_geometry::bounding_sphere::BoundingSphere;
