@@ -9,7 +9,7 @@ use std::path::Path;
 
 use urdd_format::report::Severity as Shown;
 use urdd_validate::finding::{Finding, Findings};
-use urdd_validate::rule::{Rule, Severity};
+use urdd_validate::rule::Rule;
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_with;

@@ -22,7 +22,8 @@
 mod bare_urdf;
 mod bound;
 pub mod code;
-mod context;
+#[doc(hidden)]
+pub mod context;
 mod distances;
 #[doc(hidden)]
 pub mod engine;

@@ -36,8 +36,8 @@ fn a_forgotten_need_is_caught() {
     let mut urdd = Fixture::core(&toy_robot());
     urdd.seal();
     let path = folder.put(&urdd);
-    let run = urdd_validate::validate_with(&[path], &Settings::default(), &[&FORGETFUL]).unwrap();
-    let examined = run.subjects[0].result.as_ref().unwrap();
+    let urdd = Urdd::read(&path).unwrap();
+    let examined = urdd_validate::examine(urdd, "toy", &Settings::default(), &[&FORGETFUL]);
     match &examined.checks[0].outcome {
         Outcome::Crashed(message) if cfg!(debug_assertions) => {
             assert!(message.starts_with("TST001 takes"), "{message}");
