@@ -9,7 +9,7 @@
 //!
 //! # let folder = tempfile::tempdir()?;
 //! # let path = folder.path().join("toy");
-//! # urdd_testkit::fixture::Fixture::toy().write_to(&path);
+//! # testkit::fixture::Fixture::toy().write_to(&path);
 //! let run = validate(&[path], &Settings::default())?; // URDDs, and folders with URDDs at any depth
 //! let report = run.report(Severity::Error);
 //! for finding in report.urdds.iter().flat_map(|urdd| &urdd.findings) {
