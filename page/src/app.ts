@@ -42,14 +42,14 @@ export class App {
   ) {
     this.poses = new Latest(async (q) => {
       const robot = this.store.now.robot;
-      const poses = await engine.ask("poses", { q });
+      const poses = await engine.ask("linkPoses", { q });
       if (this.store.now.robot === robot) this.store.set({ poses });
     });
     this.proximity = new Latest(async ({ q, shapes }) => {
       const { robot, tab } = this.store.now;
       const isOld = (): boolean => this.store.now.robot !== robot || this.store.now.shapes !== shapes;
       try {
-        const answer = await engine.ask("proximity", { q, shapes, k: tab === "Proximity" ? LISTED : FEW });
+        const answer = await engine.ask("proximity", { q, kind: shapes, k: tab === "Proximity" ? LISTED : FEW });
         if (isOld()) return;
         const contacts = contactsOf(answer, shapes, this.store.now.contacts);
         this.store.set({ proximity: { answer, error: null }, contacts });
@@ -91,7 +91,7 @@ export class App {
       const robot = new RobotModel(entry, source, about, files, await partsOf(this.engine, files));
       if (robot.links.length === 0) throw new Error(why(robot));
       const q = keep && before.q.length === robot.dofs.length ? before.q : (about.zero ?? robot.dofs.map(() => 0));
-      const poses = about.dofs ? await this.engine.ask("poses", { q }) : null;
+      const poses = about.dofs ? await this.engine.ask("linkPoses", { q }) : null;
       if (turn !== this.opening) return null;
       this.back = [];
       this.forth = [];

@@ -1,10 +1,9 @@
 /** The pointer in the picture. */
 
 import type { App } from "./app";
-import type { Reached, Wish } from "./engine/protocol";
 import { Latest } from "./latest";
 import { dragJoint, pull } from "./scene/drag";
-import type { Drag } from "./scene/drag";
+import type { Drag, Solve } from "./scene/drag";
 import { pick } from "./scene/pick";
 import type { Stage } from "./stage";
 import { name } from "./ui/format";
@@ -70,14 +69,14 @@ export class Hand {
     if (picked && poses && robot.moves) {
       const { link } = picked.of;
       const eye = view.camera.position;
-      const reach = (wish: Wish): Promise<Reached> => this.app.engine.ask("reach", wish);
+      const solve: Solve = (question) => this.app.engine.ask("inverseKinematics", question);
       const joint = robot.moving(link);
       const above = [...new Set(robot.path(link).flatMap((joint) => robot.dofsOf(joint)))];
-      if (event.shiftKey) this.drag = pull(poses, link, above, picked.point, eye, reach);
+      if (event.shiftKey) this.drag = pull(poses, link, above, picked.point, eye, solve);
       else if (joint !== null) {
         this.drag =
           dragJoint(robot, poses, joint, picked.point, eye) ??
-          pull(poses, link, robot.dofsOf(joint), picked.point, eye, reach);
+          pull(poses, link, robot.dofsOf(joint), picked.point, eye, solve);
       }
     }
     if (this.drag) {

@@ -4,6 +4,7 @@ import { Address } from "./address";
 import { App, message } from "./app";
 import { dropped, chosen } from "./drop";
 import { Engine } from "./engine/client";
+import { Hand } from "./hand";
 import * as inline from "./inline";
 import { keys } from "./keys";
 import { follow, serverLine } from "./live";
@@ -42,6 +43,7 @@ function start(): void {
   let noPicture: string | null = null;
   try {
     stage = new Stage(app);
+    new Hand(app, stage);
   } catch (error) {
     noPicture = message(error);
     app.store.on(["robot"], ({ robot }) => {

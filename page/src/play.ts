@@ -48,7 +48,7 @@ export class Player {
 
   /** Shows a sample, and tells how far the poses are from those that are stored. */
   private async show(sample: Sample, at: number, of: number): Promise<void> {
-    const poses = await this.app.engine.ask("poses", { q: sample.configuration });
+    const poses = await this.app.engine.ask("linkPoses", { q: sample.configuration });
     this.app.move(sample.configuration);
     const [position, angle] = difference(poses, sample);
     this.app.store.set({ sample: { at, of, position, angle } });

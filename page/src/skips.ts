@@ -15,8 +15,8 @@ export async function load(app: App, shapes: ShapeKind): Promise<void> {
   const edits = skips.dirty ? skips.answer?.edits : null;
   try {
     const answer = edits
-      ? await app.engine.ask("editSkips", { shapes, edits, skipped_reasons: null })
-      : await app.engine.ask("skips", { shapes });
+      ? await app.engine.ask("editSkips", { kind: shapes, edits, skipped_reasons: null })
+      : await app.engine.ask("skips", { kind: shapes });
     app.store.set({ skips: { ...app.store.now.skips, answer, error: null } });
   } catch (error) {
     app.store.set({ skips: { ...app.store.now.skips, answer: null, error: message(error) } });
@@ -46,7 +46,7 @@ async function change(app: App, edits: SkipEdit[], before: SkipEdit[][]): Promis
   const { skips } = app.store.now;
   if (!skips.answer) return;
   try {
-    const answer = await app.engine.ask("editSkips", { shapes: skips.answer.shapes, edits, skipped_reasons: null });
+    const answer = await app.engine.ask("editSkips", { kind: skips.answer.kind, edits, skipped_reasons: null });
     app.store.set({ skips: { ...app.store.now.skips, answer, error: null, before, dirty: before.length > 0 } });
   } catch (error) {
     app.note(`This cannot be decided: ${message(error)}`);
@@ -104,7 +104,7 @@ export async function nearer(
 ): Promise<void> {
   const { robot, q, shapes } = app.store.now;
   if (!robot) return;
-  const { nearest } = await app.engine.ask("proximity", { q, shapes, k: ALL });
+  const { nearest } = await app.engine.ask("proximity", { q, kind: shapes, k: ALL });
   const key = (pair: PairDistance): number => (by === "distance" ? pair.distance : (pair.relative ?? Infinity));
   const least = new Map<string, { links: [number, number]; value: number }>();
   for (const pair of nearest) {

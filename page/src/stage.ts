@@ -16,7 +16,6 @@ import { Names } from "./scene/names";
 import { rimColor } from "./scene/rim";
 import { View } from "./scene/view";
 import { Witness } from "./scene/witness";
-import { Hand } from "./hand";
 import { absent } from "./panels/absent";
 import { drawnLayers, ghosted, LAYERS } from "./state";
 import type { LayerKind, State } from "./state";
@@ -121,7 +120,6 @@ export class Stage {
       for (const [, button] of handles) button.hidden = !robot?.moves;
     });
     this.view.scene.add(this.ground.group, this.overlays.group, this.witness.group);
-    new Hand(app, this);
     this.listen();
   }
 

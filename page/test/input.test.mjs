@@ -265,7 +265,7 @@ inPage(
       );
     const { links, about } = await state(page, "robot");
     assert.match(String(await ask("explain", { code: "DOF003" })), /engine stopped/);
-    assert.equal(await ask("poses", { q: about.zero }), 7 * links.length);
+    assert.equal(await ask("linkPoses", { q: about.zero }), 7 * links.length);
   },
   { routes: [["**/worker.js", trapping("urdd_explain", 1)]] },
 );

@@ -13,7 +13,7 @@ async function posed(page) {
   await soon(async () => {
     const [expected, drawn] = await page.evaluate(async () => {
       const { app } = globalThis.urdd;
-      const expected = await app.engine.ask("poses", { q: app.store.now.q });
+      const expected = await app.engine.ask("linkPoses", { q: app.store.now.q });
       return [[...expected], [...app.store.now.poses]];
     });
     assert.deepEqual(drawn, expected);

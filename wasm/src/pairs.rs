@@ -99,7 +99,7 @@ impl Pairs {
         };
         let has_reasons = count > 0 && skips.reason(0, 0).is_some();
         json!({
-            "shapes": kind.name(),
+            "kind": kind.name(),
             "places": skips.places(),
             "skipped": (0..count).map(row).collect::<Vec<_>>(),
             "reasons": has_reasons.then(|| (0..count).map(reasons).collect::<Vec<_>>()),

@@ -19,7 +19,7 @@ interface Exports {
   urdd_explain?: (code: number, length: number) => number;
   urdd_robot_open(files: number): number;
   urdd_robot_close(robot: number): void;
-  urdd_robot_poses(robot: number, values: number, count: number): number;
+  urdd_robot_link_poses_batch(robot: number, values: number, count: number): number;
   urdd_robot_ask(robot: number, question: number, length: number): number;
 }
 
@@ -113,9 +113,11 @@ export class UrddModule {
   }
 
   /** x, y, z and the quaternion w, x, y, z of each link. */
-  poses(robot: number, q: number[]): Float64Array {
+  linkPoses(robot: number, q: number[]): Float64Array {
     const values = new Uint8Array(new Float64Array(q).buffer);
-    const bytes = this.with([values], ([at]) => this.bytes(this.exports.urdd_robot_poses(robot, at, q.length)));
+    const bytes = this.with([values], ([at]) =>
+      this.bytes(this.exports.urdd_robot_link_poses_batch(robot, at, q.length)),
+    );
     return new Float64Array(bytes.buffer);
   }
 

@@ -162,8 +162,8 @@ export interface Rate {
 export interface Clearances {
   /** Whether any clearance is 0 or less. */
   may_collide: boolean;
-  /** The least clearance, metres, and the place of its pair among all; null for a model without a pair. */
-  least: { pair: number; links: [string, string]; link_idxs: [number, number]; clearance: number } | null;
+  /** The minimum clearance, metres, and the index of its pair; null for a model without pairs. */
+  min_clearance: { pair: number; links: [string, string]; link_idxs: [number, number]; clearance: number } | null;
   /** Of each pair, metres. */
   clearances: number[];
 }
@@ -179,7 +179,7 @@ export interface SkipEdit {
 }
 
 export interface SkipsAnswer {
-  shapes: ShapeKind;
+  kind: ShapeKind;
   places: [number, number][];
   skipped: string[];
   reasons: string[] | null;
@@ -196,7 +196,7 @@ export interface Sample {
   link_poses: Pose[];
 }
 
-export interface Volume {
+export interface Shape {
   link: number;
   piece: number;
   solid: { position: Vector; quaternion_wxyz?: Quaternion; half_extents?: Vector; radius?: number };
@@ -220,7 +220,7 @@ export interface SourceShape extends Pose {
 }
 
 /** Where a link should be, and which DOFs may change for it. */
-export interface Wish {
+export interface InverseQuestion {
   q: number[];
   link: number;
   /** In the link's frame, metres; its origin unless it is said. */
@@ -233,7 +233,7 @@ export interface Wish {
   dofs?: number[];
 }
 
-export interface Reached {
+export interface InverseSolution {
   configuration: number[];
   position_error: number;
   rotation_error: number;
@@ -307,19 +307,19 @@ export interface Calls {
   /** The module: its address, or itself, compressed by brotli. */
   init: [{ wasm: string | ArrayBuffer }, null];
   open: [{ source: RobotSource }, { about: About; files: FileEntry[]; folder: string }];
-  poses: [{ q: number[] }, Float64Array];
+  linkPoses: [{ q: number[] }, Float64Array];
   random: [{ k: number }, number[]];
   file: [{ path: string }, ArrayBuffer];
   meshes: [{ kind: "plain" | "hulls" | "pieces" }, LinkMesh[]];
   /** Of files: `link` is the number of the file in the question. */
   triangles: [{ paths: string[] }, LinkMesh[]];
   sources: [Record<string, never>, SourceShape[]];
-  reach: [Wish, Reached];
-  volumes: [{ shapes: ShapeKind }, Volume[]];
+  inverseKinematics: [InverseQuestion, InverseSolution];
+  shapes: [{ kind: ShapeKind }, Shape[]];
   /** The nearest pairs: `k` of them, and more where all of these are in contact. */
-  proximity: [{ q: number[]; shapes: ShapeKind; k: number }, ProximityAnswer];
-  skips: [{ shapes: ShapeKind }, SkipsAnswer];
-  editSkips: [{ shapes: ShapeKind; edits: SkipEdit[]; skipped_reasons: string[] | null }, SkipsAnswer];
+  proximity: [{ q: number[]; kind: ShapeKind; k: number }, ProximityAnswer];
+  skips: [{ kind: ShapeKind }, SkipsAnswer];
+  editSkips: [{ kind: ShapeKind; edits: SkipEdit[]; skipped_reasons: string[] | null }, SkipsAnswer];
   samples: [Record<string, never>, { samples: Sample[] }];
   explain: [{ code: string }, Explanation];
   validate: [{ name: string }, Report];

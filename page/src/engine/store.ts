@@ -20,7 +20,7 @@ const PAIRS = ["link_shapes_skips", "link_shapes_simple_skips", "link_shapes_dis
 
 const MODULES = {
   about: ABOUT,
-  volumes: ["link_shapes_approximations"],
+  shapes: ["link_shapes_approximations"],
   pairs: PAIRS,
   model: ["self_collision_model"],
   samples: ["kinematics_samples"],

@@ -66,8 +66,8 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     return { about, files: store.list(), folder: store.name };
   },
 
-  poses({ q }) {
-    return engine().poses(open(), q);
+  linkPoses({ q }) {
+    return engine().linkPoses(open(), q);
   },
 
   random({ k }) {
@@ -100,38 +100,38 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     return engine().ask(open(), { ask: "sources" }) as Calls["sources"][1];
   },
 
-  reach(wish) {
-    return engine().ask(open(), { ask: "reach", ...wish }) as Calls["reach"][1];
+  inverseKinematics(question) {
+    return engine().ask(open(), { ask: "inverse_kinematics", ...question }) as Calls["inverseKinematics"][1];
   },
 
-  async volumes({ shapes }) {
-    await opened().store.ensure(opened().store.needed("volumes"));
-    return engine().ask(open(), { ask: "volumes", shapes }) as Calls["volumes"][1];
+  async shapes({ kind }) {
+    await opened().store.ensure(opened().store.needed("shapes"));
+    return engine().ask(open(), { ask: "shapes", kind }) as Calls["shapes"][1];
   },
 
-  async proximity({ q, shapes, k }, tell) {
-    await ensureShapes(shapes, tell);
-    engine().ask(open(), { ask: "prepare", shapes });
+  async proximity({ q, kind, k }, tell) {
+    await ensureShapes(kind, tell);
+    engine().ask(open(), { ask: "prepare", kind });
     const begin = performance.now();
     const nearest = (k: number): Calls["proximity"][1] =>
-      engine().ask(open(), { ask: "proximity", q, shapes, k }) as Calls["proximity"][1];
+      engine().ask(open(), { ask: "proximity", q, kind, k }) as Calls["proximity"][1];
     let answer = nearest(k);
     // Every contact is told of, however many there are.
     for (let more = 4 * k; answer.nearest.length === more / 4 && (answer.nearest.at(-1)?.distance ?? 1) <= 0; more *= 4)
       answer = nearest(more);
     const ms = performance.now() - begin;
-    return { ...answer, model: shapes === "pieces" ? learned(q) : null, ms };
+    return { ...answer, model: kind === "pieces" ? learned(q) : null, ms };
   },
 
-  async skips({ shapes }) {
+  async skips({ kind }) {
     await opened().store.ensure(opened().store.needed("pairs"));
-    return engine().ask(open(), { ask: "skips", shapes }) as Calls["skips"][1];
+    return engine().ask(open(), { ask: "skips", kind }) as Calls["skips"][1];
   },
 
-  async editSkips({ shapes, edits, skipped_reasons }) {
+  async editSkips({ kind, edits, skipped_reasons }) {
     const { store } = opened();
     await store.ensure([...store.needed("pairs"), ...store.needed("about")]);
-    return engine().ask(open(), { ask: "edit_skips", shapes, edits, skipped_reasons }) as Calls["editSkips"][1];
+    return engine().ask(open(), { ask: "edit_skips", kind, edits, skipped_reasons }) as Calls["editSkips"][1];
   },
 
   async samples() {
@@ -158,15 +158,15 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
 };
 
 /** What distances of these shapes are computed from. */
-async function ensureShapes(shapes: ShapeKind, tell: Tell): Promise<void> {
+async function ensureShapes(kind: ShapeKind, tell: Tell): Promise<void> {
   const { store, about } = opened();
   await store.ensure(store.needed("pairs"));
-  await store.ensure(store.needed("volumes"));
-  if (shapes === "pieces") await store.ensure(store.needed("model"));
-  const lists = shapes === "hulls" ? about.meshes.hulls : shapes === "pieces" ? about.meshes.pieces : null;
+  await store.ensure(store.needed("shapes"));
+  if (kind === "pieces") await store.ensure(store.needed("model"));
+  const lists = kind === "hulls" ? about.meshes.hulls : kind === "pieces" ? about.meshes.pieces : null;
   const paths = lists?.flat().flatMap((mesh) => mesh.read ?? []) ?? [];
   await store.ensure(paths, (done, of) => {
-    tell(done, of, shapes);
+    tell(done, of, kind);
   });
 }
 

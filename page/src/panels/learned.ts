@@ -29,8 +29,8 @@ export function learnedLine(): { element: HTMLElement; show: (answer: ProximityA
         fill(rates);
         return;
       }
-      least.textContent = model.least
-        ? ` (least clearance ${length(model.least.clearance)}, ${model.least.links.map(name).join(" – ")})`
+      least.textContent = model.min_clearance
+        ? ` (minimum clearance ${length(model.min_clearance.clearance)}, ${model.min_clearance.links.map(name).join(" – ")})`
         : "";
       least.title = `An estimate: distances of ${length(model.clip_distance)} and more were all the same to it`;
       rates.textContent = counted(model);

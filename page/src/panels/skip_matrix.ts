@@ -68,7 +68,7 @@ export function draw(
   });
   context.globalAlpha = 1;
   if (!pair) return;
-  const ofPieces = answer.shapes.startsWith("piece");
+  const ofPieces = answer.kind.startsWith("piece");
   const is = (shape: number, [link, piece]: [number, number]): boolean => {
     const place = answer.places[shape];
     return place?.[0] === link && (!ofPieces || place[1] === piece);

@@ -180,11 +180,11 @@ export function skips(app: App): HTMLElement {
 function label(robot: RobotModel, answer: SkipsAnswer, shape: number, pair: Pair | null): HTMLElement {
   const [link, piece] = answer.places[shape] ?? [0, 0];
   const text = name(robot.links[link]?.name ?? "");
-  const chosen = pair?.some(([other, k]) => other === link && (k === piece || !answer.shapes.startsWith("piece")));
+  const chosen = pair?.some(([other, k]) => other === link && (k === piece || !answer.kind.startsWith("piece")));
   return h(
     "span",
     { class: chosen ? "cut chosen" : "cut", title: text },
-    ...cut(answer.shapes.startsWith("piece") ? `${text} ${piece}` : text),
+    ...cut(answer.kind.startsWith("piece") ? `${text} ${piece}` : text),
   );
 }
 
@@ -205,7 +205,7 @@ function summary(answer: SkipsAnswer): string {
 function words(robot: RobotModel, answer: SkipsAnswer, [i, j]: [number, number]): string {
   const of = (k: number): string => {
     const [link, piece] = answer.places[k] ?? [0, 0];
-    return name(robot.links[link]?.name ?? "") + (answer.shapes.startsWith("piece") ? ` piece ${piece}` : "");
+    return name(robot.links[link]?.name ?? "") + (answer.kind.startsWith("piece") ? ` piece ${piece}` : "");
   };
   const reason = REASONS.get(letterAt(answer, i, j)) ?? "";
   return `${of(i)} · ${of(j)}: ${reason}, ${isSkipped(answer, i, j) ? "skipped" : "checked"}`;
@@ -213,7 +213,7 @@ function words(robot: RobotModel, answer: SkipsAnswer, [i, j]: [number, number])
 
 /** The rows of a pair of shapes. */
 function shapesOf(answer: SkipsAnswer, pair: Pair): [number, number] | null {
-  const ofPieces = answer.shapes.startsWith("piece");
+  const ofPieces = answer.kind.startsWith("piece");
   const [i = -1, j = -1] = pair.map(([link, piece]) =>
     answer.places.findIndex(([other, k]) => other === link && (!ofPieces || k === piece)),
   );

@@ -2,7 +2,7 @@
 
 import { Matrix4, Plane, Quaternion, Vector3 } from "three";
 import type { Ray } from "three";
-import type { Pose, Reached, Wish } from "../engine/protocol";
+import type { Pose, InverseSolution, InverseQuestion } from "../engine/protocol";
 import type { RobotModel } from "../model";
 
 function matrix(pose: Pose): Matrix4 {
@@ -91,7 +91,7 @@ export function dragJoint(
 }
 
 /** Looks for a configuration. */
-export type Reach = (wish: Wish) => Promise<Reached>;
+export type Solve = (question: InverseQuestion) => Promise<InverseSolution>;
 
 /** A point of a link is pulled under the pointer; some DOFs give way, within their bounds. */
 export function pull(
@@ -100,7 +100,7 @@ export function pull(
   dofs: number[],
   at: Vector3,
   eye: Vector3,
-  reach: Reach,
+  solve: Solve,
 ): Drag | null {
   if (dofs.length === 0) return null;
   const local = at.clone().applyMatrix4(linkMatrix(poses, link).invert());
@@ -109,8 +109,8 @@ export function pull(
     async to(ray, q) {
       const target = ray.intersectPlane(facing, new Vector3());
       if (!target) return null;
-      const wish = { q, link, point: local.toArray(), position: target.toArray(), dofs };
-      return (await reach(wish)).configuration;
+      const question = { q, link, point: local.toArray(), position: target.toArray(), dofs };
+      return (await solve(question)).configuration;
     },
   };
 }

@@ -37,7 +37,7 @@ export class Gizmo {
       const { link } = this;
       if (link === null) return;
       const { x, y, z, w } = quaternion;
-      const found = await app.engine.ask("reach", {
+      const found = await app.engine.ask("inverseKinematics", {
         q: app.store.now.q,
         link,
         position: position.toArray(),

@@ -14,7 +14,7 @@ import {
 import type { Material, Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { Engine, Progress } from "../engine/client";
-import type { LinkMesh, ShapeKind, SourceShape, Volume } from "../engine/protocol";
+import type { LinkMesh, ShapeKind, SourceShape, Shape } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import { LAYERS } from "../state";
 import type { LayerKind } from "../state";
@@ -54,9 +54,9 @@ export async function load(
       return meshes.flatMap((mesh) => solid(layer, scene, mesh) ?? []);
     }
     default: {
-      const volumes = await engine.ask("volumes", { shapes: layer satisfies ShapeKind });
+      const shapes = await engine.ask("shapes", { kind: layer satisfies ShapeKind });
       scene.begin(layer);
-      for (const volume of volumes) scene.add(layer, volume.link, about(layer, volume));
+      for (const shape of shapes) scene.add(layer, shape.link, about(layer, shape));
       return [];
     }
   }
@@ -111,7 +111,7 @@ function tagged(mesh: Mesh, layer: LayerKind, link: number, piece: number, color
 }
 
 /** A box or a sphere. */
-function about(layer: LayerKind, { link, piece, solid }: Volume): Mesh {
+function about(layer: LayerKind, { link, piece, solid }: Shape): Mesh {
   const color = pieceColor(link, piece);
   const paint = material(color);
   let mesh: Mesh;
