@@ -240,9 +240,7 @@ export class App {
   note(text: string): void {
     clearTimeout(this.noting);
     this.store.set({ note: text });
-    this.noting = setTimeout(() => {
-      this.store.set({ note: null });
-    }, 4000);
+    this.noting = setTimeout(() => this.store.set({ note: null }), 4000);
   }
 }
 

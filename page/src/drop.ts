@@ -47,9 +47,7 @@ async function walk(root: FileSystemEntry): Promise<Dropped[]> {
     } else {
       const reader = (entry as FileSystemDirectoryEntry).createReader();
       for (;;) {
-        const some = await new Promise<FileSystemEntry[]>((resolve, reject) => {
-          reader.readEntries(resolve, reject);
-        });
+        const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
         if (some.length === 0) break;
         for (const child of some) waiting.push({ entry: child, path: `${path}/${child.name}` });
       }

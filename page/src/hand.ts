@@ -28,34 +28,16 @@ export class Hand {
     });
     this.under = new Latest(({ x, y }) => {
       this.hover(x, y);
-      return new Promise((resolve) =>
-        requestAnimationFrame(() => {
-          resolve();
-        }),
-      );
+      return new Promise((resolve) => requestAnimationFrame(() => resolve()));
     });
-    canvas.addEventListener(
-      "pointerdown",
-      (event) => {
-        this.press(event);
-      },
-      { capture: true },
-    );
-    canvas.addEventListener("pointermove", (event) => {
-      this.move(event);
-    });
-    canvas.addEventListener("pointerup", (event) => {
-      this.release(event);
-    });
-    canvas.addEventListener("pointercancel", (event) => {
-      this.release(event);
-    });
+    canvas.addEventListener("pointerdown", (event) => this.press(event), { capture: true });
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    canvas.addEventListener("pointerup", (event) => this.release(event));
+    canvas.addEventListener("pointercancel", (event) => this.release(event));
     canvas.addEventListener("pointerleave", () => {
       if (!this.down) app.hover(null);
     });
-    canvas.addEventListener("dblclick", () => {
-      stage.look("fit");
-    });
+    canvas.addEventListener("dblclick", () => stage.look("fit"));
   }
 
   private press(event: PointerEvent): void {

@@ -41,9 +41,7 @@ export function follow(app: App): void {
         const server: State["server"] = error instanceof Refused ? "another" : error instanceof Gone ? "gone" : "here";
         app.store.set({ server });
       })
-      .finally(() => {
-        setTimeout(again, PERIOD);
-      });
+      .finally(() => setTimeout(again, PERIOD));
   };
   again();
 }

@@ -23,7 +23,7 @@ import { tree } from "./panels/tree";
 import { Site } from "./site";
 import type { Mode } from "./site";
 import { Stage } from "./stage";
-import { byId, fill, h } from "./ui/dom";
+import { button, byId, fill, h } from "./ui/dom";
 import { offer } from "./ui/offer";
 import { startTheme } from "./ui/theme";
 import { tabs } from "./ui/tabs";
@@ -53,10 +53,7 @@ function start(): void {
   const address = new Address(app, stage);
 
   const failure = h("div", { class: "failure", role: "alert" });
-  const back = h("button", { type: "button" }, "Back");
-  back.addEventListener("click", () => {
-    address.leave();
-  });
+  const back = button("Back", {}, () => address.leave());
   app.store.on(["failure"], ({ failure: text }) => {
     failure.hidden = text === null;
     fill(failure, h("p", {}, text), back);
@@ -108,9 +105,7 @@ function start(): void {
     save: saving.open,
     share: () => void share(app, address.link()),
     picture: () => void save(app, stage),
-    gallery: () => {
-      address.leave();
-    },
+    gallery: () => address.leave(),
   };
   fill(
     byId("page"),
@@ -125,9 +120,7 @@ function start(): void {
     document.title = robot ? `${robot.name} · urdd` : "urdd";
   });
 
-  addEventListener("dragover", (event) => {
-    event.preventDefault();
-  });
+  addEventListener("dragover", (event) => event.preventDefault());
   addEventListener("drop", (event) => {
     event.preventDefault();
     if (event.dataTransfer) void address.openFiles(dropped(event.dataTransfer));

@@ -3,7 +3,7 @@
 import type { App } from "./app";
 import { message } from "./app";
 import type { Entry } from "./model";
-import { fill, h } from "./ui/dom";
+import { button, fill, h } from "./ui/dom";
 import { name } from "./ui/format";
 
 const PERIOD = 250;
@@ -40,7 +40,7 @@ export function saveDialog(app: App): { element: HTMLElement; open: () => void }
   });
   const wrong = h("p", { class: "bad", role: "alert" });
   const assumed = h("div", { class: "assumed" });
-  const cancel = h("button", { type: "button" }, "Cancel");
+  const cancel = button("Cancel", {}, () => element.close());
   const form = h(
     "form",
     {},
@@ -57,9 +57,6 @@ export function saveDialog(app: App): { element: HTMLElement; open: () => void }
     h("div", { class: "actions" }, h("button", { type: "submit", class: "main" }, "Save"), cancel),
   );
   const element = h("dialog", { class: "dialog", "aria-label": "Save the generated URDD" }, form);
-  cancel.addEventListener("click", () => {
-    element.close();
-  });
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     void save(app, folder.value)

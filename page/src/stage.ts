@@ -19,7 +19,7 @@ import { Witness } from "./scene/witness";
 import { absent } from "./panels/absent";
 import { drawnLayers, ghosted, LAYERS } from "./state";
 import type { LayerKind, State } from "./state";
-import { h } from "./ui/dom";
+import { button, h } from "./ui/dom";
 import { color } from "./ui/theme";
 
 export const DIRECTIONS = {
@@ -64,19 +64,7 @@ export class Stage {
     const views = h("div", { class: "views" });
     for (const key of ["fit", "front", "side", "top"] as const) {
       const text = key.charAt(0).toUpperCase() + key.slice(1);
-      views.append(
-        h(
-          "button",
-          {
-            type: "button",
-            class: "quiet",
-            click: () => {
-              this.look(key);
-            },
-          },
-          text,
-        ),
-      );
+      views.append(button(text, { class: "quiet" }, () => this.look(key)));
     }
     this.view = new View(canvas);
     this.names = new Names(this.view);
@@ -99,16 +87,11 @@ export class Stage {
     this.witness = new Witness(this.view, this.label);
     this.gizmo = new Gizmo(app, this.view);
     const handles = GIZMOS.map((kind) => {
-      const button = h(
-        "button",
-        { type: "button", "aria-pressed": "false", title: HANDLES[kind].title },
-        HANDLES[kind].text,
-      );
-      button.addEventListener("click", () => {
+      const made = button(HANDLES[kind].text, { "aria-pressed": "false", title: HANDLES[kind].title }, () => {
         this.gizmo.use(this.gizmo.kind === kind ? null : kind);
         if (this.gizmo.kind && !app.store.now.selected) app.note("Choose a link to move it by handles.");
       });
-      return [kind, button] as const;
+      return [kind, made] as const;
     });
     this.gizmo.changed = () => {
       for (const [kind, button] of handles) button.setAttribute("aria-pressed", String(this.gizmo.kind === kind));
@@ -140,9 +123,7 @@ export class Stage {
     };
     addEventListener("urdd-theme", theme);
     theme();
-    store.on(["robot"], ({ robot }) => {
-      this.take(robot);
-    });
+    store.on(["robot"], ({ robot }) => this.take(robot));
     store.on(["poses"], ({ poses, robot }) => {
       if (!poses || !robot) return;
       this.scene?.pose(poses);
@@ -150,9 +131,7 @@ export class Stage {
       this.names.pose(poses);
       this.view.invalidate();
     });
-    store.on(["layers", "pair", "shapes", "tab"], () => {
-      void this.fill();
-    });
+    store.on(["layers", "pair", "shapes", "tab"], () => void this.fill());
     store.on(
       [
         "layers",
@@ -168,13 +147,9 @@ export class Stage {
         "contacts",
         "tab",
       ],
-      (state) => {
-        this.dress(state);
-      },
+      (state) => this.dress(state),
     );
-    store.on(["overlays", "frameSize", "selected", "robot"], (state) => {
-      this.over(state);
-    });
+    store.on(["overlays", "frameSize", "selected", "robot"], (state) => this.over(state));
     store.on(["proximity", "pair", "tab", "units"], (state) => {
       const { answer } = state.proximity;
       const pair = ghosted(state);

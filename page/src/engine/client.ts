@@ -65,12 +65,10 @@ export class Engine {
   private start(): Promise<unknown> {
     if (!this.ready) {
       this.worker = new Worker(this.script);
-      this.worker.addEventListener("message", (event: MessageEvent<Answer>) => {
-        this.answered(event.data);
-      });
-      this.worker.addEventListener("error", (event) => {
-        this.fail(new Error(event.message || "the worker cannot be started"));
-      });
+      this.worker.addEventListener("message", (event: MessageEvent<Answer>) => this.answered(event.data));
+      this.worker.addEventListener("error", (event) =>
+        this.fail(new Error(event.message || "the worker cannot be started")),
+      );
       this.ready = this.send("init", { wasm: this.wasm });
     }
     return this.ready;

@@ -55,15 +55,15 @@ export class UrddModule {
   }
 
   nameFile(files: number, path: string, size: number): void {
-    this.with([encoder.encode(path)], ([at, length]) => {
-      this.exports.urdd_files_name(files, at, length, Math.min(size, 0xffffffff));
-    });
+    this.with([encoder.encode(path)], ([at, length]) =>
+      this.exports.urdd_files_name(files, at, length, Math.min(size, 0xffffffff)),
+    );
   }
 
   giveFile(files: number, path: string, bytes: Uint8Array): void {
-    this.with([encoder.encode(path), bytes], ([at, length, data, size]) => {
-      this.exports.urdd_files_give(files, at, length, data, size);
-    });
+    this.with([encoder.encode(path), bytes], ([at, length, data, size]) =>
+      this.exports.urdd_files_give(files, at, length, data, size),
+    );
   }
 
   filesOfZip(name: string, zip: Uint8Array): number {
@@ -145,9 +145,7 @@ export class UrddModule {
     try {
       return call(at);
     } finally {
-      inputs.forEach((bytes, k) => {
-        this.exports.urdd_free(at[2 * k] ?? 0, bytes.length);
-      });
+      inputs.forEach((bytes, k) => this.exports.urdd_free(at[2 * k] ?? 0, bytes.length));
     }
   }
 

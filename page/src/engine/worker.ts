@@ -58,9 +58,7 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     robot = 0;
     about = null;
     store = new Store(engineNow, source);
-    await store.ensure(store.needed("about"), (done, of) => {
-      tell(done, of, "modules");
-    });
+    await store.ensure(store.needed("about"), (done, of) => tell(done, of, "modules"));
     robot = engineNow.openRobot(store.handle);
     about = engineNow.ask(robot, { ask: "about" }) as About;
     return { about, files: store.list(), folder: store.name };
@@ -82,17 +80,13 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     const { store, about } = opened();
     const lists: MeshPaths[][] = about.meshes[kind] ?? [];
     const paths = lists.flat().flatMap((mesh) => mesh.read ?? []);
-    await store.ensure(paths, (done, of) => {
-      tell(done, of, kind);
-    });
+    await store.ensure(paths, (done, of) => tell(done, of, kind));
     return lists.flatMap((meshes, link) => meshes.map((mesh, piece) => triangles(store, link, piece, mesh.read)));
   },
 
   async triangles({ paths }, tell) {
     const { store } = opened();
-    await store.ensure(paths, (done, of) => {
-      tell(done, of, "meshes");
-    });
+    await store.ensure(paths, (done, of) => tell(done, of, "meshes"));
     return paths.map((path, k) => triangles(store, k, 0, path));
   },
 
@@ -150,9 +144,7 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
   async validate({ name }, tell) {
     const { store } = opened();
     const all = store.list().map((file) => file.path);
-    await store.ensure(all, (done, of) => {
-      tell(done, of, "files");
-    });
+    await store.ensure(all, (done, of) => tell(done, of, "files"));
     return engine().validate(store.handle, name) as Calls["validate"][1];
   },
 };
@@ -165,9 +157,7 @@ async function ensureShapes(kind: ShapeKind, tell: Tell): Promise<void> {
   if (kind === "pieces") await store.ensure(store.needed("model"));
   const lists = kind === "hulls" ? about.meshes.hulls : kind === "pieces" ? about.meshes.pieces : null;
   const paths = lists?.flat().flatMap((mesh) => mesh.read ?? []) ?? [];
-  await store.ensure(paths, (done, of) => {
-    tell(done, of, kind);
-  });
+  await store.ensure(paths, (done, of) => tell(done, of, kind));
 }
 
 /** What the learned model says, where there is one. */
@@ -213,9 +203,7 @@ let opening: Promise<unknown> = Promise.resolve();
 async function answer({ id, call, question }: Request): Promise<void> {
   try {
     const handler = handlers[call] as (question: unknown, tell: Tell) => unknown;
-    const tell: Tell = (done, of, what) => {
-      scope.postMessage({ id, progress: { done, of, what } }, []);
-    };
+    const tell: Tell = (done, of, what) => scope.postMessage({ id, progress: { done, of, what } }, []);
     const answered = opening.then(() => handler(question, tell));
     if (call === "init" || call === "open") opening = answered.catch(() => undefined);
     const value = await answered;
@@ -227,6 +215,4 @@ async function answer({ id, call, question }: Request): Promise<void> {
   }
 }
 
-scope.addEventListener("message", (event) => {
-  void answer(event.data);
-});
+scope.addEventListener("message", (event) => void answer(event.data));

@@ -2,7 +2,7 @@
 
 import { drawnInstead } from "../absent";
 import type { App } from "../app";
-import { fill, h } from "../ui/dom";
+import { button, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 
 /** Meshes that are named before the rest is counted. */
@@ -12,12 +12,11 @@ export function absent(app: App): HTMLElement {
   const title = h("summary", {});
   const list = h("ul", {});
   const more = h("p", { class: "hint" });
-  const away = h("button", { type: "button", class: "tiny", "aria-label": "Close the list of missing meshes" }, "✕");
-  const details = h("details", {}, title, list, more);
-  const element = h("div", { class: "absent", role: "status", hidden: true }, details, away);
-  away.addEventListener("click", () => {
+  const away = button("✕", { class: "tiny", "aria-label": "Close the list of missing meshes" }, () => {
     element.hidden = true;
   });
+  const details = h("details", {}, title, list, more);
+  const element = h("div", { class: "absent", role: "status", hidden: true }, details, away);
   app.store.on(["robot", "absent"], ({ robot, absent }) => {
     element.hidden = !robot || absent.length === 0;
     if (!robot || absent.length === 0) return;
@@ -26,10 +25,9 @@ export function absent(app: App): HTMLElement {
     fill(
       list,
       ...absent.slice(0, MOST).map((mesh) => {
-        const link = h("button", { type: "button", class: "place" }, name(robot.links[mesh.link]?.name ?? ""));
-        link.addEventListener("click", () => {
-          app.select({ kind: "link", index: mesh.link });
-        });
+        const link = button(name(robot.links[mesh.link]?.name ?? ""), { class: "place" }, () =>
+          app.select({ kind: "link", index: mesh.link }),
+        );
         return h(
           "li",
           {},
@@ -48,14 +46,12 @@ export function absent(app: App): HTMLElement {
 /** In the header: the same, in short. */
 export function absentChip(app: App, n: number): Node | null {
   if (n === 0) return null;
-  const chip = h("button", { type: "button", class: "chip warning" }, `${count(n, "mesh", "meshes")} not found`);
-  chip.title = "Which meshes, and what is drawn instead";
-  chip.addEventListener("click", () => {
+  const title = "Which meshes, and what is drawn instead";
+  return button(`${count(n, "mesh", "meshes")} not found`, { class: "chip warning", title }, () => {
     for (const box of document.querySelectorAll<HTMLElement>(".absent")) {
       box.hidden = false;
       for (const details of box.querySelectorAll("details")) details.open = true;
     }
     app.showOnly("original");
   });
-  return chip;
 }

@@ -4,7 +4,7 @@ import type { App } from "../app";
 import type { Finding, Severity, UrddReport } from "../engine/protocol";
 import { linkOf, namedLinks, paintOf, places, tally, toMend } from "../findings";
 import type { State } from "../state";
-import { fill, h, prose } from "../ui/dom";
+import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { card } from "./finding_card";
 
@@ -22,25 +22,24 @@ export function findings(app: App): HTMLElement {
     ...GROUPS.map((group) => h("option", { value: group }, `by ${group}`)),
   );
   const toggles = SEVERITIES.map((severity) => {
-    const button = h("button", { type: "button", class: `chip ${severity}`, "aria-pressed": "true" }, severity);
-    button.addEventListener("click", () => {
+    const made = button(severity, { class: `chip ${severity}`, "aria-pressed": "true" }, () => {
       if (off.has(severity)) off.delete(severity);
       else off.add(severity);
       render();
     });
-    return [severity, button] as const;
+    return [severity, made] as const;
   });
   const verdict = h("p", { class: "verdict", "aria-live": "polite" });
   const list = h("div", { class: "findings" });
   const tools = h(
     "div",
     {},
-    h("div", { class: "actions" }, ...toggles.map(([, button]) => button)),
+    h("div", { class: "actions" }, ...toggles.map(([, toggle]) => toggle)),
     h("div", { class: "actions" }, search, by),
     painting(app),
   );
   const panel = h("div", { class: "panel" }, verdict, tools, list);
-  const validate = h("button", { type: "button", click: () => void app.loadReport() }, "Validate");
+  const validate = button("Validate", {}, () => void app.loadReport());
 
   const render = (): void => {
     const { report: state, robot } = app.store.now;

@@ -3,7 +3,7 @@
 import type { App } from "../app";
 import { message } from "../app";
 import type { Entry } from "../model";
-import { fill, h } from "../ui/dom";
+import { button, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 
 /** Robots that are asked about at once. */
@@ -88,10 +88,8 @@ function dropHere(choose: (files: FileList | null, folder: boolean) => void): HT
       choose(input.files, folder);
       input.value = "";
     });
-    const click = (): void => {
-      input.click();
-    };
-    return h("span", {}, h("button", { type: "button", click }, text), input);
+    const click = (): void => input.click();
+    return h("span", {}, button(text, {}, click), input);
   };
   return h(
     "div",
@@ -106,14 +104,8 @@ function card(first: Entry, open: (entry: Entry) => void): Card {
   const picture = h("span", { class: "no-picture", "aria-hidden": "true" });
   const size = h("span", { class: "hint" });
   const verdict = h("span", { class: "verdict" });
-  const element = h(
-    "button",
-    { type: "button", class: "card" },
-    picture,
-    h("strong", { title: name(first.name) }, name(first.name)),
-    size,
-    verdict,
-  );
+  const heading = h("strong", { title: name(first.name) }, name(first.name));
+  const element = button([picture, heading, size, verdict], { class: "card" }, () => open(made.entry));
   const made: Card = {
     entry: first,
     element,
@@ -134,9 +126,6 @@ function card(first: Entry, open: (entry: Entry) => void): Card {
       element.disabled = entry.making !== null;
     },
   };
-  element.addEventListener("click", () => {
-    open(made.entry);
-  });
   made.show(first);
   return made;
 }

@@ -3,7 +3,7 @@
 import type { App } from "../app";
 import type { Inertial } from "../engine/protocol";
 import type { RobotModel } from "../model";
-import { fill, h } from "../ui/dom";
+import { button, fill, h } from "../ui/dom";
 import { bytes, count, dofValue, lengths, name, number } from "../ui/format";
 import { linkMatrix } from "../scene/drag";
 
@@ -24,39 +24,29 @@ export function info(app: App): HTMLElement {
     else if (selected.kind === "link") fill(chosen, ...ofLink(app, robot, selected.index, poses));
     else fill(chosen, ...ofJoint(app, robot, selected.index, q));
   });
-  app.store.on(["robot"], ({ robot }) => {
-    fill(whole, ...(robot ? ofRobot(robot) : []));
-  });
+  app.store.on(["robot"], ({ robot }) => fill(whole, ...(robot ? ofRobot(robot) : [])));
   return h("div", { class: "panel" }, chosen, whole);
 }
 
 function linkButton(app: App, robot: RobotModel, link: number | null): Node {
   if (link === null) return h("span", {}, "none");
-  return h(
-    "button",
-    {
-      type: "button",
-      class: "place",
-      click: () => {
-        app.select({ kind: "link", index: link });
-      },
-    },
+  return button(
     name(robot.links[link]?.name ?? ""),
+    {
+      class: "place",
+    },
+    () => app.select({ kind: "link", index: link }),
   );
 }
 
 function jointButton(app: App, robot: RobotModel, joint: number | null): Node {
   if (joint === null) return h("span", {}, "none, it is the root");
-  return h(
-    "button",
-    {
-      type: "button",
-      class: "place",
-      click: () => {
-        app.select({ kind: "joint", index: joint });
-      },
-    },
+  return button(
     name(robot.joints[joint]?.name ?? ""),
+    {
+      class: "place",
+    },
+    () => app.select({ kind: "joint", index: joint }),
   );
 }
 

@@ -2,7 +2,7 @@
 
 import type { App } from "../app";
 import { message } from "../app";
-import { cut, fill, h } from "../ui/dom";
+import { button, cut, fill, h } from "../ui/dom";
 import {
   count,
   dofValue,
@@ -35,15 +35,11 @@ export function joints(app: App): HTMLElement {
   let controls: Control[] = [];
   let drawn = 0;
 
-  const button = (text: string, title: string, act: () => void): HTMLButtonElement =>
-    h("button", { type: "button", title, click: act }, text);
   const at = (key: "zero" | "middle") => () => {
     const q = app.store.now.robot?.about[key];
     if (q) app.move(q);
   };
-  const play = button("Play samples", "Show the stored samples one after another (space)", () => {
-    void player.toggle();
-  });
+  const play = button("Play samples", "Show the stored samples one after another (space)", () => void player.toggle());
   const step = (by: "back" | "forth", text: string, title: string): HTMLButtonElement => {
     const made = button(text, title, () => {
       player.stop();
@@ -59,15 +55,9 @@ export function joints(app: App): HTMLElement {
     { class: "actions" },
     button("Zero", "Every DOF 0, or its nearest bound", at("zero")),
     button("Middle", "Every DOF half-way between its bounds", at("middle")),
-    button("Random", "A random configuration within the bounds (R)", () => {
-      void random(app, drawn++);
-    }),
-    button("Copy", "Copy the configuration as a list of numbers, rad and m", () => {
-      void copy(app);
-    }),
-    button("Paste", "Paste a list of numbers, rad and m", () => {
-      void paste(app);
-    }),
+    button("Random", "A random configuration within the bounds (R)", () => void random(app, drawn++)),
+    button("Copy", "Copy the configuration as a list of numbers, rad and m", () => void copy(app)),
+    button("Paste", "Paste a list of numbers, rad and m", () => void paste(app)),
     play,
     h("span", { class: "spring" }),
     undo,
@@ -82,23 +72,21 @@ export function joints(app: App): HTMLElement {
     const followers = robot.joints.flatMap((other) =>
       other.mimic && dofs.includes(other.mimic.dof ?? -1) ? [other] : [],
     );
+    const [first] = dofs;
     const sweep =
       dofs.length === 1
-        ? h(
-            "button",
+        ? button(
+            "↔",
             {
-              type: "button",
               class: "tiny",
-              title: "Sweep this joint through its limits, and stop it",
+              title: "Sweep this joint through its limits",
               "aria-label": `Sweep ${name(found?.name ?? "")}`,
             },
-            "↔",
+            () => {
+              if (first !== undefined) player.sweep(first);
+            },
           )
         : null;
-    const [first] = dofs;
-    sweep?.addEventListener("click", () => {
-      if (first !== undefined) player.sweep(first);
-    });
     const heading = h(
       "div",
       { class: "heading" },
@@ -106,9 +94,7 @@ export function joints(app: App): HTMLElement {
       h("span", { class: "kind" }, (found?.type ?? "").toLowerCase()),
       sweep,
     );
-    heading.addEventListener("click", () => {
-      app.select({ kind: "joint", index: joint });
-    });
+    heading.addEventListener("click", () => app.select({ kind: "joint", index: joint }));
     const block = h(
       "div",
       { class: "joint", id: `joint-${joint}` },
@@ -124,12 +110,8 @@ export function joints(app: App): HTMLElement {
         ),
       );
     }
-    block.addEventListener("pointerenter", () => {
-      app.hover({ kind: "joint", index: joint });
-    });
-    block.addEventListener("pointerleave", () => {
-      app.hover(null);
-    });
+    block.addEventListener("pointerenter", () => app.hover({ kind: "joint", index: joint }));
+    block.addEventListener("pointerleave", () => app.hover(null));
     return block;
   };
 
@@ -166,9 +148,7 @@ export function joints(app: App): HTMLElement {
       player.stop();
       app.setDof(dof, Number(slider.value));
     });
-    slider.addEventListener("dblclick", () => {
-      app.setDof(dof, robot.about.zero?.[dof] ?? 0);
-    });
+    slider.addEventListener("dblclick", () => app.setDof(dof, robot.about.zero?.[dof] ?? 0));
     entry.addEventListener("change", () => {
       player.stop();
       const value = fromShown(Number(entry.value), unit);
@@ -223,12 +203,8 @@ export function joints(app: App): HTMLElement {
   player.changed = (playing) => {
     play.textContent = playing ? "Stop" : "Play samples";
   };
-  addEventListener("urdd-play", () => {
-    void player.toggle();
-  });
-  addEventListener("urdd-random", () => {
-    void random(app, drawn++);
-  });
+  addEventListener("urdd-play", () => void player.toggle());
+  addEventListener("urdd-random", () => void random(app, drawn++));
   return panel;
 }
 

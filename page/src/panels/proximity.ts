@@ -6,7 +6,7 @@ import type { PairDistance, ProximityAnswer, ShapeKind, SkipEdit, Statistics } f
 import { byLinks, isContact } from "../contacts";
 import type { LinkPair } from "../contacts";
 import { decide, nearer } from "../skips";
-import { cut, fill, h } from "../ui/dom";
+import { button, cut, fill, h } from "../ui/dom";
 import { count, length, name, percent } from "../ui/format";
 import type { Pair } from "../state";
 import { learnedLine } from "./learned";
@@ -32,18 +32,14 @@ export function proximity(app: App): HTMLElement {
     { "aria-label": "Shapes that distances are between" },
     ...SHAPE_KINDS.map((shapes) => h("option", { value: shapes }, SHAPE_NAMES[shapes])),
   );
-  kind.addEventListener("change", () => {
-    app.useShapes(kind.value as ShapeKind);
-  });
+  kind.addEventListener("change", () => app.useShapes(kind.value as ShapeKind));
   const order = h(
     "select",
     { "aria-label": "Order" },
     h("option", { value: "distance" }, "by distance"),
     h("option", { value: "relative" }, "by share of mean"),
   );
-  order.addEventListener("change", () => {
-    render();
-  });
+  order.addEventListener("change", () => render());
   const state = h("p", { class: "collision", "aria-live": "polite" });
   const learned = learnedLine();
   const list = h("div", { class: "pairs" });
@@ -105,9 +101,7 @@ export function proximity(app: App): HTMLElement {
     selected(app, detail, nearest.find((at) => same(pair, pairOf(at))) ?? null, answer);
   };
   app.store.on(["robot", "proximity", "pair", "shapes", "skips", "tab", "units"], render);
-  app.store.on(["robot"], () => {
-    open.clear();
-  });
+  app.store.on(["robot"], () => open.clear());
   return panel;
 }
 
@@ -137,14 +131,11 @@ export function same(a: Pair | null, b: Pair | null): boolean {
 /** The row of two links with those of their pieces, used again for other links. */
 function linkRow(app: App, toggle: (key: string) => void): LinkRow {
   const main = row(app);
-  const more = h("button", { type: "button", class: "tiny expand" });
+  const more = button("", { class: "tiny expand" }, () => toggle(key));
   const pieces = h("div", { class: "pieces", hidden: true });
   const element = h("div", { class: "link-pair" }, main.element, more, pieces);
   const below: ReturnType<typeof row>[] = [];
   let key = "";
-  more.addEventListener("click", () => {
-    toggle(key);
-  });
   return {
     element,
     show({ links, shapes }, widest, chosen, open) {
@@ -194,10 +185,9 @@ function row(app: App): {
   const range = h("span", { class: "range" });
   const mark = h("span", { class: "mark" });
   const bar = h("span", { class: "gauge" }, range, mark);
-  const element = h("button", { type: "button", class: "pair" }, sides[0], distance, relative, sides[1], said, bar);
   let current: PairDistance | null = null;
   let isChosen = false;
-  element.addEventListener("click", () => {
+  const element = button([sides[0], distance, relative, sides[1], said, bar], { class: "pair" }, () => {
     if (current) app.store.set({ pair: isChosen ? null : pairOf(current) });
   });
   return {
@@ -241,10 +231,6 @@ function gauge(
   mark.style.left = `${share(now)}%`;
 }
 
-function act(text: string, title: string, does: () => Promise<void>): Node {
-  return h("button", { type: "button", title, click: () => void does() }, text);
-}
-
 /** Whether a decision that is not saved yet skips these links. */
 function isDecided(edits: readonly SkipEdit[] | null | undefined, [a, b]: [string, string]): boolean {
   const [last] = (edits ?? [])
@@ -274,48 +260,31 @@ function selected(app: App, detail: HTMLElement, pair: PairDistance | null, answ
     h(
       "div",
       { class: "actions" },
-      act("Skip this pair", "Collision checks leave these two links out, once it is saved in Skips", () =>
-        decide(app, [{ link_a: pair.links[0], link_b: pair.links[1], skip: true, reason: "" }]),
+      button(
+        "Skip this pair",
+        "Collision checks leave these two links out, once it is saved in Skips",
+        () => void decide(app, [{ link_a: pair.links[0], link_b: pair.links[1], skip: true, reason: "" }]),
       ),
-      act("Skip all nearer", "Every pair of links that is nearer than this one now", () =>
-        nearer(app, pair.link_idxs, "distance", ""),
+      button(
+        "Skip all nearer",
+        "Every pair of links that is nearer than this one now",
+        () => void nearer(app, pair.link_idxs, "distance", ""),
       ),
-      act("Skip all relatively nearer", "Every pair of links whose distance is a smaller share of its mean", () =>
-        nearer(app, pair.link_idxs, "relative", ""),
+      button(
+        "Skip all relatively nearer",
+        "Every pair of links whose distance is a smaller share of its mean",
+        () => void nearer(app, pair.link_idxs, "relative", ""),
       ),
-      h(
-        "button",
-        {
-          type: "button",
-          click: () => {
-            app.store.set({ tab: "Skips" });
-          },
-        },
-        "See its skip",
-      ),
-      h(
-        "button",
-        {
-          type: "button",
-          click: () => {
-            const keep = new Set(pair.link_idxs);
-            app.hide(app.store.now.robot?.links.keys() ?? [], true);
-            app.hide(keep, false);
-          },
-        },
-        "Show only these",
-      ),
-      h(
-        "button",
-        {
-          type: "button",
-          click: () => {
-            app.store.set({ pair: null });
-            app.hide(app.store.now.robot?.links.keys() ?? [], false);
-          },
-        },
-        "Show all",
-      ),
+      button("See its skip", {}, () => app.store.set({ tab: "Skips" })),
+      button("Show only these", {}, () => {
+        const keep = new Set(pair.link_idxs);
+        app.hide(app.store.now.robot?.links.keys() ?? [], true);
+        app.hide(keep, false);
+      }),
+      button("Show all", {}, () => {
+        app.store.set({ pair: null });
+        app.hide(app.store.now.robot?.links.keys() ?? [], false);
+      }),
     ),
   );
 }

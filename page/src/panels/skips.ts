@@ -6,7 +6,7 @@ import type { ShapeKind, SkipEdit, SkipsAnswer } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import { decide, download, isSkipped, letterAt, load, nearer, save, undo } from "../skips";
 import type { Pair } from "../state";
-import { cut, fill, h } from "../ui/dom";
+import { button, cut, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { SHAPE_NAMES } from "./proximity";
 import { at, draw, REASONS, reasonClass, region } from "./skip_matrix";
@@ -30,11 +30,19 @@ export function skips(app: App): HTMLElement {
     "aria-label": "Skips of pairs of shapes; arrows move",
   });
   // At the top, where nothing that they change moves them.
-  const up = h("button", { type: "button", class: "tiny", "aria-pressed": "true" }, "Links");
-  const into = h(
-    "button",
-    { type: "button", class: "tiny", "aria-pressed": "false", title: "The pieces of the chosen pair of links" },
+  const up = button("Links", { class: "tiny", "aria-pressed": "true" }, () => {
+    down = null;
+    reload("hulls");
+  });
+  const into = button(
     "Its pieces",
+    { class: "tiny", "aria-pressed": "false", title: "The pieces of the chosen pair of links" },
+    () => {
+      const { pair } = app.store.now;
+      if (!pair) return;
+      down = [pair[0][0], pair[1][0]];
+      reload("pieces");
+    },
   );
   const legend = h("div", { class: "legend" });
   const said = h("p", { class: "hint said", "aria-live": "polite" });
@@ -60,16 +68,6 @@ export function skips(app: App): HTMLElement {
   kind.addEventListener("change", () => {
     down = null;
     reload(kind.value as ShapeKind);
-  });
-  up.addEventListener("click", () => {
-    down = null;
-    reload("hulls");
-  });
-  into.addEventListener("click", () => {
-    const { pair } = app.store.now;
-    if (!pair) return;
-    down = [pair[0][0], pair[1][0]];
-    reload("pieces");
   });
   const render = (): void => {
     const { skips: state, robot, pair } = app.store.now;
@@ -268,26 +266,24 @@ function decision(app: App, robot: RobotModel, answer: SkipsAnswer, pair: Pair):
     maxlength: 10000,
   });
   const say = (skip: boolean): SkipEdit => ({ link_a: a, link_b: b, skip, reason: reason.value.trim() });
-  const button = (text: string, title: string, act: () => void): Node =>
-    h("button", { type: "button", title, click: act }, text);
   return [
     ...title,
     reason,
     h(
       "div",
       { class: "actions" },
-      button("Skip", "All pairs of shapes of these two links", () => {
-        void decide(app, [say(true)]);
-      }),
-      button("Check", "All pairs of shapes of these two links", () => {
-        void decide(app, [say(false)]);
-      }),
-      button("Skip all nearer", "Every pair of links that is nearer than this one in the present configuration", () => {
-        void nearer(app, links, "distance", reason.value.trim());
-      }),
-      button("Skip all relatively nearer", "Every pair of links whose distance is a smaller share of its mean", () => {
-        void nearer(app, links, "relative", reason.value.trim());
-      }),
+      button("Skip", "All pairs of shapes of these two links", () => void decide(app, [say(true)])),
+      button("Check", "All pairs of shapes of these two links", () => void decide(app, [say(false)])),
+      button(
+        "Skip all nearer",
+        "Every pair of links that is nearer than this one in the present configuration",
+        () => void nearer(app, links, "distance", reason.value.trim()),
+      ),
+      button(
+        "Skip all relatively nearer",
+        "Every pair of links whose distance is a smaller share of its mean",
+        () => void nearer(app, links, "relative", reason.value.trim()),
+      ),
     ),
   ];
 }
@@ -296,41 +292,16 @@ function listed(app: App, answer: SkipsAnswer): Node[] {
   const { skips: state, robot } = app.store.now;
   if (!answer.edits || !robot) return [];
   const canUndo = state.before.length > 0 || state.saved > 0;
-  const back = h(
-    "button",
-    {
-      type: "button",
-      click: () => {
-        void undo(app);
-      },
-    },
+  const back = button(
     state.before.length > 0 || state.saved === 0 ? "Undo" : "Undo the save",
+    {},
+    () => void undo(app),
   );
   back.disabled = !canUndo;
   const writable = robot.entry.writable && app.site.mode === "live";
   const keep = writable
-    ? h(
-        "button",
-        {
-          type: "button",
-          class: "main",
-          click: () => {
-            void save(app);
-          },
-        },
-        "Save",
-      )
-    : h(
-        "button",
-        {
-          type: "button",
-          class: "main",
-          click: () => {
-            download(app);
-          },
-        },
-        "Download the files",
-      );
+    ? button("Save", { class: "main" }, () => void save(app))
+    : button("Download the files", { class: "main" }, () => download(app));
   keep.disabled = !state.dirty;
   return [
     h("h2", {}, state.dirty ? "Decisions, not saved yet" : "Decisions"),

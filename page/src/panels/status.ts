@@ -1,7 +1,7 @@
 /** The line at the bottom. */
 
 import type { App } from "../app";
-import { fill, h } from "../ui/dom";
+import { button, fill, h } from "../ui/dom";
 import { count, name, number, UNIT_NAMES } from "../ui/format";
 import type { Units } from "../ui/format";
 import type { State } from "../state";
@@ -63,9 +63,7 @@ export function status(app: App): HTMLElement {
       );
     } else fill(left, h("span", {}, robot ? name(more) : ""));
   });
-  app.store.on(["note"], ({ note }) => {
-    fill(middle, note);
-  });
+  app.store.on(["note"], ({ note }) => fill(middle, note));
   app.store.on(["robot", "q", "sample"], ({ robot, q, sample }) => {
     const is = (key: "zero" | "middle"): boolean =>
       robot?.about[key]?.every((value, dof) => Math.abs(value - (q[dof] ?? 0)) < 1e-9) ?? false;
@@ -78,18 +76,17 @@ export function status(app: App): HTMLElement {
 /** The units of all numbers; a click changes them. */
 function switches(app: App): HTMLElement[] {
   const make = <K extends keyof Units>(key: K, both: readonly [Units[K], Units[K]]): HTMLElement => {
-    const button = h("button", { type: "button", class: "tiny unit" });
-    button.addEventListener("click", () => {
+    const made = button("", { class: "tiny unit" }, () => {
       const { units } = app.store.now;
       app.setUnits({ ...units, [key]: units[key] === both[0] ? both[1] : both[0] });
     });
     app.store.on(["units"], ({ units }) => {
       const [now, other] = units[key] === both[0] ? both : [both[1], both[0]];
-      button.textContent = now;
-      button.title = `In ${UNIT_NAMES[now]}. Click for ${UNIT_NAMES[other]}`;
-      button.setAttribute("aria-label", `${now}: ${key === "length" ? "lengths" : "angles"} in ${UNIT_NAMES[now]}`);
+      made.textContent = now;
+      made.title = `In ${UNIT_NAMES[now]}. Click for ${UNIT_NAMES[other]}`;
+      made.setAttribute("aria-label", `${now}: ${key === "length" ? "lengths" : "angles"} in ${UNIT_NAMES[now]}`);
     });
-    return button;
+    return made;
   };
   return [make("length", ["mm", "m"]), make("angle", ["°", "rad"])];
 }

@@ -61,15 +61,9 @@ export function tree(app: App): HTMLElement {
       // Where the tree lies over the picture, the link is seen now.
       if (app.store.now.unfolded === "links") app.store.set({ unfolded: null });
     });
-    element.addEventListener("dblclick", () => {
-      app.store.set({ tab: "Joints" });
-    });
-    element.addEventListener("pointerenter", () => {
-      app.hover({ kind: "link", index: link });
-    });
-    element.addEventListener("pointerleave", () => {
-      app.hover(null);
-    });
+    element.addEventListener("dblclick", () => app.store.set({ tab: "Joints" }));
+    element.addEventListener("pointerenter", () => app.hover({ kind: "link", index: link }));
+    element.addEventListener("pointerleave", () => app.hover(null));
     return { link, depth, element, value, dot };
   };
 

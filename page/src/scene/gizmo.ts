@@ -50,12 +50,10 @@ export class Gizmo {
       view.controls.enabled = value !== true;
       if (value !== true) this.place();
     });
-    this.controls.addEventListener("change", () => {
-      view.invalidate();
-    });
-    this.controls.addEventListener("objectChange", () => {
-      this.follow.ask({ position: this.target.position.clone(), quaternion: this.target.quaternion.clone() });
-    });
+    this.controls.addEventListener("change", () => view.invalidate());
+    this.controls.addEventListener("objectChange", () =>
+      this.follow.ask({ position: this.target.position.clone(), quaternion: this.target.quaternion.clone() }),
+    );
     app.store.on(["selected", "robot"], ({ robot, selected }) => {
       const link = selected?.kind === "joint" ? (robot?.joints[selected.index]?.child ?? null) : selected?.index;
       this.link = robot?.moves ? (link ?? null) : null;

@@ -18,9 +18,7 @@ export class Names {
   private poses: Float64Array | null = null;
 
   constructor(private readonly view: View) {
-    view.before.push(() => {
-      this.follow();
-    });
+    view.before.push(() => this.follow());
   }
 
   /** Shows these links' names; the first are placed first. */

@@ -49,9 +49,7 @@ export class View {
 
   /** Draws as large as this element, whenever its size changes. */
   follow(element: HTMLElement): void {
-    new ResizeObserver(() => {
-      this.resize();
-    }).observe(element);
+    new ResizeObserver(() => this.resize()).observe(element);
     this.resize();
   }
 
@@ -127,9 +125,7 @@ export class View {
   /** The picture as a PNG. */
   picture(): Promise<Blob | null> {
     this.draw();
-    return new Promise((resolve) => {
-      this.canvas.toBlob(resolve, "image/png");
-    });
+    return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
   }
 
   private resize(): void {

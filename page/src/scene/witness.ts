@@ -38,9 +38,7 @@ export class Witness {
     this.group.renderOrder = 10;
     this.group.traverse((object) => (object.renderOrder = 10));
     this.show(null, 1);
-    view.before.push(() => {
-      this.follow();
-    });
+    view.before.push(() => this.follow());
   }
 
   show(pair: PairDistance | null, size: number): void {

@@ -27,6 +27,16 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** A button: its label, its tooltip or attributes, and what a click does. */
+export function button(
+  label: Child | Child[],
+  title: string | Attributes,
+  click: (event: MouseEvent) => void,
+): HTMLButtonElement {
+  const attributes = typeof title === "string" ? { title } : title;
+  return h("button", { type: "button", ...attributes, click }, ...(Array.isArray(label) ? label : [label]));
+}
+
 /** An SVG element. */
 export function svg<K extends keyof SVGElementTagNameMap>(
   tag: K,

@@ -5,7 +5,5 @@ import { h } from "./dom";
 export function offer(content: Blob, name: string): void {
   const url = URL.createObjectURL(content);
   h("a", { href: url, download: name.replace(/[^\p{L}\p{N}._-]+/gu, "_") }).click();
-  setTimeout(() => {
-    URL.revokeObjectURL(url);
-  }, 1000);
+  setTimeout(() => URL.revokeObjectURL(url), 1000);
 }

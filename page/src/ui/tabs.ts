@@ -4,18 +4,17 @@ import type { App } from "../app";
 import { tally } from "../findings";
 import { TABS } from "../state";
 import type { Tab } from "../state";
-import { fill, h } from "./dom";
+import { button, fill, h } from "./dom";
 import { count } from "./format";
 
 export function tabs(app: App, panels: Record<Tab, HTMLElement>): HTMLElement {
   const buttons = TABS.map((tab) => {
-    const button = h("button", { type: "button", role: "tab", id: `tab-${tab}`, "aria-controls": `panel-${tab}` }, tab);
-    button.addEventListener("click", () => {
+    const made = button(tab, { role: "tab", id: `tab-${tab}`, "aria-controls": `panel-${tab}` }, () => {
       // Where panels fold, a second click folds.
       const { tab: now, unfolded } = app.store.now;
       app.store.set({ tab, unfolded: now === tab && unfolded === "panels" ? null : "panels" });
     });
-    return button;
+    return made;
   });
   const list = h("div", { class: "tablist", role: "tablist", "aria-label": "Panels" }, ...buttons);
   list.addEventListener("keydown", (event) => {
