@@ -114,7 +114,7 @@ export class Address {
     const { entries, robot } = app.store.now;
     const asked = entries.find((entry) => entry.id === shared.robot);
     const one = asked ?? (entries.length === 1 ? entries[0] : undefined);
-    if (shared.robot !== null && !asked) app.note(`There is no robot ${shared.robot} here.`);
+    if (shared.robot !== null && !asked) app.note(`Unknown robot ${shared.robot}.`);
     if (entries.some(({ making, failure }) => making !== null || failure !== null)) {
       app.close();
       const made = await untilMade(app, one?.id ?? null);
@@ -160,7 +160,7 @@ export class Address {
       pair: CHOOSES_PAIRS.has(tab) && shared.pair?.every(([link]) => known(link)) ? shared.pair : null,
     });
     const q = shared.q?.length === robot.dofs.length ? shared.q : robot.about.zero;
-    if (shared.q && q !== shared.q) app.note("The link is of another version of this robot: it has other joints.");
+    if (shared.q && q !== shared.q) app.note("The link is for another version of this robot, with other joints.");
     if (q) app.move(q);
     if (shared.camera?.length === 6) stage?.place(shared.camera);
     if (app.store.now.tab === "Findings") void app.loadReport();

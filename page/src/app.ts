@@ -135,7 +135,7 @@ export class App {
     const [from, to] = by === "back" ? [this.back, this.forth] : [this.forth, this.back];
     const q = from.pop();
     if (!q) {
-      this.note(by === "back" ? "There is no earlier pose." : "There is no later pose.");
+      this.note(by === "back" ? "Nothing to undo." : "Nothing to redo.");
       return;
     }
     to.push(this.store.now.q);
@@ -252,5 +252,5 @@ export function message(error: unknown): string {
 function why(robot: RobotModel): string {
   const [fault] = robot.about.faults;
   if (fault) return `This URDD cannot be shown: ${fault.reason}`;
-  return "This URDD has no urdf_module and no chain_module that can be read, so there is nothing to show.";
+  return "This URDD has no readable urdf_module or chain_module, so there is nothing to show.";
 }

@@ -61,9 +61,7 @@ function check(found: Dropped[]): void {
   if (found.length > MOST_FILES)
     throw new Error(`This folder has more than ${MOST_FILES.toLocaleString("en")} files. Drop the folder of one URDD.`);
   if (size > MOST_BYTES)
-    throw new Error(
-      "This folder has more than 1 GB, too much for a browser. Look at it with `urdd view` on this machine.",
-    );
+    throw new Error("This folder has more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
 }
 
 const IS_URDD =
@@ -94,8 +92,8 @@ function ofFolder(all: Dropped[]): RobotSource {
 function notAUrdd(all: Dropped[]): string {
   const urdf = all.find(({ path }) => /\.(?:urdf|xacro)$/i.test(path));
   return urdf
-    ? `This is a URDF, not a URDD yet. Make one on this machine: urdd generate ${urdf.path.split("/").pop() ?? "robot.urdf"} -o my_robot, or look at it directly: urdd view ${urdf.path.split("/").pop() ?? "robot.urdf"}`
-    : "This is no URDD: no folder in it holds urdd.json or a module such as urdf_module/module.json.";
+    ? `This is a URDF, not a URDD yet. Generate one on this machine: urdd generate ${urdf.path.split("/").pop() ?? "robot.urdf"} -o my_robot, or view it directly: urdd view ${urdf.path.split("/").pop() ?? "robot.urdf"}`
+    : "This is not a URDD: it has no folder with urdd.json or a module such as urdf_module/module.json.";
 }
 
 async function ofFile(files: File[]): Promise<RobotSource> {
@@ -103,8 +101,6 @@ async function ofFile(files: File[]): Promise<RobotSource> {
   if (!file) throw new Error("Nothing was dropped. Drop the folder of a URDD, or a .zip of it.");
   if (!/\.zip$/i.test(file.name)) throw new Error(notAUrdd(files.map((file) => ({ path: file.name, file }))));
   if (file.size > MOST_BYTES)
-    throw new Error(
-      "This archive has more than 1 GB, too much for a browser. Look at it with `urdd view` on this machine.",
-    );
+    throw new Error("This archive has more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
   return { kind: "zip", name: file.name.replace(/\.zip$/i, ""), bytes: await file.arrayBuffer() };
 }

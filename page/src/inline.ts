@@ -7,7 +7,7 @@ import type { Entry } from "./model";
 
 function text(name: string): string {
   const carried = document.getElementById(name)?.textContent;
-  if (carried === undefined) throw new Error(`this page does not carry ${name}`);
+  if (carried === undefined) throw new Error(`this page does not include ${name}`);
   return carried.trim();
 }
 
@@ -48,6 +48,6 @@ export function report(): Report {
 /** What a rule of the report means. */
 export function explain(code: string): Explanation {
   const known = (json("rules.json") as Explanation[]).find((rule) => rule.code === code);
-  if (!known) throw new Error("this page does not carry what the rule means");
+  if (!known) throw new Error("this page does not include explanations of rules");
   return known;
 }

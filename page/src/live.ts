@@ -27,12 +27,12 @@ export function follow(app: App): void {
     if (revision === told) return;
     told = revision;
     if (revision === GONE) {
-      app.note("The files of this robot are gone. What is shown is what was there.");
+      app.note("The files of this robot are gone. The page shows the last version.");
     } else if (app.store.now.skips.dirty) {
-      app.note("The files changed on disk. Your decisions on skips stay here; saving them will be refused.");
+      app.note("The files changed on disk. Your edits of skips stay here, but cannot be saved.");
     } else {
       await app.reopen();
-      app.note("The files changed: the robot was read again.");
+      app.note("The files changed: the robot was reloaded.");
     }
   };
   const again = (): void => {
@@ -53,8 +53,8 @@ export function serverLine(app: App): HTMLElement {
     line.hidden = server === "here";
     const what =
       server === "gone"
-        ? "`urdd view` has ended. What is shown stays here; nothing can be saved, and changes on disk are not seen. Start it again, and open the address that it prints."
-        : "Another `urdd view` has taken the place of the one that this page is of. Open the address that it printed, or paste it into this tab.";
+        ? "`urdd view` has ended. The page stays, but cannot save, and does not see changes on disk. Start it again, and open the address that it prints."
+        : "Another `urdd view` has replaced the one of this page. Open the address that it printed, or paste it into this tab.";
     const more = skips.dirty && robot ? " Decisions on skips are not saved: note them before you leave this page." : "";
     const text = server === "here" ? "" : what + more;
     if (line.textContent !== text) fill(line, text);

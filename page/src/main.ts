@@ -76,7 +76,7 @@ function start(): void {
         h(
           "p",
           { role: "alert" },
-          `There is no picture: this browser gives no WebGL (${noPicture ?? ""}). The panels work all the same.`,
+          `Cannot draw the robot: this browser has no WebGL (${noPicture ?? ""}). The panels still work.`,
         ),
       ),
     gallery(
@@ -137,12 +137,12 @@ async function share(app: App, link: string): Promise<void> {
     await navigator.clipboard.writeText(link);
     app.note(
       app.site.mode === "live"
-        ? "The link is copied. It opens this view in any browser of this machine while `urdd view` runs, and can save there too."
-        : "The link is copied.",
+        ? "Link copied. It opens this view in any browser on this machine while `urdd view` runs, and allows saving."
+        : "Link copied.",
     );
   } catch {
     // A live page's address has no token: it is of use in this browser alone.
-    app.note(`The link cannot be copied: ${app.site.mode === "live" ? link : "take it from the address bar."}`);
+    app.note(`The link cannot be copied: ${app.site.mode === "live" ? link : "copy it from the address bar."}`);
   }
 }
 

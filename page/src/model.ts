@@ -13,13 +13,13 @@ export interface Entry {
   temporary: boolean;
   /** How far its generation is, while that goes on. */
   making: { what: string; done: number; of: number } | null;
-  /** Why it could not be generated. */
+  /** Why it generation failed. */
   failure: string | null;
   links: number | null;
   dofs: number | null;
   verdict: string | null;
   findings: { error: number; warning: number; info: number } | null;
-  /** What was assumed when it was generated for this view. */
+  /** Assumptions during generation for this view. */
   notes: string[];
   picture: string | null;
   /** Where a site has the list of its files, and its report. */

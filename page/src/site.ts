@@ -16,7 +16,7 @@ const PATIENCE = 8000;
 export class Refused extends Error {
   constructor() {
     super(
-      "The link has no token that `urdd view` knows: it was started anew, or the link is not whole. Paste the address that " +
+      "`urdd view` does not accept this link's token: it was restarted, or the link is incomplete. Paste the address that " +
         "`urdd view` printed into this tab, or a link that Share copied.",
     );
   }

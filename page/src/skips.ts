@@ -29,7 +29,7 @@ export async function decide(app: App, more: SkipEdit[]): Promise<void> {
   const { answer, error } = app.store.now.skips;
   const edits = answer?.edits;
   if (!edits) {
-    app.note(error ?? "A legacy URDD has no edits: generate a new one to decide on skips.");
+    app.note(error ?? "A legacy URDD has no edits: generate a new URDD to edit skips.");
     return;
   }
   const same = (a: SkipEdit, b: SkipEdit): boolean =>
@@ -38,7 +38,7 @@ export async function decide(app: App, more: SkipEdit[]): Promise<void> {
   const kept = edits.filter((edit) => !more.some((other) => same(edit, other)));
   await change(app, [...kept, ...more], [...app.store.now.skips.before, edits]);
   if (app.store.now.tab !== "Skips") {
-    app.note(`${count(more.length, "pair")} of links decided. Save or take it back in Skips.`);
+    app.note(`${count(more.length, "pair")} of links edited. Save or undo in Skips.`);
   }
 }
 
@@ -49,7 +49,7 @@ async function change(app: App, edits: SkipEdit[], before: SkipEdit[][]): Promis
     const answer = await app.engine.ask("editSkips", { kind: skips.answer.kind, edits, skipped_reasons: null });
     app.store.set({ skips: { ...app.store.now.skips, answer, error: null, before, dirty: before.length > 0 } });
   } catch (error) {
-    app.note(`This cannot be decided: ${message(error)}`);
+    app.note(`The edit failed: ${message(error)}`);
   }
 }
 
@@ -59,7 +59,7 @@ export async function undo(app: App): Promise<void> {
   const before = skips.before.slice();
   const last = before.pop();
   if (last) await change(app, last, before);
-  else if (skips.saved > 0) await post(app, { undo: true }, "The last save is undone: the files are as they were.");
+  else if (skips.saved > 0) await post(app, { undo: true }, "The last save is undone: the files are restored.");
 }
 
 export async function save(app: App): Promise<void> {
@@ -92,7 +92,7 @@ export function download(app: App): void {
   if (!files || !robot) return;
   const zip = zipSync(Object.fromEntries(files.map(({ path, text }) => [path, strToU8(text)])));
   offer(new Blob([zip], { type: "application/zip" }), `${robot.entry.name}-skips.zip`);
-  app.note("Unpack the archive into the folder of the URDD: it holds the three files that change.");
+  app.note("Unpack the archive into the folder of the URDD: it has the three files that change.");
 }
 
 /** Skips of all pairs of links that are nearer than this pair now, by distance or by their share of the mean. */
@@ -114,7 +114,7 @@ export async function nearer(
   }
   const own = least.get(`${Math.min(...links)} ${Math.max(...links)}`);
   if (!own || !Number.isFinite(own.value)) {
-    app.note("This pair has no such distance now: it is skipped, or has no mean.");
+    app.note("This pair has no such distance: it is skipped, or has no mean.");
     return;
   }
   const name = (link: number): string => robot.links[link]?.name ?? "";

@@ -30,8 +30,8 @@ export const DIRECTIONS = {
 } as const;
 
 const HANDLES = {
-  translate: { text: "Move", title: "Move the chosen link by handles; the joints above it give way (G)" },
-  rotate: { text: "Turn", title: "Turn the chosen link by handles; the joints above it give way (G)" },
+  translate: { text: "Move", title: "Move the selected link by handles; the joints above it follow (G)" },
+  rotate: { text: "Turn", title: "Turn the selected link by handles; the joints above it follow (G)" },
 };
 
 const START = new Vector3(1, -0.75, 0.45);
@@ -89,7 +89,7 @@ export class Stage {
     const handles = GIZMOS.map((kind) => {
       const made = button(HANDLES[kind].text, { "aria-pressed": "false", title: HANDLES[kind].title }, () => {
         this.gizmo.use(this.gizmo.kind === kind ? null : kind);
-        if (this.gizmo.kind && !app.store.now.selected) app.note("Choose a link to move it by handles.");
+        if (this.gizmo.kind && !app.store.now.selected) app.note("Select a link to move it by handles.");
       });
       return [kind, made] as const;
     });

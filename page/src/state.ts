@@ -33,7 +33,7 @@ export interface Layer {
 export const LAYER_HINTS: Partial<Record<LayerKind, string>> = {
   original: "The URDF's visual geometry, with its colours and textures",
   collision: "The URDF's collision geometry",
-  plain: "The meshes that all other shapes are made of",
+  plain: "The meshes that all other shapes are computed from",
 };
 
 export const OVERLAYS = ["wireframe", "frames", "names", "axes", "com", "inertia", "path", "grid"] as const;

@@ -79,7 +79,7 @@ inPage(set, "poses are taken back and made again", async (page) => {
   const random = await state(page, "q", (q) => q.some((value, dof) => value !== middle[dof]));
   await page.keyboard.press("Control+z");
   assert.deepEqual(await state(page, "q"), middle);
-  await page.getByRole("button", { name: "Take the last move back" }).click();
+  await page.getByRole("button", { name: "Undo the last move" }).click();
   assert.deepEqual(await state(page, "q"), zero);
   await page.keyboard.press("Control+Shift+Z");
   await page.keyboard.press("Control+Shift+Z");

@@ -97,7 +97,7 @@ export class Engine {
     if (!("error" in answer)) waiting.resolve(answer.value as never);
     else if (answer.trapped) {
       waiting.reject(new Trapped(`the engine stopped: ${answer.error}`));
-      this.fail(new Trapped("the engine stopped, and was started again"));
+      this.fail(new Trapped("the engine stopped and was restarted"));
       const source = this.source;
       if (source) void this.ask("open", { source }).catch(() => undefined);
     } else waiting.reject(new Error(answer.error));

@@ -23,7 +23,7 @@ interface Exports {
   urdd_robot_ask(robot: number, question: number, length: number): number;
 }
 
-const NO_VALIDATOR = "This page carries no validator: drop the robot on the page of `urdd view`.";
+const NO_VALIDATOR = "This page has no validator: drop the robot on the page of `urdd view`.";
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
@@ -72,7 +72,7 @@ export class UrddModule {
     );
     if (files === 0) {
       this.with([zip], ([at, length]) => this.json(this.exports.urdd_zip_fault(at, length)));
-      throw new Error("this zip archive holds no URDD");
+      throw new Error("this zip archive has no URDD");
     }
     return files;
   }
@@ -137,7 +137,7 @@ export class UrddModule {
     const at: [number, number, number, number] = [0, 0, 0, 0];
     inputs.forEach((bytes, k) => {
       const place = this.exports.urdd_alloc(bytes.length) >>> 0;
-      if (place === 0) throw new Error("there is no memory left for this robot");
+      if (place === 0) throw new Error("not enough memory for this robot");
       new Uint8Array(this.exports.memory.buffer, place, bytes.length).set(bytes);
       at[2 * k] = place;
       at[2 * k + 1] = bytes.length;
@@ -151,7 +151,7 @@ export class UrddModule {
 
   private answer(pointer: number): Uint8Array<ArrayBuffer> {
     const at = pointer >>> 0;
-    if (at === 0) throw new Error("there is no memory left for this robot");
+    if (at === 0) throw new Error("not enough memory for this robot");
     const buffer = this.exports.memory.buffer;
     const length = new DataView(buffer).getUint32(at, true);
     const bytes = new Uint8Array(length);

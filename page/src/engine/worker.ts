@@ -172,7 +172,7 @@ function learned(q: number[]): Calls["proximity"][1]["model"] {
 }
 
 function triangles(store: Store, link: number, piece: number, path: string | null): LinkMesh {
-  if (path === null) return { link, piece, error: "it lies outside of this URDD" };
+  if (path === null) return { link, piece, error: "it is outside of this URDD" };
   try {
     const bytes = engine().mesh(store.handle, path);
     const [vertices = 0, faces = 0] = new Uint32Array(bytes.buffer, 0, 2);

@@ -102,7 +102,7 @@ async function showText(app: App, path: string, line: number, column: number | n
   try {
     const text = new TextDecoder().decode(await app.engine.ask("file", { path }));
     const found = excerpt(text, line, column);
-    if (!found) throw new Error("the file has no such line any more");
+    if (!found) throw new Error("the file no longer has this line");
     fill(
       into,
       ...found.lines.map(({ number, text, isPlace }) =>

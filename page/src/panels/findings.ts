@@ -79,7 +79,7 @@ export function findings(app: App): HTMLElement {
         h("h2", {}, `${key}: ${sum(found).toLocaleString("en")}, of ${count(found.length, "kind")}`),
         ...found.map((finding) => card(app, finding)),
       ]),
-      shown.length === 0 && urdd.findings.length > 0 && h("p", { class: "empty" }, "No finding passes the filter."),
+      shown.length === 0 && urdd.findings.length > 0 && h("p", { class: "empty" }, "No finding matches the filter."),
       ...notVerified(urdd),
     );
   };
@@ -103,7 +103,7 @@ function words(urdd: UrddReport, counts: ReturnType<typeof tally>): string {
   const found = `${count(counts.all, "finding")}: ${count(counts.error, "error")}, ${count(counts.warning, "warning")}, ${counts.info} info.`;
   switch (urdd.verdict) {
     case "pass":
-      return urdd.findings.length === 0 ? "Passes: nothing was found." : `Passes. ${found}`;
+      return urdd.findings.length === 0 ? "Passes: no findings." : `Passes. ${found}`;
     case "fail":
       return `Fails. ${found}`;
     case "incomplete":
@@ -135,7 +135,7 @@ function groupsOf(app: App, finding: Finding, grouping: Grouping): [string, Find
   ]);
 }
 
-const NO_LINK = "No link, or not said";
+const NO_LINK = "No link, or unknown";
 
 /** What links are painted by, with what the colours mean. */
 function painting(app: App): HTMLElement {
@@ -185,7 +185,7 @@ function keys({ robot, report: { report }, painted }: Readonly<State>): Node[] {
           h(
             "span",
             { class: "hint" },
-            `Left out: ${left.map(({ code, links }) => `${code} (${links.size} of ${count(robot.links.length, "link")})`).join(", ")}. Choose one to see its links.`,
+            `Not shown: ${left.map(({ code, links }) => `${code} (${links.size} of ${count(robot.links.length, "link")})`).join(", ")}. Choose one to see its links.`,
           ),
         ]
       : []),

@@ -23,7 +23,7 @@ export function gallery(
   const search = h("input", { type: "search", placeholder: "Find a robot", "aria-label": "Find a robot" });
   const title = h("h2", {}, "Robots");
   const list = h("div", { class: "cards" });
-  const empty = h("p", { class: "empty" }, "No robot is like that.");
+  const empty = h("p", { class: "empty" }, "No robot matches.");
   const panel = h(
     "section",
     { class: "gallery", "aria-label": "Robots" },
@@ -96,7 +96,7 @@ function dropHere(choose: (files: FileList | null, folder: boolean) => void): HT
     { class: "drop" },
     h("p", {}, "Drop the folder of a URDD here, or a .zip of it, to see and validate it."),
     h("div", { class: "actions" }, picker(true, "Choose a folder"), picker(false, "Choose a .zip")),
-    h("p", { class: "hint" }, "It is read in this browser. Nothing is uploaded."),
+    h("p", { class: "hint" }, "It stays in this browser. Nothing is uploaded."),
   );
 }
 
@@ -131,8 +131,8 @@ function card(first: Entry, open: (entry: Entry) => void): Card {
 }
 
 function words({ making, failure, verdict, findings }: Entry): string {
-  if (making) return making.of > 0 ? `being generated: ${making.done} of ${making.of}` : "being generated";
-  if (failure !== null) return "could not be generated";
+  if (making) return making.of > 0 ? `generating: ${making.done} of ${making.of}` : "generating";
+  if (failure !== null) return "generation failed";
   if (verdict === null) return "";
   const [errors, warnings] = [findings?.error ?? 0, findings?.warning ?? 0];
   const passes = warnings > 0 ? `passes, ${count(warnings, "warning")}` : "passes";
@@ -159,7 +159,7 @@ class Asker {
       }
       void this.work();
     });
-    // A robot that was being generated can be asked about when it is there.
+    // A robot that was generating can be asked about when it is there.
     app.store.on(["entries"], () => {
       for (const [element, { entry }] of this.cards) {
         if (entry.making === null && entry.verdict === null) {

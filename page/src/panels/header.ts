@@ -106,12 +106,12 @@ export function header(
         ),
       touching,
       absentChip(app, robot ? absent.length : 0),
-      robot?.entry.temporary && h("span", { class: "chip", title: "It goes when `urdd view` ends" }, "not saved"),
+      robot?.entry.temporary && h("span", { class: "chip", title: "Deleted when `urdd view` ends" }, "not saved"),
       robot &&
         robot.entry.notes.length > 0 &&
         button(
           count(robot.entry.notes.length, "assumption"),
-          { class: "chip", title: "What was assumed when it was generated" },
+          { class: "chip", title: "Assumptions during generation" },
           () => app.store.set({ tab: "Info", unfolded: "panels" }),
         ),
       chip("error"),

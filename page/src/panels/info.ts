@@ -140,7 +140,7 @@ function ofRobot(robot: RobotModel): Node[] {
     ),
     ...(robot.entry.notes.length > 0
       ? [
-          h("h2", {}, "Assumed when it was generated"),
+          h("h2", {}, "Assumptions during generation"),
           h("ul", { class: "notes" }, ...robot.entry.notes.map((note) => h("li", {}, name(note)))),
         ]
       : []),

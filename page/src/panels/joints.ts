@@ -39,7 +39,7 @@ export function joints(app: App): HTMLElement {
     const q = app.store.now.robot?.about[key];
     if (q) app.move(q);
   };
-  const play = button("Play samples", "Show the stored samples one after another (space)", () => void player.toggle());
+  const play = button("Play samples", "Show the stored samples in turn (space)", () => void player.toggle());
   const step = (by: "back" | "forth", text: string, title: string): HTMLButtonElement => {
     const made = button(text, title, () => {
       player.stop();
@@ -48,12 +48,12 @@ export function joints(app: App): HTMLElement {
     made.setAttribute("aria-label", title);
     return made;
   };
-  const undo = step("back", "↶", "Take the last move back (Ctrl-Z)");
-  const redo = step("forth", "↷", "Move again (Ctrl-Shift-Z)");
+  const undo = step("back", "↶", "Undo the last move (Ctrl-Z)");
+  const redo = step("forth", "↷", "Redo the move (Ctrl-Shift-Z)");
   const actions = h(
     "div",
     { class: "actions" },
-    button("Zero", "Every DOF 0, or its nearest bound", at("zero")),
+    button("Zero", "Every DOF at 0, or at the bound nearest to 0", at("zero")),
     button("Middle", "Every DOF half-way between its bounds", at("middle")),
     button("Random", "A random configuration within the bounds (R)", () => void random(app, drawn++)),
     button("Copy", "Copy the configuration as a list of numbers, rad and m", () => void copy(app)),
@@ -126,7 +126,7 @@ export function joints(app: App): HTMLElement {
       max: upper,
       step: "any",
       "aria-label": label,
-      title: "Arrows: fine steps. Shift: ten times finer under the pointer",
+      title: "Arrow keys: fine steps. Shift-drag: ten times finer",
       value: 0,
     });
     refine(slider, () => fineStep(unit));
@@ -169,7 +169,7 @@ export function joints(app: App): HTMLElement {
     empty.textContent = !robot
       ? ""
       : robot.moves
-        ? "This robot has no joint that moves."
+        ? "This robot has no movable joints."
         : `The joints cannot be moved: ${robot.about.faults[0]?.reason ?? "chain_module or dof_module is missing"}.`;
   });
   app.store.on(["robot", "q", "units"], ({ robot, q }) => {
@@ -196,7 +196,7 @@ export function joints(app: App): HTMLElement {
     if (shown) {
       const error = (value: number, unit: string): string =>
         `${value === 0 ? "0" : value.toExponential(1).replace("-", "−")} ${unit}`;
-      sample.textContent = `Sample ${shown.at + 1} of ${shown.of}: poses differ by ${error(shown.position, "m")} and ${error(shown.angle, "rad")} at most`;
+      sample.textContent = `Sample ${shown.at + 1} of ${shown.of}: poses differ by at most ${error(shown.position, "m")} and ${error(shown.angle, "rad")}`;
       sample.classList.toggle("bad", shown.position > 1e-6 || shown.angle > 1e-6);
     }
   });
@@ -236,7 +236,7 @@ async function paste(app: App): Promise<void> {
       .map(Number);
     const wanted = app.store.now.robot?.dofs.length ?? 0;
     if (values.length !== wanted || !values.every(Number.isFinite)) {
-      throw new Error(`the clipboard does not hold ${count(wanted, "number")}`);
+      throw new Error(`expected ${count(wanted, "number")} in the clipboard`);
     }
     app.move(values);
   } catch (error) {

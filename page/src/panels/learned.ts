@@ -32,7 +32,7 @@ export function learnedLine(): { element: HTMLElement; show: (answer: ProximityA
       least.textContent = model.min_clearance
         ? ` (minimum clearance ${length(model.min_clearance.clearance)}, ${model.min_clearance.links.map(name).join(" – ")})`
         : "";
-      least.title = `An estimate: distances of ${length(model.clip_distance)} and more were all the same to it`;
+      least.title = `An estimate. Training clipped distances at ${length(model.clip_distance)}`;
       rates.textContent = counted(model);
       rates.title = counts(model);
     },
@@ -42,8 +42,8 @@ export function learnedLine(): { element: HTMLElement; show: (answer: ProximityA
 /** What it says, and how that is coloured. */
 function said(model: Learned, exact: ProximityAnswer): [string, "" | "bad" | "doubt"] {
   if (model.may_collide)
-    return exact.in_collision ? ["may be in contact", ""] : ["held to be in contact, and is free", "doubt"];
-  return exact.in_collision ? ["held to be clear, and is in collision: missed", "bad"] : ["clear", ""];
+    return exact.in_collision ? ["may be in contact", ""] : ["predicted in contact, but is free", "doubt"];
+  return exact.in_collision ? ["predicted clear, but is in collision: missed", "bad"] : ["clear", ""];
 }
 
 function counted({ rates }: Learned): string {
@@ -52,8 +52,8 @@ function counted({ rates }: Learned): string {
 
 function counts({ rates: { miss, near_contact_miss: near, clear } }: Learned): string {
   return (
-    `Counted on 50,000 sampled configurations, with 95 % intervals: misses ${n(miss.count)} of ${n(miss.of)} collisions; ` +
-    `of ${n(near.of)} collisions within a step of 0.05 rad or m of contact it misses ${n(near.count)}; ` +
+    `Measured on 50,000 sampled configurations, with 95 % intervals: misses ${n(miss.count)} of ${n(miss.of)} collisions, ` +
+    `and ${n(near.count)} of ${n(near.of)} collisions within a step of 0.05 rad or m of being free; ` +
     `clears ${percent(clear)} of ${n(clear.of)} free configurations. An estimate, not a guarantee.`
   );
 }
@@ -61,7 +61,7 @@ function counts({ rates: { miss, near_contact_miss: near, clear } }: Learned): s
 /** A rate and its 95 % interval: `0.69 % (0.50 to 0.96 %)`. */
 function percent({ count, of, lower, upper }: Rate): string {
   const [share, low, high] = [of === 0 ? Number.NaN : count / of, lower, upper].map((x) => (100 * x).toFixed(2));
-  return of === 0 ? "an unknown share" : `${String(share)} % (${String(low)} to ${String(high)} %)`;
+  return of === 0 ? "an unknown fraction" : `${String(share)} % (${String(low)} to ${String(high)} %)`;
 }
 
 function n(count: number): string {

@@ -29,7 +29,7 @@ interface LinkRow {
 export function proximity(app: App): HTMLElement {
   const kind = h(
     "select",
-    { "aria-label": "Shapes that distances are between" },
+    { "aria-label": "Kind of shapes" },
     ...SHAPE_KINDS.map((shapes) => h("option", { value: shapes }, SHAPE_NAMES[shapes])),
   );
   kind.addEventListener("change", () => app.useShapes(kind.value as ShapeKind));
@@ -37,7 +37,7 @@ export function proximity(app: App): HTMLElement {
     "select",
     { "aria-label": "Order" },
     h("option", { value: "distance" }, "by distance"),
-    h("option", { value: "relative" }, "by share of mean"),
+    h("option", { value: "relative" }, "relative to mean"),
   );
   order.addEventListener("change", () => render());
   const state = h("p", { class: "collision", "aria-live": "polite" });
@@ -48,7 +48,7 @@ export function proximity(app: App): HTMLElement {
   const hint = h(
     "p",
     { class: "hint" },
-    "Each row is of two links. Distances are 0 in contact (SPEC 8.5), so how deep a contact is, is not known.",
+    "Each row is a pair of links. Distances are 0 in contact (SPEC 8.5): penetration depths are not computed.",
   );
   const panel = h(
     "div",
@@ -108,7 +108,7 @@ export function proximity(app: App): HTMLElement {
 /** Whether the robot collides, by links. */
 function verdict(app: App): string {
   const n = app.store.now.contacts?.pairs.length ?? 0;
-  return n === 0 ? "No self-collision" : `In collision with itself: ${count(n, "pair")} of links`;
+  return n === 0 ? "No self-collision" : `Self-collision: ${count(n, "pair")} of links`;
 }
 
 function said(error: string | null, answer: ProximityAnswer | null, open: boolean): string {
@@ -256,26 +256,26 @@ function selected(app: App, detail: HTMLElement, pair: PairDistance | null, answ
           h("dt", {}, "min · mean · max"),
           h("dd", {}, [statistics.min, statistics.mean, statistics.max].map((x) => length(x)).join(" · ")),
         )
-      : h("p", { class: "hint" }, "The URDD records no statistics of this pair."),
+      : h("p", { class: "hint" }, "The URDD has no statistics for this pair."),
     h(
       "div",
       { class: "actions" },
       button(
         "Skip this pair",
-        "Collision checks leave these two links out, once it is saved in Skips",
+        "Collision checks skip these two links once the edit is saved in Skips",
         () => void decide(app, [{ link_a: pair.links[0], link_b: pair.links[1], skip: true, reason: "" }]),
       ),
       button(
         "Skip all nearer",
-        "Every pair of links that is nearer than this one now",
+        "Every pair of links that is nearer than this one in this configuration",
         () => void nearer(app, pair.link_idxs, "distance", ""),
       ),
       button(
         "Skip all relatively nearer",
-        "Every pair of links whose distance is a smaller share of its mean",
+        "Every pair of links whose distance is a smaller fraction of its mean",
         () => void nearer(app, pair.link_idxs, "relative", ""),
       ),
-      button("See its skip", {}, () => app.store.set({ tab: "Skips" })),
+      button("Show in Skips", {}, () => app.store.set({ tab: "Skips" })),
       button("Show only these", {}, () => {
         const keep = new Set(pair.link_idxs);
         app.hide(app.store.now.robot?.links.keys() ?? [], true);

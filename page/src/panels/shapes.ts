@@ -61,7 +61,7 @@ export function shapes(app: App): HTMLElement {
     "div",
     { hidden: true },
     h("h2", {}, "Parts"),
-    h("div", { class: "check" }, byPart, h("label", { for: "by-part" }, "Colour links by the part that they are of")),
+    h("div", { class: "check" }, byPart, h("label", { for: "by-part" }, "Colour links by part")),
     partList,
   );
   const links = h("div", { class: "links" });
@@ -73,7 +73,7 @@ export function shapes(app: App): HTMLElement {
     h("p", { class: "hint" }, "Several at once, each with its opacity."),
     ...layers.map(({ row }) => row),
     parts,
-    h("h2", {}, "Drawn over them"),
+    h("h2", {}, "Overlays"),
     h("div", { class: "checks" }, ...overlays.map(({ row }) => row)),
     h("div", { class: "check size" }, h("label", { for: size.id }, "Size of frames"), size, sizeText),
     h(
@@ -83,7 +83,7 @@ export function shapes(app: App): HTMLElement {
       h("span", { class: "spring" }),
       button("All", { class: "tiny" }, () => all(false)),
       button("None", { class: "tiny" }, () => all(true)),
-      button("Selected", { class: "tiny", title: "The selected link alone" }, () => {
+      button("Selected", { class: "tiny", title: "Only the selected link" }, () => {
         const { selected } = app.store.now;
         all(true);
         if (selected?.kind === "link") app.hide([selected.index], false);

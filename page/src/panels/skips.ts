@@ -27,7 +27,7 @@ export function skips(app: App): HTMLElement {
     class: "matrix",
     tabindex: "0",
     role: "application",
-    "aria-label": "Skips of pairs of shapes; arrows move",
+    "aria-label": "Skips of pairs of shapes; arrow keys move",
   });
   // At the top, where nothing that they change moves them.
   const up = button("Links", { class: "tiny", "aria-pressed": "true" }, () => {
@@ -79,9 +79,9 @@ export function skips(app: App): HTMLElement {
     into.disabled = pair === null;
     empty.hidden = has;
     empty.textContent = error
-      ? `There are no skips to show: ${error}`
+      ? `The skips cannot be shown: ${error}`
       : answer && !has
-        ? "This robot has no shapes, and so no pairs."
+        ? "This robot has no shapes, so there are no pairs."
         : "";
     fill(chosen);
     fill(edits);
@@ -229,7 +229,7 @@ function whys(answer: SkipsAnswer, pairs: [number, number][], links: [string, st
     ?.filter(({ link_a, link_b }) => [link_a, link_b].sort().join("\0") === links.slice().sort().join("\0"))
     .pop();
   const found = [...reasons].map(([text, n]) => (pairs.length > 1 ? `${text} (${n.toLocaleString("en")})` : text));
-  const decided = edit && `decided: ${edit.skip ? "skip" : "check"}${edit.reason ? `, ${name(edit.reason)}` : ""}`;
+  const decided = edit && `edited: ${edit.skip ? "skip" : "check"}${edit.reason ? `, ${name(edit.reason)}` : ""}`;
   return [found.join(", "), decided].filter(Boolean).join("; ");
 }
 
@@ -256,12 +256,12 @@ function decision(app: App, robot: RobotModel, answer: SkipsAnswer, pair: Pair):
     h("p", { class: "why" }, `Reason: ${whys(answer, pairs, [a, b])}`),
   ];
   if (answer.edits === null)
-    return [...title, h("p", { class: "hint" }, "A legacy URDD has no edits: generate a new one to decide on skips.")];
+    return [...title, h("p", { class: "hint" }, "A legacy URDD has no edits: generate a new URDD to edit skips.")];
   if (links[0] === links[1])
     return [...title, h("p", { class: "hint" }, "Shapes of one link are never checked against each other.")];
   const reason = h("input", {
     type: "text",
-    placeholder: "Why? (kept with the decision)",
+    placeholder: "Reason (saved with the edit)",
     "aria-label": "Reason",
     maxlength: 10000,
   });
@@ -276,12 +276,12 @@ function decision(app: App, robot: RobotModel, answer: SkipsAnswer, pair: Pair):
       button("Check", "All pairs of shapes of these two links", () => void decide(app, [say(false)])),
       button(
         "Skip all nearer",
-        "Every pair of links that is nearer than this one in the present configuration",
+        "Every pair of links that is nearer than this one in this configuration",
         () => void nearer(app, links, "distance", reason.value.trim()),
       ),
       button(
         "Skip all relatively nearer",
-        "Every pair of links whose distance is a smaller share of its mean",
+        "Every pair of links whose distance is a smaller fraction of its mean",
         () => void nearer(app, links, "relative", reason.value.trim()),
       ),
     ),
@@ -304,9 +304,9 @@ function listed(app: App, answer: SkipsAnswer): Node[] {
     : button("Download the files", { class: "main" }, () => download(app));
   keep.disabled = !state.dirty;
   return [
-    h("h2", {}, state.dirty ? "Decisions, not saved yet" : "Decisions"),
+    h("h2", {}, state.dirty ? "Edits, not saved yet" : "Edits"),
     answer.edits.length === 0 &&
-      h("p", { class: "hint" }, "None: skips follow from reasons alone. Click a pair to decide."),
+      h("p", { class: "hint" }, "None: skips follow from the reasons. Click a pair to edit it."),
     h(
       "ul",
       { class: "notes" },
@@ -325,8 +325,8 @@ function listed(app: App, answer: SkipsAnswer): Node[] {
         "p",
         { class: "hint" },
         robot.entry.temporary
-          ? "This URDD is temporary. Save it with Save… at the top: then decisions can be saved in its folder."
-          : "This page cannot write the URDD: it is shown from a site or an archive.",
+          ? "This URDD is temporary. Save it with Save… at the top: then edits can be saved in its folder."
+          : "This page cannot write the URDD: it is from a site or an archive.",
       ),
   ].filter((node) => node !== false);
 }

@@ -23,8 +23,8 @@ export function collision({ robot, proximity, contacts }: Readonly<State>): {
 } {
   const { answer, error } = proximity;
   if (error !== null || !robot?.moves)
-    return { text: "collisions not known", kind: "open", more: error ?? "the joints cannot be moved" };
-  if (!answer || !contacts) return { text: "looking for collisions…", kind: "open", more: "" };
+    return { text: "collisions unknown", kind: "open", more: error ?? "the joints cannot be moved" };
+  if (!answer || !contacts) return { text: "checking for collisions…", kind: "open", more: "" };
   const pairs = contacts.pairs.map(({ links }) => links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "));
   if (pairs.length === 0) return { text: "no self-collision", kind: "good", more: "" };
   const rest = pairs.length > NAMED ? ` and ${pairs.length - NAMED} more` : "";

@@ -74,7 +74,7 @@ export class Gizmo {
   /** Off, moving, turning, off. */
   next(): void {
     this.use([null, ...GIZMOS, null][[null, ...GIZMOS].indexOf(this.kind) + 1] ?? null);
-    if (this.kind && this.link === null) this.app.note("Choose a link to move it by handles.");
+    if (this.kind && this.link === null) this.app.note("Select a link to move it by handles.");
   }
 
   /** Whether the pointer is on a handle. */

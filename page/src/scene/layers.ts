@@ -165,7 +165,7 @@ async function pictures(
           tell({ done: ++done, of: jobs.length, what: "meshes" });
           continue;
         }
-        if (path === null) throw new Error("there is no .glb of it in this URDD");
+        if (path === null) throw new Error("its .glb is not in this URDD");
         const bytes = await engine.ask("file", { path });
         const { scene: picture } = await loader.parseAsync(bytes, "");
         dress(picture, layer, link, piece);

@@ -85,7 +85,7 @@ export async function bare(
       const { filename } = shape.shape?.Mesh ?? {};
       if (filename === undefined) return group;
       const mesh = shape.path === null ? undefined : meshes[paths.indexOf(shape.path)];
-      if (!mesh?.positions || !mesh.indices) return new Error(mesh?.error ?? `${filename}: it is not in this URDD`);
+      if (!mesh?.positions || !mesh.indices) return new Error(mesh?.error ?? `${filename}: not in this URDD`);
       geometry = new BufferGeometry();
       geometry.setAttribute("position", new BufferAttribute(mesh.positions.slice(), 3));
       geometry.setIndex(new BufferAttribute(mesh.indices.slice(), 1));
@@ -102,7 +102,7 @@ export async function bare(
 /** A mesh with the colours and textures of its file. Texts and pictures come from the URDD alone. */
 export async function dressed(shape: SourceShape, engine: Engine): Promise<Object3D> {
   const { path } = shape;
-  if (path === null) throw new Error(`${shape.shape?.Mesh?.filename ?? ""}: it is not in this URDD`);
+  if (path === null) throw new Error(`${shape.shape?.Mesh?.filename ?? ""}: not in this URDD`);
   const bytes = await engine.ask("file", { path });
   const side = new Map<string, string>();
   for (const file of shape.side_files) {
@@ -163,7 +163,7 @@ async function parsed(
     }
     return loader.parse(text);
   }
-  throw new Error(`${path}: no colours are known of this format`);
+  throw new Error(`${path}: colours of this format are not supported`);
 }
 
 /** A path of the URDD from a folder and what a file there says. */
