@@ -1,4 +1,4 @@
-/** What the page does: opens robots, moves them, asks about them. Panels show the state and call this. */
+/** The page's actions: opens robots, moves them, runs queries. Panels show the state and call this. */
 
 import { absentMeshes } from "./absent";
 import { contactsOf } from "./contacts";
@@ -15,10 +15,10 @@ import type { Layer, LayerKind } from "./state";
 import { keepUnits } from "./ui/format";
 import type { Units } from "./ui/format";
 
-/** Nearest pairs of shapes that are asked for: where they are listed, and where only contacts count. */
+/** Number of requested nearest pairs: if they are listed, and if only contacts count. */
 const LISTED = 128;
 const FEW = 24;
-/** Poses that can be taken back, and how long the robot rests before another one counts as a step of its own, ms. */
+/** Maximum number of undo steps, and the pause after which a move is a new step, ms. */
 const MOST_STEPS = 200;
 const REST = 300;
 
@@ -26,10 +26,10 @@ export class App {
   readonly store = new StateStore();
   private readonly poses: Latest<number[]>;
   private readonly proximity: Latest<{ q: number[]; shapes: ShapeKind }>;
-  /** A word for the files of the robot as they were read; null where nobody says. */
+  /** The revision of the robot's files when they were read; null if unknown. */
   revision: string | null = null;
   private opening = 0;
-  /** The robot whose first picture is there. */
+  /** The robot whose first picture is complete. */
   private drawn: RobotModel | null = null;
   private back: number[][] = [];
   private forth: number[][] = [];
@@ -59,12 +59,12 @@ export class App {
     });
     this.store.on(["tab"], ({ tab, robot }) => {
       if (!CHOOSES_PAIRS.has(tab)) this.store.set({ pair: null });
-      // More of them are listed there.
+      // That panel lists more pairs.
       if (tab === "Proximity" && robot) this.measure();
     });
   }
 
-  /** Opens a robot. What it showed before, of this robot, stays where it can. */
+  /** Opens a robot. `keep` preserves the view of the same robot where possible. */
   async open(entry: Entry, source: RobotSource, keep = false): Promise<RobotModel | null> {
     const turn = ++this.opening;
     const before = this.store.now;
@@ -77,7 +77,7 @@ export class App {
       proximity: { answer: null, error: null },
       contacts: null,
       absent: [],
-      // Decisions that are not saved outlive another reading of the same robot.
+      // Unsaved edits survive a reload of the same robot.
       skips: keep && before.skips.dirty ? before.skips : NO_SKIPS,
       report: { report: null, error: null, busy: null },
       sample: null,
@@ -104,7 +104,7 @@ export class App {
     }
   }
 
-  /** Reads the robot again: its files changed. */
+  /** Reloads the robot after its files changed. */
   async reopen(): Promise<void> {
     const { robot, skips } = this.store.now;
     if (robot?.source.kind !== "url") return;
@@ -118,7 +118,7 @@ export class App {
     this.store.set({ robot: null, failure: null, loading: null, q: [], poses: null, pair: null, contacts: null });
   }
 
-  /** Moves the robot. What follows at once, as a drag does, is one step that can be taken back. */
+  /** Moves the robot. Moves in quick succession, as in a drag, are one undo step. */
   move(q: number[]): void {
     if (!q.every(Number.isFinite)) return;
     const now = performance.now();
@@ -130,7 +130,7 @@ export class App {
     this.place(q);
   }
 
-  /** Takes the last step of the robot back, or makes it again. */
+  /** Undoes or redoes a move. */
   step(by: "back" | "forth"): void {
     const [from, to] = by === "back" ? [this.back, this.forth] : [this.forth, this.back];
     const q = from.pop();
@@ -155,13 +155,13 @@ export class App {
     this.move(q);
   }
 
-  /** Asks for distances, and so whether the robot collides. The first picture comes before. */
+  /** Requests distances and collisions. The first picture has priority. */
   measure(): void {
     const { robot, q, shapes } = this.store.now;
     if (robot?.moves && this.drawn === robot) this.proximity.ask({ q, shapes });
   }
 
-  /** The first picture of the robot is there, or there will be none. */
+  /** Called when the first picture of the robot is complete, or cannot be drawn. */
   settled(): void {
     this.drawn = this.store.now.robot;
     this.measure();
@@ -195,7 +195,7 @@ export class App {
     this.store.set({ layers: { ...layers, [kind]: { ...layers[kind], ...change } } });
   }
 
-  /** Shows this layer alone. */
+  /** Shows only this layer. */
   showOnly(kind: LayerKind): void {
     const { layers } = this.store.now;
     const next = { ...layers };
@@ -213,7 +213,7 @@ export class App {
     this.store.set({ hidden });
   }
 
-  /** The report: the site has it, or it is made here. */
+  /** Loads the report from the site, or validates here. */
   async loadReport(): Promise<void> {
     const { robot, report } = this.store.now;
     if (!robot || report.busy !== null || report.report) return;
@@ -231,7 +231,7 @@ export class App {
         }));
       set(made, null);
     } catch (error) {
-      // A trap ends the validator: what it had found is lost, and nothing is proven.
+      // A crash loses the validator's findings, and proves nothing.
       const incomplete = error instanceof Trapped ? "not fully examined: " : "";
       set(null, incomplete + message(error));
     }

@@ -1,8 +1,8 @@
-/** Folders and archives that are dropped on the page or chosen: read in this browser, never sent anywhere. */
+/** Folders and archives that are dropped or selected. They are read in this browser, and never sent anywhere. */
 
 import type { RobotSource } from "./engine/protocol";
 
-/** Most files, and most bytes, of what is dropped. */
+/** Maximum number of files and bytes. */
 const MOST_FILES = 50_000;
 const MOST_BYTES = 1_000_000_000;
 
@@ -11,7 +11,7 @@ interface Dropped {
   file: File;
 }
 
-/** What a drop holds. Must be called while the event is handled: its entries are gone afterwards. */
+/** The files of a drop. Call it during the event: afterwards its entries are gone. */
 export function dropped(transfer: DataTransfer): () => Promise<RobotSource> {
   const entries = [...transfer.items].flatMap((item) => item.webkitGetAsEntry() ?? []);
   const files = [...transfer.files];
@@ -27,7 +27,7 @@ export function dropped(transfer: DataTransfer): () => Promise<RobotSource> {
   };
 }
 
-/** What a person chose in a dialog. */
+/** The files of a file dialog. */
 export function chosen(files: File[], folder: boolean): Promise<RobotSource> {
   if (!folder) return ofFile(files);
   return Promise.resolve(ofFolder(files.map((file) => ({ path: file.webkitRelativePath || file.name, file }))));

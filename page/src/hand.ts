@@ -8,7 +8,7 @@ import { pick } from "./scene/pick";
 import type { Stage } from "./stage";
 import { name } from "./ui/format";
 
-/** Pixels that the pointer may move within a click. */
+/** Maximum movement of the pointer during a click, pixels. */
 const STILL = 4;
 
 export class Hand {
@@ -62,7 +62,7 @@ export class Hand {
       }
     }
     if (this.drag) {
-      // The camera stays while a joint is dragged.
+      // The camera is fixed while a joint is dragged.
       view.controls.enabled = false;
       view.canvas.setPointerCapture(event.pointerId);
     }

@@ -1,4 +1,4 @@
-/** Follows the server: whether it answers, and whether the files of the open robot changed. */
+/** Polls the server: whether it answers, and whether the files of the open robot changed. */
 
 import type { App } from "./app";
 import { Gone, Refused } from "./site";
@@ -9,11 +9,11 @@ const PERIOD = 1000;
 const GONE = "gone";
 
 export function follow(app: App): void {
-  /** The change that the person was told of. */
+  /** The last change that was reported to the user. */
   let told: string | null = null;
   const look = async (): Promise<void> => {
     const { robot, server } = app.store.now;
-    // Who never had a token is told so elsewhere.
+    // A missing token is reported elsewhere.
     if (app.site.token === null) return;
     if (robot?.source.kind !== "url") {
       await app.site.answers();
@@ -46,7 +46,7 @@ export function follow(app: App): void {
   again();
 }
 
-/** Says that the server ended, and what to do, for as long as that is so. */
+/** A line that says that the server ended, and what to do. */
 export function serverLine(app: App): HTMLElement {
   const line = h("div", { class: "server", role: "alert" });
   app.store.on(["server", "skips"], ({ server, skips, robot }) => {

@@ -1,4 +1,4 @@
-/** Puts the page together, and opens what the address asks for. */
+/** Assembles the page, and opens the view of the address. */
 
 import { Address } from "./address";
 import { App, message } from "./app";
@@ -125,7 +125,7 @@ function start(): void {
     event.preventDefault();
     if (event.dataTransfer) void address.openFiles(dropped(event.dataTransfer));
   });
-  // For tests and benches: what a person sees is not enough to compare numbers.
+  // For tests and benches, which compare more digits than the page shows.
   Object.assign(window, { urdd: { app, stage } });
   void address.follow().finally(() => {
     if (mode === "live") follow(app);
@@ -141,7 +141,7 @@ async function share(app: App, link: string): Promise<void> {
         : "Link copied.",
     );
   } catch {
-    // A live page's address has no token: it is of use in this browser alone.
+    // The address of a live page has no token: it works only in this browser.
     app.note(`The link cannot be copied: ${app.site.mode === "live" ? link : "copy it from the address bar."}`);
   }
 }

@@ -1,4 +1,4 @@
-/** Robots that `urdd view` generates while the page is open: how far they are, and saving them. */
+/** Robots that `urdd view` generates while the page is open: their progress, and saving them. */
 
 import type { App } from "./app";
 import { message } from "./app";
@@ -8,7 +8,7 @@ import { name } from "./ui/format";
 
 const PERIOD = 250;
 
-/** Asks until every robot is there, and gives the one that is waited for as soon as it is. */
+/** Polls until all robots are generated. Returns the wanted one as soon as possible. */
 export async function untilMade(app: App, id: string | null): Promise<Entry | null> {
   for (;;) {
     const { entries } = app.store.now;

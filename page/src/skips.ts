@@ -1,4 +1,4 @@
-/** A person's decisions on skips: made, taken back, saved. */
+/** The user's edits of skips: made, undone, saved. */
 
 import { strToU8, zipSync } from "fflate";
 import type { App } from "./app";
@@ -23,7 +23,7 @@ export async function load(app: App, shapes: ShapeKind): Promise<void> {
   }
 }
 
-/** Adds decisions to those that there are. */
+/** Adds edits. */
 export async function decide(app: App, more: SkipEdit[]): Promise<void> {
   if (!app.store.now.skips.answer) await load(app, "hulls");
   const { answer, error } = app.store.now.skips;
@@ -34,7 +34,7 @@ export async function decide(app: App, more: SkipEdit[]): Promise<void> {
   }
   const same = (a: SkipEdit, b: SkipEdit): boolean =>
     (a.link_a === b.link_a && a.link_b === b.link_b) || (a.link_a === b.link_b && a.link_b === b.link_a);
-  // The last decision on a pair counts: those before it say nothing any more.
+  // Only the last edit of a pair counts.
   const kept = edits.filter((edit) => !more.some((other) => same(edit, other)));
   await change(app, [...kept, ...more], [...app.store.now.skips.before, edits]);
   if (app.store.now.tab !== "Skips") {
@@ -53,7 +53,7 @@ async function change(app: App, edits: SkipEdit[], before: SkipEdit[][]): Promis
   }
 }
 
-/** Takes back the last decision, or, after a save, the save. */
+/** Undoes the last edit, or, after a save, the save. */
 export async function undo(app: App): Promise<void> {
   const { skips } = app.store.now;
   const before = skips.before.slice();
@@ -85,7 +85,7 @@ async function post(app: App, wish: Record<string, unknown>, done: string): Prom
   }
 }
 
-/** The files that change, in an archive, for a page that cannot write them. */
+/** Downloads an archive of the changed files, for a page that cannot write them. */
 export function download(app: App): void {
   const { skips, robot } = app.store.now;
   const files = skips.answer?.files;
@@ -95,7 +95,7 @@ export function download(app: App): void {
   app.note("Unpack the archive into the folder of the URDD: it has the three files that change.");
 }
 
-/** Skips of all pairs of links that are nearer than this pair now, by distance or by their share of the mean. */
+/** Skips all pairs of links that are nearer than this pair, by distance or relative to the mean. */
 export async function nearer(
   app: App,
   links: [number, number],
@@ -128,7 +128,7 @@ export async function nearer(
 }
 
 export function isSkipped(answer: SkipsAnswer, i: number, j: number): boolean {
-  // Legacy matrices say it above the diagonal alone.
+  // Legacy matrices are filled only above the diagonal.
   return answer.skipped[Math.min(i, j)]?.[Math.max(i, j)] === "1";
 }
 

@@ -1,4 +1,4 @@
-/** The picture: what is in it follows the state; the pointer selects, moves joints and pulls links. */
+/** The picture. It follows the state. */
 
 import { Vector3 } from "three";
 import type { App } from "./app";
@@ -48,15 +48,15 @@ export class Stage {
   private readonly label = h("div", { class: "witness", hidden: true });
   private readonly progress = h("div", { class: "progress", role: "progressbar", hidden: true });
   private model: RobotModel | null = null;
-  /** That of the robot, metres. */
+  /** Size of the robot, metres. */
   private size = 1;
-  /** From where the next robot is looked at; null for all of it. */
+  /** The camera for the next robot; null to fit all of it. */
   from: number[] | null = null;
-  /** The robot that the camera was put for. */
+  /** The robot that the camera was set for. */
   private lookedAt: string | null = null;
-  /** Milliseconds from the page's start to the first whole picture. */
+  /** Milliseconds from the page's start to the first complete picture. */
   firstPicture: number | null = null;
-  /** The robot that is drawn whole, and looked at. */
+  /** The robot that is completely drawn, with the camera set. */
   settledOn: RobotModel | null = null;
 
   constructor(private readonly app: App) {
@@ -162,7 +162,7 @@ export class Stage {
     });
   }
 
-  /** Another robot, or none. */
+  /** Shows another robot, or none. */
   private take(robot: RobotModel | null): void {
     this.scene?.dispose();
     this.scene = null;
@@ -170,7 +170,7 @@ export class Stage {
     this.model = robot;
     this.view.invalidate();
     if (!robot) {
-      // While the same robot is read again the camera stays.
+      // The camera stays while the same robot is reloaded.
       if (!this.app.store.now.loading) this.lookedAt = null;
       this.names.show([]);
       return;
@@ -185,7 +185,7 @@ export class Stage {
     void this.fill(isNew);
   }
 
-  /** Loads the layers that are on. */
+  /** Loads the visible layers. */
   private async fill(look = false): Promise<void> {
     const { scene, model, busy } = this;
     const layers = drawnLayers(this.app.store.now);
@@ -204,7 +204,7 @@ export class Stage {
     this.app.settled();
   }
 
-  /** The layers of the present scene that are being loaded. */
+  /** The layers of the present scene that are loading. */
   private busy = new Set<LayerKind>();
 
   private async one(layer: LayerKind, scene: RobotScene, model: RobotModel): Promise<void> {
@@ -227,7 +227,7 @@ export class Stage {
     prepare(scene);
   }
 
-  /** The camera and the ground, once there is something to see. */
+  /** Sets the camera and the ground once the robot is visible. */
   private settle(scene: RobotScene): void {
     const box = scene.bounds();
     const side = box.getSize(new Vector3());
@@ -248,7 +248,7 @@ export class Stage {
       const link = selected?.kind === "link" ? selected.index : null;
       this.overlays.make(robot, overlays, this.size, frameSize ?? this.frameSize, link);
       const named = overlays.frames && overlays.names ? robot.links.map(({ name }, index) => ({ name, index })) : [];
-      // What is chosen is named in any case.
+      // The selected link is always named.
       this.names.show(named.sort((a, b) => Number(b.index === link) - Number(a.index === link)));
       if (poses) {
         this.overlays.pose(poses);
@@ -258,7 +258,7 @@ export class Stage {
     this.view.invalidate();
   }
 
-  /** The length of frames' axes that suits the robot, metres. */
+  /** The default length of frames' axes, metres. */
   get frameSize(): number {
     return this.size * 0.07;
   }
@@ -270,7 +270,7 @@ export class Stage {
     this.view.invalidate();
   }
 
-  /** Puts the camera: its place, and what it looks at. */
+  /** Sets the camera: its position and target. */
   place(camera: number[]): void {
     this.view.camera.position.fromArray(camera, 0);
     this.view.controls.target.fromArray(camera, 3);

@@ -14,7 +14,7 @@ interface Waiting {
   tell: ((progress: Progress) => void) | undefined;
 }
 
-/** The module ended with a trap: the worker is replaced, and what was open is opened again. */
+/** The module crashed: the worker is replaced, and the robot is reopened. */
 export class Trapped extends Error {}
 
 export class Engine {
@@ -39,7 +39,7 @@ export class Engine {
     return this.send(call, question, tell);
   }
 
-  /** A second worker for what takes long; it ends afterwards. */
+  /** Runs a long query in a second worker, which then ends. */
   async aside<K extends CallName>(
     call: K,
     question: Calls[K][0],

@@ -14,7 +14,7 @@ interface Exports {
   urdd_files_read(files: number, path: number, length: number): number;
   urdd_files_close(files: number): void;
   urdd_mesh(files: number, path: number, length: number): number;
-  /** A page in one file has a module without these. */
+  /** Missing in the module of a page in one file. */
   urdd_validate?: (files: number, name: number, length: number) => number;
   urdd_explain?: (code: number, length: number) => number;
   urdd_robot_open(files: number): number;
@@ -39,7 +39,7 @@ export class UrddModule {
     if (bytes instanceof Promise) {
       const response = await bytes;
       if (!response.ok) throw new Error(`the engine (urdd.wasm) cannot be loaded: status ${response.status}`);
-      // Some file servers do not say `application/wasm`, which streaming wants.
+      // Some file servers do not send `application/wasm`, which streaming requires.
       const streams = response.headers.get("content-type") === "application/wasm";
       const { instance } = streams
         ? await WebAssembly.instantiateStreaming(response, {})
@@ -127,12 +127,12 @@ export class UrddModule {
     );
   }
 
-  /** How much memory the module has, bytes. */
+  /** The module's memory, bytes. */
   get memory(): number {
     return this.exports.memory.buffer.byteLength;
   }
 
-  /** Calls with the places and lengths of some inputs. */
+  /** Calls with the addresses and lengths of inputs. */
   private with<T>(inputs: Uint8Array[], call: (at: [number, number, number, number]) => T): T {
     const at: [number, number, number, number] = [0, 0, 0, 0];
     inputs.forEach((bytes, k) => {

@@ -1,4 +1,4 @@
-/** The worker: it owns the module, reads files and answers questions, one after another. */
+/** The worker: it owns the module, reads files and answers queries, one after another. */
 
 import { decompress } from "brotli/decompress";
 import { UrddModule } from "./module";
@@ -110,7 +110,7 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     const nearest = (k: number): Calls["proximity"][1] =>
       engine().ask(open(), { ask: "proximity", q, kind, k }) as Calls["proximity"][1];
     let answer = nearest(k);
-    // Every contact is told of, however many there are.
+    // All contacts are reported, however many there are.
     for (let more = 4 * k; answer.nearest.length === more / 4 && (answer.nearest.at(-1)?.distance ?? 1) <= 0; more *= 4)
       answer = nearest(more);
     const ms = performance.now() - begin;
@@ -149,7 +149,7 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
   },
 };
 
-/** What distances of these shapes are computed from. */
+/** Loads the data that distances of these shapes need. */
 async function ensureShapes(kind: ShapeKind, tell: Tell): Promise<void> {
   const { store, about } = opened();
   await store.ensure(store.needed("pairs"));
@@ -160,7 +160,7 @@ async function ensureShapes(kind: ShapeKind, tell: Tell): Promise<void> {
   await store.ensure(paths, (done, of) => tell(done, of, kind));
 }
 
-/** What the learned model says, where there is one. */
+/** The learned model's estimate; null without a model. */
 function learned(q: number[]): Calls["proximity"][1]["model"] {
   try {
     const model = engine().ask(open(), { ask: "collision_model" }) as CollisionModel | null;
@@ -197,7 +197,7 @@ function transfers(value: unknown): Transferable[] {
   return [];
 }
 
-/** Until this is done nothing else is answered: the robot that is being opened, and the module before. */
+/** Loading of the module and opening of a robot, which other queries wait for. */
 let opening: Promise<unknown> = Promise.resolve();
 
 async function answer({ id, call, question }: Request): Promise<void> {

@@ -1,11 +1,11 @@
-/** Beside the robot: which meshes were not found, and what is drawn in their place. */
+/** The list of missing meshes, and of what is drawn instead. */
 
 import { drawnInstead } from "../absent";
 import type { App } from "../app";
 import { button, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 
-/** Meshes that are named before the rest is counted. */
+/** Maximum number of meshes that are named. */
 const MOST = 40;
 
 export function absent(app: App): HTMLElement {
@@ -43,7 +43,7 @@ export function absent(app: App): HTMLElement {
   return element;
 }
 
-/** In the header: the same, in short. */
+/** The short form in the header. */
 export function absentChip(app: App, n: number): Node | null {
   if (n === 0) return null;
   const title = "Which meshes, and what is drawn instead";

@@ -1,4 +1,4 @@
-/** A finding: what is wrong, its places with what was expected and found, the text there, and what the rule means. */
+/** A finding: its message, its places with expected and found values and their text, and the rule's explanation. */
 
 import type { App } from "../app";
 import { message } from "../app";
@@ -9,7 +9,7 @@ import type { Place } from "../findings";
 import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
 
-/** Places of a finding that are shown at first, and with each step. */
+/** Number of places shown at first, and added by each click. */
 const SHOWN = 5;
 const MORE = 50;
 
@@ -93,7 +93,7 @@ function placeRow(app: App, place: Place): HTMLElement {
   );
 }
 
-/** The lines about a place; a second click takes them away. */
+/** Shows the lines around a place; a second click hides them. */
 async function showText(app: App, path: string, line: number, column: number | null, into: HTMLElement): Promise<void> {
   const button = into.parentElement?.querySelector(".place");
   into.hidden = !into.hidden;

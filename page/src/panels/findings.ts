@@ -1,4 +1,4 @@
-/** The validator's report: grouped and filtered, in the order in which to mend it. */
+/** The validator's report, grouped and filtered, in the order in which to fix it. */
 
 import type { App } from "../app";
 import type { Finding, Severity, UrddReport } from "../engine/protocol";
@@ -113,7 +113,7 @@ function words(urdd: UrddReport, counts: ReturnType<typeof tally>): string {
   }
 }
 
-/** The groups of a finding; by links, its places are divided among them. */
+/** The groups of a finding. Grouping by links splits its places. */
 function groupsOf(app: App, finding: Finding, grouping: Grouping): [string, Finding][] {
   if (grouping === "severity")
     return [[{ error: "Errors", warning: "Warnings", info: "Info" }[finding.severity], finding]];
@@ -137,7 +137,7 @@ function groupsOf(app: App, finding: Finding, grouping: Grouping): [string, Find
 
 const NO_LINK = "No link, or unknown";
 
-/** What links are painted by, with what the colours mean. */
+/** The selection of what links are painted by, with a legend. */
 function painting(app: App): HTMLElement {
   const choice = h("select", { id: "painted" });
   const legend = h("p", { class: "legend" });
@@ -156,7 +156,7 @@ function painting(app: App): HTMLElement {
   });
   app.store.on(["robot", "report", "painted"], (state) => {
     choice.value = state.painted === null ? "" : state.painted === "worst" ? "worst" : state.painted.code;
-    // Another report may not have the rule any more.
+    // A new report may no longer have the rule.
     if (choice.selectedIndex < 0) choice.value = "";
     fill(legend, ...keys(state));
   });
@@ -192,7 +192,7 @@ function keys({ robot, report: { report }, painted }: Readonly<State>): Node[] {
   ];
 }
 
-/** What nobody can say of this URDD: grey, not green. Rules about modules that are not here come last. */
+/** What was not verified: grey, not green. Rules about missing modules come last. */
 function notVerified(urdd: UrddReport): Node[] {
   if (urdd.not_checked.length === 0) return [];
   return [

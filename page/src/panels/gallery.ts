@@ -1,4 +1,4 @@
-/** All robots of the site, with pictures and search; and where a folder or a zip is dropped. */
+/** All robots of the site, with pictures and search, and a place to drop a folder or a zip. */
 
 import type { App } from "../app";
 import { message } from "../app";
@@ -6,7 +6,7 @@ import type { Entry } from "../model";
 import { button, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 
-/** Robots that are asked about at once. */
+/** Number of parallel requests. */
 const AT_ONCE = 2;
 
 interface Card {
@@ -69,7 +69,7 @@ export function gallery(
   return panel;
 }
 
-/** What a line of `robots.json` says; what it leaves open may be known from elsewhere. */
+/** An entry of `robots.json`, with what is known from elsewhere. */
 function told(entry: Entry): Partial<Entry> {
   return Object.fromEntries(
     Object.entries(entry).filter(([key, value]) => value !== null || key === "making" || key === "failure"),
@@ -139,7 +139,7 @@ function words({ making, failure, verdict, findings }: Entry): string {
   return { pass: passes, fail: `fails: ${count(errors, "error")}` }[verdict] ?? verdict;
 }
 
-/** Asks for what the list does not say, of cards that are seen. */
+/** Requests missing data of visible cards. */
 class Asker {
   private readonly waiting: Card[] = [];
   private busy = 0;
@@ -159,7 +159,7 @@ class Asker {
       }
       void this.work();
     });
-    // A robot that was generating can be asked about when it is there.
+    // Data of a robot can be requested once it is generated.
     app.store.on(["entries"], () => {
       for (const [element, { entry }] of this.cards) {
         if (entry.making === null && entry.verdict === null) {
@@ -178,7 +178,7 @@ class Asker {
 
   private async work(): Promise<void> {
     while (this.busy < AT_ONCE) {
-      // An open robot is served first: nobody sees the gallery then.
+      // An open robot has priority: the gallery is hidden then.
       const card = this.app.store.now.robot ? undefined : this.waiting.shift();
       if (!card) return;
       this.busy++;

@@ -1,4 +1,4 @@
-/** The bar at the top: name, size, findings, layers, and what is about the whole page. */
+/** The bar at the top: name, size, findings, layers, and actions on the whole page. */
 
 import type { App } from "../app";
 import { tally } from "../findings";
@@ -9,7 +9,7 @@ import { toggleTheme } from "../ui/theme";
 import { absentChip } from "./absent";
 import { collision } from "./status";
 
-/** Those that the bar has room for; the panel has all. */
+/** The layers in the bar; the panel has all. */
 const SHORT = LAYERS.slice(0, LAYERS.indexOf("spheres") + 1);
 
 export function header(

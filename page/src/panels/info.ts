@@ -1,4 +1,4 @@
-/** What the robot is: its size and mass, its modules, its files; and of a selected link or joint everything known. */
+/** The robot's size, mass, modules and files, and all data of the selected link or joint. */
 
 import type { App } from "../app";
 import type { Inertial } from "../engine/protocol";

@@ -1,4 +1,4 @@
-/** Every joint that moves: a slider, a number, its limits; and configurations as a whole. */
+/** Each movable joint with a slider, a number and limits; and actions on the whole configuration. */
 
 import type { App } from "../app";
 import { message } from "../app";
@@ -25,7 +25,7 @@ interface Control {
   row: HTMLElement;
 }
 
-/** Without bounds a slider has these. */
+/** Bounds of a slider whose DOF has none. */
 const OPEN = { rad: Math.PI, m: 1 };
 
 export function joints(app: App): HTMLElement {

@@ -1,12 +1,12 @@
-/** What the learned self-collision model says of a configuration, beside the exact answer. */
+/** The learned self-collision model's estimate, beside the exact result. */
 
 import type { Learned, ProximityAnswer, Rate } from "../engine/protocol";
 import { fill, h } from "../ui/dom";
 import { length, name } from "../ui/format";
 
-/** The line: one element, and how to show an answer in it. */
+/** An element, and a function that shows an answer in it. */
 export function learnedLine(): { element: HTMLElement; show: (answer: ProximityAnswer | null) => void } {
-  // The verdict alone is read out when it changes: the clearance changes with every move.
+  // Screen readers announce only the verdict: the clearance changes with every move.
   const verdict = h("span", { "aria-live": "polite" });
   const least = h("span", { class: "least" });
   const rates = h("span", { class: "hint" });
@@ -39,7 +39,7 @@ export function learnedLine(): { element: HTMLElement; show: (answer: ProximityA
   };
 }
 
-/** What it says, and how that is coloured. */
+/** The verdict, and its colour. */
 function said(model: Learned, exact: ProximityAnswer): [string, "" | "bad" | "doubt"] {
   if (model.may_collide)
     return exact.in_collision ? ["may be in contact", ""] : ["predicted in contact, but is free", "doubt"];

@@ -1,4 +1,4 @@
-/** The nearest pairs, as they are now and relative to the mean, and whether the robot collides. */
+/** The nearest pairs, with distances and distances relative to the mean, and whether the robot collides. */
 
 import type { App } from "../app";
 import { SHAPE_KINDS } from "../engine/protocol";
@@ -68,7 +68,7 @@ export function proximity(app: App): HTMLElement {
     detail,
   );
   const rows: LinkRow[] = [];
-  /** Pairs of links whose pieces are shown. */
+  /** Pairs of links whose pieces are visible. */
   const open = new Set<string>();
   const render = (): void => {
     const { robot, proximity, pair, shapes, tab } = app.store.now;
@@ -128,7 +128,7 @@ export function same(a: Pair | null, b: Pair | null): boolean {
   return a !== null && b !== null && a.flat().every((x, k) => x === b.flat()[k]);
 }
 
-/** The row of two links with those of their pieces, used again for other links. */
+/** A row for two links, with rows for their pieces. Reused for other links. */
 function linkRow(app: App, toggle: (key: string) => void): LinkRow {
   const main = row(app);
   const more = button("", { class: "tiny expand" }, () => toggle(key));
@@ -173,7 +173,7 @@ function pieceNames({ links, pieces }: PairDistance): [string, string] {
   return [text(0), text(1)];
 }
 
-/** A row that is used again for another pair. */
+/** A row for a pair. Reused for other pairs. */
 function row(app: App): {
   element: HTMLButtonElement;
   show: (pair: PairDistance, widest: number, chosen: boolean, texts: { names: [string, string]; said: string }) => void;
@@ -231,7 +231,7 @@ function gauge(
   mark.style.left = `${share(now)}%`;
 }
 
-/** Whether a decision that is not saved yet skips these links. */
+/** Whether an unsaved edit skips these links. */
 function isDecided(edits: readonly SkipEdit[] | null | undefined, [a, b]: [string, string]): boolean {
   const [last] = (edits ?? [])
     .filter((edit) => (edit.link_a === a && edit.link_b === b) || (edit.link_a === b && edit.link_b === a))

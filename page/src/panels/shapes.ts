@@ -1,4 +1,4 @@
-/** What stands for the links: layers with their opacity, what is drawn over them, and which links are shown. */
+/** Layers with their opacity, overlays, and the visible links. */
 
 import type { AbsentMesh } from "../absent";
 import type { App } from "../app";
@@ -10,7 +10,7 @@ import { LAYERS, LAYER_HINTS, LAYER_NAMES, OVERLAYS, OVERLAY_NAMES } from "../st
 import { button, cut, fill, h } from "../ui/dom";
 import { count, length, name } from "../ui/format";
 
-/** Links that a layer's fault names. */
+/** Maximum number of links that a message names. */
 const NAMED = 6;
 
 export function shapes(app: App): HTMLElement {
@@ -146,7 +146,7 @@ export function shapes(app: App): HTMLElement {
   return panel;
 }
 
-/** Which meshes of a layer the URDD does not have. */
+/** The missing meshes of a layer. */
 function notFound(robot: RobotModel, layer: LayerKind, absent: readonly AbsentMesh[]): string {
   const of = absent.filter(({ geometry }) =>
     geometry === "Visual" ? layer === "original" || layer === "plain" : layer === "collision",

@@ -1,4 +1,4 @@
-/** Links by links: which pairs collision checks skip, and why; and a person's decisions on them. */
+/** The matrix of skipped pairs with their reasons, and the user's edits. */
 
 import type { App } from "../app";
 import { SHAPE_KINDS } from "../engine/protocol";
@@ -11,7 +11,7 @@ import { count, name } from "../ui/format";
 import { SHAPE_NAMES } from "./proximity";
 import { at, draw, REASONS, reasonClass, region } from "./skip_matrix";
 
-/** Rows whose names have room beside them. */
+/** Maximum number of rows with names. */
 const MOST_LABELS = 17;
 
 export function skips(app: App): HTMLElement {
@@ -29,7 +29,7 @@ export function skips(app: App): HTMLElement {
     role: "application",
     "aria-label": "Skips of pairs of shapes; arrow keys move",
   });
-  // At the top, where nothing that they change moves them.
+  // At the top, where they do not move when the content changes.
   const up = button("Links", { class: "tiny", "aria-pressed": "true" }, () => {
     down = null;
     reload("hulls");
@@ -108,7 +108,7 @@ export function skips(app: App): HTMLElement {
     if (pair) fill(chosen, ...decision(app, robot, answer, pair));
     fill(edits, ...listed(app, answer));
   };
-  /** Of the chosen pair, or of all. */
+  /** A summary of the selected pair, or of all pairs. */
   const standing = (): string => {
     const { skips: state, robot, pair } = app.store.now;
     if (!state.answer || !robot) return "";
@@ -209,7 +209,7 @@ function words(robot: RobotModel, answer: SkipsAnswer, [i, j]: [number, number])
   return `${of(i)} · ${of(j)}: ${reason}, ${isSkipped(answer, i, j) ? "skipped" : "checked"}`;
 }
 
-/** The rows of a pair of shapes. */
+/** The row and the column of a pair of shapes. */
 function shapesOf(answer: SkipsAnswer, pair: Pair): [number, number] | null {
   const ofPieces = answer.kind.startsWith("piece");
   const [i = -1, j = -1] = pair.map(([link, piece]) =>
@@ -218,7 +218,7 @@ function shapesOf(answer: SkipsAnswer, pair: Pair): [number, number] | null {
   return i < 0 || j < 0 ? null : [i, j];
 }
 
-/** Why pairs of shapes are skipped or not: the reasons with their numbers, and what a person decided. */
+/** The reasons of pairs of shapes with their counts, and the last edit. */
 function whys(answer: SkipsAnswer, pairs: [number, number][], links: [string, string]): string {
   const reasons = new Map<string, number>();
   for (const [i, j] of pairs) {
@@ -233,7 +233,7 @@ function whys(answer: SkipsAnswer, pairs: [number, number][], links: [string, st
   return [found.join(", "), decided].filter(Boolean).join("; ");
 }
 
-/** What can be decided of the chosen pair of links. */
+/** The possible edits of the selected pair of links. */
 function decision(app: App, robot: RobotModel, answer: SkipsAnswer, pair: Pair): Node[] {
   const links: [number, number] = [pair[0][0], pair[1][0]];
   const [a, b] = links.map((link) => robot.links[link]?.name ?? "") as [string, string];

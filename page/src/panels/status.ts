@@ -7,15 +7,15 @@ import type { Units } from "../ui/format";
 import type { State } from "../state";
 import { SHAPE_NAMES } from "./proximity";
 
-/** Pairs of links that are named. */
+/** Maximum number of pairs of links that are named. */
 const NAMED = 2;
 
-/** What is being loaded, in words. */
+/** The progress of loading, in words. */
 export function said({ title = "Loading", what, done, of }: NonNullable<State["loading"]>): string {
   return `${title} ${what}${of > 0 ? `, ${done} of ${of}` : ""}`;
 }
 
-/** Whether the robot collides: in a few words, and as a class. */
+/** Whether the robot collides: a short text, and a class. */
 export function collision({ robot, proximity, contacts }: Readonly<State>): {
   text: string;
   kind: string;
@@ -46,7 +46,7 @@ export function status(app: App): HTMLElement {
     const { text, kind, more } = collision(state);
     verdict.hidden = robot === null;
     const line = `● ${text}`;
-    // It is read out when it changes, and not with every move.
+    // Screen readers announce it when it changes, not with every move.
     if (verdict.textContent !== line) verdict.textContent = line;
     verdict.className = `verdict-now ${kind}`;
     verdict.title = more;

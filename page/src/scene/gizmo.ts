@@ -1,4 +1,4 @@
-/** Handles on the chosen link: it is moved or turned by them, and the joints above it give way within their bounds. */
+/** Handles that move or turn the selected link. The joints above it follow within their bounds. */
 
 import { Object3D, Quaternion, Vector3 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
@@ -11,12 +11,12 @@ import type { View } from "./view";
 export const GIZMOS = ["translate", "rotate"] as const;
 export type GizmoKind = (typeof GIZMOS)[number];
 
-/** Metres beyond which a place counts as out of reach. */
+/** Position error above which a target counts as out of reach, metres. */
 const REACHED = 1e-4;
 
 export class Gizmo {
   kind: GizmoKind | null = null;
-  /** Called when it is turned on or off. */
+  /** Called when it is switched on or off. */
   changed: () => void = () => undefined;
   private readonly target = new Object3D();
   private readonly controls: TransformControls;

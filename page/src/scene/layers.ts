@@ -1,4 +1,4 @@
-/** Makes the meshes of layers from what the engine reads. */
+/** Creates the meshes of layers from the engine's data. */
 
 import {
   BoxGeometry,
@@ -23,16 +23,16 @@ import type { MeshData, RobotScene } from "./robot";
 import { bare, dressed, isTextured } from "./sources";
 
 const PLAIN = new Color(0x9aa3b2);
-/** Pictures that are fetched at once. */
+/** Number of images fetched at once. */
 const AT_ONCE = 6;
 
-/** A colour for a piece: neighbours in number differ. */
+/** A colour for a piece: consecutive pieces differ. */
 export function pieceColor(link: number, piece: number): Color {
   const hue = (0.58 + 0.61803 * piece + 0.137 * link) % 1;
   return new Color().setHSL(hue, 0.5, 0.56, SRGBColorSpace);
 }
 
-/** Loads a layer. Gives what could not be loaded, a line for each. */
+/** Loads a layer. Returns a line for each item that could not be loaded. */
 export async function load(
   layer: LayerKind,
   scene: RobotScene,
@@ -100,7 +100,7 @@ function solid(layer: LayerKind, scene: RobotScene, mesh: LinkMesh): string | nu
 }
 
 function tagged(mesh: Mesh, layer: LayerKind, link: number, piece: number, color: Color, opacity = 1): Mesh {
-  // Where surfaces of two layers are one, the later layer is seen.
+  // If surfaces of two layers coincide, the later layer is visible.
   const paint = mesh.material as MeshLambertMaterial;
   paint.polygonOffset = true;
   paint.polygonOffsetFactor = -LAYERS.indexOf(layer);
@@ -182,10 +182,10 @@ async function pictures(
   return faults;
 }
 
-/** The visual elements of each link that has a texture: a plain mesh has colours alone. */
+/** The visual elements of each link that has a texture: a plain mesh has only colours. */
 async function withTextures(engine: Engine): Promise<Map<number, SourceShape[]>> {
   const found = new Map<number, SourceShape[]>();
-  // A legacy URDD, or one whose URDF cannot be read, has none that are known.
+  // Unknown for a legacy URDD, or if the URDF cannot be read.
   const sources = await engine.ask("sources", {}).catch(() => []);
   const visual = sources.filter(({ geometry, shape }) => geometry === "Visual" && shape !== null);
   const links = new Set(visual.filter(isTextured).map(({ link }) => link));
@@ -197,7 +197,7 @@ async function withTextures(engine: Engine): Promise<Map<number, SourceShape[]>>
   return found;
 }
 
-/** The materials of the page in the place of those of the file, with their colours. */
+/** Replaces the materials of a file by the page's, with the same colours. */
 function dress(picture: Object3D, layer: LayerKind, link: number, piece: number): void {
   for (const mesh of simple(picture)) {
     const known = mesh.material as Partial<MeshLambertMaterial> | undefined;
@@ -212,7 +212,7 @@ function dress(picture: Object3D, layer: LayerKind, link: number, piece: number)
   }
 }
 
-/** The meshes of a picture, each of one material; lines and points go. */
+/** The meshes of a scene, each with one material, without lines and points. */
 function simple(picture: Object3D): Mesh[] {
   const found: Mesh[] = [];
   const gone: Object3D[] = [];

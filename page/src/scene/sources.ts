@@ -28,12 +28,12 @@ const IMAGE = /\.(?:png|jpe?g|webp|bmp|gif|tga)$/i;
 const GLTF = /\.(?:glb|gltf)$/i;
 const SAID_NOTHING = new Color(0xb9c0ca);
 
-/** Whether the shape looks otherwise than its plain mesh: that has no textures. */
+/** Whether the shape looks different from its plain mesh, which has no textures. */
 export function isTextured(shape: SourceShape): boolean {
   return shape.side_files.some((file) => IMAGE.test(file));
 }
 
-/** A group at the element's place in its link, with nothing in it. */
+/** An empty group with the element's pose in its link. */
 function placed(shape: SourceShape): Group {
   const group = new Group();
   const [w, x, y, z] = shape.quaternion_wxyz;
@@ -55,11 +55,11 @@ function material(shape: SourceShape, color: Color | null = null): MeshLambertMa
   });
 }
 
-/** A box, cylinder, capsule or sphere; null where the shape is a mesh or none. */
+/** A box, cylinder, capsule or sphere; null for a mesh or no shape. */
 function primitive({ shape }: SourceShape): BufferGeometry | null {
   if (shape?.Box) return new BoxGeometry(...shape.Box.size);
   if (shape?.Sphere) return new SphereGeometry(shape.Sphere.radius, 32, 20);
-  // Those of three.js stand along y.
+  // Those of three.js are along y.
   if (shape?.Cylinder)
     return new CylinderGeometry(shape.Cylinder.radius, shape.Cylinder.radius, shape.Cylinder.length, 40).rotateX(
       Math.PI / 2,
@@ -69,7 +69,7 @@ function primitive({ shape }: SourceShape): BufferGeometry | null {
   return null;
 }
 
-/** Shapes without their colours in files: what collision elements are. Gives an object, or why there is none. */
+/** A collision element, without the colours of its file: an object, or why there is none. */
 export async function bare(
   shapes: SourceShape[],
   engine: Engine,
@@ -99,7 +99,7 @@ export async function bare(
   });
 }
 
-/** A mesh with the colours and textures of its file. Texts and pictures come from the URDD alone. */
+/** A mesh with the colours and textures of its file. All files are from the URDD. */
 export async function dressed(shape: SourceShape, engine: Engine): Promise<Object3D> {
   const { path } = shape;
   if (path === null) throw new Error(`${shape.shape?.Mesh?.filename ?? ""}: not in this URDD`);
@@ -111,7 +111,7 @@ export async function dressed(shape: SourceShape, engine: Engine): Promise<Objec
   }
   const folder = path.slice(0, path.lastIndexOf("/") + 1);
   const manager = new LoadingManager();
-  // A file that is not there: an empty one, and no request.
+  // A missing file: an empty one, without a request.
   manager.setURLModifier((url) => (url.startsWith("blob:") ? url : (side.get(resolved(folder, url)) ?? "data:,")));
   const whole = new Promise<void>((resolve) => {
     manager.onLoad = resolve;
@@ -123,7 +123,7 @@ export async function dressed(shape: SourceShape, engine: Engine): Promise<Objec
     group.add(await parsed(path, bytes, manager, side));
   } finally {
     manager.itemEnd(path);
-    // Pictures come after the mesh; their addresses are given back then.
+    // Images load after the mesh; then their addresses are released.
     void whole.then(() => {
       for (const url of side.values()) URL.revokeObjectURL(url);
     });
@@ -140,7 +140,7 @@ async function parsed(
 ): Promise<Object3D> {
   if (GLTF.test(path)) {
     const { scene } = await new GLTFLoader(manager).parseAsync(bytes, "");
-    // glTF has y up; a URDF's reader turns it.
+    // glTF has y up; readers of URDFs rotate it.
     scene.rotation.x = Math.PI / 2;
     return scene;
   }
@@ -148,7 +148,7 @@ async function parsed(
   if (/\.dae$/i.test(path)) {
     const found = new ColladaLoader(manager).parse(text, "");
     if (!found) throw new Error(`${path}: it cannot be read`);
-    // Readers of URDFs take the unit and leave the up axis.
+    // Readers of URDFs apply the unit and ignore the up axis.
     found.scene.rotation.set(0, 0, 0);
     return found.scene;
   }
@@ -166,14 +166,14 @@ async function parsed(
   throw new Error(`${path}: colours of this format are not supported`);
 }
 
-/** A path of the URDD from a folder and what a file there says. */
+/** The path in the URDD of a reference in a file of this folder. */
 function resolved(folder: string, url: string): string {
   const parts: string[] = [];
   let said = url;
   try {
     said = decodeURIComponent(url);
   } catch {
-    // It is no percent-encoding: it stands as it is.
+    // Not percent-encoded: unchanged.
   }
   for (const part of `${folder}${said.replaceAll("\\", "/")}`.split("/")) {
     if (part === "..") parts.pop();

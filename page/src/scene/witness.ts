@@ -1,4 +1,4 @@
-/** The points at which two shapes are nearest, the line between them, and the distance beside it. */
+/** The closest points of two shapes, the line between them, and the distance beside it. */
 
 import {
   BufferGeometry,

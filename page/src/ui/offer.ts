@@ -1,4 +1,4 @@
-/** A file for the person to keep. */
+/** Downloads a file. */
 
 import { h } from "./dom";
 

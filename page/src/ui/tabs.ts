@@ -1,4 +1,4 @@
-/** Tabs as the ARIA practices have them: arrows move between them. */
+/** Tabs as in the ARIA practices: arrow keys move between them. */
 
 import type { App } from "../app";
 import { tally } from "../findings";
@@ -10,7 +10,7 @@ import { count } from "./format";
 export function tabs(app: App, panels: Record<Tab, HTMLElement>): HTMLElement {
   const buttons = TABS.map((tab) => {
     const made = button(tab, { role: "tab", id: `tab-${tab}`, "aria-controls": `panel-${tab}` }, () => {
-      // Where panels fold, a second click folds.
+      // In narrow windows, a second click folds the panel.
       const { tab: now, unfolded } = app.store.now;
       app.store.set({ tab, unfolded: now === tab && unfolded === "panels" ? null : "panels" });
     });
