@@ -171,9 +171,9 @@ def test_advice_is_for_python(urdds: Path, tmp_path: Path) -> None:
     (broken / "dof_module" / "module.json").write_text("{}")
     new, gripper = tmp_path / "new", ROBOTS / "gripper.urdf"
     for ask, words in (
-        (lambda: core.in_collision(core.zero), r"_module is missing: make it with urdd\.generate"),
+        (lambda: core.in_collision(core.zero), r"_module is missing: generate it with urdd\.generate"),
         (lambda: core.collision_model(), r"modules=\["),
-        (lambda: core.modules.convex_hull_meshes, r"is missing: make it with urdd\.generate"),
+        (lambda: core.modules.convex_hull_meshes, r"is missing: generate it with urdd\.generate"),
         (lambda: urdd.load(broken).link_poses([0.0]), r"urdd\.validate\(path\) says more"),
         (lambda: urdd.generate(gripper, occupied), "force=True"),
         (lambda: urdd.generate(away, new), r"allowed_folders=\[folder\]"),

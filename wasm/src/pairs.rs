@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use serde_json::{Value, json};
-use urdd_directory::root::Root;
 use urdd_document::load::Loaded;
 use urdd_document::shape_matrices::{Statistics, at, shape_lists, statistics};
 use urdd_document::urdd::Urdd;
@@ -25,7 +24,7 @@ pub struct Pairs {
 impl Pairs {
     /// Reads the modules that are present.
     pub fn read(files: &Files) -> Result<Self, String> {
-        let root = Root::of(files.clone());
+        let root = files.root.clone();
         let loaded = Loaded::read_only(root, &[STATISTICS]);
         let part = Urdd::new(loaded.map_err(|error| error.to_string())?.into());
         let (mut full, mut pieces) = (HashMap::new(), HashMap::new());

@@ -34,7 +34,7 @@ pub unsafe extern "C" fn urdd_robot_open(files: *mut Files) -> *mut Handle {
     // SAFETY: guaranteed by the caller.
     let files = unsafe { (*files).clone() };
     Box::into_raw(Box::new(Handle {
-        robot: Robot::of(files.clone()),
+        robot: Robot::of(files.root.clone()),
         files,
         proximity: Vec::new(),
         pairs: None,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import prod
 from typing import Any, TypeAlias, TypeVar
 
@@ -46,6 +47,14 @@ def configurations(q: ArrayLike, dof_names: tuple[str, ...]) -> tuple[Floats, tu
     return rows, batch
 
 
+def batched(q: ArrayLike, dof_names: tuple[str, ...], ask: Callable[[Floats], _Array]) -> _Array:
+    """The results of a query on configurations (n, dofs), with the axes that the configurations came in. A result
+    without axes is a NumPy scalar, which prints and compares as a number."""
+    rows, batch = configurations(q, dof_names)
+    found = ask(rows)
+    return scalar(found.reshape(*batch, *found.shape[1:]))
+
+
 def positions(values: ArrayLike, length: int, whose: str) -> tuple[Floats, tuple[int, ...]]:
     """Configurations of another program as (n, length), and their shape without the last axis."""
     given = numbers(values, f"a configuration of {whose}")
@@ -68,7 +77,7 @@ def one_configuration(q: ArrayLike, dof_names: tuple[str, ...]) -> Floats:
 
 
 def scalar(values: _Array) -> _Array:
-    """The same values; an array without axes as a NumPy scalar, which prints and compares as a number."""
+    """The same values; an array without axes as a NumPy scalar."""
     found: _Array = values[()]
     return found
 

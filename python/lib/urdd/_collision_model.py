@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from numpy.typing import ArrayLike
 
 from ._answers import LearnedPair, Rate
-from ._arrays import Bools, Floats, Indices, configurations, scalar
+from ._arrays import Bools, Floats, Indices, batched
 from ._description import RobotDescription
 from .errors import ModuleMissingError, UnknownNameError
 
@@ -117,19 +117,16 @@ class CollisionModel:
 
     def clearances(self, q: ArrayLike) -> Floats:
         """(..., pairs): the clearance of each of :attr:`pairs`, metres. An estimate."""
-        rows, batch = configurations(q, self._dof_names)
-        return self._core.clearances(rows).reshape(*batch, self.num_pairs)
+        return batched(q, self._dof_names, self._core.clearances)
 
     def min_clearance(self, q: ArrayLike) -> Floats:
         """(...): the minimum of all clearances, metres. An estimate."""
-        rows, batch = configurations(q, self._dof_names)
-        return scalar(self._core.min_clearance(rows).reshape(batch))
+        return batched(q, self._dof_names, self._core.min_clearance)
 
     def may_collide(self, q: ArrayLike) -> Bools:
         """(...): whether a clearance is 0 or less, or unknown. If false, the model *clears* the configuration: it is
         most likely free of collisions (:attr:`miss_rate`). If true, :meth:`Robot.in_collision` decides."""
-        rows, batch = configurations(q, self._dof_names)
-        return scalar(self._core.may_collide(rows).reshape(batch))
+        return batched(q, self._dof_names, self._core.may_collide)
 
     def gradient(self, q: ArrayLike, pair: int | tuple[str, str] | None = None) -> Floats:
         """(..., dofs): the gradient of the minimum clearance with respect to the DOFs, m/rad or m/m; with ``pair``,
@@ -142,9 +139,8 @@ class CollisionModel:
             IndexError: for an index that is out of range.
             UnknownNameError: for names of links that are not a pair of the model.
         """
-        rows, batch = configurations(q, self._dof_names)
         place = None if pair is None else self._place(pair)
-        return self._core.gradient(rows, place).reshape(*batch, len(self._dof_names))
+        return batched(q, self._dof_names, lambda rows: self._core.gradient(rows, place))
 
     # Python protocols.
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._answers import InverseSolution
-from ._arrays import Bools, Floats, configurations, numbers, poses, scalar, three
+from ._arrays import Bools, Floats, batched, configurations, numbers, poses, scalar, three
 from ._description import RobotDescription
 from ._options import InverseOptions, whole
 from .errors import ConfigurationError
@@ -72,13 +72,11 @@ class RobotKinematics(RobotDescription):
 
     def clamp(self, q: ArrayLike) -> Floats:
         """``q`` with each value clamped to its bounds. Rotation vectors are unchanged."""
-        rows, batch = configurations(q, self.dof_names)
-        return self._core.clamp(rows).reshape(*batch, self.num_dofs)
+        return batched(q, self.dof_names, self._core.clamp)
 
     def is_within_bounds(self, q: ArrayLike) -> Bools:
         """(...): whether each value is within its bounds."""
-        rows, batch = configurations(q, self.dof_names)
-        return scalar((self._core.clamp(rows) == rows).all(axis=1).reshape(batch))
+        return batched(q, self.dof_names, lambda rows: (self._core.clamp(rows) == rows).all(axis=1))
 
     # Poses.
 
@@ -88,8 +86,7 @@ class RobotKinematics(RobotDescription):
         Raises:
             ConfigurationError: for a wrong shape, or a value that is not finite.
         """
-        rows, batch = configurations(q, self.dof_names)
-        return self._core.link_poses(rows).reshape(*batch, self.num_links, 4, 4)
+        return batched(q, self.dof_names, self._core.link_poses)
 
     def link_pose(self, q: ArrayLike, link: str | int) -> Floats:
         """(..., 4, 4): forward kinematics, the pose of one link.
@@ -98,8 +95,7 @@ class RobotKinematics(RobotDescription):
             ConfigurationError: for a wrong shape, or a value that is not finite.
             UnknownNameError: for an unknown link.
         """
-        rows, batch = configurations(q, self.dof_names)
-        return self._core.link_poses(rows, self.link(link)).reshape(*batch, 4, 4)
+        return batched(q, self.dof_names, lambda rows: self._core.link_poses(rows, self.link(link))[:, 0])
 
     def jacobian(self, q: ArrayLike, link: str | int, point: ArrayLike | None = None) -> Floats:
         """(..., 6, dofs): the geometric Jacobian of a link.
@@ -108,9 +104,8 @@ class RobotKinematics(RobotDescription):
         link's frame), rows 3 to 5 the angular velocity, both expressed in the root link's frame. A mimic joint
         contributes to the column of the DOF that it follows.
         """
-        rows, batch = configurations(q, self.dof_names)
         at = None if point is None else three(point, "a point")
-        return self._core.jacobians(rows, self.link(link), at).reshape(*batch, 6, self.num_dofs)
+        return batched(q, self.dof_names, lambda rows: self._core.jacobians(rows, self.link(link), at))
 
     def inverse_kinematics(
         self,

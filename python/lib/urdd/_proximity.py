@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._answers import Pair, PairDistance, ShapeKind
-from ._arrays import Bools, Floats, Indices, configurations, one_configuration, scalar
+from ._arrays import Bools, Floats, Indices, batched, one_configuration
 from ._description import RobotDescription
 
 if TYPE_CHECKING:
@@ -59,18 +59,15 @@ class Proximity:
 
     def distances(self, q: ArrayLike) -> Floats:
         """(..., pairs): the distance of each pair that is not skipped, metres."""
-        rows, batch = configurations(q, self._dof_names)
-        return self._core.distances(rows).reshape(*batch, self.num_pairs)
+        return batched(q, self._dof_names, self._core.distances)
 
     def self_distance(self, q: ArrayLike) -> Floats:
         """(...): the minimum distance over all pairs, metres; infinite if there are no pairs."""
-        rows, batch = configurations(q, self._dof_names)
-        return scalar(self._core.self_distance(rows).reshape(batch))
+        return batched(q, self._dof_names, self._core.self_distance)
 
     def in_collision(self, q: ArrayLike) -> Bools:
         """(...): whether any pair touches or overlaps. The fastest query: it stops at the first collision."""
-        rows, batch = configurations(q, self._dof_names)
-        return scalar(self._core.in_collision(rows).reshape(batch))
+        return batched(q, self._dof_names, self._core.in_collision)
 
     def nearest(self, q: ArrayLike, k: int = 1) -> list[PairDistance]:
         """The ``k`` nearest pairs in one configuration, nearest first; all pairs if there are fewer."""

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from . import _urdd
 from ._answers import ObstacleDistance, ObstaclePair, ShapeKind
-from ._arrays import Bools, Floats, Indices, configurations, numbers, one_configuration, poses, scalar, three
+from ._arrays import Bools, Floats, Indices, batched, numbers, one_configuration, poses, three
 from ._description import RobotDescription
 from ._options import words
 from .errors import ConfigurationError, ObstacleError
@@ -250,18 +250,15 @@ class WorldProximity:
 
     def distances(self, q: ArrayLike) -> Floats:
         """(..., pairs): the distance of each pair of a shape and an obstacle, metres."""
-        rows, batch = configurations(q, self._dof_names)
-        return self._core.distances(rows).reshape(*batch, self.num_pairs)
+        return batched(q, self._dof_names, self._core.distances)
 
     def min_distance(self, q: ArrayLike) -> Floats:
         """(...): the minimum distance of the robot to any obstacle, metres; infinite if there are no pairs."""
-        rows, batch = configurations(q, self._dof_names)
-        return scalar(self._core.min_distance(rows).reshape(batch))
+        return batched(q, self._dof_names, self._core.min_distance)
 
     def in_collision(self, q: ArrayLike) -> Bools:
         """(...): whether the robot touches or overlaps any obstacle. Does not check for self-collision."""
-        rows, batch = configurations(q, self._dof_names)
-        return scalar(self._core.in_collision(rows).reshape(batch))
+        return batched(q, self._dof_names, self._core.in_collision)
 
     def nearest(self, q: ArrayLike, k: int = 1) -> list[ObstacleDistance]:
         """The ``k`` nearest pairs in one configuration, with their closest points, nearest first; all pairs if there
