@@ -96,7 +96,7 @@ impl Proximity {
         })
     }
 
-    /// (count,); infinite where there is no pair.
+    /// (count,); infinite if there are no pairs.
     fn self_distance<'py>(
         &self,
         py: Python<'py>,

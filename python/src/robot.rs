@@ -287,9 +287,9 @@ impl Robot {
             let start = starts.row(if starts.count == 1 { 0 } else { k });
             let found = robot.inverse_kinematics_cancellable(&target, start, &settings, on)?;
             let nearest = found.nearest();
-            let (configuration, told) = out.split_at_mut(dofs);
+            let (configuration, rest) = out.split_at_mut(dofs);
             configuration.copy_from_slice(&nearest.configuration);
-            told.copy_from_slice(&[
+            rest.copy_from_slice(&[
                 f64::from(u8::from(found.is_reached())),
                 nearest.position_error,
                 nearest.rotation_error,

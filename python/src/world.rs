@@ -229,7 +229,7 @@ impl WorldProximity {
         })
     }
 
-    /// (count,); infinite where there is no pair.
+    /// (count,); infinite if there are no pairs.
     fn min_distance<'py>(
         &self,
         py: Python<'py>,
