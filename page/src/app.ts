@@ -19,7 +19,7 @@ import type { Units } from "./ui/format";
 const LISTED = 128;
 const FEW = 24;
 /** Maximum number of undo steps, and the pause after which a move is a new step, ms. */
-const MOST_STEPS = 200;
+const MAX_STEPS = 200;
 const REST = 300;
 
 export class App {
@@ -123,7 +123,7 @@ export class App {
     if (!q.every(Number.isFinite)) return;
     const now = performance.now();
     if (now - this.movedAt > REST) {
-      this.back = [...this.back.slice(1 - MOST_STEPS), this.store.now.q];
+      this.back = [...this.back.slice(1 - MAX_STEPS), this.store.now.q];
       this.forth = [];
     }
     this.movedAt = now;

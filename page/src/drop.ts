@@ -3,8 +3,8 @@
 import type { RobotSource } from "./engine/protocol";
 
 /** Maximum number of files and bytes. */
-const MOST_FILES = 50_000;
-const MOST_BYTES = 1_000_000_000;
+const MAX_FILES = 50_000;
+const MAX_BYTES = 1_000_000_000;
 
 interface Dropped {
   path: string;
@@ -58,9 +58,9 @@ async function walk(root: FileSystemEntry): Promise<Dropped[]> {
 
 function check(found: Dropped[]): void {
   const size = found.reduce((sum, { file }) => sum + file.size, 0);
-  if (found.length > MOST_FILES)
-    throw new Error(`This folder has more than ${MOST_FILES.toLocaleString("en")} files. Drop the folder of one URDD.`);
-  if (size > MOST_BYTES)
+  if (found.length > MAX_FILES)
+    throw new Error(`This folder has more than ${MAX_FILES.toLocaleString("en")} files. Drop the folder of one URDD.`);
+  if (size > MAX_BYTES)
     throw new Error("This folder has more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
 }
 
@@ -100,7 +100,7 @@ async function ofFile(files: File[]): Promise<RobotSource> {
   const [file] = files;
   if (!file) throw new Error("Nothing was dropped. Drop the folder of a URDD, or a .zip of it.");
   if (!/\.zip$/i.test(file.name)) throw new Error(notAUrdd(files.map((file) => ({ path: file.name, file }))));
-  if (file.size > MOST_BYTES)
+  if (file.size > MAX_BYTES)
     throw new Error("This archive has more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
   return { kind: "zip", name: file.name.replace(/\.zip$/i, ""), bytes: await file.arrayBuffer() };
 }

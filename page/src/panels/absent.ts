@@ -6,7 +6,7 @@ import { button, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 
 /** Maximum number of meshes that are named. */
-const MOST = 40;
+const MAX_NAMED = 40;
 
 export function absent(app: App): HTMLElement {
   const title = h("summary", {});
@@ -24,7 +24,7 @@ export function absent(app: App): HTMLElement {
     fill(title, `${count(absent.length, "mesh was", "meshes were")} not found, of ${count(links.size, "link")}`);
     fill(
       list,
-      ...absent.slice(0, MOST).map((mesh) => {
+      ...absent.slice(0, MAX_NAMED).map((mesh) => {
         const link = button(name(robot.links[mesh.link]?.name ?? ""), { class: "place" }, () =>
           app.select({ kind: "link", index: mesh.link }),
         );
@@ -38,7 +38,7 @@ export function absent(app: App): HTMLElement {
         );
       }),
     );
-    more.textContent = absent.length > MOST ? `and ${absent.length - MOST} more` : "";
+    more.textContent = absent.length > MAX_NAMED ? `and ${absent.length - MAX_NAMED} more` : "";
   });
   return element;
 }

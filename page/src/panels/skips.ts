@@ -12,7 +12,7 @@ import { SHAPE_NAMES } from "./proximity";
 import { at, draw, REASONS, reasonClass, region } from "./skip_matrix";
 
 /** Maximum number of rows with names. */
-const MOST_LABELS = 17;
+const MAX_LABELS = 17;
 
 export function skips(app: App): HTMLElement {
   /** The two links whose pieces are shown, one level down. */
@@ -87,8 +87,8 @@ export function skips(app: App): HTMLElement {
     fill(edits);
     if (!has) return;
     const shown = region(answer, down);
-    const named = shown.rows.length <= MOST_LABELS;
-    const across = shown.columns.length <= MOST_LABELS;
+    const named = shown.rows.length <= MAX_LABELS;
+    const across = shown.columns.length <= MAX_LABELS;
     labels.hidden = !named;
     columns.hidden = !across;
     fill(labels, ...(named ? shown.rows.map((shape) => label(robot, answer, shape, pair)) : []));

@@ -6,7 +6,7 @@ import { name } from "../ui/format";
 import type { View } from "./view";
 
 /** Maximum number of names. */
-const MOST = 400;
+const MAX_NAMES = 400;
 /** Size of a name in pixels: offset from its point, width of a character, height. */
 const BESIDE = 6;
 const WIDE = 6.4;
@@ -23,7 +23,7 @@ export class Names {
 
   /** Shows these links' names, by priority. */
   show(links: readonly { index: number; name: string }[]): void {
-    this.labels = links.slice(0, MOST).map(({ index, name: text }) => {
+    this.labels = links.slice(0, MAX_NAMES).map(({ index, name: text }) => {
       const shown = name(text);
       return { link: index, width: BESIDE + WIDE * shown.length, element: h("span", {}, shown) };
     });
