@@ -11,7 +11,7 @@ export interface Progress {
 interface Waiting {
   resolve: (value: never) => void;
   reject: (error: Error) => void;
-  tell: ((progress: Progress) => void) | undefined;
+  onProgress: ((progress: Progress) => void) | undefined;
 }
 
 /** The module crashed: the worker is replaced, and the robot is reopened. */
@@ -32,23 +32,23 @@ export class Engine {
   async ask<K extends CallName>(
     call: K,
     question: Calls[K][0],
-    tell?: (progress: Progress) => void,
+    onProgress?: (progress: Progress) => void,
   ): Promise<Calls[K][1]> {
     await this.start();
     if (call === "open") this.source = (question as Calls["open"][0]).source;
-    return this.send(call, question, tell);
+    return this.send(call, question, onProgress);
   }
 
   /** Runs a long query in a second worker, which then ends. */
   async aside<K extends CallName>(
     call: K,
     question: Calls[K][0],
-    tell?: (progress: Progress) => void,
+    onProgress?: (progress: Progress) => void,
   ): Promise<Calls[K][1]> {
     const other = new Engine(this.script, this.wasm);
     try {
       if (this.source) await other.ask("open", { source: this.source });
-      return await other.ask(call, question, tell);
+      return await other.ask(call, question, onProgress);
     } finally {
       other.end();
     }
@@ -77,11 +77,11 @@ export class Engine {
   private send<K extends CallName>(
     call: K,
     question: Calls[K][0],
-    tell?: (progress: Progress) => void,
+    onProgress?: (progress: Progress) => void,
   ): Promise<Calls[K][1]> {
     const id = this.next++;
     return new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject, tell });
+      this.waiting.set(id, { resolve, reject, onProgress });
       this.worker?.postMessage({ id, call, question });
     });
   }
@@ -90,7 +90,7 @@ export class Engine {
     const waiting = this.waiting.get(answer.id);
     if (!waiting) return;
     if ("progress" in answer) {
-      waiting.tell?.(answer.progress);
+      waiting.onProgress?.(answer.progress);
       return;
     }
     this.waiting.delete(answer.id);

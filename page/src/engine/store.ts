@@ -81,7 +81,7 @@ export class Store {
   }
 
   /** Passes files to the module. A file that cannot be loaded is missing there; the module reports it. */
-  async ensure(paths: string[], tell?: (done: number, of: number) => void): Promise<void> {
+  async ensure(paths: string[], onProgress?: (done: number, of: number) => void): Promise<void> {
     const wanted = paths.filter((path) => !this.given.has(path) && this.sizes.has(path));
     const missing = paths.filter((path) => !this.sizes.has(path));
     for (const path of missing) this.faults.set(path, "there is no such file");
@@ -97,7 +97,7 @@ export class Store {
           if (error instanceof WebAssembly.RuntimeError) throw error;
           this.faults.set(path, error instanceof Error ? error.message : String(error));
         }
-        tell?.(++done, wanted.length);
+        onProgress?.(++done, wanted.length);
       }
     };
     await Promise.all(Array.from({ length: Math.min(AT_ONCE, wanted.length) }, work));

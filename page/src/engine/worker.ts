@@ -42,23 +42,23 @@ function open(): number {
   return robot;
 }
 
-type Tell = (done: number, of: number, what: string) => void;
+type OnProgress = (done: number, of: number, what: string) => void;
 type Question<K extends CallName> = Calls[K][0];
 type Result<K extends CallName> = Calls[K][1] | Promise<Calls[K][1]>;
 
-const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result<K> } = {
+const handlers: { [K in CallName]: (question: Question<K>, onProgress: OnProgress) => Result<K> } = {
   async init({ wasm }) {
     module = await UrddModule.of(typeof wasm === "string" ? fetch(wasm) : decompress(new Uint8Array(wasm)).slice());
     return null;
   },
 
-  async open({ source }, tell) {
+  async open({ source }, onProgress) {
     const engineNow = engine();
     if (store) engineNow.close(store.handle, robot);
     robot = 0;
     about = null;
     store = new Store(engineNow, source);
-    await store.ensure(store.needed("about"), (done, of) => tell(done, of, "modules"));
+    await store.ensure(store.needed("about"), (done, of) => onProgress(done, of, "modules"));
     robot = engineNow.openRobot(store.handle);
     about = engineNow.ask(robot, { ask: "about" }) as About;
     return { about, files: store.list(), folder: store.name };
@@ -76,17 +76,17 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     return (await opened().store.read(path)).buffer;
   },
 
-  async meshes({ kind }, tell) {
+  async meshes({ kind }, onProgress) {
     const { store, about } = opened();
     const lists: MeshPaths[][] = about.meshes[kind] ?? [];
     const paths = lists.flat().flatMap((mesh) => mesh.read ?? []);
-    await store.ensure(paths, (done, of) => tell(done, of, kind));
+    await store.ensure(paths, (done, of) => onProgress(done, of, kind));
     return lists.flatMap((meshes, link) => meshes.map((mesh, piece) => triangles(store, link, piece, mesh.read)));
   },
 
-  async triangles({ paths }, tell) {
+  async triangles({ paths }, onProgress) {
     const { store } = opened();
-    await store.ensure(paths, (done, of) => tell(done, of, "meshes"));
+    await store.ensure(paths, (done, of) => onProgress(done, of, "meshes"));
     return paths.map((path, k) => triangles(store, k, 0, path));
   },
 
@@ -103,8 +103,8 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     return engine().ask(open(), { ask: "shapes", kind }) as Calls["shapes"][1];
   },
 
-  async proximity({ q, kind, k }, tell) {
-    await ensureShapes(kind, tell);
+  async proximity({ q, kind, k }, onProgress) {
+    await ensureShapes(kind, onProgress);
     engine().ask(open(), { ask: "prepare", kind });
     const begin = performance.now();
     const nearest = (k: number): Calls["proximity"][1] =>
@@ -141,23 +141,23 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     return engine().explain(code) as Calls["explain"][1];
   },
 
-  async validate({ name }, tell) {
+  async validate({ name }, onProgress) {
     const { store } = opened();
     const all = store.list().map((file) => file.path);
-    await store.ensure(all, (done, of) => tell(done, of, "files"));
+    await store.ensure(all, (done, of) => onProgress(done, of, "files"));
     return engine().validate(store.handle, name) as Calls["validate"][1];
   },
 };
 
 /** Loads the data that distances of these shapes need. */
-async function ensureShapes(kind: ShapeKind, tell: Tell): Promise<void> {
+async function ensureShapes(kind: ShapeKind, onProgress: OnProgress): Promise<void> {
   const { store, about } = opened();
   await store.ensure(store.needed("pairs"));
   await store.ensure(store.needed("shapes"));
   if (kind === "pieces") await store.ensure(store.needed("model"));
   const lists = kind === "hulls" ? about.meshes.hulls : kind === "pieces" ? about.meshes.pieces : null;
   const paths = lists?.flat().flatMap((mesh) => mesh.read ?? []) ?? [];
-  await store.ensure(paths, (done, of) => tell(done, of, kind));
+  await store.ensure(paths, (done, of) => onProgress(done, of, kind));
 }
 
 /** The learned model's estimate; null without a model. */
@@ -202,9 +202,9 @@ let opening: Promise<unknown> = Promise.resolve();
 
 async function answer({ id, call, question }: Request): Promise<void> {
   try {
-    const handler = handlers[call] as (question: unknown, tell: Tell) => unknown;
-    const tell: Tell = (done, of, what) => scope.postMessage({ id, progress: { done, of, what } }, []);
-    const answered = opening.then(() => handler(question, tell));
+    const handler = handlers[call] as (question: unknown, onProgress: OnProgress) => unknown;
+    const onProgress: OnProgress = (done, of, what) => scope.postMessage({ id, progress: { done, of, what } }, []);
+    const answered = opening.then(() => handler(question, onProgress));
     if (call === "init" || call === "open") opening = answered.catch(() => undefined);
     const value = await answered;
     scope.postMessage({ id, value }, transfers(value));

@@ -51,7 +51,7 @@ export function gallery(
   app.store.on(["entries"], ({ entries }) => {
     for (const entry of entries) {
       const known = cards.get(entry.id);
-      if (known) known.show({ ...known.entry, ...told(entry) });
+      if (known) known.show({ ...known.entry, ...listed(entry) });
       else {
         const made = card(entry, open);
         cards.set(entry.id, made);
@@ -70,7 +70,7 @@ export function gallery(
 }
 
 /** An entry of `robots.json`, with what is known from elsewhere. */
-function told(entry: Entry): Partial<Entry> {
+function listed(entry: Entry): Partial<Entry> {
   return Object.fromEntries(
     Object.entries(entry).filter(([key, value]) => value !== null || key === "making" || key === "failure"),
   );
@@ -186,7 +186,7 @@ class Asker {
         const picture = await this.app.site.picture(card.entry);
         this.answered({ ...card.entry, picture });
         const summary = await this.app.site.summary(card.entry);
-        this.answered({ ...card.entry, ...told(summary) });
+        this.answered({ ...card.entry, ...listed(summary) });
       } catch (error) {
         console.info(message(error));
       }

@@ -38,18 +38,18 @@ export async function load(
   scene: RobotScene,
   model: RobotModel,
   engine: Engine,
-  tell: (progress: Progress) => void,
+  onProgress: (progress: Progress) => void,
 ): Promise<string[]> {
   switch (layer) {
     case "original":
     case "plain":
-      return pictures(layer, scene, model, engine, tell);
+      return pictures(layer, scene, model, engine, onProgress);
     case "collision":
       return collision(scene, engine);
     case "hulls":
     case "pieces": {
       if (!model.about.meshes[layer]) return [missing(layer)];
-      const meshes = await engine.ask("meshes", { kind: layer }, tell);
+      const meshes = await engine.ask("meshes", { kind: layer }, onProgress);
       scene.begin(layer);
       return meshes.flatMap((mesh) => solid(layer, scene, mesh) ?? []);
     }
@@ -133,7 +133,7 @@ async function pictures(
   scene: RobotScene,
   model: RobotModel,
   engine: Engine,
-  tell: (progress: Progress) => void,
+  onProgress: (progress: Progress) => void,
 ): Promise<string[]> {
   const lists = model.about.meshes.plain;
   if (!lists) return [missing(layer)];
@@ -162,7 +162,7 @@ async function pictures(
           const picture = object ?? (await dressed(source, engine));
           dress(picture, layer, link, piece);
           scene.add(layer, link, picture);
-          tell({ done: ++done, of: jobs.length, what: "meshes" });
+          onProgress({ done: ++done, of: jobs.length, what: "meshes" });
           continue;
         }
         if (path === null) throw new Error("its .glb is not in this URDD");
@@ -175,7 +175,7 @@ async function pictures(
           `${path ?? model.links[link]?.name ?? ""}: ${error instanceof Error ? error.message : String(error)}`,
         );
       }
-      tell({ done: ++done, of: jobs.length, what: "meshes" });
+      onProgress({ done: ++done, of: jobs.length, what: "meshes" });
     }
   };
   await Promise.all(Array.from({ length: AT_ONCE }, work));

@@ -169,13 +169,13 @@ async function parsed(
 /** The path in the URDD of a reference in a file of this folder. */
 function resolved(folder: string, url: string): string {
   const parts: string[] = [];
-  let said = url;
+  let path = url;
   try {
-    said = decodeURIComponent(url);
+    path = decodeURIComponent(url);
   } catch {
     // Not percent-encoded: unchanged.
   }
-  for (const part of `${folder}${said.replaceAll("\\", "/")}`.split("/")) {
+  for (const part of `${folder}${path.replaceAll("\\", "/")}`.split("/")) {
     if (part === "..") parts.pop();
     else if (part !== "." && part !== "") parts.push(part);
   }

@@ -22,7 +22,7 @@ function remember(theme: string): void {
 export function startTheme(): void {
   const chosen = remembered();
   if (chosen === "dark" || chosen === "light") document.documentElement.dataset["theme"] = chosen;
-  matchMedia("(prefers-color-scheme: light)").addEventListener("change", tell);
+  matchMedia("(prefers-color-scheme: light)").addEventListener("change", announce);
 }
 
 export function isLight(): boolean {
@@ -34,10 +34,10 @@ export function toggleTheme(): void {
   const next = isLight() ? "dark" : "light";
   document.documentElement.dataset["theme"] = next;
   remember(next);
-  tell();
+  announce();
 }
 
-function tell(): void {
+function announce(): void {
   dispatchEvent(new Event("urdd-theme"));
 }
 
