@@ -147,7 +147,7 @@ inPage(set, "skips: columns have names, the reason is there, and no button comes
   const button = page.getByRole("button", { name: "Its pieces" });
   const { x, y, width, height } = await button.boundingBox();
   await button.click();
-  await state(page, "skips", ({ answer }) => answer.shapes === "pieces");
+  await state(page, "skips", ({ answer }) => answer.kind === "pieces");
   const under = await page.evaluate(
     ([x, y]) => globalThis.document.elementFromPoint(x, y).textContent,
     [x + width / 2, y + height / 2],
