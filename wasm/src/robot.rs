@@ -1,5 +1,7 @@
 //! Queries on a robot.
 
+use std::str::FromStr;
+
 use nalgebra::Isometry3;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -171,9 +173,9 @@ impl Default for Kind {
 }
 
 impl TryFrom<String> for Kind {
-    type Error = RobotError;
+    type Error = <ShapeKind as FromStr>::Err;
 
-    fn try_from(name: String) -> Result<Self, RobotError> {
+    fn try_from(name: String) -> Result<Self, Self::Error> {
         name.parse().map(Kind)
     }
 }
