@@ -38,7 +38,7 @@ fn main() {
 fn print(path: &std::path::Path) {
     let robot = Robot::open(path).expect("a URDD");
     let space = robot.configurations().expect("configurations");
-    let links = robot.links().expect("links");
+    let links = robot.link_names().expect("links");
     for k in 0..20 {
         let q = space.random(k);
         let poses = robot.link_poses(&q).expect("poses");
@@ -59,7 +59,7 @@ fn measure(path: &std::path::Path) {
     let space = robot.configurations().expect("configurations");
     let all: Vec<Vec<f64>> = (0..CONFIGURATIONS).map(|k| space.random(k)).collect();
     let batch = all.concat();
-    let links = robot.links().expect("links");
+    let links = robot.link_names().expect("links");
     println!("{}: {} links", path.display(), links.len());
     let mut poses = Vec::new();
     row("poses of links", || {
@@ -78,7 +78,7 @@ fn measure(path: &std::path::Path) {
 
 fn inverse(robot: &Robot, with_rotation: bool) {
     let space = robot.configurations().expect("configurations");
-    let links = robot.links().expect("links").len() as u64;
+    let links = robot.link_names().expect("links").len() as u64;
     let questions: Vec<(Target, Vec<f64>)> = (0..TARGETS)
         .map(|k| {
             // Numbers that no restart begins with.

@@ -301,7 +301,7 @@ impl Subject {
             Obstacle::cuboid("table", table, [1.0, 1.0, 0.05]).expect("a box"),
             Obstacle::cuboid("pillar", pillar, [0.05, 0.05, 0.4]).expect("a box"),
         ]);
-        let among = self.pieces.among(&world).expect("a world");
+        let among = self.pieces.world_proximity(&world).expect("a world");
         let hits = |q: &[f64]| among.in_collision(q).expect("an answer");
         let cleared = (0..TIMED as u64).map(|k| self.space.random(FIRST + k));
         let cleared = cleared.filter(|q| self.clears(q)).map(|q| hits(&q));

@@ -53,7 +53,7 @@ fn measure(path: &std::path::Path) {
             robot.link_poses_into(q, &mut poses).expect("poses");
         }
     });
-    let last = robot.links().expect("links").len() - 1;
+    let last = robot.link_names().expect("links").len() - 1;
     row("poses and the Jacobian of the last link", || {
         for q in &all {
             std::hint::black_box(robot.jacobian(q, last).expect("a Jacobian"));
@@ -85,7 +85,7 @@ fn measure(path: &std::path::Path) {
         }
         row("distances with points, one by one", || {
             for q in &all {
-                std::hint::black_box(proximity.distances(q).expect("distances"));
+                std::hint::black_box(proximity.closest_points(q).expect("distances"));
             }
         });
         parry(&robot, kind, &all[..20]);

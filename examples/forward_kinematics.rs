@@ -18,9 +18,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         .map(|value| value.parse())
         .collect::<Result<_, _>>()?;
     let robot = Robot::open(path)?;
-    let links = robot.links()?;
-    if q.is_empty() && !robot.dofs()?.is_empty() {
-        let dofs = robot.dofs()?.iter().zip(robot.units()?);
+    let links = robot.link_names()?;
+    if q.is_empty() && !robot.dof_names()?.is_empty() {
+        let dofs = robot.dof_names()?.iter().zip(robot.dof_units()?);
         let dofs: Vec<String> = dofs
             .map(|(name, unit)| format!("{name} [{unit}]"))
             .collect();

@@ -79,7 +79,7 @@ def stages(name: str, urdf: str, urdd: str) -> tuple[Callable[[], Any], Callable
             return ours.load(urdd)
 
         def pose(robot: Any, q: dict[str, float], link: str) -> Any:
-            return robot.fk(np.array(list(q.values())), link)
+            return robot.link_pose(np.array(list(q.values())), link)
 
     elif name == "yourdfpy":
         yourdfpy: Any = importlib.import_module("yourdfpy")

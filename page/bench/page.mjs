@@ -53,12 +53,12 @@ console.log(`a slider step ${median(steps).toFixed(2)} ms of script (median of $
 
 const proximity = await page.evaluate(async (shapes) => {
   const { app } = globalThis.urdd;
-  await app.engine.ask("proximity", { q: app.store.now.q, shapes, k: 24 });
+  await app.engine.ask("proximity", { q: app.store.now.q, kind: shapes, k: 24 });
   const times = [];
   let pairs = 0;
   for (let k = 0; k < 100; k++) {
     const q = await app.engine.ask("random", { k });
-    const answer = await app.engine.ask("proximity", { q, shapes, k: 24 });
+    const answer = await app.engine.ask("proximity", { q, kind: shapes, k: 24 });
     times.push(answer.ms);
     pairs = answer.pairs;
   }
@@ -96,7 +96,7 @@ if (names.length > 1) {
     // A URDD without skips has no distances.
     await page.evaluate(() =>
       globalThis.urdd.app.engine
-        .ask("proximity", { q: globalThis.urdd.app.store.now.q, shapes: "hulls", k: 1 })
+        .ask("proximity", { q: globalThis.urdd.app.store.now.q, kind: "hulls", k: 1 })
         .catch(() => null),
     );
     if (round === 0 || round === 9) console.log(`after ${round + 1} robots: ${told(await memory())}`);

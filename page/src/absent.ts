@@ -1,4 +1,4 @@
-/** Meshes that the URDF names and the URDD does not have, and what is drawn of their links. */
+/** Meshes that the URDF references and the URDD lacks, and what is drawn instead. */
 
 import type { Engine } from "./engine/client";
 import type { SourceShape } from "./engine/protocol";
@@ -7,14 +7,14 @@ import type { RobotModel } from "./model";
 export interface AbsentMesh {
   link: number;
   geometry: "Visual" | "Collision";
-  /** As the URDF says it. */
+  /** As written in the URDF. */
   filename: string;
-  /** How many visual elements of the link are there. */
+  /** Number of visual elements of the link that exist. */
   others: number;
 }
 
 export async function absentMeshes(engine: Engine, robot: RobotModel): Promise<AbsentMesh[]> {
-  // A legacy URDD, or one whose URDF cannot be read: nobody knows what it names. Findings tell of that.
+  // Unknown for a legacy URDD, or if the URDF cannot be read. Findings report that.
   const sources = await engine.ask("sources", {}).catch(() => []);
   const files = new Set(robot.files.map(({ path }) => path));
   const isAbsent = ({ shape, path }: SourceShape): boolean =>
@@ -28,7 +28,7 @@ export async function absentMeshes(engine: Engine, robot: RobotModel): Promise<A
   }));
 }
 
-/** What is drawn in the place of a mesh. */
+/** What is drawn instead of a mesh. */
 export function drawnInstead(robot: RobotModel, { link, geometry, others }: AbsentMesh): string {
   if (geometry === "Collision") return "collision geometry";
   if ((robot.about.meshes.plain?.[link]?.length ?? 0) === 0) return "nothing is drawn";

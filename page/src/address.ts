@@ -1,4 +1,4 @@
-/** The address and the page follow each other: links open views, Back and Forward go between them. */
+/** Synchronises the address and the page: links open views, Back and Forward move between them. */
 
 import type { App } from "./app";
 import { message } from "./app";
@@ -12,14 +12,14 @@ import { CHOOSES_PAIRS, initial, LAYERS, OVERLAYS } from "./state";
 import type { State } from "./state";
 import { keepToken } from "./token";
 
-/** Quiet time after a change before the address is written, ms. */
+/** Delay between a change and the update of the address, ms. */
 const QUIET = 400;
 
 export class Address {
   private timer: ReturnType<typeof setTimeout> | undefined;
-  /** The fragment that the page shows. */
+  /** The fragment of the present view. */
   private shown = "";
-  /** Counts what was gone to, so that only the last arrives. */
+  /** Counts navigations, so that only the last one takes effect. */
   private turn = 0;
 
   constructor(
@@ -45,20 +45,20 @@ export class Address {
     addEventListener("hashchange", follow);
   }
 
-  /** Opens a robot of the list, as another step of the history. */
+  /** Opens a robot of the list, as a new entry of the history. */
   async open(entry: Entry): Promise<void> {
     this.put(fragment.write({ ...fragment.read(""), robot: entry.id }), true);
     await this.read(entry);
   }
 
-  /** Leaves the robot: the address names none any more. */
+  /** Closes the robot, and removes it from the address. */
   leave(): void {
     this.turn++;
     this.put("", true);
     this.app.close();
   }
 
-  /** Opens files that were dropped or chosen: no address leads to them. */
+  /** Opens dropped or selected files, which have no address. */
   async openFiles(files: () => Promise<RobotSource>): Promise<void> {
     this.leave();
     const { turn } = this;
@@ -72,14 +72,14 @@ export class Address {
     }
   }
 
-  /** A link to the view, which opens in other tabs and browsers too. */
+  /** A link to the view, for other tabs and browsers too. */
   link(): string {
     const { site } = this.app;
     const words = [site.token === null ? "" : `token=${site.token}`, this.current()].filter(Boolean);
     return `${location.href.split("#")[0] ?? ""}#${words.join("&")}`;
   }
 
-  /** Shows what the address asks for. */
+  /** Shows the view of the address. */
   async follow(): Promise<void> {
     clearTimeout(this.timer);
     const turn = ++this.turn;
@@ -87,13 +87,13 @@ export class Address {
     const shared = fragment.read(location.hash);
     const { robot } = app.store.now;
     if (shared.token === null && robot && robot.entry.id !== "" && robot.entry.id === shared.robot) {
-      // Another state of the open robot: nobody has to be asked.
+      // Another state of the open robot: no request is needed.
       this.put(fragment.write(shared), false);
       this.apply(shared);
       return;
     }
     try {
-      // The list is read with the link's token first: one that the server does not know replaces none that it does.
+      // The list is read with the link's token first: an unknown token must not replace a known one.
       const entries = await app.site.known(shared.token);
       if (turn !== this.turn) return;
       keepToken(app.site.token);
@@ -102,7 +102,7 @@ export class Address {
       await this.show(shared, turn);
     } catch (error) {
       if (turn !== this.turn) return;
-      // The token stays out of sight in any case.
+      // The token is always removed from the address.
       this.put(fragment.write(shared), false);
       app.close();
       app.store.set({ failure: message(error) });
@@ -114,7 +114,7 @@ export class Address {
     const { entries, robot } = app.store.now;
     const asked = entries.find((entry) => entry.id === shared.robot);
     const one = asked ?? (entries.length === 1 ? entries[0] : undefined);
-    if (shared.robot !== null && !asked) app.note(`There is no robot ${shared.robot} here.`);
+    if (shared.robot !== null && !asked) app.note(`Unknown robot ${shared.robot}.`);
     if (entries.some(({ making, failure }) => making !== null || failure !== null)) {
       app.close();
       const made = await untilMade(app, one?.id ?? null);
@@ -124,7 +124,7 @@ export class Address {
     else await this.read(one, shared);
   }
 
-  /** Reads a robot, and shows of it what a link asks for. */
+  /** Opens a robot, with the view of a link. */
   private async read(entry: Entry, shared: fragment.Shared | null = null): Promise<void> {
     const turn = ++this.turn;
     const { app, stage } = this;
@@ -132,7 +132,7 @@ export class Address {
       app.store.set({ failure: null, loading: { what: "the list of files", done: 0, of: 0 } });
       const source = await app.site.source(entry);
       if (turn !== this.turn) return;
-      // Layers and the camera are there before the first picture.
+      // Layers and the camera are set before the first picture.
       if (shared) app.store.set(looks(shared));
       if (stage) stage.from = shared?.camera?.length === 6 ? shared.camera : null;
       if ((await app.open(entry, source)) && shared && turn === this.turn) this.apply(shared);
@@ -141,7 +141,7 @@ export class Address {
     }
   }
 
-  /** Shows what a link says of the open robot; what it does not say is as at the beginning. */
+  /** Shows the view of a link of the open robot, with defaults for what the link omits. */
   private apply(shared: fragment.Shared): void {
     const { app, stage } = this;
     const { robot } = app.store.now;
@@ -160,16 +160,16 @@ export class Address {
       pair: CHOOSES_PAIRS.has(tab) && shared.pair?.every(([link]) => known(link)) ? shared.pair : null,
     });
     const q = shared.q?.length === robot.dofs.length ? shared.q : robot.about.zero;
-    if (shared.q && q !== shared.q) app.note("The link is of another version of this robot: it has other joints.");
+    if (shared.q && q !== shared.q) app.note("The link is for another version of this robot, with other joints.");
     if (q) app.move(q);
     if (shared.camera?.length === 6) stage?.place(shared.camera);
     if (app.store.now.tab === "Findings") void app.loadReport();
   }
 
-  /** What is shown, as a fragment. */
+  /** The present view as a fragment. */
   private current(): string {
     const { robot, q, tab, selected, layers, overlays, hidden, pair, shapes, frameSize } = this.app.store.now;
-    // Nobody can open files that were dropped by an address.
+    // Dropped files have no address.
     if (!robot || robot.entry.id === "") return "";
     const link = selected?.kind === "link" ? robot.links[selected.index] : undefined;
     const joint = selected?.kind === "joint" ? robot.joints[selected.index] : undefined;
@@ -195,7 +195,7 @@ export class Address {
     });
   }
 
-  /** Writes the address: as another step of the history, or in the place of this one. */
+  /** Writes the address: as a new entry of the history, or in place of the present one. */
   private put(words: string, step: boolean): void {
     clearTimeout(this.timer);
     const url = words === "" ? location.pathname + location.search : `#${words}`;
@@ -203,13 +203,13 @@ export class Address {
       if (step && location.hash !== (words === "" ? "" : `#${words}`)) history.pushState(null, "", url);
       else history.replaceState(null, "", url);
     } catch {
-      // A frame without an address of its own, as in a notebook.
+      // A frame without its own address, as in a notebook.
     }
     this.shown = location.hash;
   }
 }
 
-/** What a link says of the panels and the picture. */
+/** The state of the panels and the picture in a link. */
 function looks(shared: fragment.Shared): Pick<State, "tab" | "layers" | "overlays" | "frameSize"> {
   const begin = initial();
   const layers = { ...begin.layers };

@@ -1,4 +1,4 @@
-/** What the page does: opens robots, moves them, asks about them. Panels show the state and call this. */
+/** The page's actions: opens robots, moves them, runs queries. Panels show the state and call this. */
 
 import { absentMeshes } from "./absent";
 import { contactsOf } from "./contacts";
@@ -15,21 +15,21 @@ import type { Layer, LayerKind } from "./state";
 import { keepUnits } from "./ui/format";
 import type { Units } from "./ui/format";
 
-/** Nearest pairs of shapes that are asked for: where they are listed, and where only contacts count. */
+/** Number of requested nearest pairs: if they are listed, and if only contacts count. */
 const LISTED = 128;
 const FEW = 24;
-/** Poses that can be taken back, and how long the robot rests before another one counts as a step of its own, ms. */
-const MOST_STEPS = 200;
+/** Maximum number of undo steps, and the pause after which a move is a new step, ms. */
+const MAX_STEPS = 200;
 const REST = 300;
 
 export class App {
   readonly store = new StateStore();
   private readonly poses: Latest<number[]>;
   private readonly proximity: Latest<{ q: number[]; shapes: ShapeKind }>;
-  /** A word for the files of the robot as they were read; null where nobody says. */
+  /** The revision of the robot's files when they were read; null if unknown. */
   revision: string | null = null;
   private opening = 0;
-  /** The robot whose first picture is there. */
+  /** The robot whose first picture is complete. */
   private drawn: RobotModel | null = null;
   private back: number[][] = [];
   private forth: number[][] = [];
@@ -42,14 +42,14 @@ export class App {
   ) {
     this.poses = new Latest(async (q) => {
       const robot = this.store.now.robot;
-      const poses = await engine.ask("poses", { q });
+      const poses = await engine.ask("linkPoses", { q });
       if (this.store.now.robot === robot) this.store.set({ poses });
     });
     this.proximity = new Latest(async ({ q, shapes }) => {
       const { robot, tab } = this.store.now;
       const isOld = (): boolean => this.store.now.robot !== robot || this.store.now.shapes !== shapes;
       try {
-        const answer = await engine.ask("proximity", { q, shapes, k: tab === "Proximity" ? LISTED : FEW });
+        const answer = await engine.ask("proximity", { q, kind: shapes, k: tab === "Proximity" ? LISTED : FEW });
         if (isOld()) return;
         const contacts = contactsOf(answer, shapes, this.store.now.contacts);
         this.store.set({ proximity: { answer, error: null }, contacts });
@@ -59,12 +59,12 @@ export class App {
     });
     this.store.on(["tab"], ({ tab, robot }) => {
       if (!CHOOSES_PAIRS.has(tab)) this.store.set({ pair: null });
-      // More of them are listed there.
+      // That panel lists more pairs.
       if (tab === "Proximity" && robot) this.measure();
     });
   }
 
-  /** Opens a robot. What it showed before, of this robot, stays where it can. */
+  /** Opens a robot. `keep` preserves the view of the same robot where possible. */
   async open(entry: Entry, source: RobotSource, keep = false): Promise<RobotModel | null> {
     const turn = ++this.opening;
     const before = this.store.now;
@@ -77,7 +77,7 @@ export class App {
       proximity: { answer: null, error: null },
       contacts: null,
       absent: [],
-      // Decisions that are not saved outlive another reading of the same robot.
+      // Unsaved edits survive a reload of the same robot.
       skips: keep && before.skips.dirty ? before.skips : NO_SKIPS,
       report: { report: null, error: null, busy: null },
       sample: null,
@@ -91,7 +91,7 @@ export class App {
       const robot = new RobotModel(entry, source, about, files, await partsOf(this.engine, files));
       if (robot.links.length === 0) throw new Error(why(robot));
       const q = keep && before.q.length === robot.dofs.length ? before.q : (about.zero ?? robot.dofs.map(() => 0));
-      const poses = about.dofs ? await this.engine.ask("poses", { q }) : null;
+      const poses = about.dofs ? await this.engine.ask("linkPoses", { q }) : null;
       if (turn !== this.opening) return null;
       this.back = [];
       this.forth = [];
@@ -104,7 +104,7 @@ export class App {
     }
   }
 
-  /** Reads the robot again: its files changed. */
+  /** Reloads the robot after its files changed. */
   async reopen(): Promise<void> {
     const { robot, skips } = this.store.now;
     if (robot?.source.kind !== "url") return;
@@ -118,24 +118,24 @@ export class App {
     this.store.set({ robot: null, failure: null, loading: null, q: [], poses: null, pair: null, contacts: null });
   }
 
-  /** Moves the robot. What follows at once, as a drag does, is one step that can be taken back. */
+  /** Moves the robot. Moves in quick succession, as in a drag, are one undo step. */
   move(q: number[]): void {
     if (!q.every(Number.isFinite)) return;
     const now = performance.now();
     if (now - this.movedAt > REST) {
-      this.back = [...this.back.slice(1 - MOST_STEPS), this.store.now.q];
+      this.back = [...this.back.slice(1 - MAX_STEPS), this.store.now.q];
       this.forth = [];
     }
     this.movedAt = now;
     this.place(q);
   }
 
-  /** Takes the last step of the robot back, or makes it again. */
+  /** Undoes or redoes a move. */
   step(by: "back" | "forth"): void {
     const [from, to] = by === "back" ? [this.back, this.forth] : [this.forth, this.back];
     const q = from.pop();
     if (!q) {
-      this.note(by === "back" ? "There is no earlier pose." : "There is no later pose.");
+      this.note(by === "back" ? "Nothing to undo." : "Nothing to redo.");
       return;
     }
     to.push(this.store.now.q);
@@ -155,13 +155,13 @@ export class App {
     this.move(q);
   }
 
-  /** Asks for distances, and so whether the robot collides. The first picture comes before. */
+  /** Requests distances and collisions. The first picture has priority. */
   measure(): void {
     const { robot, q, shapes } = this.store.now;
     if (robot?.moves && this.drawn === robot) this.proximity.ask({ q, shapes });
   }
 
-  /** The first picture of the robot is there, or there will be none. */
+  /** Called when the first picture of the robot is complete, or cannot be drawn. */
   settled(): void {
     this.drawn = this.store.now.robot;
     this.measure();
@@ -195,7 +195,7 @@ export class App {
     this.store.set({ layers: { ...layers, [kind]: { ...layers[kind], ...change } } });
   }
 
-  /** Shows this layer alone. */
+  /** Shows only this layer. */
   showOnly(kind: LayerKind): void {
     const { layers } = this.store.now;
     const next = { ...layers };
@@ -213,7 +213,7 @@ export class App {
     this.store.set({ hidden });
   }
 
-  /** The report: the site has it, or it is made here. */
+  /** Loads the report from the site, or validates here. */
   async loadReport(): Promise<void> {
     const { robot, report } = this.store.now;
     if (!robot || report.busy !== null || report.report) return;
@@ -231,7 +231,7 @@ export class App {
         }));
       set(made, null);
     } catch (error) {
-      // A trap ends the validator: what it had found is lost, and nothing is proven.
+      // A crash loses the validator's findings, and proves nothing.
       const incomplete = error instanceof Trapped ? "not fully examined: " : "";
       set(null, incomplete + message(error));
     }
@@ -240,9 +240,7 @@ export class App {
   note(text: string): void {
     clearTimeout(this.noting);
     this.store.set({ note: text });
-    this.noting = setTimeout(() => {
-      this.store.set({ note: null });
-    }, 4000);
+    this.noting = setTimeout(() => this.store.set({ note: null }), 4000);
   }
 }
 
@@ -254,5 +252,5 @@ export function message(error: unknown): string {
 function why(robot: RobotModel): string {
   const [fault] = robot.about.faults;
   if (fault) return `This URDD cannot be shown: ${fault.reason}`;
-  return "This URDD has no urdf_module and no chain_module that can be read, so there is nothing to show.";
+  return "This URDD has no readable urdf_module or chain_module, so there is nothing to show.";
 }

@@ -1,14 +1,14 @@
-/** Which links are in contact, from distances between their shapes. */
+/** Links in contact, from the distances between their shapes. */
 
 import type { PairDistance, ProximityAnswer, ShapeKind } from "./engine/protocol";
 
-/** Two links, and the pairs of their shapes, the nearest first. */
+/** Two links, and the pairs of their shapes, nearest first. */
 export interface LinkPair {
   links: [number, number];
   shapes: PairDistance[];
 }
 
-/** What of a robot is in contact with itself. */
+/** The self-collisions of a robot. */
 export interface Contacts {
   shapes: ShapeKind;
   /** Pairs of links that touch. */
@@ -27,7 +27,7 @@ export function placeKey(link: number, piece: number): string {
   return `${link} ${piece}`;
 }
 
-/** Distances by pairs of links, in the order of their first. */
+/** Groups distances by pairs of links, in the order of their nearest shapes. */
 export function byLinks(nearest: readonly PairDistance[]): LinkPair[] {
   const found = new Map<string, LinkPair>();
   for (const pair of nearest) {
@@ -40,7 +40,7 @@ export function byLinks(nearest: readonly PairDistance[]): LinkPair[] {
   return [...found.values()];
 }
 
-/** What is in contact. Where that is what it was before, the object is too: nothing has to be painted anew. */
+/** The contacts. If they did not change, the same object, to avoid repainting. */
 export function contactsOf(answer: ProximityAnswer, shapes: ShapeKind, before: Contacts | null): Contacts {
   const touching = answer.nearest.filter(isContact);
   const places = new Set(

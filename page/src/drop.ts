@@ -1,17 +1,17 @@
-/** Folders and archives that are dropped on the page or chosen: read in this browser, never sent anywhere. */
+/** Folders and archives that are dropped or selected. They are read in this browser, and never sent anywhere. */
 
 import type { RobotSource } from "./engine/protocol";
 
-/** Most files, and most bytes, of what is dropped. */
-const MOST_FILES = 50_000;
-const MOST_BYTES = 1_000_000_000;
+/** Maximum number of files and bytes. */
+const MAX_FILES = 50_000;
+const MAX_BYTES = 1_000_000_000;
 
 interface Dropped {
   path: string;
   file: File;
 }
 
-/** What a drop holds. Must be called while the event is handled: its entries are gone afterwards. */
+/** The files of a drop. Call it during the event: afterwards its entries are gone. */
 export function dropped(transfer: DataTransfer): () => Promise<RobotSource> {
   const entries = [...transfer.items].flatMap((item) => item.webkitGetAsEntry() ?? []);
   const files = [...transfer.files];
@@ -27,7 +27,7 @@ export function dropped(transfer: DataTransfer): () => Promise<RobotSource> {
   };
 }
 
-/** What a person chose in a dialog. */
+/** The files of a file dialog. */
 export function chosen(files: File[], folder: boolean): Promise<RobotSource> {
   if (!folder) return ofFile(files);
   return Promise.resolve(ofFolder(files.map((file) => ({ path: file.webkitRelativePath || file.name, file }))));
@@ -47,9 +47,7 @@ async function walk(root: FileSystemEntry): Promise<Dropped[]> {
     } else {
       const reader = (entry as FileSystemDirectoryEntry).createReader();
       for (;;) {
-        const some = await new Promise<FileSystemEntry[]>((resolve, reject) => {
-          reader.readEntries(resolve, reject);
-        });
+        const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
         if (some.length === 0) break;
         for (const child of some) waiting.push({ entry: child, path: `${path}/${child.name}` });
       }
@@ -60,12 +58,10 @@ async function walk(root: FileSystemEntry): Promise<Dropped[]> {
 
 function check(found: Dropped[]): void {
   const size = found.reduce((sum, { file }) => sum + file.size, 0);
-  if (found.length > MOST_FILES)
-    throw new Error(`This folder has more than ${MOST_FILES.toLocaleString("en")} files. Drop the folder of one URDD.`);
-  if (size > MOST_BYTES)
-    throw new Error(
-      "This folder has more than 1 GB, too much for a browser. Look at it with `urdd view` on this machine.",
-    );
+  if (found.length > MAX_FILES)
+    throw new Error(`This folder has more than ${MAX_FILES.toLocaleString("en")} files. Drop the folder of one URDD.`);
+  if (size > MAX_BYTES)
+    throw new Error("This folder has more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
 }
 
 const IS_URDD =
@@ -96,17 +92,15 @@ function ofFolder(all: Dropped[]): RobotSource {
 function notAUrdd(all: Dropped[]): string {
   const urdf = all.find(({ path }) => /\.(?:urdf|xacro)$/i.test(path));
   return urdf
-    ? `This is a URDF, not a URDD yet. Make one on this machine: urdd generate ${urdf.path.split("/").pop() ?? "robot.urdf"} -o my_robot, or look at it directly: urdd view ${urdf.path.split("/").pop() ?? "robot.urdf"}`
-    : "This is no URDD: no folder in it holds urdd.json or a module such as urdf_module/module.json.";
+    ? `This is a URDF, not a URDD yet. Generate one on this machine: urdd generate ${urdf.path.split("/").pop() ?? "robot.urdf"} -o my_robot, or view it directly: urdd view ${urdf.path.split("/").pop() ?? "robot.urdf"}`
+    : "This is not a URDD: it has no folder with urdd.json or a module such as urdf_module/module.json.";
 }
 
 async function ofFile(files: File[]): Promise<RobotSource> {
   const [file] = files;
   if (!file) throw new Error("Nothing was dropped. Drop the folder of a URDD, or a .zip of it.");
   if (!/\.zip$/i.test(file.name)) throw new Error(notAUrdd(files.map((file) => ({ path: file.name, file }))));
-  if (file.size > MOST_BYTES)
-    throw new Error(
-      "This archive has more than 1 GB, too much for a browser. Look at it with `urdd view` on this machine.",
-    );
+  if (file.size > MAX_BYTES)
+    throw new Error("This archive has more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
   return { kind: "zip", name: file.name.replace(/\.zip$/i, ""), bytes: await file.arrayBuffer() };
 }

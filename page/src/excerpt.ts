@@ -1,6 +1,6 @@
-/** A few lines of a text about a place in it. */
+/** A few lines around a position in a text. */
 
-/** Lines before and after, and characters of a line that are shown. */
+/** Number of lines before and after, and maximum number of characters of a line. */
 const AROUND = 2;
 const WIDTH = 160;
 
@@ -8,7 +8,7 @@ export interface Excerpt {
   lines: { number: number; text: string; isPlace: boolean }[];
 }
 
-/** `line` and `column` are counted from 1, columns in characters. Null where the text has no such line. */
+/** `line` and `column` count from 1, columns in characters. Null if the text has no such line. */
 export function excerpt(text: string, line: number, column: number | null): Excerpt | null {
   const all = text.split(/\r\n|\n|\r/);
   if (line < 1 || line > all.length) return null;
@@ -21,7 +21,7 @@ export function excerpt(text: string, line: number, column: number | null): Exce
   return { lines };
 }
 
-/** What a long line holds about a column: documents may be one line. */
+/** The part of a long line around a column: a document can be a single line. */
 function cut(text: string, column: number): string {
   const chars = Array.from(text);
   if (chars.length <= WIDTH) return text;

@@ -1,4 +1,4 @@
-/** To which links findings belong. */
+/** The links of findings. */
 
 import type { Finding, Report, Severity } from "./engine/protocol";
 import type { RobotModel } from "./model";
@@ -11,7 +11,7 @@ const LINK =
 const JOINT = /^\/(?:joints|joints_in_chain|joint_idx_to_[a-z_]+)\/(\d+)/;
 const MESH = /\/meshes\/(?:stl|obj|glb)\/(\d+)_/;
 
-/** The link that a place is about; null where it is about none, or that cannot be told. */
+/** The link of a place; null if there is none, or if it is unknown. */
 export function linkOf(
   robot: RobotModel,
   place: { file?: unknown; pointer?: unknown; subject?: unknown },
@@ -53,13 +53,13 @@ export function places(finding: Finding): Place[] {
   return Array.isArray(finding["places"]) ? (finding["places"] as Place[]) : [];
 }
 
-/** How many findings there are: each place where a rule finds something is one, as `urdd validate` counts them. */
+/** The number of findings, as `urdd validate` counts them: each place counts. */
 export function tally({ totals }: Report): Record<Severity, number> & { all: number } {
   const { error = 0, warning = 0, info = 0 } = totals;
   return { error, warning, info, all: error + warning + info };
 }
 
-/** What is to be mended first: what a fault does to whoever uses the URDD, the worst first, as `urdd validate` has it. */
+/** Consequences of findings for users of the URDD, worst first, as in `urdd validate`. */
 export const CONSEQUENCES = new Map([
   ["wrong-motion", "wrong motion"],
   ["wrong-place", "wrong place"],
@@ -70,7 +70,7 @@ export const CONSEQUENCES = new Map([
   ["looseness", "looseness"],
 ]);
 
-/** Findings in the order in which to mend them. */
+/** Findings in the order in which to fix them. */
 export function toMend(findings: readonly Finding[]): Finding[] {
   const order = [...CONSEQUENCES.keys()];
   const rank = ({ consequence }: Finding): number => order.indexOf(String(consequence));
@@ -82,7 +82,7 @@ export function linksOf(robot: RobotModel, finding: Finding): Set<number> {
   return new Set(places(finding).flatMap((place) => linkOf(robot, place) ?? []));
 }
 
-/** The worst of each link that has findings, or that was not verified. */
+/** The worst severity of each link with findings, or that was not verified. */
 export function worstOfLinks(robot: RobotModel, report: Report | null): Map<number, Worst> {
   return worstOf(robot, report, () => true);
 }
@@ -102,14 +102,14 @@ function worstOf(robot: RobotModel, report: Report | null, counts: (finding: Fin
   return worst;
 }
 
-/** A rule that names links of a robot: how many of them, and whether they are so many that it tells none from the rest. */
+/** A rule with findings at links: how many links, and whether they are too many to stand out. */
 export interface NamedLinks {
   code: string;
   links: Set<number>;
   isSystematic: boolean;
 }
 
-/** Share of the links from which on a rule names no link in particular. */
+/** Fraction of the links above which the links of a rule do not stand out. */
 const SYSTEMATIC = 0.5;
 
 export function namedLinks(robot: RobotModel, report: Report | null): NamedLinks[] {
@@ -123,7 +123,7 @@ export function namedLinks(robot: RobotModel, report: Report | null): NamedLinks
   return [...found].map(([code, links]) => ({ code, links, isSystematic: links.size > most }));
 }
 
-/** What links are painted by: the worst of what names them in particular, or what one rule finds. */
+/** What links are painted by: their worst finding that stands out, or the findings of one rule. */
 export function paintOf(
   robot: RobotModel,
   report: Report | null,

@@ -1,11 +1,11 @@
-/** The state that a link carries, in the URL's fragment: `#r=h1&q=0,0.5&t=Proximity`. */
+/** The view in a link's fragment: `#r=h1&q=0,0.5&t=Proximity`. */
 
 import { LAYERS, OVERLAYS, TABS } from "./state";
 import type { Layer, LayerKind, OverlayKind, Pair, Tab } from "./state";
 import { SHAPE_KINDS } from "./engine/protocol";
 import type { ShapeKind } from "./engine/protocol";
 
-/** A list that is empty, and not only left out. */
+/** An empty list, as opposed to an omitted one. */
 const NONE = "none";
 
 export interface Shared {
@@ -31,7 +31,7 @@ function numbers(text: string | null): number[] | null {
   return values.every(Number.isFinite) ? values : null;
 }
 
-/** `3,7-9` as 3, 7, 8, 9: links by number. */
+/** `3,7-9` means links 3, 7, 8, 9. */
 function ranges(text: string | null): number[] | null {
   if (text === null) return null;
   const found: number[] = [];

@@ -1,15 +1,14 @@
 /** The pointer in the picture. */
 
 import type { App } from "./app";
-import type { Reached, Wish } from "./engine/protocol";
 import { Latest } from "./latest";
 import { dragJoint, pull } from "./scene/drag";
-import type { Drag } from "./scene/drag";
+import type { Drag, Solve } from "./scene/drag";
 import { pick } from "./scene/pick";
 import type { Stage } from "./stage";
 import { name } from "./ui/format";
 
-/** Pixels that the pointer may move within a click. */
+/** Maximum movement of the pointer during a click, pixels. */
 const STILL = 4;
 
 export class Hand {
@@ -29,34 +28,16 @@ export class Hand {
     });
     this.under = new Latest(({ x, y }) => {
       this.hover(x, y);
-      return new Promise((resolve) =>
-        requestAnimationFrame(() => {
-          resolve();
-        }),
-      );
+      return new Promise((resolve) => requestAnimationFrame(() => resolve()));
     });
-    canvas.addEventListener(
-      "pointerdown",
-      (event) => {
-        this.press(event);
-      },
-      { capture: true },
-    );
-    canvas.addEventListener("pointermove", (event) => {
-      this.move(event);
-    });
-    canvas.addEventListener("pointerup", (event) => {
-      this.release(event);
-    });
-    canvas.addEventListener("pointercancel", (event) => {
-      this.release(event);
-    });
+    canvas.addEventListener("pointerdown", (event) => this.press(event), { capture: true });
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    canvas.addEventListener("pointerup", (event) => this.release(event));
+    canvas.addEventListener("pointercancel", (event) => this.release(event));
     canvas.addEventListener("pointerleave", () => {
       if (!this.down) app.hover(null);
     });
-    canvas.addEventListener("dblclick", () => {
-      stage.look("fit");
-    });
+    canvas.addEventListener("dblclick", () => stage.look("fit"));
   }
 
   private press(event: PointerEvent): void {
@@ -70,18 +51,18 @@ export class Hand {
     if (picked && poses && robot.moves) {
       const { link } = picked.of;
       const eye = view.camera.position;
-      const reach = (wish: Wish): Promise<Reached> => this.app.engine.ask("reach", wish);
+      const solve: Solve = (question) => this.app.engine.ask("inverseKinematics", question);
       const joint = robot.moving(link);
       const above = [...new Set(robot.path(link).flatMap((joint) => robot.dofsOf(joint)))];
-      if (event.shiftKey) this.drag = pull(poses, link, above, picked.point, eye, reach);
+      if (event.shiftKey) this.drag = pull(poses, link, above, picked.point, eye, solve);
       else if (joint !== null) {
         this.drag =
           dragJoint(robot, poses, joint, picked.point, eye) ??
-          pull(poses, link, robot.dofsOf(joint), picked.point, eye, reach);
+          pull(poses, link, robot.dofsOf(joint), picked.point, eye, solve);
       }
     }
     if (this.drag) {
-      // The camera stays while a joint is dragged.
+      // The camera is fixed while a joint is dragged.
       view.controls.enabled = false;
       view.canvas.setPointerCapture(event.pointerId);
     }

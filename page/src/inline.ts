@@ -1,5 +1,4 @@
-/** What a page that is one file carries in itself: `<script type="text/plain" id="...">` in base64, deflated; the module by
- * brotli. */
+/** The data in a page in one file: `<script type="text/plain" id="...">` in base64, deflated; the module by brotli. */
 
 import { inflateSync } from "fflate";
 import type { Explanation, Report, RobotSource } from "./engine/protocol";
@@ -7,7 +6,7 @@ import type { Entry } from "./model";
 
 function text(name: string): string {
   const carried = document.getElementById(name)?.textContent;
-  if (carried === undefined) throw new Error(`this page does not carry ${name}`);
+  if (carried === undefined) throw new Error(`this page does not include ${name}`);
   return carried.trim();
 }
 
@@ -45,9 +44,9 @@ export function report(): Report {
   return json("report.json") as Report;
 }
 
-/** What a rule of the report means. */
+/** The explanation of a rule of the report. */
 export function explain(code: string): Explanation {
   const known = (json("rules.json") as Explanation[]).find((rule) => rule.code === code);
-  if (!known) throw new Error("this page does not carry what the rule means");
+  if (!known) throw new Error("this page does not include explanations of rules");
   return known;
 }

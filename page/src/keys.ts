@@ -1,4 +1,4 @@
-/** Keys. None counts while a person types. */
+/** Keyboard shortcuts. Inactive while the user types. */
 
 import type { App } from "./app";
 import type { Stage } from "./stage";
@@ -14,7 +14,7 @@ export function keys(app: App, stage: Stage | null): void {
       const again = event.key === "y" || (event.key.toLowerCase() === "z" && event.shiftKey);
       if (!again && event.key !== "z") return;
       event.preventDefault();
-      // Where decisions are made, they are what is taken back.
+      // In Skips, undo applies to edits.
       if (app.store.now.tab === "Skips" && !again) void undo(app);
       else if (app.store.now.robot?.moves) app.step(again ? "forth" : "back");
       return;

@@ -1,4 +1,4 @@
-/** Asks one question at a time; of those that come meanwhile only the last is asked. */
+/** Runs one query at a time. Of those that arrive meanwhile, only the last one runs. */
 export class Latest<Q> {
   private busy = false;
   private waiting: { question: Q } | null = null;

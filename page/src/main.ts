@@ -1,9 +1,10 @@
-/** Puts the page together, and opens what the address asks for. */
+/** Assembles the page, and opens the view of the address. */
 
 import { Address } from "./address";
 import { App, message } from "./app";
 import { dropped, chosen } from "./drop";
 import { Engine } from "./engine/client";
+import { Hand } from "./hand";
 import * as inline from "./inline";
 import { keys } from "./keys";
 import { follow, serverLine } from "./live";
@@ -22,7 +23,7 @@ import { tree } from "./panels/tree";
 import { Site } from "./site";
 import type { Mode } from "./site";
 import { Stage } from "./stage";
-import { byId, fill, h } from "./ui/dom";
+import { button, byId, fill, h } from "./ui/dom";
 import { offer } from "./ui/offer";
 import { startTheme } from "./ui/theme";
 import { tabs } from "./ui/tabs";
@@ -42,6 +43,7 @@ function start(): void {
   let noPicture: string | null = null;
   try {
     stage = new Stage(app);
+    new Hand(app, stage);
   } catch (error) {
     noPicture = message(error);
     app.store.on(["robot"], ({ robot }) => {
@@ -51,10 +53,7 @@ function start(): void {
   const address = new Address(app, stage);
 
   const failure = h("div", { class: "failure", role: "alert" });
-  const back = h("button", { type: "button" }, "Back");
-  back.addEventListener("click", () => {
-    address.leave();
-  });
+  const back = button("Back", {}, () => address.leave());
   app.store.on(["failure"], ({ failure: text }) => {
     failure.hidden = text === null;
     fill(failure, h("p", {}, text), back);
@@ -77,7 +76,7 @@ function start(): void {
         h(
           "p",
           { role: "alert" },
-          `There is no picture: this browser gives no WebGL (${noPicture ?? ""}). The panels work all the same.`,
+          `Cannot draw the robot: this browser has no WebGL (${noPicture ?? ""}). The panels still work.`,
         ),
       ),
     gallery(
@@ -106,9 +105,7 @@ function start(): void {
     save: saving.open,
     share: () => void share(app, address.link()),
     picture: () => void save(app, stage),
-    gallery: () => {
-      address.leave();
-    },
+    gallery: () => address.leave(),
   };
   fill(
     byId("page"),
@@ -123,14 +120,12 @@ function start(): void {
     document.title = robot ? `${robot.name} · urdd` : "urdd";
   });
 
-  addEventListener("dragover", (event) => {
-    event.preventDefault();
-  });
+  addEventListener("dragover", (event) => event.preventDefault());
   addEventListener("drop", (event) => {
     event.preventDefault();
     if (event.dataTransfer) void address.openFiles(dropped(event.dataTransfer));
   });
-  // For tests and benches: what a person sees is not enough to compare numbers.
+  // For tests and benches, which compare more digits than the page shows.
   Object.assign(window, { urdd: { app, stage } });
   void address.follow().finally(() => {
     if (mode === "live") follow(app);
@@ -142,12 +137,12 @@ async function share(app: App, link: string): Promise<void> {
     await navigator.clipboard.writeText(link);
     app.note(
       app.site.mode === "live"
-        ? "The link is copied. It opens this view in any browser of this machine while `urdd view` runs, and can save there too."
-        : "The link is copied.",
+        ? "Link copied. It opens this view in any browser on this machine while `urdd view` runs, and allows saving."
+        : "Link copied.",
     );
   } catch {
-    // A live page's address has no token: it is of use in this browser alone.
-    app.note(`The link cannot be copied: ${app.site.mode === "live" ? link : "take it from the address bar."}`);
+    // The address of a live page has no token: it works only in this browser.
+    app.note(`The link cannot be copied: ${app.site.mode === "live" ? link : "copy it from the address bar."}`);
   }
 }
 

@@ -1,14 +1,14 @@
-/** Robots that `urdd view` generates while the page is open: how far they are, and saving them. */
+/** Robots that `urdd view` generates while the page is open: their progress, and saving them. */
 
 import type { App } from "./app";
 import { message } from "./app";
 import type { Entry } from "./model";
-import { fill, h } from "./ui/dom";
+import { button, fill, h } from "./ui/dom";
 import { name } from "./ui/format";
 
 const PERIOD = 250;
 
-/** Asks until every robot is there, and gives the one that is waited for as soon as it is. */
+/** Polls until all robots are generated. Returns the wanted one as soon as possible. */
 export async function untilMade(app: App, id: string | null): Promise<Entry | null> {
   for (;;) {
     const { entries } = app.store.now;
@@ -16,7 +16,7 @@ export async function untilMade(app: App, id: string | null): Promise<Entry | nu
     if (wanted && !wanted.making) {
       app.store.set({ loading: null });
       if (wanted.failure === null) return wanted;
-      app.store.set({ failure: `There is no URDD of ${name(wanted.name)}: ${name(wanted.failure)}` });
+      app.store.set({ failure: `Generation of ${name(wanted.name)} failed: ${name(wanted.failure)}` });
       return null;
     }
     if (!entries.some(({ making }) => making)) return null;
@@ -40,32 +40,25 @@ export function saveDialog(app: App): { element: HTMLElement; open: () => void }
   });
   const wrong = h("p", { class: "bad", role: "alert" });
   const assumed = h("div", { class: "assumed" });
-  const cancel = h("button", { type: "button" }, "Cancel");
+  const cancel = button("Cancel", {}, () => element.close());
   const form = h(
     "form",
     {},
     h("h2", {}, "Save the generated URDD"),
     h("label", { for: folder.id }, "Folder"),
     folder,
-    h(
-      "p",
-      { class: "hint" },
-      "One that is not there yet, or empty. A path without a slash at its beginning is in the folder in which `urdd view` runs.",
-    ),
+    h("p", { class: "hint" }, "A new or empty folder. A relative path begins in the folder where `urdd view` runs."),
     assumed,
     wrong,
     h("div", { class: "actions" }, h("button", { type: "submit", class: "main" }, "Save"), cancel),
   );
   const element = h("dialog", { class: "dialog", "aria-label": "Save the generated URDD" }, form);
-  cancel.addEventListener("click", () => {
-    element.close();
-  });
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     void save(app, folder.value)
       .then((where) => {
         element.close();
-        app.note(`Saved in ${name(where)}. Decisions on skips are saved there from now on.`);
+        app.note(`Saved in ${name(where)}. Edits of skips are saved there from now on.`);
       })
       .catch((error: unknown) => {
         wrong.textContent = message(error);
@@ -83,7 +76,7 @@ export function saveDialog(app: App): { element: HTMLElement; open: () => void }
         ...(entry.notes.length === 0
           ? []
           : [
-              h("h3", {}, "Assumed when it was generated"),
+              h("h3", {}, "Assumptions during generation"),
               h("ul", { class: "notes" }, ...entry.notes.map((note) => h("li", {}, name(note)))),
             ]),
       );

@@ -1,33 +1,33 @@
-/** A robot that is open: what the engine says of it, and what follows for the page. */
+/** An open robot: the engine's data, and what the page derives from it. */
 
 import type { About, Dof, FileEntry, Joint, Link, RobotSource } from "./engine/protocol";
 import type { RobotPart } from "./parts";
 
-/** A line of `robots.json`. */
+/** An entry of `robots.json`. */
 export interface Entry {
   id: string;
   name: string;
   /** Whether skips can be saved: a folder on disk, of version 1. */
   writable: boolean;
-  /** Whether it goes when `urdd view` ends, unless it is saved. */
+  /** Whether it is deleted when `urdd view` ends, unless it is saved. */
   temporary: boolean;
-  /** How far its generation is, while that goes on. */
+  /** The progress of its generation; null otherwise. */
   making: { what: string; done: number; of: number } | null;
-  /** Why it could not be generated. */
+  /** Why its generation failed. */
   failure: string | null;
   links: number | null;
   dofs: number | null;
   verdict: string | null;
   findings: { error: number; warning: number; info: number } | null;
-  /** What was assumed when it was generated for this view. */
+  /** Assumptions during generation for this view. */
   notes: string[];
   picture: string | null;
-  /** Where a site has the list of its files, and its report. */
+  /** The paths of its list of files and its report on a site. */
   files?: string;
   report?: string;
 }
 
-/** A robot of which nobody has said anything yet. */
+/** An entry without data. */
 export function unknown(name: string): Entry {
   return {
     id: name,
@@ -55,7 +55,7 @@ export class RobotModel {
   readonly links: Link[];
   readonly joints: Joint[];
   readonly dofs: Dof[];
-  /** For each link the joints below it. */
+  /** The child joints of each link. */
   readonly below: number[][];
   readonly roots: number[];
 
@@ -64,7 +64,7 @@ export class RobotModel {
     readonly source: RobotSource,
     readonly about: About,
     readonly files: FileEntry[],
-    /** What it was put together from. */
+    /** The parts that it was combined from. */
     readonly parts: RobotPart[] = [],
   ) {
     this.links = about.links;
@@ -114,12 +114,12 @@ export class RobotModel {
     return found.dofs ?? [];
   }
 
-  /** The first joint above a link that moves. */
+  /** The first movable joint above a link. */
   moving(link: number): number | null {
     return this.path(link).find((joint) => this.dofsOf(joint).length > 0) ?? null;
   }
 
-  /** Where a joint of one DOF stands; null for others. */
+  /** The position of a joint with one DOF; null for others. */
   position(joint: number, q: readonly number[]): number | null {
     const found = this.joints[joint];
     if (!found) return null;

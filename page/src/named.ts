@@ -1,4 +1,4 @@
-/** Paths of the page's files: a site names them by their content, in `<meta name="urdd-files">`. */
+/** Paths of the page's files. A site names files by their hash, listed in `<meta name="urdd-files">`. */
 
 export function named(name: string): string {
   const words = document.querySelector<HTMLMetaElement>('meta[name="urdd-files"]')?.content.split(" ") ?? [];

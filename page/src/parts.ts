@@ -1,4 +1,4 @@
-/** The robots that a robot was put together from, as `composition_module` has them. */
+/** The parts of a combined robot, from `composition_module`. */
 
 import type { Engine } from "./engine/client";
 import type { FileEntry } from "./engine/protocol";
@@ -7,19 +7,19 @@ const MODULE = "composition_module/module.json";
 
 export interface RobotPart {
   id: string;
-  /** Name of the robot that it was. */
+  /** The name of the part's robot. */
   name: string;
   links: number[];
 }
 
-/** None for a robot that was not put together, or where the module cannot be read. */
+/** Empty for a robot that was not combined, or if the module cannot be read. */
 export async function partsOf(engine: Engine, files: FileEntry[]): Promise<RobotPart[]> {
   if (!files.some(({ path }) => path === MODULE)) return [];
   try {
     const bytes = await engine.ask("file", { path: MODULE });
     return parsed(JSON.parse(new TextDecoder().decode(bytes)));
   } catch {
-    // Findings say what is wrong with it.
+    // Findings report the problem.
     return [];
   }
 }
@@ -45,7 +45,7 @@ function text(value: unknown): string {
   return typeof value === "string" ? value : "";
 }
 
-/** A colour for a part, as CSS has it: neighbours in number differ. */
+/** A CSS colour for a part: consecutive parts differ. */
 export function partColor(part: number): string {
   return `hsl(${Math.round((210 + 137.508 * part) % 360)}, 55%, 58%)`;
 }

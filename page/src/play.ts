@@ -5,7 +5,7 @@ import { message } from "./app";
 import type { Sample } from "./engine/protocol";
 
 const PER_SAMPLE = 700;
-/** Greatest speeds of a sweep, rad/s and m/s, where the joint's own limit is not lower; and the shortest time, s. */
+/** Maximum speeds of a sweep, rad/s and m/s, unless the joint's limit is lower; and its minimum duration, s. */
 const SPEED = { rad: Math.PI / 4, m: 0.1 };
 const SHORTEST = 4;
 
@@ -46,9 +46,9 @@ export class Player {
     if (turn === this.turn) this.stop();
   }
 
-  /** Shows a sample, and tells how far the poses are from those that are stored. */
+  /** Shows a sample, and the error of its poses against the stored ones. */
   private async show(sample: Sample, at: number, of: number): Promise<void> {
-    const poses = await this.app.engine.ask("poses", { q: sample.configuration });
+    const poses = await this.app.engine.ask("linkPoses", { q: sample.configuration });
     this.app.move(sample.configuration);
     const [position, angle] = difference(poses, sample);
     this.app.store.set({ sample: { at, of, position, angle } });

@@ -1,4 +1,4 @@
-/** Where the page's robots come from: `urdd view`, a static site, or a file with a robot inside. */
+/** The source of the page's robots: `urdd view`, a static site, or a file with a robot inside. */
 
 import type { Explanation, FileEntry, Report, RobotSource } from "./engine/protocol";
 import * as inline from "./inline";
@@ -9,29 +9,29 @@ import { keptToken } from "./token";
 
 export type Mode = "live" | "static" | "inline";
 
-/** How long a request may take before the server counts as gone, ms. */
+/** Time after which a server without an answer counts as gone, ms. */
 const PATIENCE = 8000;
 
-/** The server answers, and does not know the token. */
+/** The server does not accept the token. */
 export class Refused extends Error {
   constructor() {
     super(
-      "The link has no token that `urdd view` knows: it was started anew, or the link is not whole. Paste the address that " +
+      "`urdd view` does not accept this link's token: it was restarted, or the link is incomplete. Paste the address that " +
         "`urdd view` printed into this tab, or a link that Share copied.",
     );
   }
 }
 
-/** Nothing answers where the page came from. */
+/** The server does not answer. */
 export class Gone extends Error {}
 
 export class Site {
-  /** By which the server knows this page; null where none is wanted. */
+  /** The token that the server requires; null if it requires none. */
   token: string | null = null;
 
   constructor(readonly mode: Mode) {}
 
-  /** The robots, asked for with a link's token, or with the one that this browser keeps. */
+  /** The robots, requested with a link's token, or with the one that this browser remembers. */
   async known(token: string | null): Promise<Entry[]> {
     if (this.mode !== "live") return this.robots();
     const tokens = new Set([token, this.token, keptToken()].filter((known) => known !== null));
@@ -52,9 +52,7 @@ export class Site {
     return robots.map((entry) => ({ ...unknown(entry.name), ...entry }));
   }
 
-  /** Asks whether the server answers, and knows this page.
-   *
-   * Throws `Gone` or `Refused` where it does not. */
+  /** Checks that the server answers and accepts the token. Throws `Gone` or `Refused` otherwise. */
   async answers(): Promise<void> {
     const response = await this.fetch("robots.json", { method: "HEAD", signal: AbortSignal.timeout(PATIENCE) });
     if (response.status === 403) throw new Refused();
@@ -84,24 +82,24 @@ export class Site {
     return (await this.json(entry.report ?? `robots/${encodeURIComponent(entry.id)}/report.json`)) as Report;
   }
 
-  /** What a rule means, where the page carries it. */
+  /** The explanation of a rule, if the page includes it. */
   explanation(code: string): Explanation | null {
     return this.mode === "inline" ? inline.explain(code) : null;
   }
 
-  /** What a gallery says of a robot. */
+  /** The data of a robot's card in the gallery. */
   async summary(entry: Entry): Promise<Entry> {
     return (await this.json(`robots/${encodeURIComponent(entry.id)}/summary.json`)) as Entry;
   }
 
-  /** The address of a small picture of a robot; null where it has none. */
+  /** The address of a robot's thumbnail; null if it has none. */
   async picture(entry: Entry): Promise<string | null> {
     const path = `robots/${encodeURIComponent(entry.id)}/picture.png`;
     const response = await this.fetch(path);
     return response.status === 200 ? URL.createObjectURL(await response.blob()) : null;
   }
 
-  /** A word that changes when the robot's files do; `gone` where there are none any more. */
+  /** A word that changes with the robot's files; `gone` if they no longer exist. */
   async revision(entry: Entry): Promise<string> {
     const path = `robots/${encodeURIComponent(entry.id)}/revision.json`;
     return ((await this.json(path, PATIENCE)) as { revision: string }).revision;

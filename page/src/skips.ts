@@ -1,4 +1,4 @@
-/** A person's decisions on skips: made, taken back, saved. */
+/** The user's edits of skips: made, undone, saved. */
 
 import { strToU8, zipSync } from "fflate";
 import type { App } from "./app";
@@ -15,30 +15,30 @@ export async function load(app: App, shapes: ShapeKind): Promise<void> {
   const edits = skips.dirty ? skips.answer?.edits : null;
   try {
     const answer = edits
-      ? await app.engine.ask("editSkips", { shapes, edits, skipped_reasons: null })
-      : await app.engine.ask("skips", { shapes });
+      ? await app.engine.ask("editSkips", { kind: shapes, edits, skipped_reasons: null })
+      : await app.engine.ask("skips", { kind: shapes });
     app.store.set({ skips: { ...app.store.now.skips, answer, error: null } });
   } catch (error) {
     app.store.set({ skips: { ...app.store.now.skips, answer: null, error: message(error) } });
   }
 }
 
-/** Adds decisions to those that there are. */
+/** Adds edits. */
 export async function decide(app: App, more: SkipEdit[]): Promise<void> {
   if (!app.store.now.skips.answer) await load(app, "hulls");
   const { answer, error } = app.store.now.skips;
   const edits = answer?.edits;
   if (!edits) {
-    app.note(error ?? "A legacy URDD has no edits: generate a new one to decide on skips.");
+    app.note(error ?? "A legacy URDD has no edits: generate a new URDD to edit skips.");
     return;
   }
   const same = (a: SkipEdit, b: SkipEdit): boolean =>
     (a.link_a === b.link_a && a.link_b === b.link_b) || (a.link_a === b.link_b && a.link_b === b.link_a);
-  // The last decision on a pair counts: those before it say nothing any more.
+  // Only the last edit of a pair counts.
   const kept = edits.filter((edit) => !more.some((other) => same(edit, other)));
   await change(app, [...kept, ...more], [...app.store.now.skips.before, edits]);
   if (app.store.now.tab !== "Skips") {
-    app.note(`${count(more.length, "pair")} of links decided. Save or take it back in Skips.`);
+    app.note(`${count(more.length, "pair")} of links edited. Save or undo in Skips.`);
   }
 }
 
@@ -46,20 +46,20 @@ async function change(app: App, edits: SkipEdit[], before: SkipEdit[][]): Promis
   const { skips } = app.store.now;
   if (!skips.answer) return;
   try {
-    const answer = await app.engine.ask("editSkips", { shapes: skips.answer.shapes, edits, skipped_reasons: null });
+    const answer = await app.engine.ask("editSkips", { kind: skips.answer.kind, edits, skipped_reasons: null });
     app.store.set({ skips: { ...app.store.now.skips, answer, error: null, before, dirty: before.length > 0 } });
   } catch (error) {
-    app.note(`This cannot be decided: ${message(error)}`);
+    app.note(`The edit failed: ${message(error)}`);
   }
 }
 
-/** Takes back the last decision, or, after a save, the save. */
+/** Undoes the last edit, or, after a save, the save. */
 export async function undo(app: App): Promise<void> {
   const { skips } = app.store.now;
   const before = skips.before.slice();
   const last = before.pop();
   if (last) await change(app, last, before);
-  else if (skips.saved > 0) await post(app, { undo: true }, "The last save is undone: the files are as they were.");
+  else if (skips.saved > 0) await post(app, { undo: true }, "The last save is undone: the files are restored.");
 }
 
 export async function save(app: App): Promise<void> {
@@ -85,17 +85,17 @@ async function post(app: App, wish: Record<string, unknown>, done: string): Prom
   }
 }
 
-/** The files that change, in an archive, for a page that cannot write them. */
+/** Downloads an archive of the changed files, for a page that cannot write them. */
 export function download(app: App): void {
   const { skips, robot } = app.store.now;
   const files = skips.answer?.files;
   if (!files || !robot) return;
   const zip = zipSync(Object.fromEntries(files.map(({ path, text }) => [path, strToU8(text)])));
   offer(new Blob([zip], { type: "application/zip" }), `${robot.entry.name}-skips.zip`);
-  app.note("Unpack the archive into the folder of the URDD: it holds the three files that change.");
+  app.note("Unpack the archive into the folder of the URDD: it has the three files that change.");
 }
 
-/** Skips of all pairs of links that are nearer than this pair now, by distance or by their share of the mean. */
+/** Skips all pairs of links that are nearer than this pair, by distance or relative to the mean. */
 export async function nearer(
   app: App,
   links: [number, number],
@@ -104,7 +104,7 @@ export async function nearer(
 ): Promise<void> {
   const { robot, q, shapes } = app.store.now;
   if (!robot) return;
-  const { nearest } = await app.engine.ask("proximity", { q, shapes, k: ALL });
+  const { nearest } = await app.engine.ask("proximity", { q, kind: shapes, k: ALL });
   const key = (pair: PairDistance): number => (by === "distance" ? pair.distance : (pair.relative ?? Infinity));
   const least = new Map<string, { links: [number, number]; value: number }>();
   for (const pair of nearest) {
@@ -114,7 +114,7 @@ export async function nearer(
   }
   const own = least.get(`${Math.min(...links)} ${Math.max(...links)}`);
   if (!own || !Number.isFinite(own.value)) {
-    app.note("This pair has no such distance now: it is skipped, or has no mean.");
+    app.note("This pair has no such distance: it is skipped, or has no mean.");
     return;
   }
   const name = (link: number): string => robot.links[link]?.name ?? "";
@@ -128,7 +128,7 @@ export async function nearer(
 }
 
 export function isSkipped(answer: SkipsAnswer, i: number, j: number): boolean {
-  // Legacy matrices say it above the diagonal alone.
+  // Legacy matrices are filled only above the diagonal.
   return answer.skipped[Math.min(i, j)]?.[Math.max(i, j)] === "1";
 }
 

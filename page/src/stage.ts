@@ -1,4 +1,4 @@
-/** The picture: what is in it follows the state; the pointer selects, moves joints and pulls links. */
+/** The picture. It follows the state. */
 
 import { Vector3 } from "three";
 import type { App } from "./app";
@@ -16,11 +16,10 @@ import { Names } from "./scene/names";
 import { rimColor } from "./scene/rim";
 import { View } from "./scene/view";
 import { Witness } from "./scene/witness";
-import { Hand } from "./hand";
 import { absent } from "./panels/absent";
 import { drawnLayers, ghosted, LAYERS } from "./state";
 import type { LayerKind, State } from "./state";
-import { h } from "./ui/dom";
+import { button, h } from "./ui/dom";
 import { color } from "./ui/theme";
 
 export const DIRECTIONS = {
@@ -31,8 +30,8 @@ export const DIRECTIONS = {
 } as const;
 
 const HANDLES = {
-  translate: { text: "Move", title: "Move the chosen link by handles; the joints above it give way (G)" },
-  rotate: { text: "Turn", title: "Turn the chosen link by handles; the joints above it give way (G)" },
+  translate: { text: "Move", title: "Move the selected link by handles; the joints above it follow (G)" },
+  rotate: { text: "Turn", title: "Turn the selected link by handles; the joints above it follow (G)" },
 };
 
 const START = new Vector3(1, -0.75, 0.45);
@@ -49,15 +48,15 @@ export class Stage {
   private readonly label = h("div", { class: "witness", hidden: true });
   private readonly progress = h("div", { class: "progress", role: "progressbar", hidden: true });
   private model: RobotModel | null = null;
-  /** That of the robot, metres. */
+  /** Size of the robot, metres. */
   private size = 1;
-  /** From where the next robot is looked at; null for all of it. */
+  /** The camera for the next robot; null to fit all of it. */
   from: number[] | null = null;
-  /** The robot that the camera was put for. */
+  /** The robot that the camera was set for. */
   private lookedAt: string | null = null;
-  /** Milliseconds from the page's start to the first whole picture. */
+  /** Milliseconds from the page's start to the first complete picture. */
   firstPicture: number | null = null;
-  /** The robot that is drawn whole, and looked at. */
+  /** The robot that is completely drawn, with the camera set. */
   settledOn: RobotModel | null = null;
 
   constructor(private readonly app: App) {
@@ -65,19 +64,7 @@ export class Stage {
     const views = h("div", { class: "views" });
     for (const key of ["fit", "front", "side", "top"] as const) {
       const text = key.charAt(0).toUpperCase() + key.slice(1);
-      views.append(
-        h(
-          "button",
-          {
-            type: "button",
-            class: "quiet",
-            click: () => {
-              this.look(key);
-            },
-          },
-          text,
-        ),
-      );
+      views.append(button(text, { class: "quiet" }, () => this.look(key)));
     }
     this.view = new View(canvas);
     this.names = new Names(this.view);
@@ -100,16 +87,11 @@ export class Stage {
     this.witness = new Witness(this.view, this.label);
     this.gizmo = new Gizmo(app, this.view);
     const handles = GIZMOS.map((kind) => {
-      const button = h(
-        "button",
-        { type: "button", "aria-pressed": "false", title: HANDLES[kind].title },
-        HANDLES[kind].text,
-      );
-      button.addEventListener("click", () => {
+      const made = button(HANDLES[kind].text, { "aria-pressed": "false", title: HANDLES[kind].title }, () => {
         this.gizmo.use(this.gizmo.kind === kind ? null : kind);
-        if (this.gizmo.kind && !app.store.now.selected) app.note("Choose a link to move it by handles.");
+        if (this.gizmo.kind && !app.store.now.selected) app.note("Select a link to move it by handles.");
       });
-      return [kind, button] as const;
+      return [kind, made] as const;
     });
     this.gizmo.changed = () => {
       for (const [kind, button] of handles) button.setAttribute("aria-pressed", String(this.gizmo.kind === kind));
@@ -121,7 +103,6 @@ export class Stage {
       for (const [, button] of handles) button.hidden = !robot?.moves;
     });
     this.view.scene.add(this.ground.group, this.overlays.group, this.witness.group);
-    new Hand(app, this);
     this.listen();
   }
 
@@ -142,9 +123,7 @@ export class Stage {
     };
     addEventListener("urdd-theme", theme);
     theme();
-    store.on(["robot"], ({ robot }) => {
-      this.take(robot);
-    });
+    store.on(["robot"], ({ robot }) => this.take(robot));
     store.on(["poses"], ({ poses, robot }) => {
       if (!poses || !robot) return;
       this.scene?.pose(poses);
@@ -152,9 +131,7 @@ export class Stage {
       this.names.pose(poses);
       this.view.invalidate();
     });
-    store.on(["layers", "pair", "shapes", "tab"], () => {
-      void this.fill();
-    });
+    store.on(["layers", "pair", "shapes", "tab"], () => void this.fill());
     store.on(
       [
         "layers",
@@ -170,13 +147,9 @@ export class Stage {
         "contacts",
         "tab",
       ],
-      (state) => {
-        this.dress(state);
-      },
+      (state) => this.dress(state),
     );
-    store.on(["overlays", "frameSize", "selected", "robot"], (state) => {
-      this.over(state);
-    });
+    store.on(["overlays", "frameSize", "selected", "robot"], (state) => this.over(state));
     store.on(["proximity", "pair", "tab", "units"], (state) => {
       const { answer } = state.proximity;
       const pair = ghosted(state);
@@ -189,7 +162,7 @@ export class Stage {
     });
   }
 
-  /** Another robot, or none. */
+  /** Shows another robot, or none. */
   private take(robot: RobotModel | null): void {
     this.scene?.dispose();
     this.scene = null;
@@ -197,7 +170,7 @@ export class Stage {
     this.model = robot;
     this.view.invalidate();
     if (!robot) {
-      // While the same robot is read again the camera stays.
+      // The camera stays while the same robot is reloaded.
       if (!this.app.store.now.loading) this.lookedAt = null;
       this.names.show([]);
       return;
@@ -212,7 +185,7 @@ export class Stage {
     void this.fill(isNew);
   }
 
-  /** Loads the layers that are on. */
+  /** Loads the visible layers. */
   private async fill(look = false): Promise<void> {
     const { scene, model, busy } = this;
     const layers = drawnLayers(this.app.store.now);
@@ -231,7 +204,7 @@ export class Stage {
     this.app.settled();
   }
 
-  /** The layers of the present scene that are being loaded. */
+  /** The layers of the present scene that are loading. */
   private busy = new Set<LayerKind>();
 
   private async one(layer: LayerKind, scene: RobotScene, model: RobotModel): Promise<void> {
@@ -254,7 +227,7 @@ export class Stage {
     prepare(scene);
   }
 
-  /** The camera and the ground, once there is something to see. */
+  /** Sets the camera and the ground once the robot is visible. */
   private settle(scene: RobotScene): void {
     const box = scene.bounds();
     const side = box.getSize(new Vector3());
@@ -275,7 +248,7 @@ export class Stage {
       const link = selected?.kind === "link" ? selected.index : null;
       this.overlays.make(robot, overlays, this.size, frameSize ?? this.frameSize, link);
       const named = overlays.frames && overlays.names ? robot.links.map(({ name }, index) => ({ name, index })) : [];
-      // What is chosen is named in any case.
+      // The selected link is always named.
       this.names.show(named.sort((a, b) => Number(b.index === link) - Number(a.index === link)));
       if (poses) {
         this.overlays.pose(poses);
@@ -285,7 +258,7 @@ export class Stage {
     this.view.invalidate();
   }
 
-  /** The length of frames' axes that suits the robot, metres. */
+  /** The default length of frames' axes, metres. */
   get frameSize(): number {
     return this.size * 0.07;
   }
@@ -297,7 +270,7 @@ export class Stage {
     this.view.invalidate();
   }
 
-  /** Puts the camera: its place, and what it looks at. */
+  /** Sets the camera: its position and target. */
   place(camera: number[]): void {
     this.view.camera.position.fromArray(camera, 0);
     this.view.controls.target.fromArray(camera, 3);

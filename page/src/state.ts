@@ -1,4 +1,4 @@
-/** The state of the page, and who wants to hear of its changes. */
+/** The state of the page, and listeners for its changes. */
 
 import { SHAPE_KINDS } from "./engine/protocol";
 import type { ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
@@ -8,7 +8,7 @@ import type { Entry, Part, RobotModel } from "./model";
 import { keptUnits } from "./ui/format";
 import type { Units } from "./ui/format";
 
-/** What the URDF itself has, the plain meshes, and what stands for links in checks. */
+/** Layers: the URDF's own geometry, the plain meshes, and the collision shapes. */
 export const LAYERS = ["original", "collision", "plain", ...SHAPE_KINDS] as const;
 export type LayerKind = (typeof LAYERS)[number];
 
@@ -29,11 +29,11 @@ export interface Layer {
   opacity: number;
 }
 
-/** What a layer shows, for those to whom its name says too little. */
+/** Explanations of layers. */
 export const LAYER_HINTS: Partial<Record<LayerKind, string>> = {
   original: "The URDF's visual geometry, with its colours and textures",
   collision: "The URDF's collision geometry",
-  plain: "The meshes that all other shapes are made of",
+  plain: "The meshes that all other shapes are computed from",
 };
 
 export const OVERLAYS = ["wireframe", "frames", "names", "axes", "com", "inertia", "path", "grid"] as const;
@@ -53,7 +53,7 @@ export const OVERLAY_NAMES: Record<OverlayKind, string> = {
 export const TABS = ["Joints", "Shapes", "Proximity", "Skips", "Findings", "Info"] as const;
 export type Tab = (typeof TABS)[number];
 
-/** Tabs in which a pair is chosen; outside of them none is. */
+/** Tabs in which a pair can be selected; other tabs clear the selection. */
 export const CHOOSES_PAIRS: ReadonlySet<Tab> = new Set(["Proximity", "Skips"] as const);
 
 /** A pair of shapes: link and piece of each. */
@@ -62,11 +62,11 @@ export type Pair = [[number, number], [number, number]];
 export interface State {
   entries: Entry[];
   robot: RobotModel | null;
-  /** What is being loaded, with its progress. */
+  /** The progress of loading. */
   loading: { title?: string; what: string; done: number; of: number } | null;
   /** Why there is no robot. */
   failure: string | null;
-  /** What could not be loaded of the picture, by layer. */
+  /** Errors of loading, by layer. */
   faults: Map<string, string[]>;
   q: number[];
   /** x, y, z and the quaternion w, x, y, z of each link. */
@@ -75,51 +75,51 @@ export interface State {
   hovered: Part | null;
   layers: Record<LayerKind, Layer>;
   overlays: Record<OverlayKind, boolean>;
-  /** Length of the axes of frames, metres; null where it follows from the robot's size. */
+  /** Length of the axes of frames, metres; null for the default, by the robot's size. */
   frameSize: number | null;
   hidden: ReadonlySet<number>;
   tab: Tab;
   shapes: ShapeKind;
   proximity: { answer: ProximityAnswer | null; error: string | null };
-  /** What is in contact now; null where that is not known. The same object as long as it is the same. */
+  /** The present contacts; null if unknown. The same object while they do not change. */
   contacts: Contacts | null;
   pair: Pair | null;
   skips: {
     answer: SkipsAnswer | null;
     error: string | null;
-    /** Edits as they were before, the last last. */
+    /** Previous edits for undo, the newest last. */
     before: SkipEdit[][];
-    /** Whether there are edits that are not saved. */
+    /** Whether there are unsaved edits. */
     dirty: boolean;
-    /** How many saves can be undone. */
+    /** Number of saves that can be undone. */
     saved: number;
   };
   report: { report: Report | null; error: string | null; busy: string | null };
-  /** Meshes that the URDF names and the URDD does not have. */
+  /** Meshes that the URDF references and the URDD lacks. */
   absent: AbsentMesh[];
-  /** Colours of links by their findings: by their worst, by those of one rule, or not. */
+  /** What links are painted by: their worst finding, one rule, or nothing. */
   painted: "worst" | { code: string } | null;
-  /** Colours of links by the part that they are of, where the robot was put together. */
+  /** Whether links are coloured by part, for a combined robot. */
   byPart: boolean;
-  /** The pose error of the sample that is shown. */
+  /** The pose errors of the displayed sample. */
   sample: { at: number; of: number; position: number; angle: number } | null;
-  /** A line for the status bar, for a moment. */
+  /** A temporary line in the status bar. */
   note: string | null;
   units: Units;
-  /** Whether `urdd view` answers: it ended, or another one is in its place. */
+  /** Whether `urdd view` answers, has ended, or was replaced by another one. */
   server: "here" | "gone" | "another";
-  /** What is unfolded where the window is narrow. */
+  /** The unfolded panel in a narrow window. */
   unfolded: "links" | "panels" | null;
 }
 
 export const NO_SKIPS: State["skips"] = { answer: null, error: null, before: [], dirty: false, saved: 0 };
 
-/** The pair that fades the rest: in the tab of distances alone. */
+/** The pair that fades other links, in the Proximity tab only. */
 export function ghosted({ pair, tab }: Readonly<State>): Pair | null {
   return tab === "Proximity" ? pair : null;
 }
 
-/** The layers that are drawn: a chosen pair is seen in its own shapes, whatever else is on. */
+/** The drawn layers: a selected pair is always drawn in its own shapes. */
 export function drawnLayers(state: Readonly<State>): State["layers"] {
   const { layers, shapes } = state;
   return ghosted(state) && !layers[shapes].on ? { ...layers, [shapes]: { on: true, opacity: 1 } } : layers;
@@ -189,7 +189,7 @@ export class StateStore {
     }
   }
 
-  /** Calls now, and whenever one of these changed. */
+  /** Calls the listener now, and after each change of these. */
   on(keys: readonly (keyof State)[], listener: Listener): void {
     this.listeners.push({ keys, listener });
     listener(this.state);

@@ -1,5 +1,5 @@
-/** The token by which `urdd view` knows its page. All tabs of this browser share it: storage is of this address and port
- * alone, so no other page and no other server of this machine has it. */
+/** The token that `urdd view` requires. All tabs of this browser share it. Storage is separate for each address and port,
+ * so no other page or server of this machine can read it. */
 
 const KEY = "urdd-token";
 
@@ -7,7 +7,7 @@ export function keptToken(): string | null {
   try {
     return localStorage.getItem(KEY);
   } catch {
-    // A frame that may keep nothing, as in a notebook.
+    // A sandboxed frame, as in a notebook, has no storage.
     return null;
   }
 }
@@ -16,6 +16,6 @@ export function keepToken(token: string | null): void {
   try {
     if (token !== null) localStorage.setItem(KEY, token);
   } catch {
-    // It holds until the page is left.
+    // It lasts until the page is closed.
   }
 }

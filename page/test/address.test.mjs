@@ -23,7 +23,7 @@ async function shared(page) {
   await page.click("#tab-Shapes");
   await page.uncheck("#overlay-grid");
   await page.getByRole("button", { name: "Share" }).click();
-  await page.getByText("The link is copied").waitFor();
+  await page.getByText("Link copied").waitFor();
   return { link: await page.evaluate(() => globalThis.navigator.clipboard.readText()), view: await seen(page) };
 }
 
@@ -187,7 +187,7 @@ test(
     await server.status;
     const port = new URL(server.address).port;
     const next = await view(set.made.robots, "--port", port);
-    await page.getByText("Another `urdd view` has taken the place").waitFor();
+    await page.getByText("Another `urdd view` has replaced").waitFor();
     await page.goto(next.address);
     await page.waitForSelector(".card:visible");
     await page.locator(".server").waitFor({ state: "hidden" });

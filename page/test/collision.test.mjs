@@ -152,7 +152,7 @@ inPage(set, "a chosen pair fades the rest in its tab alone, and Escape or anothe
   await soon(async () => assert.ok(!(await faded())));
   assert.equal(await state(page, "pair", () => true), null);
   await choose();
-  await page.getByRole("button", { name: "See its skip" }).click();
+  await page.getByRole("button", { name: "Show in Skips" }).click();
   // There the pair is chosen, and the robot is whole.
   assert.notEqual(await state(page, "pair"), null);
   await soon(async () => assert.ok(!(await faded())));

@@ -112,7 +112,7 @@ inPage(set, "a fault of most links paints none, unless it is chosen, and a legen
     });
   await soon(async () => assert.equal((await red())[0], 0));
   await page.selectOption("#painted", "worst");
-  assert.match(await page.locator("#panel-Findings .legend").textContent(), /Left out: \w+ \(\d+ of 9 links\)/);
+  assert.match(await page.locator("#panel-Findings .legend").textContent(), /Not shown: \w+ \(\d+ of 9 links\)/);
   await soon(async () => assert.equal((await red())[0], 0));
   const code = /(\w+) \(\d+ of 9/.exec(await page.locator("#panel-Findings .legend").textContent())[1];
   await page.selectOption("#painted", code);

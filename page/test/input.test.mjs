@@ -170,7 +170,7 @@ inPage(set, "a URDF, a folder without a URDD and one of a gigabyte are told what
   const empty = join(folder, "photos");
   mkdirSync(empty);
   writeFileSync(join(empty, "a.txt"), "a");
-  await said(/This is no URDD/, empty);
+  await said(/This is not a URDD/, empty);
   cpSync(join(set.made.robots, "gripper"), join(folder, "vast"), { recursive: true });
   hollow(join(folder, "vast/film.bin"), 1_100_000_000);
   await said(/more than 1 GB/, join(folder, "vast"));
@@ -187,7 +187,7 @@ inPage(
       .first()
       .click();
     await state(page, "robot");
-    await page.getByText(/no picture: this browser gives no WebGL/).waitFor();
+    await page.getByText(/Cannot draw the robot: this browser has no WebGL/).waitFor();
     await page.getByRole("button", { name: "Middle" }).click();
     await state(page, "q", (q) => q.some((value) => value !== 0));
     await page.click("#tab-Proximity");
@@ -265,7 +265,7 @@ inPage(
       );
     const { links, about } = await state(page, "robot");
     assert.match(String(await ask("explain", { code: "DOF003" })), /engine stopped/);
-    assert.equal(await ask("poses", { q: about.zero }), 7 * links.length);
+    assert.equal(await ask("linkPoses", { q: about.zero }), 7 * links.length);
   },
   { routes: [["**/worker.js", trapping("urdd_explain", 1)]] },
 );

@@ -98,13 +98,13 @@ inPage(set, "the line says what the network gives, free and in collision", async
     const verdict =
       least > 0
         ? in_collision
-          ? "held to be clear, and is in collision: missed"
+          ? "predicted clear, but is in collision: missed"
           : "clear"
         : in_collision
           ? "may be in contact"
-          : "held to be in contact, and is free";
+          : "predicted in contact, but is free";
     seen.add(verdict);
-    const found = /^Model: (.*) \(least clearance (−?[\d.]+) mm, (.*) – (.*)\)misses (.*)$/.exec(text);
+    const found = /^Model: (.*) \(minimum clearance (−?[\d.]+) mm, (.*) – (.*)\)misses (.*)$/.exec(text);
     assert.ok(found, text);
     assert.equal(found[1], verdict);
     const shown = Number(found[2].replace("−", "-")) / 1000;
@@ -112,15 +112,15 @@ inPage(set, "the line says what the network gives, free and in collision", async
     assert.deepEqual([found[3], found[4]], [links[pair.link_a_idx].name, links[pair.link_b_idx].name]);
     assert.equal(found[5], rates(model.evaluation));
     const exact = await page.locator(".collision").textContent();
-    assert.match(exact, in_collision ? /^In collision with itself: \d+ pairs? of links$/ : /^No self-collision$/);
+    assert.match(exact, in_collision ? /^Self-collision: \d+ pairs? of links$/ : /^No self-collision$/);
   }
   assert.ok(seen.has("clear") && seen.has("may be in contact"), [...seen].join(", "));
   // It stands for pieces, and for no other shapes.
   assert.ok(await page.locator(".learned").isVisible());
-  await page.getByLabel("Shapes that distances are between").selectOption("hulls");
+  await page.getByLabel("Kind of shapes").selectOption("hulls");
   await state(page, "proximity", ({ answer }) => answer !== null);
   assert.equal(await page.locator(".learned").isVisible(), false);
-  await page.getByLabel("Shapes that distances are between").selectOption("pieces");
+  await page.getByLabel("Kind of shapes").selectOption("pieces");
   await state(page, "proximity", ({ answer }) => answer !== null);
   assert.ok(await page.locator(".learned").isVisible());
 });
@@ -130,11 +130,11 @@ inPage(set, "a model that is wrong is said to be, and one that cannot be read, a
   const free = all.find(({ in_collision }) => !in_collision).values;
   const colliding = all.find(({ in_collision }) => in_collision).values;
   await proximity(page, "wary");
-  assert.match(await moved(page, colliding), /^Model: may be in contact \(least clearance −/);
-  assert.match(await moved(page, free), /^Model: held to be in contact, and is free \(least clearance −/);
+  assert.match(await moved(page, colliding), /^Model: may be in contact \(minimum clearance −/);
+  assert.match(await moved(page, free), /^Model: predicted in contact, but is free \(minimum clearance −/);
   await proximity(page, "blind");
   assert.match(await moved(page, free), /^Model: clear \(/);
-  assert.match(await moved(page, colliding), /^Model: held to be clear, and is in collision: missed \(/);
+  assert.match(await moved(page, colliding), /^Model: predicted clear, but is in collision: missed \(/);
 
   const answer = await proximity(page, "broken");
   assert.ok(answer.nearest.length > 0);

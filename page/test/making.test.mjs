@@ -78,7 +78,7 @@ test("a URDF that makes no robot: the page says why, and the program ends with 1
   writeFileSync(bad, `<robot name="bad"><link name="a"/><link name="a"/></robot>`);
   const server = await view(bad);
   const { page, close } = await tab(set.chrome, server.address);
-  await page.getByText("There is no URDD of bad").waitFor();
+  await page.getByText("Generation of bad failed").waitFor();
   assert.equal(await server.status, 1);
   await close();
 });

@@ -79,7 +79,7 @@ inPage(set, "poses are taken back and made again", async (page) => {
   const random = await state(page, "q", (q) => q.some((value, dof) => value !== middle[dof]));
   await page.keyboard.press("Control+z");
   assert.deepEqual(await state(page, "q"), middle);
-  await page.getByRole("button", { name: "Take the last move back" }).click();
+  await page.getByRole("button", { name: "Undo the last move" }).click();
   assert.deepEqual(await state(page, "q"), zero);
   await page.keyboard.press("Control+Shift+Z");
   await page.keyboard.press("Control+Shift+Z");
@@ -147,7 +147,7 @@ inPage(set, "skips: columns have names, the reason is there, and no button comes
   const button = page.getByRole("button", { name: "Its pieces" });
   const { x, y, width, height } = await button.boundingBox();
   await button.click();
-  await state(page, "skips", ({ answer }) => answer.shapes === "pieces");
+  await state(page, "skips", ({ answer }) => answer.kind === "pieces");
   const under = await page.evaluate(
     ([x, y]) => globalThis.document.elementFromPoint(x, y).textContent,
     [x + width / 2, y + height / 2],

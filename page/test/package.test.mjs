@@ -38,17 +38,17 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
       const robot = urdd.robot(source);
       const q: number[] = robot.about.middle ?? [];
       const link: number = robot.about.links.length - 1;
-      const there = robot.poses(q)[link];
+      const there = robot.linkPoses(q)[link];
       if (!there) throw new Error("no pose");
-      const reached = robot.reach({ q: robot.random(3), link, position: there.position, restarts: 20 });
+      const reached = robot.inverseKinematics({ q: robot.random(3), link, position: there.position, restarts: 20 });
       const [nearest] = robot.nearest(robot.about.zero ?? [], 1, "hulls");
       const [model, clearances] = [robot.collisionModel, robot.clearances(q)];
       const missed: number | undefined = model?.evaluation.num_missed;
-      const least: number | undefined = clearances?.least?.clearance;
+      const least: number | undefined = clearances?.min_clearance?.clearance;
       if (model !== null || clearances !== null) throw new Error("a model, where there is none: " + missed + least);
       console.log(JSON.stringify({ report, there, reached, nearest, code: urdd.explain("DOF003").code }));
       robot.close();
-      try { robot.poses(q); throw new Error("open"); } catch (error) { if (!/closed/.test(String(error))) throw error; }
+      try { robot.linkPoses(q); throw new Error("open"); } catch (error) { if (!/closed/.test(String(error))) throw error; }
     `;
     writeFileSync(join(project, "main.ts"), program);
     const tsc = createRequire(import.meta.url).resolve("typescript/bin/tsc");

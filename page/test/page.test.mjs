@@ -13,7 +13,7 @@ async function posed(page) {
   await soon(async () => {
     const [expected, drawn] = await page.evaluate(async () => {
       const { app } = globalThis.urdd;
-      const expected = await app.engine.ask("poses", { q: app.store.now.q });
+      const expected = await app.engine.ask("linkPoses", { q: app.store.now.q });
       return [[...expected], [...app.store.now.poses]];
     });
     assert.deepEqual(drawn, expected);
@@ -172,7 +172,7 @@ describe("the page", { concurrency: false }, () => {
     await open(page, "welding_arm");
     await page.click("#tab-Proximity");
     await state(page, "proximity", (value) => value.answer !== null);
-    await page.getByLabel("Shapes that distances are between").selectOption("hulls");
+    await page.getByLabel("Kind of shapes").selectOption("hulls");
     const { answer } = await state(page, "proximity", (value) => value.answer !== null);
     const edits = async (count) =>
       (await state(page, "skips", ({ answer }) => answer?.edits.length === count)).answer.edits;
@@ -226,7 +226,7 @@ describe("the page", { concurrency: false }, () => {
     await page.locator(".pair").first().click();
     assert.notEqual(await state(page, "pair"), null);
     await page.waitForSelector(".witness:not([hidden])");
-    await page.getByLabel("Shapes that distances are between").selectOption("boxes");
+    await page.getByLabel("Kind of shapes").selectOption("boxes");
     await state(page, "proximity", (value) => value.answer !== null);
     assert.equal(await state(page, "shapes"), "boxes");
   });
@@ -335,7 +335,7 @@ describe("the page", { concurrency: false }, () => {
     await page.locator(".links input").nth(2).uncheck();
     await page.locator(".joint .heading").first().dispatchEvent("click");
     await page.click("#tab-Proximity");
-    await page.getByLabel("Shapes that distances are between").selectOption("hulls");
+    await page.getByLabel("Kind of shapes").selectOption("hulls");
     await state(page, "proximity", (value) => value.answer !== null);
     await page.keyboard.press("r");
     await page.locator(".pair").nth(2).click();

@@ -40,7 +40,7 @@ inPage(set, "README shows the page as it is", async (page) => {
   });
   await page.getByRole("button", { name: "Pieces", exact: true }).click();
   await page.click("#tab-Proximity");
-  await page.getByLabel("Shapes that distances are between").selectOption("hulls");
+  await page.getByLabel("Kind of shapes").selectOption("hulls");
   await state(page, "proximity", (value) => value.answer !== null);
   await page.evaluate(() => {
     const { app } = globalThis.urdd;

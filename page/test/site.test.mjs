@@ -56,7 +56,7 @@ inPage(set, "the gallery has a picture, links, DOFs and the verdict of each robo
   await page.getByRole("searchbox", { name: "Find a robot" }).fill("9 links");
   assert.equal(await page.locator(".card:visible").count(), 1);
   await page.getByRole("searchbox", { name: "Find a robot" }).fill("nothing of the kind");
-  await page.getByText("No robot is like that.").waitFor();
+  await page.getByText("No robot matches.").waitFor();
 });
 
 inPage(set, "the site shows its robots, with their reports, and writes nothing", async (page) => {
@@ -80,7 +80,7 @@ inPage(set, "a link of the site opens its view in another browser, and Back lead
   await page.getByRole("button", { name: "Middle" }).click();
   const middle = await state(page, "q", (q) => q.some((value) => value !== 0));
   await page.getByRole("button", { name: "Share" }).click();
-  await page.getByText("The link is copied.").waitFor();
+  await page.getByText("Link copied.").waitFor();
   const link = await page.evaluate(() => globalThis.navigator.clipboard.readText());
   assert.ok(!link.includes("token"), link);
   const other = await tab(set.chrome, link);

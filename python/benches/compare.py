@@ -62,7 +62,7 @@ class Effort:
 
 #: What a fresh process does. `{urdd}` and `{urdf}` are paths; `{dofs}` is a number.
 LOADING = {
-    "urdd": "import urdd\nrobot = urdd.load({urdd!r})\nrobot.fk(robot.zero)",
+    "urdd": "import urdd\nrobot = urdd.load({urdd!r})\nrobot.link_poses(robot.zero)",
     "Pinocchio": (
         "import pinocchio as pin\nmodel = pin.buildModelFromUrdf({urdf!r})\ndata = model.createData()\n"
         "pin.framesForwardKinematics(model, data, pin.neutral(model))"
@@ -132,7 +132,7 @@ def loading(code: str) -> tuple[float, float] | None:
 
 def farthest(robot: urdd.Robot) -> int:
     """The link that the most DOFs move."""
-    moves = (robot.jacobian(robot.sample(), link).any(axis=0).sum() for link in range(robot.num_links))
+    moves = (robot.jacobian(robot.random(), link).any(axis=0).sum() for link in range(robot.num_links))
     return int(np.argmax(list(moves)))
 
 
@@ -141,14 +141,14 @@ def of_us(robot: urdd.Robot, q: Any) -> dict[str, float]:
     last = farthest(robot)
     proximity = robot.proximity()
     found = {
-        "poses": clock(lambda: robot.fk(q)),
+        "poses": clock(lambda: robot.link_poses(q)),
         "Jacobians": clock(lambda: robot.jacobian(q, last)),
         "collisions": clock(lambda: proximity.in_collision(q)),
     }
 
     def one_by_one() -> None:
         for row in q[: Effort.fewer]:
-            robot.fk(row)
+            robot.link_poses(row)
 
     found["poses, one by one"] = clock(one_by_one) / Effort.fewer * len(q)
     return found
@@ -300,7 +300,7 @@ def compare(urdf: Path, folder: Path) -> str:
     """The table of a robot."""
     made = urdd.generate(urdf, folder)
     robot = made.load()
-    q = robot.sample(Effort.configurations)
+    q = robot.random(Effort.configurations)
     colliding = robot.in_collision(q).mean()
     pairs = robot.proximity().num_pairs
     found: dict[str, dict[str, float]] = {"urdd": of_us(robot, q)}
@@ -339,7 +339,7 @@ def compare(urdf: Path, folder: Path) -> str:
             walls.append(f"{name} {1000 * load[0]:.0f}")
     print(f"{robot.name}: load, wall, ms: {', '.join(walls)}", file=sys.stderr)
     alone = found["urdd"]["poses, one by one"] / len(q) * 1e6
-    print(f"{robot.name}: urdd.fk one by one: {alone:.2f} µs", file=sys.stderr)
+    print(f"{robot.name}: urdd.link_poses one by one: {alone:.2f} µs", file=sys.stderr)
     return "\n".join(lines)
 
 

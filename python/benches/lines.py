@@ -31,7 +31,7 @@ LOAD = {
 }
 
 POSES = {
-    "urdd": "poses = robot.fk(q)",
+    "urdd": "poses = robot.link_poses(q)",
     "Pinocchio": "pin.framesForwardKinematics(model, data, q)\nposes = [frame.homogeneous for frame in data.oMf]",
     "yourdfpy": "robot.update_cfg(q)\nposes = [robot.get_transform(link) for link in robot.link_map]",
     "MuJoCo": "data.qpos[:] = q\nmujoco.mj_kinematics(model, data)\nposes = data.xpos, data.xmat",
@@ -44,7 +44,7 @@ POSES = {
 
 #: Damped least squares within limits; one restart less than `robot.ik` has.
 INVERSE = {
-    "urdd": "found = robot.ik(tool, target).q",
+    "urdd": "found = robot.inverse_kinematics(tool, target).q",
     "Pinocchio": """frame = model.getFrameId(tool)
 found = pin.neutral(model)
 for _ in range(500):
@@ -112,7 +112,7 @@ def main() -> None:
     urdf = Path(sys.argv[1])
     with tempfile.TemporaryDirectory() as folder:
         robot = urdd.generate(urdf, Path(folder) / "robot").load()
-        free: Any = next(row for row in robot.sample(1000, 1) if not robot.in_collision(row))
+        free: Any = next(row for row in robot.random(1000, 1) if not robot.in_collision(row))
         moves = [int(robot.jacobian(free, link).any(axis=0).sum()) for link in range(robot.num_links)]
         tool = robot.link_names[int(np.argmax(moves))]
         given = {
@@ -121,7 +121,7 @@ def main() -> None:
             "urdf_path": str(urdf),
             "package_dirs": [str(urdf.parent)],
             "tool": tool,
-            "target": robot.fk(robot.middle, tool),
+            "target": robot.link_pose(robot.middle, tool),
         }
         modules = {"urdd": "urdd", "Pinocchio": "pinocchio", "yourdfpy": "yourdfpy", "MuJoCo": "mujoco"}
         print("| | load and poses | inverse kinematics | self-collision with skips |")

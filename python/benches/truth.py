@@ -42,7 +42,7 @@ def motion(pin: Any, robot: urdd.Robot, path: Path) -> tuple[float, float] | Non
         return None
     own = robot.to_pinocchio(shapes=None)
     worst = [0.0, 0.0]
-    for q in robot.sample(CONFIGURATIONS):
+    for q in robot.random(CONFIGURATIONS):
         theirs, tangent = pin.neutral(model), np.zeros((model.nv, robot.num_dofs))
         for number in range(1, model.njoints):
             joint, kind = joints[model.names[number]], model.joints[number]
@@ -54,7 +54,7 @@ def motion(pin: Any, robot: urdd.Robot, path: Path) -> tuple[float, float] | Non
                 tangent[kind.idx_v, dof] += factor
         pin.computeJointJacobians(model, data, theirs)
         pin.updateFramePlacements(model, data)
-        poses = robot.fk(q)
+        poses = robot.link_poses(q)
         for link, name in enumerate(robot.link_names):
             frame = model.getFrameId(name, pin.FrameType.BODY)
             worst[0] = max(worst[0], float(np.abs(data.oMf[frame].homogeneous - poses[link]).max()))
@@ -72,7 +72,7 @@ def distances(pin: Any, robot: urdd.Robot) -> tuple[int, float]:
     for request in geometry.distanceRequests:
         request.gjk_tolerance = 1e-9
     worst = 0.0
-    for q in robot.sample(FEWER):
+    for q in robot.random(FEWER):
         pin.computeDistances(peer.model, data, peer.collision_model, geometry, peer.q(q))
         theirs = np.array([max(result.min_distance, 0.0) for result in geometry.distanceResults])
         worst = max(worst, float(np.abs(robot.distances(q) - theirs).max(initial=0.0)))

@@ -13,7 +13,7 @@ robot = urdd.load(sys.argv[1])
 wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 1000
 found = np.empty((0, robot.num_dofs))
 for seed in range(100):
-    q = robot.sample(wanted, seed)
+    q = robot.random(wanted, seed)
     found = np.concatenate([found, q[~robot.in_collision(q)]])[:wanted]
     if len(found) == wanted:
         break

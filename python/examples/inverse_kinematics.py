@@ -14,7 +14,7 @@ import urdd
 def solve(robot, link, target, q, damping=1e-2, steps=500):
     """A configuration in which `link` is at `target` (4, 4), from `q` on."""
     for _ in range(steps):
-        pose = robot.fk(q, link)
+        pose = robot.link_pose(q, link)
         turn = target[:3, :3] @ pose[:3, :3].T
         axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / 2
         error = np.concatenate([target[:3, 3] - pose[:3, 3], axis])
@@ -31,12 +31,12 @@ if __name__ == "__main__":
         sys.exit(__doc__)
     robot = urdd.load(sys.argv[1])
     link = sys.argv[2]
-    wanted = robot.sample(seed=3)
-    target = robot.fk(wanted, link)
+    wanted = robot.random(seed=3)
+    target = robot.link_pose(wanted, link)
     nearby = robot.clamp(wanted + 0.1)
 
     q, error = solve(robot, link, target, nearby)
     print(f"a dozen lines: error {error:.1e}, q = {np.round(q, 4)}")
 
-    found = robot.ik(link, target)
+    found = robot.inverse_kinematics(link, target)
     print(f"robot.ik:      reached {found.reached}, {found.position_error:.1e} m, {found.rotation_error:.1e} rad")

@@ -14,8 +14,8 @@ robot = urdd.load(sys.argv[1])
 spheres = robot.spheres("pieces")
 links = [robot.link(link) for link in spheres.links]
 
-q = robot.sample(1000)
-poses = robot.fk(q)[:, links]  # (1000, spheres, 4, 4)
+q = robot.random(1000)
+poses = robot.link_poses(q)[:, links]  # (1000, spheres, 4, 4)
 centres = (poses[..., :3, :3] @ spheres.centres[..., None])[..., 0] + poses[..., :3, 3]  # (1000, spheres, 3)
 
 obstacle, radius = np.array([0.6, 0.0, 0.5]), 0.1

@@ -14,7 +14,7 @@ robot = urdd.load(sys.argv[1])
 model = robot.collision_model()
 print(model)
 # Another seed than 0: the model was trained on configurations of that one.
-q = robot.sample(int(sys.argv[2]) if len(sys.argv) > 2 else 10_000, seed=1)
+q = robot.random(int(sys.argv[2]) if len(sys.argv) > 2 else 10_000, seed=1)
 robot.in_collision(q[0])  # reads the meshes, before time is taken
 
 begin = time.process_time()

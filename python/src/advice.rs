@@ -21,14 +21,14 @@ pub fn of_robot(error: &RobotError) -> String {
             let name = module.name();
             let short = name.strip_suffix("_module").unwrap_or(name);
             format!(
-                "{name} is missing: make it with urdd.generate(urdf, folder, modules=[\"{short}\"])"
+                "{name} is missing: generate it with urdd.generate(urdf, folder, modules=[\"{short}\"])"
             )
         }
         RobotError::Unusable { module, reason } => {
             format!("{}: {reason}: {SAYS_MORE}", module.name())
         }
         RobotError::MotionOpen => {
-            format!("the modules do not say how the joints move: {SAYS_MORE}")
+            format!("the modules do not define how the joints move: {SAYS_MORE}")
         }
         error => error.to_string(),
     }
@@ -49,30 +49,31 @@ pub fn of_generate(error: &GenerateError) -> String {
             let file = line(file);
             let each = meshes.iter().map(|mesh| {
                 let (name, path) = (line(&mesh.name), mesh.path.display().to_string());
-                let words = "lies outside of the folders of the robot and its packages, at";
+                let words = "is outside of the folders of the robot and its packages, at";
                 let at = format!("{file}:{}:{}", mesh.line, mesh.column);
                 format!("{at}: mesh `{name}` {words} {}", line(&path))
             });
-            let words = "a URDD carries its meshes, and a URDF must not make you publish other files; where these are \
-                meant, give their folder: allowed_folders=[folder], or packages={name: folder}";
+            let words = "a URDD includes its meshes, and a URDF must not make you publish other files; if these are \
+                intended, pass their folder: allowed_folders=[folder], or packages={name: folder}";
             format!("{}\n{file}: {words}", shown(each))
         }
         GenerateError::Strict { notes } => {
-            let words = "nothing was written: with strict=True, nothing that changes the robot may be assumed";
+            let words =
+                "nothing was written: strict=True rejects assumptions that change the robot";
             format!("{}\n{words}", shown(notes.iter().map(ToString::to_string)))
         }
         GenerateError::Edits { file, at, fault } => {
             let at = at.map_or_else(String::new, |at| format!(":{at}"));
-            let words = "the edits of skips there are a person's, and a new run would lose them. Correct the file, or \
-                drop all its edits: drop_edits=True";
+            let words = "a new run would lose the user's edits of skips. Correct the file, or discard all its edits: \
+                drop_edits=True";
             format!("{}{at}: {}; {words}", file.display(), of_edits(fault))
         }
-        GenerateError::Geometry { file, reason } => format!(
-            "{file}: {reason}; fix the mesh, or leave out the distances: modules=[\"geometry\"]"
-        ),
+        GenerateError::Geometry { file, reason } => {
+            format!("{file}: {reason}; fix the mesh, or omit the distances: modules=[\"geometry\"]")
+        }
         GenerateError::Write(StagingError::Occupied { path }) => format!(
-            "{}: this folder is not empty, and no URDD that urdd.generate wrote; give another one, or force=True to \
-             write there (files of other names stay)",
+            "{}: this folder is not empty, and not a URDD of urdd.generate; choose another one, or force=True to \
+             write there (files with other names stay)",
             path.display()
         ),
         error => error.to_string(),
@@ -96,7 +97,7 @@ pub fn of_combine(error: &CombineError) -> String {
                 false => format!("part `{}`: ", line(id)),
             };
             format!(
-                "{part}{}: it does not pass urdd.validate: {}; correct it, or take it as it is: force=True",
+                "{part}{}: it does not pass urdd.validate: {}; correct it, or accept it: force=True",
                 line(source_path),
                 codes.join(", ")
             )
@@ -109,7 +110,7 @@ pub fn of_combine(error: &CombineError) -> String {
 pub fn of_export(error: &ExportError) -> String {
     match error {
         ExportError::NoTree => {
-            format!("the joints form no tree with one root: {SAYS_MORE}")
+            format!("the joints do not form a tree with one root: {SAYS_MORE}")
         }
         error => error.to_string(),
     }
@@ -117,15 +118,15 @@ pub fn of_export(error: &ExportError) -> String {
 
 /// The message of a fault in a source.
 pub fn of_fault(fault: &Fault) -> String {
-    let leave_out = "leave out what is made of meshes: modules=[\"core\"]";
+    let leave_out = "omit the modules that need meshes: modules=[\"core\"]";
     match fault {
         Fault::TooManyTriangles { link, found, limit } => format!(
-            "the shapes of link `{link}` have {found} triangles, and URDDs are made of up to {limit} a link; make its \
+            "the shapes of link `{link}` have {found} triangles, and the limit for a link is {limit}; make its \
              meshes coarser, or {leave_out}"
         ),
         Fault::TooManyTrianglesInAll { limit } => format!(
-            "the shapes of all links have more than {limit} triangles, which is the most that URDDs are made of; make \
-             the meshes coarser, or {leave_out}"
+            "the shapes of all links have more than {limit} triangles, which is the limit; make the meshes coarser, \
+             or {leave_out}"
         ),
         Fault::Unresolved { link } => format!(
             "link `{link}`: its shape is too thin, or too far from the link's frame, for the 32-bit numbers of mesh \
@@ -139,7 +140,7 @@ pub fn of_fault(fault: &Fault) -> String {
 pub fn of_edits(fault: &EditsFault) -> String {
     match fault {
         EditsFault::NotAskedFor(count) => format!(
-            "it holds {count} edit{}, and the modules asked for leave out link_shapes_skips_module; add \
+            "it has {count} edit{}, and the requested modules omit link_shapes_skips_module; add \
              \"link_shapes_skips\" to modules",
             if *count == 1 { "" } else { "s" }
         ),

@@ -99,16 +99,15 @@ fn no_memory(bytes: usize) -> PyErr {
     PyMemoryError::new_err(words)
 }
 
-/// The results of a batch of configurations, in an array whose first axis is the configuration. `one` writes those of
-/// one configuration, given its index. It runs on this thread, with the interpreter attached, for `few` or fewer
-/// configurations, and once if all are `the_same`. `many` writes all results on the thread pool, until Ctrl-C.
+/// The results of a batch of configurations, in an array whose first axis is the configuration, as `write` writes them:
+/// on this thread for `few` or fewer configurations, otherwise on the thread pool, until Ctrl-C. If all configurations
+/// are `the_same`, it writes the results of the first, which are copied.
 pub fn answers<'py, T: Element + Copy, S: IntoDimension>(
     py: Python<'py>,
     shape: S,
     few: usize,
     the_same: bool,
-    one: impl Fn(usize, &mut [T]) -> Result<(), RobotError>,
-    many: impl FnOnce(&Cancellation, &mut [T]) -> Result<(), RobotError> + Send,
+    write: impl FnOnce(&Cancellation, &mut [T]) -> Result<(), RobotError> + Send,
 ) -> PyResult<Bound<'py, PyArray<T, S::Dim>>> {
     let array = zeros(py, shape)?;
     let count = array.shape()[0];
@@ -119,15 +118,14 @@ pub fn answers<'py, T: Element + Copy, S: IntoDimension>(
         Ok(())
     } else if the_same {
         let (first, others) = out.split_at_mut(width);
-        let found = one(0, first);
+        let found = py.detach(|| write(&Cancellation::default(), first));
         let others = others.chunks_exact_mut(width.max(1));
         others.for_each(|other| other.copy_from_slice(first));
         found
     } else if count <= few {
-        let mut rows = (0..count).zip(out.chunks_exact_mut(width.max(1)));
-        rows.try_for_each(|(k, row)| one(k, row))
+        py.detach(|| write(&Cancellation::default(), out))
     } else {
-        work::run(py, |cancellation| many(cancellation, out))?
+        work::run(py, |cancellation| write(cancellation, out))?
     };
     drop(guard);
     written.map_err(|error| of_robot(py, &error))?;

@@ -4,7 +4,6 @@ use numpy::ndarray::IntoDimension;
 use numpy::{Element, PyArray, PyArray1, PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use urdd_directory::cancellation::Cancellation;
 use urdd_format::index::LinkIdx;
 use urdd_kinematics::ConfigurationError;
 use urdd_robot::RobotError;
@@ -43,14 +42,18 @@ impl CollisionModel {
     ) -> PyResult<Bound<'py, PyArray<T, S::Dim>>> {
         let batch = Batch::new(configurations)?;
         let (count, dofs) = (batch.count, self.0.num_dofs());
-        let write = |k: usize, out: &mut [T]| {
-            out.copy_from_slice(&py.detach(|| one(&self.0, batch.row(k)))?);
-            Ok(())
-        };
-        let all = |cancellation: &Cancellation, out: &mut [T]| {
-            let width = out.len() / count;
+        answers(py, shape, FEW, batch.is_one(), |cancellation, out| {
+            let rows = if batch.is_one() { 1 } else { count };
+            let width = out.len() / rows;
             if width == 0 {
                 return Ok(());
+            }
+            if rows <= FEW {
+                let mut rows = out.chunks_exact_mut(width).enumerate();
+                return rows.try_for_each(|(k, out)| {
+                    out.copy_from_slice(&one(&self.0, batch.row(k))?);
+                    Ok(())
+                });
             }
             // Limits the additional memory of a block.
             let block = (VALUES_AT_ONCE / width).clamp(1, BETWEEN_LOOKS);
@@ -60,8 +63,7 @@ impl CollisionModel {
                 out.copy_from_slice(&many(&self.0, block)?);
             }
             Ok(())
-        };
-        answers(py, shape, FEW, batch.is_one(), write, all)
+        })
     }
 }
 
@@ -134,7 +136,7 @@ impl CollisionModel {
     }
 
     /// (count,).
-    fn least<'py>(
+    fn min_clearance<'py>(
         &self,
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
@@ -142,7 +144,7 @@ impl CollisionModel {
         let one =
             |model: &Model, q: &[f64]| -> Answer<f64> { Ok(vec![least(&model.clearances(q)?)]) };
         let count = configurations.shape()[0];
-        self.each(py, &configurations, count, one, Model::least_batch)
+        self.each(py, &configurations, count, one, Model::min_clearance_batch)
     }
 
     /// (count,).
@@ -173,7 +175,7 @@ impl CollisionModel {
         let one = move |model: &Model, q: &[f64]| -> Answer<f64> {
             let found = match pair {
                 Some(pair) => model.gradient(q, pair)?,
-                None => model.least(q)?.map(|least| least.gradient),
+                None => model.min_clearance(q)?.map(|least| least.gradient),
             };
             Ok(found.unwrap_or_else(|| vec![0.0; q.len()]))
         };

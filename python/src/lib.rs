@@ -49,7 +49,7 @@ mod _urdd {
     #[pymodule_export]
     use crate::validate::{explain, validate};
     #[pymodule_export]
-    use crate::world::{Among, Obstacle};
+    use crate::world::{Obstacle, WorldProximity};
 
     use pyo3::prelude::*;
 

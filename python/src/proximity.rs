@@ -7,8 +7,7 @@ use numpy::{
     Element, PyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
-use urdd_directory::cancellation::Cancellation;
-use urdd_robot::{PairDistance, RobotError, Until};
+use urdd_robot::{Cancellable, PairDistance, RobotError};
 
 use crate::arrays::{Batch, answers, shaped};
 use crate::errors::of_robot;
@@ -36,15 +35,25 @@ impl Proximity {
         py: Python<'py>,
         configurations: &PyReadonlyArray2<'py, f64>,
         shape: S,
-        one: impl Fn(&urdd_robot::Proximity, &[f64], &mut [T]) -> Result<(), RobotError> + Sync,
-        many: impl FnOnce(&Until<'_>, &[f64], &mut [T]) -> Result<(), RobotError> + Send,
+        write: impl FnOnce(&Cancellable<'_>, &[f64], &mut [T]) -> Result<(), RobotError> + Send,
     ) -> PyResult<Bound<'py, PyArray<T, S::Dim>>> {
         let batch = Batch::new(configurations)?;
-        let one = |k: usize, out: &mut [T]| py.detach(|| one(&self.0, batch.row(k), out));
-        let many = |cancellation: &Cancellation, out: &mut [T]| {
-            many(&self.0.until(cancellation), &batch.values, out)
-        };
-        answers(py, shape, 1, batch.is_one(), one, many)
+        answers(py, shape, 1, batch.is_one(), |cancellation, out| {
+            write(&self.0.cancellable(cancellation), &batch.values, out)
+        })
+    }
+
+    /// Pairs in one configuration, with their closest points.
+    fn near(
+        &self,
+        py: Python<'_>,
+        configuration: &PyReadonlyArray2<'_, f64>,
+        ask: impl FnOnce(&urdd_robot::Proximity, &[f64]) -> Result<Vec<PairDistance>, RobotError> + Send,
+    ) -> PyResult<Vec<Near>> {
+        let batch = Batch::new(configuration)?;
+        let found = py.detach(|| ask(&self.0, &batch.values));
+        let found = found.map_err(|error| of_robot(py, &error))?;
+        Ok(found.iter().map(near).collect())
     }
 }
 
@@ -82,34 +91,21 @@ impl Proximity {
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let shape = [configurations.shape()[0], self.0.num_pairs()];
-        self.each(
-            py,
-            &configurations,
-            shape,
-            |proximity, q, out| {
-                out.copy_from_slice(&proximity.distance_values(q)?);
-                Ok(())
-            },
-            |proximity, all, out| proximity.distances_batch_into(all, out),
-        )
+        self.each(py, &configurations, shape, |proximity, all, out| {
+            proximity.distances_batch_into(all, out)
+        })
     }
 
-    /// (count,); infinite where there is no pair.
+    /// (count,); infinite if there are no pairs.
     fn self_distance<'py>(
         &self,
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.each(
-            py,
-            &configurations,
-            configurations.shape()[0],
-            |proximity, q, out| {
-                out[0] = proximity.self_distance(q)?.unwrap_or(f64::INFINITY);
-                Ok(())
-            },
-            |proximity, all, out| proximity.self_distance_batch_into(all, out),
-        )
+        let count = configurations.shape()[0];
+        self.each(py, &configurations, count, |proximity, all, out| {
+            proximity.self_distance_batch_into(all, out)
+        })
     }
 
     /// (count,).
@@ -118,16 +114,10 @@ impl Proximity {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<bool>>> {
-        self.each(
-            py,
-            &configurations,
-            configurations.shape()[0],
-            |proximity, q, out| {
-                out[0] = proximity.in_collision(q)?;
-                Ok(())
-            },
-            |proximity, all, out| proximity.in_collision_batch_into(all, out),
-        )
+        let count = configurations.shape()[0];
+        self.each(py, &configurations, count, |proximity, all, out| {
+            proximity.in_collision_batch_into(all, out)
+        })
     }
 
     /// The nearest pairs in one configuration, nearest first.
@@ -137,11 +127,7 @@ impl Proximity {
         configuration: PyReadonlyArray2<'_, f64>,
         k: usize,
     ) -> PyResult<Vec<Near>> {
-        let batch = Batch::new(&configuration)?;
-        let found = py.detach(|| self.0.nearest(&batch.values, k));
-        found
-            .map(|pairs| pairs.iter().map(near).collect())
-            .map_err(|error| of_robot(py, &error))
+        self.near(py, &configuration, |proximity, q| proximity.nearest(q, k))
     }
 
     /// The pairs that touch or overlap in one configuration.
@@ -150,11 +136,7 @@ impl Proximity {
         py: Python<'_>,
         configuration: PyReadonlyArray2<'_, f64>,
     ) -> PyResult<Vec<Near>> {
-        let batch = Batch::new(&configuration)?;
-        let found = py.detach(|| self.0.collisions(&batch.values));
-        found
-            .map(|pairs| pairs.iter().map(near).collect())
-            .map_err(|error| of_robot(py, &error))
+        self.near(py, &configuration, urdd_robot::Proximity::collisions)
     }
 }
 

@@ -27,6 +27,18 @@ const FEW: usize = 16;
 /// Configurations in one block of work.
 const BLOCK: usize = 64;
 
+/// The settings of inverse kinematics, and the point of the link that they apply to.
+#[derive(FromPyObject)]
+struct InverseOptions<'py> {
+    point: [f64; 3],
+    position_tolerance: f64,
+    rotation_tolerance: f64,
+    iterations: usize,
+    restarts: usize,
+    seed: u64,
+    bounds: Option<PyReadonlyArray2<'py, f64>>,
+}
+
 /// A robot, as its URDD describes it.
 #[pyclass(frozen, module = "urdd._urdd")]
 pub struct Robot {
@@ -46,7 +58,7 @@ impl Robot {
         if !self.is_read.load(Ordering::Acquire) {
             let _reading = work::lock(py, &self.reading)?;
             work::run(py, |_| {
-                let _ = self.robot.links();
+                let _ = self.robot.link_names();
                 let _ = self.robot.configurations();
             })?;
             self.is_read.store(true, Ordering::Release);
@@ -106,19 +118,19 @@ impl Robot {
     }
 
     fn link_names(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(self.names(py, |robot| robot.links())?.to_vec())
+        Ok(self.names(py, |robot| robot.link_names())?.to_vec())
     }
 
     fn joint_names(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(self.names(py, |robot| robot.joints())?.to_vec())
+        Ok(self.names(py, |robot| robot.joint_names())?.to_vec())
     }
 
     fn dof_names(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(self.names(py, |robot| robot.dofs())?.to_vec())
+        Ok(self.names(py, |robot| robot.dof_names())?.to_vec())
     }
 
     fn dof_units(&self, py: Python<'_>) -> PyResult<Vec<&'static str>> {
-        Ok(self.names(py, |robot| robot.units())?.to_vec())
+        Ok(self.names(py, |robot| robot.dof_units())?.to_vec())
     }
 
     /// The index of a link.
@@ -156,7 +168,7 @@ impl Robot {
     }
 
     /// `count` configurations of SPEC 9.2, from number `first` on: (count, dofs).
-    fn sample<'py>(
+    fn random<'py>(
         &self,
         py: Python<'py>,
         count: usize,
@@ -164,12 +176,17 @@ impl Robot {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let space = self.names(py, |robot| robot.configurations())?;
         let dofs = space.num_dofs();
-        let one = |k: usize, out: &mut [f64]| {
-            out.copy_from_slice(&space.random(first.wrapping_add(k as u64)));
-            Ok(())
-        };
-        answers(py, [count, dofs], BLOCK, dofs == 0, one, |on, out| {
-            each(on, out, dofs, || (), |(), k, out| one(k, out))
+        answers(py, [count, dofs], BLOCK, dofs == 0, |on, out| {
+            each(
+                on,
+                out,
+                dofs,
+                || (),
+                |(), k, out| {
+                    out.copy_from_slice(&space.random(first.wrapping_add(k as u64)));
+                    Ok(())
+                },
+            )
         })
     }
 
@@ -181,35 +198,38 @@ impl Robot {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let space = self.names(py, |robot| robot.configurations())?;
         let (batch, dofs) = (Batch::new(&configurations)?, space.num_dofs());
-        let one = |k: usize, out: &mut [f64]| {
-            out.copy_from_slice(batch.row(k));
-            space.clamp(out);
-            Ok(())
-        };
-        answers(py, [batch.count, dofs], BLOCK, dofs == 0, one, |on, out| {
-            each(on, out, dofs, || (), |(), k, out| one(k, out))
+        answers(py, [batch.count, dofs], BLOCK, dofs == 0, |on, out| {
+            each(
+                on,
+                out,
+                dofs,
+                || (),
+                |(), k, out| {
+                    out.copy_from_slice(batch.row(k));
+                    space.clamp(out);
+                    Ok(())
+                },
+            )
         })
     }
 
     /// (count, links, 4, 4); of one link (count, 1, 4, 4).
     #[pyo3(signature = (configurations, link=None))]
-    fn poses<'py>(
+    fn link_poses<'py>(
         &self,
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
         link: Option<usize>,
     ) -> PyResult<Bound<'py, PyArray4<f64>>> {
-        let links = self.names(py, |robot| robot.links())?.len();
+        let links = self.names(py, |robot| robot.link_names())?.len();
         let shown = link.map_or(links, |_| 1);
         let batch = Batch::new(&configurations)?;
-        let write = |poses: &mut Vec<Isometry3<f64>>, k: usize, out: &mut [f64]| {
-            self.robot.link_poses_into(batch.row(k), poses)?;
-            write_poses(poses, link, out)
-        };
-        let one = |k: usize, out: &mut [f64]| write(&mut Vec::new(), k, out);
         let shape = [batch.count, shown, 4, 4];
-        answers(py, shape, FEW, batch.is_one(), one, |on, out| {
-            each(on, out, shown * 16, Vec::new, write)
+        answers(py, shape, FEW, batch.is_one(), |on, out| {
+            each(on, out, shown * 16, Vec::new, |poses, k, out| {
+                self.robot.link_poses_into(batch.row(k), poses)?;
+                write_poses(poses, link, out)
+            })
         })
     }
 
@@ -221,70 +241,55 @@ impl Robot {
         link: usize,
         point: Option<[f64; 3]>,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let dofs = self.names(py, |robot| robot.dofs())?.len();
+        let dofs = self.names(py, |robot| robot.dof_names())?.len();
         let (batch, point) = (Batch::new(&configurations)?, point.unwrap_or_default());
-        let one = |k: usize, out: &mut [f64]| {
-            let jacobian = self.robot.jacobian_at(batch.row(k), link, point)?;
-            out.copy_from_slice(jacobian.as_slice());
-            Ok(())
-        };
-        let shape = [batch.count, dofs, 6];
-        let columns = answers(py, shape, FEW, batch.is_one(), one, |on, out| {
-            let robot = &self.robot;
+        let (robot, shape) = (&self.robot, [batch.count, dofs, 6]);
+        let columns = answers(py, shape, FEW, batch.is_one(), |on, out| {
             robot.jacobian_batch_into(&batch.values, link, point, on, out)
         })?;
         columns.permute(Some([0, 2, 1]))
     }
 
-    /// For targets (count, 4, 4) of poses or (count, 1, 3) of places, each a row (dofs + 5): the configuration, whether
-    /// it is reached (0 or 1), the position's and the rotation's error, restarts and iterations.
-    #[allow(clippy::too_many_arguments)]
-    fn inverse<'py>(
+    /// For targets (count, 4, 4) of poses or (count, 1, 3) of positions, each a row (dofs + 5): the configuration,
+    /// whether it is reached (0 or 1), the position's and the rotation's error, restarts and iterations.
+    fn inverse_kinematics<'py>(
         &self,
         py: Python<'py>,
         link: usize,
         targets: PyReadonlyArray3<'py, f64>,
         starts: PyReadonlyArray2<'py, f64>,
-        point: [f64; 3],
-        tolerances: [f64; 2],
-        iterations: usize,
-        restarts: usize,
-        seed: u64,
-        bounds: Option<PyReadonlyArray2<'py, f64>>,
+        options: InverseOptions<'py>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let dofs = self.names(py, |robot| robot.dofs())?.len();
+        let dofs = self.names(py, |robot| robot.dof_names())?.len();
         let (count, is_pose) = (targets.shape()[0], targets.shape()[1] == 4);
         let (targets, starts) = (copy(&targets)?, Batch::new(&starts)?);
         let pairs = |bounds: &PyReadonlyArray2<'_, f64>| {
             Ok::<_, PyErr>(copy(bounds)?.as_chunks().0.to_vec())
         };
         let settings = InverseSettings {
-            position_tolerance: tolerances[0],
-            rotation_tolerance: tolerances[1],
-            iterations,
-            restarts,
-            seed,
-            bounds: bounds.as_ref().map(pairs).transpose()?,
+            position_tolerance: options.position_tolerance,
+            rotation_tolerance: options.rotation_tolerance,
+            iterations: options.iterations,
+            restarts: options.restarts,
+            seed: options.seed,
+            bounds: options.bounds.as_ref().map(pairs).transpose()?,
         };
+        let (robot, point) = (&self.robot, options.point);
         let write = |on: &Cancellation, k: usize, out: &mut [f64]| -> Result<(), RobotError> {
             let target = match is_pose {
                 true => Target::pose(link, pose(&targets[16 * k..16 * k + 16])),
                 false => {
-                    let place = &targets[3 * k..3 * k + 3];
-                    Target::position(link, [place[0], place[1], place[2]])
+                    let position = &targets[3 * k..3 * k + 3];
+                    Target::position(link, [position[0], position[1], position[2]])
                 }
             };
-            let (target, start) = (
-                target.of_point(point),
-                if starts.count == 1 { 0 } else { k },
-            );
-            let start = starts.row(start);
-            let robot = &self.robot;
-            let found = robot.inverse_kinematics_until(&target, start, &settings, on)?;
+            let target = target.of_point(point);
+            let start = starts.row(if starts.count == 1 { 0 } else { k });
+            let found = robot.inverse_kinematics_cancellable(&target, start, &settings, on)?;
             let nearest = found.nearest();
-            let (configuration, told) = out.split_at_mut(dofs);
+            let (configuration, rest) = out.split_at_mut(dofs);
             configuration.copy_from_slice(&nearest.configuration);
-            told.copy_from_slice(&[
+            rest.copy_from_slice(&[
                 f64::from(u8::from(found.is_reached())),
                 nearest.position_error,
                 nearest.rotation_error,
@@ -294,8 +299,7 @@ impl Robot {
             Ok(())
         };
         // A single solution can take long too, so none runs on this thread, which cannot react to Ctrl-C.
-        let one = |k: usize, out: &mut [f64]| write(&Cancellation::default(), k, out);
-        answers(py, [count, dofs + 5], 0, false, one, |on, out| {
+        answers(py, [count, dofs + 5], 0, false, |on, out| {
             fill(out, dofs + 5, 1, || (), |(), k, out| write(on, k, out))
         })
     }

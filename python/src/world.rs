@@ -1,4 +1,4 @@
-//! Obstacles, and queries on robots among them.
+//! Obstacles, and queries on a robot and obstacles.
 
 use std::sync::Arc;
 
@@ -7,7 +7,6 @@ use numpy::{
     Element, PyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
-use urdd_directory::cancellation::Cancellation;
 use urdd_geometry::Mesh;
 use urdd_robot::{ObstacleDistance, RobotError, World, fill};
 
@@ -132,24 +131,24 @@ impl Obstacle {
     }
 }
 
-/// The shapes of a robot among obstacles.
+/// The shapes of a robot, and obstacles.
 #[pyclass(frozen, module = "urdd._urdd")]
-pub struct Among {
-    among: urdd_robot::Among<Arc<urdd_robot::Proximity>>,
+pub struct WorldProximity {
+    proximity: Shared,
     /// Maximum number of pairs of a shape and a part of an obstacle: one configuration needs memory for all of them.
     num_tested: usize,
 }
 
-type Asked = urdd_robot::Among<Arc<urdd_robot::Proximity>>;
+type Shared = urdd_robot::WorldProximity<Arc<urdd_robot::Proximity>>;
 
-impl Among {
+impl WorldProximity {
     /// The results of a batch of configurations, in this shape.
     fn each<'py, T: Element + Copy, S: IntoDimension>(
         &self,
         py: Python<'py>,
         configurations: &PyReadonlyArray2<'py, f64>,
         shape: S,
-        one: impl Fn(&Asked, &[f64], &mut [T]) -> Result<(), RobotError> + Sync,
+        write: impl Fn(&Shared, &[f64], &mut [T]) -> Result<(), RobotError> + Sync,
     ) -> PyResult<Bound<'py, PyArray<T, S::Dim>>> {
         let batch = Batch::new(configurations)?;
         let threads = match batch.count {
@@ -159,15 +158,18 @@ impl Among {
         self.check_memory(threads)?;
         let shape = shape.into_dimension();
         let width = shape.slice().iter().skip(1).product();
-        let many = |cancellation: &Cancellation, out: &mut [T]| {
-            let start = || ();
-            fill(out, width, 1, start, |(), k, out| {
-                cancellation.check()?;
-                one(&self.among, batch.row(k), out)
-            })
-        };
-        let alone = |k: usize, out: &mut [T]| py.detach(|| one(&self.among, batch.row(k), out));
-        answers(py, shape, 1, batch.is_one(), alone, many)
+        answers(py, shape, 1, batch.is_one(), |cancellation, out| {
+            fill(
+                out,
+                width,
+                1,
+                || (),
+                |(), k, out| {
+                    cancellation.check()?;
+                    write(&self.proximity, batch.row(k), out)
+                },
+            )
+        })
     }
 
     /// Raises `MemoryError` if there is not enough memory for this many configurations at once.
@@ -178,7 +180,7 @@ impl Among {
 }
 
 #[pymethods]
-impl Among {
+impl WorldProximity {
     /// Each obstacle with the names of the links that may touch it.
     #[new]
     fn new(
@@ -195,17 +197,19 @@ impl Among {
             .map(|(obstacle, _)| obstacle.get().0.num_parts());
         let proximity = proximity.shared();
         let num_tested = proximity.num_shapes().saturating_mul(parts.sum());
-        let among = Asked::new(proximity, &World::new(each));
-        let among = among.map_err(|error| of_robot(py, &error))?;
-        Ok(Among { among, num_tested })
+        let proximity = Shared::new(proximity, &World::new(each));
+        Ok(WorldProximity {
+            proximity: proximity.map_err(|error| of_robot(py, &error))?,
+            num_tested,
+        })
     }
 
     /// (pairs, 3): of each pair the link, the piece and the obstacle.
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<usize>>> {
-        let array = zeros(py, [self.among.pairs().count(), 3])?;
+        let array = zeros(py, [self.proximity.pairs().count(), 3])?;
         let mut guard = array.readwrite();
         let rows = guard.as_slice_mut()?.chunks_exact_mut(3);
-        for (row, ([link, piece], obstacle)) in rows.zip(self.among.pairs()) {
+        for (row, ([link, piece], obstacle)) in rows.zip(self.proximity.pairs()) {
             row.copy_from_slice(&[link, piece, obstacle]);
         }
         drop(guard);
@@ -218,22 +222,22 @@ impl Among {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let shape = [configurations.shape()[0], self.among.pairs().count()];
-        self.each(py, &configurations, shape, |among, q, out| {
-            out.copy_from_slice(&among.distance_values(q)?);
+        let shape = [configurations.shape()[0], self.proximity.pairs().count()];
+        self.each(py, &configurations, shape, |proximity, q, out| {
+            out.copy_from_slice(&proximity.distances(q)?);
             Ok(())
         })
     }
 
-    /// (count,); infinite where there is no pair.
-    fn distance<'py>(
+    /// (count,); infinite if there are no pairs.
+    fn min_distance<'py>(
         &self,
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let count = configurations.shape()[0];
-        self.each(py, &configurations, count, |among, q, out| {
-            out[0] = among.least_distance(q)?.unwrap_or(f64::INFINITY);
+        self.each(py, &configurations, count, |proximity, q, out| {
+            out[0] = proximity.min_distance(q)?.unwrap_or(f64::INFINITY);
             Ok(())
         })
     }
@@ -245,8 +249,8 @@ impl Among {
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<bool>>> {
         let count = configurations.shape()[0];
-        self.each(py, &configurations, count, |among, q, out| {
-            out[0] = among.in_collision(q)?;
+        self.each(py, &configurations, count, |proximity, q, out| {
+            out[0] = proximity.in_collision(q)?;
             Ok(())
         })
     }
@@ -260,7 +264,7 @@ impl Among {
     ) -> PyResult<Vec<Near>> {
         let batch = Batch::new(&configuration)?;
         self.check_memory(1)?;
-        let found = py.detach(|| self.among.nearest(&batch.values, k));
+        let found = py.detach(|| self.proximity.nearest(&batch.values, k));
         let near = |pair: &ObstacleDistance| {
             let shape = [pair.link_idx, pair.piece];
             (shape, pair.obstacle_idx, pair.distance, pair.points)

@@ -34,7 +34,7 @@ def by_numpy(robot: urdd.Robot, q: Floats) -> Floats:
 
 def test_clearances_are_those_of_numpy(learned: urdd.Robot) -> None:
     model = learned.collision_model()
-    q = np.concatenate([learned.sample(50, seed=3), [learned.zero, learned.lower, learned.upper]])
+    q = np.concatenate([learned.random(50, seed=3), [learned.zero, learned.lower, learned.upper]])
     expected = np.array([by_numpy(learned, one) for one in q])
     assert expected.shape == (53, model.num_pairs)
     np.testing.assert_allclose(model.clearances(q), expected, rtol=1e-9, atol=1e-9 * model.clip_distance)
@@ -45,9 +45,9 @@ def test_clearances_are_those_of_numpy(learned: urdd.Robot) -> None:
 @pytest.mark.parametrize("count", [7, 100])
 def test_batches_give_what_each_configuration_gives(count: int, learned: urdd.Robot) -> None:
     model = learned.collision_model()
-    q = learned.sample(count, seed=5)
+    q = learned.random(count, seed=5)
     clearances, least, may_collide, gradient = (
-        ask(q) for ask in (model.clearances, model.least, model.may_collide, model.gradient)
+        ask(q) for ask in (model.clearances, model.min_clearance, model.may_collide, model.gradient)
     )
     np.testing.assert_array_equal(least, clearances.min(axis=1))
     np.testing.assert_array_equal(may_collide, least <= 0)
@@ -56,7 +56,7 @@ def test_batches_give_what_each_configuration_gives(count: int, learned: urdd.Ro
     for k in range(count):
         np.testing.assert_array_equal(model.clearances(q[k]), clearances[k])
         np.testing.assert_array_equal(model.gradient(q[k]), gradient[k])
-        assert model.least(q[k]) == least[k]
+        assert model.min_clearance(q[k]) == least[k]
         assert model.may_collide(q[k]) == may_collide[k]
 
 
@@ -65,9 +65,9 @@ def test_shapes(learned: urdd.Robot) -> None:
     for batch in ((), (0,), (3,), (2, 20), (2, 0)):
         q = np.zeros((*batch, dofs))
         assert model.clearances(q).shape == (*batch, model.num_pairs)
-        assert model.least(q).shape == model.may_collide(q).shape == batch
+        assert model.min_clearance(q).shape == model.may_collide(q).shape == batch
         assert model.gradient(q).shape == model.gradient(q, 0).shape == (*batch, dofs)
-    q = learned.sample(20)
+    q = learned.random(20)
     single = q.astype(np.float32)
     np.testing.assert_array_equal(model.clearances(single), model.clearances(single.astype(np.float64)))
     for same in (q.tolist(), np.asfortranarray(q), q.astype(">f8")):
@@ -76,7 +76,7 @@ def test_shapes(learned: urdd.Robot) -> None:
 
 def test_gradients_are_central_differences_of_numpy(learned: urdd.Robot) -> None:
     model, step = learned.collision_model(), 1e-6
-    for q in learned.sample(10, seed=8):
+    for q in learned.random(10, seed=8):
         differences = np.array(
             [
                 (by_numpy(learned, q + step * row) - by_numpy(learned, q - step * row)) / (2 * step)
@@ -163,19 +163,19 @@ def test_what_is_not_known_is_not_clear(learned: urdd.Robot) -> None:
     model = learned.collision_model()
     for q in (np.full(learned.num_dofs, 1.7e308), np.full((40, learned.num_dofs), 1.7e308)):
         assert np.all(model.may_collide(q))
-        assert not np.any(model.least(q) > 0)
+        assert not np.any(model.min_clearance(q) > 0)
 
 
 @pytest.mark.parametrize(
     ("q", "words"),
     [
         ([0.0] * 99, r"one value for each of the \d+ DOFs"),
-        (0.0, r"is \(\)"),
+        (0.0, r"not \(\)"),
         (float("nan"), r"NaN or a shape"),
         (["a"], r"array of numbers"),
         ([[0, 0], [0]], r"array of numbers"),
         (None, r"array of numbers"),
-        (np.zeros(3, dtype=complex), r"one of complex128"),
+        (np.zeros(3, dtype=complex), r"not of complex128"),
     ],
 )
 def test_no_configurations(q: Any, words: str, learned: urdd.Robot) -> None:
@@ -183,7 +183,7 @@ def test_no_configurations(q: Any, words: str, learned: urdd.Robot) -> None:
     if words == "NaN or a shape":
         q, words = np.zeros((2, learned.num_dofs)), r"configuration 1: DOF `.+` is nan: every value must be finite"
         q[1, -1] = np.nan
-    for ask in (model.clearances, model.least, model.may_collide, model.gradient):
+    for ask in (model.clearances, model.min_clearance, model.may_collide, model.gradient):
         with pytest.raises(urdd.ConfigurationError, match=words):
             ask(q)
 
@@ -191,7 +191,7 @@ def test_no_configurations(q: Any, words: str, learned: urdd.Robot) -> None:
 def test_no_pairs(learned: urdd.Robot) -> None:
     model = learned.collision_model()
     for place in (model.num_pairs, -model.num_pairs - 1):
-        with pytest.raises(IndexError, match=f"there is no pair {place}"):
+        with pytest.raises(IndexError, match=f"pair index {place} is out of range"):
             model.gradient(learned.zero, place)
     with pytest.raises(urdd.UnknownNameError, match="no output for a pair of links `cheese` and `ham`"):
         model.gradient(learned.zero, ("cheese", "ham"))
@@ -226,12 +226,12 @@ def test_a_model_is_pickled_as_its_path(learned: urdd.Robot) -> None:
     text = pickle.dumps(model)
     assert len(text) < 1000
     copy = pickle.loads(text)
-    q = learned.sample(5)
+    q = learned.random(5)
     np.testing.assert_array_equal(copy.clearances(q), model.clearances(q))
 
 
 def test_threads_share_a_model(learned: urdd.Robot) -> None:
-    model, q = learned.collision_model(), learned.sample(200)
+    model, q = learned.collision_model(), learned.random(200)
     expected = model.clearances(q)
     with ThreadPoolExecutor(4) as pool:
         for found in pool.map(model.clearances, [q] * 40):
@@ -259,7 +259,7 @@ def test_prune_then_check(learned: urdd.Robot) -> None:
     )
     said, shares, missed, _ = found.stdout.splitlines()
     assert said == repr(learned.collision_model())
-    q = learned.sample(2000, seed=1)
+    q = learned.random(2000, seed=1)
     may_collide, exact = learned.collision_model().may_collide(q), learned.in_collision(q)
     assert [int(word) for word in re.findall(r"\d+", shares)] == [(~may_collide).sum(), 2000, may_collide.sum()]
     misses = (exact & ~may_collide).sum()

@@ -15,7 +15,7 @@ KINDS: list[urdd.ShapeKind] = ["hulls", "boxes", "spheres", "pieces", "piece-box
 @pytest.mark.parametrize("kind", KINDS)
 def test_batches_give_what_each_configuration_gives(kind: urdd.ShapeKind, arm: urdd.Robot) -> None:
     proximity = arm.proximity(kind)
-    q = arm.sample(40)
+    q = arm.random(40)
     distances = proximity.distances(q)
     assert distances.shape == (40, proximity.num_pairs) == (40, len(proximity.pairs))
     np.testing.assert_array_equal(proximity.in_collision(q), (distances <= 0).any(axis=1))
@@ -30,15 +30,15 @@ def test_batches_give_what_each_configuration_gives(kind: urdd.ShapeKind, arm: u
 
 
 def test_the_points_of_a_pair_are_as_far_apart_as_its_distance(arm: urdd.Robot) -> None:
-    for pair in arm.nearest(arm.sample(seed=4), 10):
+    for pair in arm.nearest(arm.random(seed=4), 10):
         assert np.linalg.norm(pair.points[0] - pair.points[1]) == pytest.approx(pair.distance, abs=1e-9)
         assert pair.links[0] != pair.links[1]
         assert pair.relative is None or pair.relative >= 0
 
 
 def test_spheres_are_where_a_few_lines_of_numpy_put_them(arm: urdd.Robot) -> None:
-    q, proximity, spheres = arm.sample(20), arm.proximity("spheres"), arm.spheres("hulls")
-    poses = arm.fk(q)
+    q, proximity, spheres = arm.random(20), arm.proximity("spheres"), arm.spheres("hulls")
+    poses = arm.link_poses(q)
     at = {link: k for k, link in enumerate(spheres.links)}
     links = [arm.link(link) for link in spheres.links]
     frames = poses[:, links]
@@ -96,7 +96,7 @@ def _all_pairs(names: tuple[str, ...]) -> list[tuple[str, str]]:
 def test_a_robot_without_geometry_says_what_is_missing(urdds: Path, tmp_path: Path) -> None:
     made = urdd.generate(urdds / "six_axis_arm" / "six_axis_arm.urdf", tmp_path / "core", modules=["core"])
     robot = made.load()
-    assert robot.fk(robot.zero).shape == (robot.num_links, 4, 4)
+    assert robot.link_poses(robot.zero).shape == (robot.num_links, 4, 4)
     with pytest.raises(urdd.ModuleMissingError, match=r"urdd\.generate") as caught:
         robot.in_collision(robot.zero)
     assert caught.value.module.startswith("link_shapes") or caught.value.module.endswith("meshes_module")
@@ -106,10 +106,10 @@ def test_a_robot_without_geometry_says_what_is_missing(urdds: Path, tmp_path: Pa
 def test_a_robot_without_dofs(count: int, urdds: Path) -> None:
     robot = urdd.load(urdds / "single_link")
     q = np.zeros((count, 0))
-    assert robot.fk(q).shape == (count, 1, 4, 4)
+    assert robot.link_poses(q).shape == (count, 1, 4, 4)
     assert robot.jacobian(q, 0).shape == (count, 6, 0)
     assert robot.in_collision(q).tolist() == [False] * count
     assert robot.distances(q).shape == (count, 0)
     assert robot.self_distance(q).tolist() == [float("inf")] * count
     assert robot.nearest(robot.zero, 3) == []
-    assert robot.sample(count).shape == (count, 0)
+    assert robot.random(count).shape == (count, 0)

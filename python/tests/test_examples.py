@@ -29,7 +29,7 @@ def run(name: str, *words: str | Path) -> subprocess.CompletedProcess[str]:
 def test_forward_kinematics(arm: urdd.Robot) -> None:
     lines = run("forward_kinematics.py", arm.path).stdout.splitlines()
     assert [line.split()[0] for line in lines] == list(arm.link_names)
-    poses = arm.fk(arm.middle)
+    poses = arm.link_poses(arm.middle)
     np.testing.assert_allclose([float(x) for x in lines[-1].split()[1:4]], poses[-1, :3, 3], atol=1e-4)
 
 
@@ -71,7 +71,7 @@ def test_obstacles(arm: urdd.Robot) -> None:
     assert all(row.split()[0] in arm.link_names for row in rows)
     found = [float(row.split()[2]) for row in rows]
     assert found == sorted(found)
-    q = arm.sample(200)
+    q = arm.random(200)
     assert shares.startswith(f"{found_share(arm, q)} of 200 touch an obstacle, {np.mean(arm.in_collision(q)):.1%}")
     assert int(free.split()[0]) > 0
 
@@ -82,7 +82,7 @@ def found_share(robot: urdd.Robot, q: Any) -> str:
     world.add_box("table", [2.0, 2.0, 0.1], [0.0, 0.0, -0.05], ignore=[robot.root_link])
     world.add_capsule("lamp", 0.05, 1.0, [0.5, 0.5, 0.5])
     world.add_sphere("ball", 0.1, [0.6, 0.0, 0.4])
-    return f"{np.mean((robot.among(world).distances(q) == 0).any(axis=1)):.1%}"
+    return f"{np.mean((robot.world_proximity(world).distances(q) == 0).any(axis=1)):.1%}"
 
 
 def test_planner_spheres(arm: urdd.Robot) -> None:

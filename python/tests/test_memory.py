@@ -11,39 +11,39 @@ import urdd
 
 #: Each asks for more than the 700 MB that are left, or than any memory: in one process, one after the other.
 TOO_MUCH = [
-    "robot.sample(10**13)",
-    "robot.sample(2**62)",
-    "robot.sample(2**70)",
+    "robot.random(10**13)",
+    "robot.random(2**62)",
+    "robot.random(2**70)",
     "robot.clamp(many(12_000_000))",
-    "robot.fk(many(700_000))",
-    "robot.fk(many(6_000_000), 'torch')",
+    "robot.link_poses(many(700_000))",
+    "robot.link_pose(many(6_000_000), 'torch')",
     "robot.link_poses(many(700_000))",
     "robot.jacobian(many(6_000_000), 'torch')",
     "robot.jacobian(many(6_000_000), 'torch', [0, 0, 0.1])",
-    "robot.ik_batch('torch', np.zeros((6_000_000, 3)), restarts=0, iterations=0)",
-    "robot.ik_batch('torch', np.tile(np.eye(4), (3_000_000, 1, 1)), restarts=0, iterations=0)",
+    "robot.inverse_kinematics('torch', np.zeros((6_000_000, 3)), restarts=0, iterations=0)",
+    "robot.inverse_kinematics('torch', np.tile(np.eye(4), (3_000_000, 1, 1)), restarts=0, iterations=0)",
     "robot.distances(many(1_000_000))",
     "robot.distances(many(9_000_000), 'spheres')",
     "robot.self_distance(many(12_000_000))",
     "robot.in_collision(many(12_000_000))",
     "around.distances(many(3_000_000))",
-    "around.distance(many(12_000_000))",
+    "around.min_distance(many(12_000_000))",
     "around.in_collision(many(12_000_000))",
     # One configuration among very many obstacles.
-    "crowded.distance(q[0])",
+    "crowded.min_distance(q[0])",
     "crowded.nearest(q[0])",
     "model.clearances(many(9_000_000))",
-    "model.least(many(12_000_000))",
+    "model.min_clearance(many(12_000_000))",
     "model.may_collide(many(12_000_000))",
     "model.gradient(many(12_000_000))",
     "world.add_hull('h', np.zeros((3_000_000, 3)))",
     "world.add_mesh('m', np.zeros((3_000_000, 3)), np.zeros((3_000_000, 3), dtype=np.uint32))",
     # A robot without DOFs: its configurations take no memory, whatever their number.
-    "still.fk(np.zeros((10**13, 0)))",
-    "still.fk(np.zeros((2**59, 0)))",
+    "still.link_poses(np.zeros((10**13, 0)))",
+    "still.link_poses(np.zeros((2**59, 0)))",
     "still.in_collision(np.zeros((10**13, 0)))",
     "still.self_distance(np.zeros((10**13, 0)))",
-    "still.among(world).distances(np.zeros((10**13, 0)))",
+    "still.world_proximity(world).distances(np.zeros((10**13, 0)))",
 ]
 
 PROGRAM = """
@@ -54,20 +54,21 @@ robot, still = urdd.load(sys.argv[1]), urdd.load(sys.argv[2])
 world = urdd.World()
 for k in range(20):
     world.add_sphere(str(k), 0.1, [k, 0, 0])
-around, model, q = robot.among(world), robot.collision_model(), robot.sample(100)
+around, model, q = robot.world_proximity(world), robot.collision_model(), robot.random(100)
 
 crowd = urdd.World()
 for k in range(100_000):
     crowd.add_sphere(str(k), 0.001, [k, 0, 0])
-crowded = robot.among(crowd)
+crowded = robot.world_proximity(crowd)
 
 def many(count):
     return np.zeros((count, robot.num_dofs))
 
 def answers():
-    found = [robot.fk(q), robot.distances(q), robot.in_collision(q), around.distance(q), model.least(q)]
-    found += [robot.jacobian(q, 'torch'), robot.distances(q, 'spheres'), still.in_collision(np.zeros((3, 0)))]
-    return found + [robot.ik_batch('torch', robot.fk(q[:3], 'torch')).q]
+    found = [robot.link_poses(q), robot.distances(q), robot.in_collision(q), around.min_distance(q)]
+    found += [model.min_clearance(q), robot.jacobian(q, 'torch')]
+    found += [robot.distances(q, 'spheres'), still.in_collision(np.zeros((3, 0)))]
+    return found + [robot.inverse_kinematics('torch', robot.link_pose(q[:3], 'torch')).q]
 
 expected = answers()
 size = 4096 * int(open('/proc/self/statm').read().split()[0])
@@ -96,11 +97,11 @@ def test_numbers_of_numbers(arm: urdd.Robot) -> None:
     assert len(arm.nearest(arm.zero, 2**70)) == pairs
     world = urdd.World()
     world.add_sphere("ball", 0.1)
-    assert len(arm.among(world).nearest(arm.zero, 2**70)) == arm.among(world).num_pairs
+    assert len(arm.world_proximity(world).nearest(arm.zero, 2**70)) == arm.world_proximity(world).num_pairs
     for wrong, words in (
-        (lambda: arm.sample(3, seed=-1), "a seed must be from 0"),
-        (lambda: arm.ik("torch", [0, 0, 0], seed=-1), "a seed must be from 0"),
-        (lambda: arm.ik("torch", [0, 0, 0], restarts=2**70), "restarts must be from 0"),
+        (lambda: arm.random(3, seed=-1), "a seed must be from 0"),
+        (lambda: arm.inverse_kinematics("torch", [0, 0, 0], seed=-1), "a seed must be from 0"),
+        (lambda: arm.inverse_kinematics("torch", [0, 0, 0], restarts=2**70), "restarts must be from 0"),
         (lambda: urdd.export(arm, "curobo", spheres=10**13), "spheres must be from 1 to 10,000"),
         (lambda: urdd.generate("a.urdf", "a", samples=10**13), "samples must be from 1 to 100,000"),
         (lambda: urdd.set_num_threads(-1), "at least 1"),

@@ -30,7 +30,7 @@ def test_poses_are_those_of_the_peers(name: str, urdds: Path, figures: Any) -> N
     robot = urdd.load(urdds / name)
     configurations = figure["configurations"]
     assert configurations
-    poses = robot.fk([one["configuration"] for one in configurations])
+    poses = robot.link_poses([one["configuration"] for one in configurations])
     for one, found in zip(configurations, poses, strict=True):
         for link, pose in one["links"].items():
             matrix = found[robot.link(link)]
@@ -41,32 +41,33 @@ def test_poses_are_those_of_the_peers(name: str, urdds: Path, figures: Any) -> N
 
 @pytest.mark.parametrize("count", [0, 1, 16, 17, 1000])
 def test_a_batch_gives_what_each_configuration_gives(count: int, toy: urdd.Robot) -> None:
-    q = toy.sample(count, seed=3)
-    poses, jacobians = toy.fk(q), toy.jacobian(q, "finger")
+    q = toy.random(count, seed=3)
+    poses, jacobians = toy.link_poses(q), toy.jacobian(q, "finger")
     assert poses.shape == (count, toy.num_links, 4, 4)
     assert jacobians.shape == (count, 6, toy.num_dofs)
     for k in range(0, count, 97):
-        np.testing.assert_array_equal(poses[k], toy.fk(q[k]))
+        np.testing.assert_array_equal(poses[k], toy.link_poses(q[k]))
         np.testing.assert_array_equal(jacobians[k], toy.jacobian(q[k], "finger"))
-        np.testing.assert_array_equal(poses[k, toy.link("finger")], toy.fk(q[k], "finger"))
+        np.testing.assert_array_equal(poses[k, toy.link("finger")], toy.link_pose(q[k], "finger"))
 
 
 def test_axes_before_the_last_are_kept(arm: urdd.Robot) -> None:
-    q = arm.sample(24).reshape(2, 3, 4, arm.num_dofs)
-    assert arm.fk(q).shape == (2, 3, 4, arm.num_links, 4, 4)
+    q = arm.random(24).reshape(2, 3, 4, arm.num_dofs)
+    assert arm.link_poses(q).shape == (2, 3, 4, arm.num_links, 4, 4)
     assert arm.jacobian(q, "torch").shape == (2, 3, 4, 6, arm.num_dofs)
     assert arm.distances(q).shape == (2, 3, 4, arm.proximity().num_pairs)
     assert arm.in_collision(q).shape == (2, 3, 4)
     assert arm.clamp(q).shape == q.shape
-    np.testing.assert_array_equal(arm.fk(q)[1, 2, 3], arm.fk(q[1, 2, 3]))
-    assert arm.link_poses(q)["torch"].shape == (2, 3, 4, 4, 4)
+    np.testing.assert_array_equal(arm.link_poses(q)[1, 2, 3], arm.link_poses(q[1, 2, 3]))
+    assert arm.link_pose(q, "torch").shape == (2, 3, 4, 4, 4)
+    np.testing.assert_array_equal(arm.link_pose(q, "torch"), arm.link_poses(q)[..., arm.link("torch"), :, :])
 
 
 @pytest.mark.parametrize("name", ["toy_all_joints", "planar_base_arm", "welding_arm"])
 @pytest.mark.parametrize("point", [None, (0.1, -0.2, 0.3)])
 def test_jacobians_are_differences_of_poses(name: str, point: tuple[float, ...] | None, urdds: Path) -> None:
     robot = urdd.load(urdds / name)
-    q, step = robot.sample(seed=5), 1e-6
+    q, step = robot.random(seed=5), 1e-6
     for link in robot.link_names:
         at = np.append(np.zeros(3) if point is None else point, 1.0)
         found = robot.jacobian(q, link, point)
@@ -74,9 +75,9 @@ def test_jacobians_are_differences_of_poses(name: str, point: tuple[float, ...] 
             ahead, behind = q.copy(), q.copy()
             ahead[dof] += step
             behind[dof] -= step
-            a, b = robot.fk(ahead, link), robot.fk(behind, link)
+            a, b = robot.link_pose(ahead, link), robot.link_pose(behind, link)
             np.testing.assert_allclose(found[:3, dof], ((a - b) @ at)[:3] / (2 * step), atol=1e-7)
-            turn = (a[:3, :3] - b[:3, :3]) @ robot.fk(q, link)[:3, :3].T / (2 * step)
+            turn = (a[:3, :3] - b[:3, :3]) @ robot.link_pose(q, link)[:3, :3].T / (2 * step)
             np.testing.assert_allclose(found[3:, dof], [turn[2, 1], turn[0, 2], turn[1, 0]], atol=1e-7)
 
 
@@ -84,12 +85,12 @@ def test_configurations(arm: urdd.Robot, toy: urdd.Robot) -> None:
     for robot in (arm, toy):
         assert robot.bounds.shape == (robot.num_dofs, 2)
         assert robot.zero.shape == robot.middle.shape == (robot.num_dofs,)
-        assert robot.within_bounds(robot.sample(1000)).all()
+        assert robot.is_within_bounds(robot.random(1000)).all()
     np.testing.assert_array_equal(arm.lower, arm.bounds[:, 0])
     np.testing.assert_array_equal(arm.upper, arm.bounds[:, 1])
     np.testing.assert_allclose(arm.middle, arm.bounds.mean(axis=1), atol=1e-15)
     np.testing.assert_array_equal(arm.clamp(arm.upper + 1), arm.upper)
-    assert not arm.within_bounds(arm.upper + 1)
+    assert not arm.is_within_bounds(arm.upper + 1)
     assert set(toy.dof_units) == {"rad", "m"}
 
 
@@ -102,41 +103,45 @@ def test_samples_are_those_of_the_specification(arm: urdd.Robot) -> None:
         z = (z ^ (z >> 27)) * 0x94D049BB133111EB & mask
         return ((z ^ (z >> 31)) >> 11) * 2.0**-53
 
-    found = arm.sample(5)
+    found = arm.random(5)
     for seed, begin in ((0, 0), (1, 0x9E3779B9), (2, 2 * 0x9E3779B9 % 2**32)):
         weight = np.array([[u(begin + k, dof) for dof in range(arm.num_dofs)] for k in range(5)])
         expected = arm.lower * (1 - weight) + arm.upper * weight
-        np.testing.assert_allclose(arm.sample(5, seed), expected, rtol=0, atol=1e-14)
-    np.testing.assert_array_equal(found, arm.sample(9)[:5])
-    np.testing.assert_array_equal(found[0], arm.sample())
+        np.testing.assert_allclose(arm.random(5, seed), expected, rtol=0, atol=1e-14)
+    np.testing.assert_array_equal(found, arm.random(9)[:5])
+    np.testing.assert_array_equal(found[0], arm.random())
     golden = [one for one in arm.modules.kinematics_samples.samples if one.kind == "Sampled"]
     assert golden
     for one in golden:
         assert one.sample_idx is not None
-        np.testing.assert_array_equal(one.configuration, arm.sample(one.sample_idx + 1)[-1])
+        np.testing.assert_array_equal(one.configuration, arm.random(one.sample_idx + 1)[-1])
 
 
 def test_inverse_kinematics_reaches_what_can_be_reached(arm: urdd.Robot) -> None:
-    q = arm.sample(50, seed=1)
-    targets = arm.fk(q, "torch")
-    found = arm.ik_batch("torch", targets)
+    q = arm.random(50, seed=1)
+    targets = arm.link_pose(q, "torch")
+    found = arm.inverse_kinematics("torch", targets)
     assert found.q.shape == (50, arm.num_dofs)
     assert found.reached.all()
-    reached = arm.fk(found.q, "torch")
+    reached = arm.link_pose(found.q, "torch")
     np.testing.assert_allclose(reached[:, :3, 3], targets[:, :3, 3], atol=1e-6)
     np.testing.assert_allclose(reached[:, :3, :3], targets[:, :3, :3], atol=3e-6)
-    assert arm.within_bounds(found.q).all()
-    one = arm.ik("torch", targets[7])
+    assert arm.is_within_bounds(found.q).all()
+    one = arm.inverse_kinematics("torch", targets[7])
     np.testing.assert_array_equal(one.q, found.q[7])
     assert one.reached
     assert one.position_error <= 1e-6
+    grid = arm.inverse_kinematics("torch", targets[:6].reshape(2, 3, 4, 4), q[:6].reshape(2, 3, -1))
+    assert grid.q.shape == (2, 3, arm.num_dofs)
+    assert grid.reached.shape == grid.restarts.shape == (2, 3)
+    np.testing.assert_array_equal(grid.q[1, 2], arm.inverse_kinematics("torch", targets[5], q[5]).q)
 
 
 def test_inverse_kinematics_of_a_place_and_of_a_point(arm: urdd.Robot) -> None:
-    place, point = arm.fk(arm.sample(seed=9), "torch")[:3, 3], (0.0, 0.0, 0.05)
-    found = arm.ik("torch", place, arm.middle, point=point)
+    place, point = arm.link_pose(arm.random(seed=9), "torch")[:3, 3], (0.0, 0.0, 0.05)
+    found = arm.inverse_kinematics("torch", place, arm.middle, point=point)
     assert found.reached
-    np.testing.assert_allclose((arm.fk(found.q, "torch") @ [*point, 1])[:3], place, atol=1e-6)
-    far = arm.ik("torch", [100.0, 0, 0], restarts=2)
+    np.testing.assert_allclose((arm.link_pose(found.q, "torch") @ [*point, 1])[:3], place, atol=1e-6)
+    far = arm.inverse_kinematics("torch", [100.0, 0, 0], restarts=2)
     assert not far.reached
     assert far.position_error > 90

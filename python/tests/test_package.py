@@ -61,7 +61,7 @@ def test_every_public_name_is_documented() -> None:
         *urdd.Robot.__mro__[:-1],
         urdd.Proximity,
         urdd.CollisionModel,
-        urdd.Among,
+        urdd.WorldProximity,
         urdd.World,
         urdd.Skips,
         urdd.modules.Modules,

@@ -53,8 +53,8 @@ def test_modules_are_typed(arm: urdd.Robot) -> None:
 def test_an_archive_is_a_robot(arm: urdd.Robot, tmp_path: Path) -> None:
     archive = shutil.make_archive(str(tmp_path / "arm"), "zip", arm.path)
     robot = urdd.load(archive)
-    q = robot.sample(3)
-    np.testing.assert_array_equal(robot.fk(q), arm.fk(q))
+    q = robot.random(3)
+    np.testing.assert_array_equal(robot.link_poses(q), arm.link_poses(q))
     np.testing.assert_array_equal(robot.distances(q), arm.distances(q))
     assert robot.urdf_text == arm.urdf_text
     assert robot.modules.dof == arm.modules.dof
@@ -67,7 +67,7 @@ def test_it_is_pickled_as_its_path(arm: urdd.Robot, tmp_path: Path, monkeypatch:
     data = pickle.dumps(urdd.load("welding_arm"))
     monkeypatch.chdir(tmp_path)
     robot: urdd.Robot = pickle.loads(data)
-    np.testing.assert_array_equal(robot.fk(robot.zero), arm.fk(arm.zero))
+    np.testing.assert_array_equal(robot.link_poses(robot.zero), arm.link_poses(arm.zero))
 
 
 def test_errors_are_pickled(arm: urdd.Robot) -> None:
@@ -79,12 +79,12 @@ def test_errors_are_pickled(arm: urdd.Robot) -> None:
 
 def test_threads_ask_one_robot(urdds: Path) -> None:
     robot = urdd.load(urdds / "quadruped")
-    q = urdd.load(urdds / "quadruped").sample(300)
+    q = urdd.load(urdds / "quadruped").random(300)
     barrier = threading.Barrier(8)
 
     def ask(number: int) -> tuple[float, float]:
         barrier.wait()
-        return float(robot.fk(q).sum()), float(robot.distances(q[number::8]).sum())
+        return float(robot.link_poses(q).sum()), float(robot.distances(q[number::8]).sum())
 
     with ThreadPoolExecutor(8) as pool:
         answers = list(pool.map(ask, range(8)))
@@ -93,12 +93,12 @@ def test_threads_ask_one_robot(urdds: Path) -> None:
 
 
 def test_the_interpreter_is_let_go(arm: urdd.Robot) -> None:
-    q = arm.sample(200_000)
+    q = arm.random(200_000)
     done = threading.Event()
     turns = 0
 
     def work() -> None:
-        arm.fk(q)
+        arm.link_poses(q)
         done.set()
 
     thread = threading.Thread(target=work)
@@ -111,13 +111,13 @@ def test_the_interpreter_is_let_go(arm: urdd.Robot) -> None:
 
 def _in_child(path: str, queue: multiprocessing.Queue[float]) -> None:
     robot = urdd.load(path)
-    queue.put(float(robot.distances(robot.sample(200)).sum()))
+    queue.put(float(robot.distances(robot.random(200)).sum()))
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no fork")
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
 def test_a_fork_works_on(arm: urdd.Robot) -> None:
-    expected = float(arm.distances(arm.sample(200)).sum())
+    expected = float(arm.distances(arm.random(200)).sum())
     context = multiprocessing.get_context("fork")
     queue: multiprocessing.Queue[float] = context.Queue()
     process = context.Process(target=_in_child, args=(str(arm.path), queue))
@@ -130,7 +130,7 @@ def test_a_fork_works_on(arm: urdd.Robot) -> None:
     child = os.fork()
     if child == 0:
         try:
-            os.write(writer, repr(float(arm.distances(arm.sample(200)).sum())).encode())
+            os.write(writer, repr(float(arm.distances(arm.random(200)).sum())).encode())
         finally:
             os._exit(0)
     os.close(writer)
@@ -140,14 +140,16 @@ def test_a_fork_works_on(arm: urdd.Robot) -> None:
 
 
 def test_the_number_of_threads_changes_no_answer(arm: urdd.Robot) -> None:
-    q = arm.sample(500)
-    expected = arm.distances(q), arm.fk(q), arm.jacobian(q, "torch")
+    q = arm.random(500)
+    expected = arm.distances(q), arm.link_poses(q), arm.jacobian(q, "torch")
     before = urdd.num_threads()
     try:
         for count in (1, 3):
             urdd.set_num_threads(count)
             assert urdd.num_threads() == count
-            for one, other in zip((arm.distances(q), arm.fk(q), arm.jacobian(q, "torch")), expected, strict=True):
+            for one, other in zip(
+                (arm.distances(q), arm.link_poses(q), arm.jacobian(q, "torch")), expected, strict=True
+            ):
                 np.testing.assert_array_equal(one, other)
     finally:
         urdd.set_num_threads(None)
@@ -162,13 +164,13 @@ def test_the_number_of_threads_changes_no_answer(arm: urdd.Robot) -> None:
 def test_all_that_answers_can_be_sent_to_other_processes(method: str, learned: urdd.Robot) -> None:
     world = urdd.World()
     world.add_box("table", [2.0, 2.0, 0.1], [0.0, 0.0, -0.05], ignore=["base"])
-    q = learned.sample(60)
+    q = learned.random(60)
     asked = [
-        learned.fk,
+        learned.link_poses,
         learned.proximity().distances,
         learned.proximity("hulls").in_collision,
-        learned.among(world).distances,
-        learned.collision_model().least,
+        learned.world_proximity(world).distances,
+        learned.collision_model().min_clearance,
     ]
     with multiprocessing.get_context(method).Pool(2) as pool:
         for ask in asked:

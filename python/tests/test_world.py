@@ -31,7 +31,7 @@ TILTED = np.array(
 def spheres_of(robot: urdd.Robot, q: Any) -> tuple[Any, Any]:
     """The centres (n, spheres, 3) and the radii of the links' spheres, by numpy."""
     spheres = robot.spheres("hulls")
-    frames = robot.fk(q)[:, [robot.link(link) for link in spheres.links]]
+    frames = robot.link_poses(q)[:, [robot.link(link) for link in spheres.links]]
     centres = np.einsum("nsij,sj->nsi", frames[..., :3, :3], spheres.centres) + frames[..., :3, 3]
     return centres, spheres.radii
 
@@ -53,8 +53,8 @@ def test_spheres_are_as_far_from_obstacles_as_closed_forms_say(arm: urdd.Robot) 
     world.add_box("box", [0.2, 0.6, 0.4], TILTED)
     world.add_capsule("rod", 0.05, 0.8, TILTED)
     world.add_hull("point", [[0.0, 0.0, 0.0]], [1.0, 1.0, 1.0])
-    around = arm.among(world, "spheres")
-    q = arm.sample(50)
+    around = arm.world_proximity(world, "spheres")
+    q = arm.random(50)
     centres, radii = spheres_of(arm, q)
     inside = (centres - TILTED[:3, 3]) @ TILTED[:3, :3]
     apart = np.stack(
@@ -75,7 +75,7 @@ def test_spheres_are_as_far_from_obstacles_as_closed_forms_say(arm: urdd.Robot) 
     links = arm.spheres("hulls").links
     pairs = [(link, 0, obstacle) for link in links for obstacle in ("ball", "box", "rod", "point")]
     assert [(pair.link, pair.piece, pair.obstacle) for pair in around.pairs] == pairs
-    np.testing.assert_array_equal(around.distance(q), found.min(axis=1))
+    np.testing.assert_array_equal(around.min_distance(q), found.min(axis=1))
     np.testing.assert_array_equal(around.in_collision(q), (found <= 0).any(axis=1))
 
 
@@ -102,11 +102,11 @@ def test_coal_finds_the_same_distances(kind: urdd.ShapeKind, urdds: Any) -> None
     ]
     peer = robot.to_pinocchio(kind)
     data, geometry = peer.model.createData(), pin.GeometryData(peer.collision_model)
-    around = robot.among(world, kind)
+    around = robot.world_proximity(world, kind)
     names = {one.name: number for number, one in enumerate(peer.collision_model.geometryObjects)}
     request, result = coal.DistanceRequest(), coal.DistanceResult()
     place = coal.Transform3s(TILTED[:3, :3], TILTED[:3, 3])
-    for q in robot.sample(5, seed=2):
+    for q in robot.random(5, seed=2):
         pin.updateGeometryPlacements(peer.model, data, peer.collision_model, geometry, peer.q(q))
         for pair, found in zip(around.pairs, around.distances(q), strict=True):
             number = names[f"{pair.link}/{pair.piece}"]
@@ -124,13 +124,13 @@ def test_one_configuration_and_many_give_the_same(arm: urdd.Robot) -> None:
     world = urdd.World()
     world.add_box("box", [0.2, 0.6, 0.4], TILTED)
     world.add_sphere("ball", 0.2, [0.5, 0.1, 0.9])
-    around = arm.among(world)
-    q = arm.sample(30)
+    around = arm.world_proximity(world)
+    q = arm.random(30)
     distances = around.distances(q)
     assert around.distances(q.reshape(5, 6, -1)).shape == (5, 6, around.num_pairs)
     for k in (0, 11, 29):
         np.testing.assert_array_equal(around.distances(q[k]), distances[k])
-        assert around.distance(q[k]) == distances[k].min()
+        assert around.min_distance(q[k]) == distances[k].min()
         assert around.in_collision(q[k]) == (distances[k] <= 0).any()
         nearest = around.nearest(q[k], 5)
         np.testing.assert_allclose([pair.distance for pair in nearest], np.sort(distances[k])[:5], atol=1e-12)
@@ -143,9 +143,9 @@ def test_one_configuration_and_many_give_the_same(arm: urdd.Robot) -> None:
 def test_points_are_on_the_bodies(arm: urdd.Robot) -> None:
     world = urdd.World()
     world.add_box("box", [0.2, 0.6, 0.4], TILTED)
-    q = arm.sample(seed=5)
+    q = arm.random(seed=5)
     seen = 0
-    for pair in arm.among(world, "spheres").nearest(q, 4):
+    for pair in arm.world_proximity(world, "spheres").nearest(q, 4):
         if pair.distance == 0:
             continue
         seen += 1
@@ -154,7 +154,7 @@ def test_points_are_on_the_bodies(arm: urdd.Robot) -> None:
         assert np.abs(np.abs(inside) - [0.1, 0.3, 0.2]).min() < 1e-9
         spheres = arm.spheres("hulls")
         k = spheres.links.index(pair.link)
-        centre = (arm.fk(q, pair.link) @ [*spheres.centres[k], 1.0])[:3]
+        centre = (arm.link_pose(q, pair.link) @ [*spheres.centres[k], 1.0])[:3]
         assert np.linalg.norm(pair.points[0] - centre) == pytest.approx(spheres.radii[k], abs=1e-9)
     assert seen > 0
 
@@ -174,42 +174,42 @@ def test_a_mesh_keeps_its_notch(arm: urdd.Robot) -> None:
     solid.add_box("floor", [2.0, 1.0, 0.1], [2.0, 2.0, 0.05])
     solid.add_box("wall", [0.1, 1.0, 2.0], [1.05, 2.0, 1.1])
     assert walls.num_parts("angle") >= 2
-    q = arm.sample(20)
-    found, filled = arm.among(walls).distance(q), arm.among(hull).distance(q)
-    np.testing.assert_allclose(found, arm.among(solid).distance(q), atol=1e-6)
+    q = arm.random(20)
+    found, filled = arm.world_proximity(walls).min_distance(q), arm.world_proximity(hull).min_distance(q)
+    np.testing.assert_allclose(found, arm.world_proximity(solid).min_distance(q), atol=1e-6)
     assert (filled <= found + 1e-9).all()
     # One distance for each shape and obstacle, however many pieces the mesh has.
-    around = arm.among(walls)
+    around = arm.world_proximity(walls)
     assert around.num_pairs == len(arm.pieces())
     np.testing.assert_array_equal(around.distances(q).min(axis=1), found)
 
 
 def test_links_may_be_ignored(arm: urdd.Robot) -> None:
     size, place = [3.0, 3.0, 0.2], [0.0, 0.0, -0.05]
-    q = arm.sample(40)
+    q = arm.random(40)
     world = urdd.World()
     world.add_box("table", size, place)
-    assert arm.among(world).in_collision(q).all()
+    assert arm.world_proximity(world).in_collision(q).all()
     free = urdd.World()
     free.add_box("table", size, place, ignore=["base"])
-    around = arm.among(free)
+    around = arm.world_proximity(free)
     assert "base" not in {pair.link for pair in around.pairs}
-    kept = [k for k, pair in enumerate(arm.among(world).pairs) if pair.link != "base"]
-    np.testing.assert_array_equal(around.distances(q), arm.among(world).distances(q)[:, kept])
+    kept = [k for k, pair in enumerate(arm.world_proximity(world).pairs) if pair.link != "base"]
+    np.testing.assert_array_equal(around.distances(q), arm.world_proximity(world).distances(q)[:, kept])
     free.remove("table")
     free.add_box("table", size, place, ignore=["bse"])
     with pytest.raises(urdd.UnknownNameError, match="did you mean `base`"):
-        arm.among(free)
+        arm.world_proximity(free)
 
 
 def test_a_world_is_a_collection(arm: urdd.Robot) -> None:
     world = urdd.World()
     assert len(world) == 0
     assert repr(world) == "<urdd.World: empty>"
-    empty = arm.among(world)
-    assert empty.distances(arm.sample(3)).shape == (3, 0)
-    assert empty.distance(arm.sample(3)).tolist() == [float("inf")] * 3
-    assert empty.in_collision(arm.sample(3)).tolist() == [False] * 3
+    empty = arm.world_proximity(world)
+    assert empty.distances(arm.random(3)).shape == (3, 0)
+    assert empty.min_distance(arm.random(3)).tolist() == [float("inf")] * 3
+    assert empty.in_collision(arm.random(3)).tolist() == [False] * 3
     assert empty.nearest(arm.zero, 2) == []
     world.add_sphere("a", 0.1)
     world.add_cylinder("b", 0.1, 1.0, TILTED, ignore=["base"])
@@ -217,19 +217,19 @@ def test_a_world_is_a_collection(arm: urdd.Robot) -> None:
     assert "b" in world
     assert "c" not in world
     assert repr(world) == "<urdd.World: a (sphere), b (cylinder)>"
-    before = arm.among(world)
+    before = arm.world_proximity(world)
     again: urdd.World = pickle.loads(pickle.dumps(world))
-    q = arm.sample(10)
-    np.testing.assert_array_equal(arm.among(again).distances(q), before.distances(q))
-    assert arm.among(again).pairs == before.pairs
+    q = arm.random(10)
+    np.testing.assert_array_equal(arm.world_proximity(again).distances(q), before.distances(q))
+    assert arm.world_proximity(again).pairs == before.pairs
     world.remove("a")
     assert world.names == ("b",)
     # What was prepared stays as it was, also when it is pickled.
     assert before.obstacle_names == ("a", "b")
-    same: urdd.Among = pickle.loads(pickle.dumps(before))
+    same: urdd.WorldProximity = pickle.loads(pickle.dumps(before))
     assert (same.kind, same.obstacle_names, same.pairs) == (before.kind, before.obstacle_names, before.pairs)
     np.testing.assert_array_equal(same.distances(q), before.distances(q))
-    assert repr(before) == f"<urdd.Among: pieces and 2 obstacles, {before.num_pairs} pairs>"
+    assert repr(before) == f"<urdd.WorldProximity: pieces and 2 obstacles, {before.num_pairs} pairs>"
     with pytest.raises(KeyError):
         world.remove("a")
     with pytest.raises(ValueError, match="an obstacle `b` already"):
@@ -240,7 +240,7 @@ def test_a_robot_without_dofs_among_obstacles(urdds: Any) -> None:
     robot = urdd.load(urdds / "single_link")
     world = urdd.World()
     world.add_sphere("ball", 0.1, [3.0, 0.0, 0.0])
-    found = robot.among(world, "hulls").distance(np.zeros((4, 0)))
+    found = robot.world_proximity(world, "hulls").min_distance(np.zeros((4, 0)))
     assert found.shape == (4,)
     assert (found == found[0]).all()
     assert 0 < found[0] < 3
@@ -252,12 +252,12 @@ NAN = float("nan")
 @pytest.mark.parametrize(
     ("method", "arguments", "words"),
     [
-        ("add_box", ([1, 1],), r"size must be 3 finite numbers, and is of shape \(2,\)"),
+        ("add_box", ([1, 1],), r"size must be 3 finite numbers, not an array of the shape \(2,\)"),
         ("add_box", ([1, NAN, 1],), "size must be 3 finite numbers"),
         ("add_box", ([1, -1, 1],), "half extent or radius is -0.5; give one from 0"),
-        ("add_box", ([1, 1, 1], np.eye(3)), r"a pose is of shape \(4, 4\) or \(3,\), and this of \(3, 3\)"),
-        ("add_box", ([1, 1, 1], 2 * np.eye(4)), "a pose is no pose"),
-        ("add_box", ([1, 1, 1], np.diag([1.0, 1.0, -1.0, 1.0])), "a pose is no pose"),
+        ("add_box", ([1, 1, 1], np.eye(3)), r"a pose must have the shape \(4, 4\) or \(3,\), not \(3, 3\)"),
+        ("add_box", ([1, 1, 1], 2 * np.eye(4)), "a pose is not a pose"),
+        ("add_box", ([1, 1, 1], np.diag([1.0, 1.0, -1.0, 1.0])), "a pose is not a pose"),
         ("add_box", ([1, 1, 1], [0, NAN, 0]), "a pose is not finite"),
         ("add_box", (["a", "b", "c"],), "array of numbers"),
         ("add_sphere", (-1,), "half extent or radius"),
@@ -267,15 +267,15 @@ NAN = float("nan")
         ("add_sphere", (1, [0, 0]), "centre must be 3"),
         ("add_capsule", (0.1, -1), "half extent or radius"),
         ("add_cylinder", (NAN, 1), "half extent or radius"),
-        ("add_hull", ([],), r"points must be of shape \(n, 3\), and are of \(0,\)"),
+        ("add_hull", ([],), r"points must have the shape \(n, 3\), not \(0,\)"),
         ("add_hull", (np.zeros((0, 3)),), "no vertices"),
         ("add_hull", ([[0, 0, NAN]],), "finite"),
         ("add_hull", ([[0, 0]],), r"\(1, 2\)"),
-        ("add_mesh", (np.eye(3), [[0, 1, 3]]), "a face names a vertex that is not there"),
-        ("add_mesh", (np.eye(3), [[0, 1, -1]]), "a face names a vertex that is not there"),
+        ("add_mesh", (np.eye(3), [[0, 1, 3]]), "a face has a vertex index that is out of range"),
+        ("add_mesh", (np.eye(3), [[0, 1, -1]]), "a face has a vertex index that is out of range"),
         ("add_mesh", (np.eye(3), [[0, 1]]), "faces must be whole numbers"),
         ("add_mesh", (np.eye(3), [[0.0, 1.0, 2.0]]), "faces must be whole numbers"),
-        ("add_mesh", (np.eye(2), [[0, 1, 1]]), r"vertices must be of shape \(n, 3\)"),
+        ("add_mesh", (np.eye(2), [[0, 1, 1]]), r"vertices must have the shape \(n, 3\)"),
     ],
 )
 def test_no_obstacles(method: str, arguments: tuple[Any, ...], words: str) -> None:
@@ -289,7 +289,7 @@ def test_no_obstacles(method: str, arguments: tuple[Any, ...], words: str) -> No
 
 
 def test_every_kind_of_array_makes_an_obstacle(arm: urdd.Robot) -> None:
-    q = arm.sample(5)
+    q = arm.random(5)
     points = np.random.default_rng(1).normal(size=(20, 3)).astype(np.float32)
     read_only = points.copy()
     read_only.flags.writeable = False
@@ -299,7 +299,7 @@ def test_every_kind_of_array_makes_an_obstacle(arm: urdd.Robot) -> None:
     for same in (points, points.astype(float), read_only, wide[:, ::2], np.asfortranarray(points), points.tolist()):
         world = urdd.World()
         world.add_hull("rock", same, TILTED.tolist())
-        found = arm.among(world).distances(q)
+        found = arm.world_proximity(world).distances(q)
         expected = found if expected is None else expected
         np.testing.assert_array_equal(found, expected)
     # It is copied: what happens to the array afterwards does not count.
@@ -307,31 +307,31 @@ def test_every_kind_of_array_makes_an_obstacle(arm: urdd.Robot) -> None:
     world = urdd.World()
     world.add_hull("rock", mine, TILTED)
     mine += 9.0
-    np.testing.assert_array_equal(arm.among(pickle.loads(pickle.dumps(world))).distances(q), expected)
+    np.testing.assert_array_equal(arm.world_proximity(pickle.loads(pickle.dumps(world))).distances(q), expected)
 
 
 @pytest.mark.parametrize(
     ("q", "words"),
     [
-        ([0.0] * 5, r"shape must be \(6,\) or \(n, 6\), and is \(5,\)"),
+        ([0.0] * 5, r"shape must be \(6,\) or \(n, 6\), not \(5,\)"),
         ([0, 0, 0, 0, 0, NAN], "is nan: every value must be finite"),
-        (np.zeros(6, dtype=complex), "one of complex128"),
+        (np.zeros(6, dtype=complex), "not of complex128"),
         (None, "array of numbers"),
     ],
 )
 def test_no_configurations_among_obstacles(q: Any, words: str, arm: urdd.Robot) -> None:
     world = urdd.World()
     world.add_sphere("ball", 0.1)
-    around = arm.among(world)
-    for ask in (around.distances, around.distance, around.in_collision, around.nearest):
+    around = arm.world_proximity(world)
+    for ask in (around.distances, around.min_distance, around.in_collision, around.nearest):
         with pytest.raises(urdd.ConfigurationError, match=words):
             ask(q)
     with pytest.raises(urdd.ConfigurationError, match="one configuration"):
-        around.nearest(arm.sample(2))
+        around.nearest(arm.random(2))
     with pytest.raises(ValueError, match="not be negative"):
         around.nearest(arm.zero, -1)
     with pytest.raises(urdd.UnknownNameError, match="kind of shapes"):
-        arm.among(world, "cubes")  # type: ignore[arg-type]
+        arm.world_proximity(world, "cubes")  # type: ignore[arg-type]
 
 
 def _crowd() -> urdd.World:
@@ -342,8 +342,8 @@ def _crowd() -> urdd.World:
 
 
 def test_control_c_in_a_batch_among_obstacles(arm: urdd.Robot) -> None:
-    around = arm.among(_crowd())
-    q = np.tile(arm.sample(1000), (200, 1))
+    around = arm.world_proximity(_crowd())
+    q = np.tile(arm.random(1000), (200, 1))
     timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
     timer.start()
     begin = time.monotonic()
@@ -352,27 +352,27 @@ def test_control_c_in_a_batch_among_obstacles(arm: urdd.Robot) -> None:
             around.distances(q)
     timer.join()
     assert time.monotonic() - begin < 30
-    assert around.distance(q[0]) > 0
+    assert around.min_distance(q[0]) > 0
 
 
 def test_threads_ask_among_obstacles(arm: urdd.Robot) -> None:
-    around = arm.among(_crowd())
-    q = arm.sample(200)
+    around = arm.world_proximity(_crowd())
+    q = arm.random(200)
     expected = around.distances(q)
     with ThreadPoolExecutor(4) as pool:
         for found in pool.map(around.distances, [q] * 8):
             np.testing.assert_array_equal(found, expected)
 
 
-def _in_child(around: urdd.Among, q: Any, queue: multiprocessing.Queue[float]) -> None:
+def _in_child(around: urdd.WorldProximity, q: Any, queue: multiprocessing.Queue[float]) -> None:
     queue.put(float(around.distances(q).sum()))
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no fork")
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
 def test_a_fork_works_on_among_obstacles(arm: urdd.Robot) -> None:
-    around = arm.among(_crowd())
-    q = arm.sample(100)
+    around = arm.world_proximity(_crowd())
+    q = arm.random(100)
     context = multiprocessing.get_context("fork")
     queue: multiprocessing.Queue[float] = context.Queue()
     expected = float(around.distances(q).sum())

@@ -115,7 +115,7 @@ fn check(arguments: &CheckCollisionsArguments) -> Result<bool, String> {
     let in_urdd =
         |error: RobotError| format!("{}: {error}", escape::line(&path.display().to_string()));
     let space = robot.configurations().map_err(in_urdd)?;
-    let dofs = robot.dofs().map_err(in_urdd)?.len();
+    let dofs = robot.dof_names().map_err(in_urdd)?.len();
     let chosen = match (&arguments.configurations, arguments.random) {
         (Some(file), _) => Chosen::Listed(configurations::read(&robot, file)?),
         (None, Some(count)) => Chosen::Random(space, count),

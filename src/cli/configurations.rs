@@ -40,7 +40,7 @@ pub fn read(robot: &Robot, file: &Path) -> Result<Listed, String> {
         _ => escape::line(&file.display().to_string()).into_owned(),
     };
     let text = text(file).map_err(|error| format!("{name}: {error}"))?;
-    let dofs = robot.dofs().map_err(|error| error.to_string())?;
+    let dofs = robot.dof_names().map_err(|error| error.to_string())?;
     let is_json = text.trim_start().starts_with(['[', '{']);
     if is_json {
         let mut found = Listed::default();

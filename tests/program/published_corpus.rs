@@ -70,9 +70,9 @@ fn legacy_robots_move_as_their_urdfs_do() {
         urdd_generate::generate(&urdf, &target, &settings, &()).unwrap();
         let now = Robot::open(target).unwrap();
         let q = now.configurations().unwrap().random(2);
-        assert_eq!(legacy.dofs().unwrap().len(), q.len(), "{name}");
+        assert_eq!(legacy.dof_names().unwrap().len(), q.len(), "{name}");
         let poses = [&legacy, &now].map(|robot| robot.link_poses(&q).unwrap());
-        for (link, pose) in now.links().unwrap().iter().zip(&poses[1]) {
+        for (link, pose) in now.link_names().unwrap().iter().zip(&poses[1]) {
             let other = &poses[0][legacy.link(link).unwrap()];
             let apart = (pose.translation.vector - other.translation.vector).norm();
             assert!(apart < 1e-9, "{name}: {link} is {apart} m off");
@@ -84,7 +84,7 @@ fn legacy_robots_move_as_their_urdfs_do() {
         let proximity = legacy.proximity(ShapeKind::Hulls).unwrap();
         assert!(proximity.num_pairs() > 0, "{name}");
         assert_eq!(
-            proximity.distances(&q).unwrap().len(),
+            proximity.closest_points(&q).unwrap().len(),
             proximity.num_pairs()
         );
     }

@@ -3,14 +3,14 @@ import type {
   Clearances,
   CollisionModel,
   Explanation,
+  InverseQuestion,
+  InverseSolution,
   PairDistance,
   Pose,
-  Reached,
   Report,
+  Shape,
   ShapeKind,
   SkipsAnswer,
-  Volume,
-  Wish,
 } from "./protocol.js";
 
 export type * from "./protocol.js";
@@ -26,14 +26,14 @@ export function load(bytes?: BufferSource): Promise<Urdd>;
 /** The files of a folder on disk, for Node. */
 export function folder(path: string): Promise<Source>;
 
-/** The module, loaded. A fault of its own (a `WebAssembly.RuntimeError`) ends it: load it again. */
+/** The loaded module. A crash (a `WebAssembly.RuntimeError`) ends it: load it again. */
 export class Urdd {
   private constructor();
   /** The report, as `urdd validate --format json` prints it. */
   validate(source: Source): Report;
-  /** What a rule checks, such as `DOF003`, why, and what to do. */
+  /** Explains a rule, such as `DOF003`. */
   explain(code: string): Explanation;
-  /** A robot to ask about itself. Close it when it is not needed any more. */
+  /** Opens a robot. Close it when it is no longer needed. */
   robot(source: Source): Robot;
 }
 
@@ -46,34 +46,36 @@ export class Robot {
   /** Names, joints, bounds, mass and mesh files. */
   readonly about: About;
   /** The pose of each link. */
-  poses(q: ArrayLike<number> & Iterable<number>): Pose[];
-  /** x, y, z and the quaternion w, x, y, z of each link, in each of the configurations that follow each other. */
-  posesOfMany(values: ArrayLike<number>): Float64Array;
-  /** Number `k` of the random configurations of SPEC 9.2. */
+  linkPoses(q: ArrayLike<number> & Iterable<number>): Pose[];
+  /** x, y, z and the quaternion w, x, y, z of each link, for each of the concatenated configurations. */
+  linkPosesBatch(values: ArrayLike<number>): Float64Array;
+  /** Random configuration `k` of SPEC 9.3. */
   random(k: number): number[];
-  /** The nearest configuration within the bounds. */
+  /** The configuration with each value clamped to its bounds. */
   clamp(q: Iterable<number>): number[];
-  /** Looks for a configuration in which a point of a link is where it should be. */
-  reach(wish: Wish & { restarts?: number }): Reached;
-  /** Every pair of shapes that is not skipped. */
-  distances(q: Iterable<number>, shapes?: ShapeKind): Distance[];
+  /** Searches for a configuration in which a link reaches a target position or pose. */
+  inverseKinematics(
+    question: InverseQuestion & { restarts?: number },
+  ): InverseSolution;
+  /** The distance and the closest points of each pair of shapes that is not skipped. */
+  closestPoints(q: Iterable<number>, kind?: ShapeKind): Distance[];
   /** The nearest pairs. */
-  nearest(q: Iterable<number>, k?: number, shapes?: ShapeKind): Distance[];
+  nearest(q: Iterable<number>, k?: number, kind?: ShapeKind): Distance[];
   /** Whether shapes that are not skipped touch. */
-  inCollision(q: Iterable<number>, shapes?: ShapeKind): boolean;
-  /** What the learned self-collision model is, and how often it was wrong; null where the URDD has none. */
+  inCollision(q: Iterable<number>, kind?: ShapeKind): boolean;
+  /** The learned self-collision model and its measured error rates; null if the URDD has none. */
   readonly collisionModel: CollisionModel | null;
   /**
-   * What that model estimates, which guarantees nothing: where `may_collide` is false a configuration may be passed
-   * over, and the others checked by `inCollision`. Null where the URDD has none.
+   * The model's estimates, which are not a guarantee: if `may_collide` is false, a configuration can be filtered out;
+   * check the others with `inCollision`. Null if the URDD has none.
    */
   clearances(q: Iterable<number>): Clearances | null;
-  /** Which pairs are skipped, and why. */
-  skips(shapes?: ShapeKind): SkipsAnswer;
-  /** Boxes or spheres. */
-  volumes(shapes: ShapeKind): Volume[];
+  /** The skipped pairs, and the reasons. */
+  skips(kind?: ShapeKind): SkipsAnswer;
+  /** The boxes or spheres of a kind. */
+  shapes(kind: ShapeKind): Shape[];
   /** The triangles of a mesh file of the URDD. */
   mesh(path: string): { positions: Float32Array; indices: Uint32Array };
-  /** Gives its memory back. */
+  /** Frees its memory. */
   close(): void;
 }

@@ -78,12 +78,12 @@ export class Robot {
     return this.#ask({ ask: "about" });
   }
 
-  poses(q) {
-    return this.#ask({ ask: "poses", q: [...q] });
+  linkPoses(q) {
+    return this.#ask({ ask: "link_poses", q: [...q] });
   }
 
-  posesOfMany(values) {
-    return this.#module.poses(this.#open(), values);
+  linkPosesBatch(values) {
+    return this.#module.linkPosesBatch(this.#open(), values);
   }
 
   random(k) {
@@ -94,20 +94,20 @@ export class Robot {
     return this.#ask({ ask: "clamp", q: [...q] });
   }
 
-  reach(wish) {
-    return this.#ask({ ask: "reach", ...wish });
+  inverseKinematics(question) {
+    return this.#ask({ ask: "inverse_kinematics", ...question });
   }
 
-  distances(q, shapes = "pieces") {
-    return this.#ask({ ask: "distances", q: [...q], shapes });
+  closestPoints(q, kind = "pieces") {
+    return this.#ask({ ask: "closest_points", q: [...q], kind });
   }
 
-  nearest(q, k = 1, shapes = "pieces") {
-    return this.#ask({ ask: "nearest", q: [...q], k, shapes });
+  nearest(q, k = 1, kind = "pieces") {
+    return this.#ask({ ask: "nearest", q: [...q], k, kind });
   }
 
-  inCollision(q, shapes = "pieces") {
-    return this.#ask({ ask: "in_collision", q: [...q], shapes });
+  inCollision(q, kind = "pieces") {
+    return this.#ask({ ask: "in_collision", q: [...q], kind });
   }
 
   get collisionModel() {
@@ -118,12 +118,12 @@ export class Robot {
     return this.#ask({ ask: "clearances", q: [...q] });
   }
 
-  skips(shapes = "pieces") {
-    return this.#ask({ ask: "skips", shapes });
+  skips(kind = "pieces") {
+    return this.#ask({ ask: "skips", kind });
   }
 
-  volumes(shapes) {
-    return this.#ask({ ask: "volumes", shapes });
+  shapes(kind) {
+    return this.#ask({ ask: "shapes", kind });
   }
 
   mesh(path) {

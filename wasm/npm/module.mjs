@@ -111,10 +111,12 @@ export class Urdd {
   }
 
   /** x, y, z and the quaternion w, x, y, z of each link, in each of the configurations that follow each other. */
-  poses(handle, values) {
+  linkPosesBatch(handle, values) {
     const bytes = new Uint8Array(new Float64Array(values).buffer);
     const answer = this.#with([bytes], (at) =>
-      this.#bytes(this.exports.urdd_robot_poses(handle, at[0], values.length)),
+      this.#bytes(
+        this.exports.urdd_robot_link_poses_batch(handle, at[0], values.length),
+      ),
     );
     return new Float64Array(answer.buffer);
   }

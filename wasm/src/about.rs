@@ -2,8 +2,6 @@
 
 use nalgebra::{Rotation3, UnitQuaternion};
 use serde_json::{Value, json};
-use urdd_directory::root::Root;
-use urdd_directory::source::Source;
 use urdd_document::consumer::{self, ConsumerModules};
 use urdd_document::load::Loaded;
 use urdd_document::mesh_files::MeshFiles;
@@ -39,7 +37,7 @@ const READ: &[ModuleKind] = &[
 /// - `meshes`: by kind, the meshes of each link, each with `glb` for display and `read` for the file that is cheapest
 ///   to read.
 pub fn about(files: &Files, robot: &Robot) -> Result<Value, String> {
-    let root = Root::of(files.clone());
+    let root = files.root.clone();
     let loaded = Loaded::read_only(root, READ).map_err(|error| error.to_string())?;
     let part = Urdd::new(loaded.into());
     let mut faults = Vec::new();
@@ -63,7 +61,7 @@ pub fn about(files: &Files, robot: &Robot) -> Result<Value, String> {
     let bounds = configurations.map(urdd_robot::Configurations::bounds);
     Ok(json!({
         "name": part.robot().map(|robot| &robot.name),
-        "folder": files.folder_name(),
+        "folder": files.root.folder_name(),
         "profile": part.profile().as_str(),
         "metadata": part.metadata_file().json.document().map(|document| &document.value),
         "links": links(&part, modules.as_ref()),

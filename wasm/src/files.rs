@@ -6,15 +6,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use serde_json::{Value, json};
 use urdd_directory::listing::{Entry, EntryKind, Listing};
-use urdd_directory::root::ReadError;
+use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::{Archive, OpenFile, Source};
 
 use crate::{answer, memory};
 
-/// The source of the files. Clones share it.
+/// The files, and those that the host provides.
 #[derive(Debug, Clone)]
 pub struct Files {
-    source: Arc<dyn Source>,
+    pub root: Root,
     given: Option<Arc<Given>>,
 }
 
@@ -27,24 +27,6 @@ struct Given {
 
 /// A file's size, and its content.
 type Held = (u64, Option<Arc<[u8]>>);
-
-impl Source for Files {
-    fn folder_name(&self) -> String {
-        self.source.folder_name()
-    }
-
-    fn list(&self) -> Result<Listing, ReadError> {
-        self.source.list()
-    }
-
-    fn open(&self, path: &str) -> Result<(OpenFile, u64), ReadError> {
-        self.source.open(path)
-    }
-
-    fn sibling(&self, folder_name: &str) -> Option<Arc<dyn Source>> {
-        self.source.sibling(folder_name)
-    }
-}
 
 /// The same files behind an [`Arc`], as a source.
 #[derive(Debug)]
@@ -91,7 +73,7 @@ impl Source for Shared {
 impl Files {
     /// Reads a file of at most `limit` bytes.
     pub fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, String> {
-        let (file, size) = self.open(path).map_err(|error| error.to_string())?;
+        let (file, size) = self.root.open(path).map_err(|error| error.to_string())?;
         if size > limit {
             return Err(format!("it has {size} bytes, more than {limit}"));
         }
@@ -116,7 +98,7 @@ pub unsafe extern "C" fn urdd_files_new(name: *const u8, length: usize) -> *mut 
         files: Mutex::default(),
     });
     Box::into_raw(Box::new(Files {
-        source: Arc::new(Shared(Arc::clone(&given))),
+        root: Root::of(Shared(Arc::clone(&given))),
         given: Some(given),
     }))
 }
@@ -183,7 +165,7 @@ pub unsafe extern "C" fn urdd_files_of_zip(
     let (name, zip) = unsafe { (memory::bytes(name, name_length), memory::bytes(zip, length)) };
     match Archive::new(&String::from_utf8_lossy(name), Arc::from(zip)) {
         Ok(archive) => Box::into_raw(Box::new(Files {
-            source: Arc::new(archive),
+            root: Root::of(archive),
             given: None,
         })),
         Err(_) => std::ptr::null_mut(),
@@ -212,10 +194,10 @@ pub unsafe extern "C" fn urdd_zip_fault(zip: *const u8, length: usize) -> *mut u
 pub unsafe extern "C" fn urdd_files_list(files: *mut Files) -> *mut u8 {
     // SAFETY: guaranteed by the caller.
     let files = unsafe { &*files };
-    answer::result(files.list().map_err(|error| error.to_string()).map(|listing| {
+    answer::result(files.root.list().map_err(|error| error.to_string()).map(|listing| {
         let regular = listing.entries.iter().filter(|entry| entry.kind == EntryKind::File);
         let file = |entry: &Entry| json!({ "path": entry.path, "size": entry.size });
-        json!({ "name": files.folder_name(), "files": regular.map(file).collect::<Vec<_>>() })
+        json!({ "name": files.root.folder_name(), "files": regular.map(file).collect::<Vec<_>>() })
     }))
 }
 

@@ -9,13 +9,13 @@ mod answer;
 #[cfg(feature = "validate")]
 mod explain;
 mod files;
+mod inverse;
 mod memory;
 mod mesh;
 mod model;
 mod pairs;
 #[cfg(target_arch = "wasm32")]
 mod random;
-mod reach;
 mod robot;
 mod sources;
 #[cfg(feature = "validate")]

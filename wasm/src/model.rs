@@ -32,12 +32,12 @@ pub fn about(model: &CollisionModel) -> Value {
     })
 }
 
-/// `may_collide`; `clearances` of all pairs (m); `least`: the index of its pair among them, its `links`, `link_idxs`
-/// and `clearance`, or null for a model without pairs.
+/// `may_collide`; `clearances` of all pairs (m); `min_clearance`: the index of its `pair` among them, its `links`,
+/// `link_idxs` and `clearance`, or null for a model without pairs.
 pub fn clearances(model: &CollisionModel, robot: &Robot, q: &[f64]) -> Result<Value, String> {
     let said = |error: ConfigurationError| error.to_string();
-    let names = robot.links().map_err(|error| error.to_string())?;
-    let least = model.least(q).map_err(said)?.and_then(|least| {
+    let names = robot.link_names().map_err(|error| error.to_string())?;
+    let least = model.min_clearance(q).map_err(said)?.and_then(|least| {
         let pair = model.pairs().get(least.pair)?;
         let links = [pair.link_a_idx.get(), pair.link_b_idx.get()];
         Some(json!({
@@ -49,7 +49,7 @@ pub fn clearances(model: &CollisionModel, robot: &Robot, q: &[f64]) -> Result<Va
     });
     Ok(json!({
         "may_collide": model.may_collide(q).map_err(said)?,
-        "least": least,
+        "min_clearance": least,
         "clearances": model.clearances(q).map_err(said)?,
     }))
 }

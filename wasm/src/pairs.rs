@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use serde_json::{Value, json};
-use urdd_directory::root::Root;
 use urdd_document::load::Loaded;
 use urdd_document::shape_matrices::{Statistics, at, shape_lists, statistics};
 use urdd_document::urdd::Urdd;
@@ -25,7 +24,7 @@ pub struct Pairs {
 impl Pairs {
     /// Reads the modules that are present.
     pub fn read(files: &Files) -> Result<Self, String> {
-        let root = Root::of(files.clone());
+        let root = files.root.clone();
         let loaded = Loaded::read_only(root, &[STATISTICS]);
         let part = Urdd::new(loaded.map_err(|error| error.to_string())?.into());
         let (mut full, mut pieces) = (HashMap::new(), HashMap::new());
@@ -98,7 +97,7 @@ impl Pairs {
         };
         let has_reasons = count > 0 && skips.reason(0, 0).is_some();
         json!({
-            "shapes": kind.name(),
+            "kind": kind.name(),
             "places": skips.places(),
             "skipped": (0..count).map(row).collect::<Vec<_>>(),
             "reasons": has_reasons.then(|| (0..count).map(reasons).collect::<Vec<_>>()),

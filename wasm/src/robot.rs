@@ -1,12 +1,19 @@
 //! Queries on a robot.
 
+use std::str::FromStr;
+
+use nalgebra::Isometry3;
+use serde::Deserialize;
 use serde_json::{Value, json};
-use urdd_robot::{CollisionModel, PairDistance, Proximity, Robot, RobotError, ShapeKind, Solid};
+use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
+use urdd_robot::{
+    CollisionModel, LinkShape, PairDistance, Proximity, Robot, RobotError, ShapeKind, Solid,
+};
 
 use crate::about::about;
 use crate::files::Files;
+use crate::inverse::InverseQuestion;
 use crate::pairs::Pairs;
-use crate::reach::reach;
 use crate::sources::sources;
 use crate::{answer, memory, model};
 
@@ -29,7 +36,7 @@ pub unsafe extern "C" fn urdd_robot_open(files: *mut Files) -> *mut Handle {
     // SAFETY: guaranteed by the caller.
     let files = unsafe { (*files).clone() };
     Box::into_raw(Box::new(Handle {
-        robot: Robot::of(files.clone()),
+        robot: Robot::of(files.root.clone()),
         files,
         proximity: Vec::new(),
         pairs: None,
@@ -53,7 +60,7 @@ pub unsafe extern "C" fn urdd_robot_close(handle: *mut Handle) {
 /// # Safety
 /// `handle` is an open robot that is not used concurrently; there are `count` numbers at `values`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn urdd_robot_poses(
+pub unsafe extern "C" fn urdd_robot_link_poses_batch(
     handle: *mut Handle,
     values: *const u8,
     count: usize,
@@ -64,7 +71,7 @@ pub unsafe extern "C" fn urdd_robot_poses(
     let values: Vec<f64> = values.chunks_exact(8).map(number).collect();
     let poses = handle.robot.link_poses_batch(&values);
     answer::bytes_or_error(poses.map_err(|error| error.to_string()).map(|poses| {
-        let seven = |pose: &nalgebra::Isometry3<f64>| {
+        let seven = |pose: &Isometry3<f64>| {
             let (t, q) = (pose.translation.vector, pose.rotation.quaternion());
             [t.x, t.y, t.z, q.w, q.i, q.j, q.k]
         };
@@ -73,30 +80,107 @@ pub unsafe extern "C" fn urdd_robot_poses(
     }))
 }
 
-/// Runs a query on a robot: JSON in, JSON out. `q` is a configuration, in rad or m; `shapes` is a kind of shapes.
-///
-/// - `{"ask": "about"}`: `about`.
-/// - `{"ask": "poses", "q": [...]}`: a list with `position` (m) and `quaternion_wxyz` of each link.
-/// - `{"ask": "random", "k": 7}`: random configuration `k` of SPEC 9.3.
-/// - `{"ask": "clamp", "q": [...]}`: the nearest configuration within the bounds.
-/// - `{"ask": "reach", "q": [...], "link": 5, "point": [x, y, z], "position": [x, y, z], "quaternion_wxyz": [...],
-///   "dofs": [...], "restarts": 0}`: a configuration in which a point of the link (in its frame) is at a position (in
-///   the root's), and the link has a rotation, if given; `position_error`, `rotation_error`, `reached`.
-/// - `{"ask": "sources"}`: the visual and collision elements of the URDF, with the files of meshes.
-/// - `{"ask": "volumes", "shapes": "boxes"}`: a list with `link`, `piece`, and a box or a sphere.
-/// - `{"ask": "distances", "q": [...], "shapes": "pieces"}`: each pair that is not skipped.
-/// - `{"ask": "nearest", "q": [...], "shapes": "pieces", "k": 3}`: the nearest pairs.
-/// - `{"ask": "in_collision", "q": [...], "shapes": "pieces"}`: true or false.
-/// - `{"ask": "proximity", "q": [...], "shapes": "pieces", "k": 3}`: `nearest`, each with its statistics;
-///   `in_collision`, `pairs` (the number checked) and `of` (their total number).
-/// - `{"ask": "collision_model"}`: the learned self-collision model and its error rates ([`model::about`]); null if
-///   there is none.
-/// - `{"ask": "clearances", "q": [...]}`: the model's estimates ([`model::clearances`]); null if there is none.
-/// - `{"ask": "skips", "shapes": "pieces"}`: the matrices of skips and reasons, and the edits.
-/// - `{"ask": "edit_skips", "shapes": "pieces", "edits": [...], "skipped_reasons": null}`: the matrices with these
-///   edits, and `files`: the text of each file of the URDD that changes.
-/// - `{"ask": "prepare", "shapes": "pieces"}`: reads the shapes, so that the next query is fast.
-/// - `{"ask": "samples"}`: the document of `kinematics_samples_module`.
+/// A query, such as `{"ask": "nearest", "q": [...], "k": 3}`. `q` is a configuration, in rad or m; `kind` is a kind of
+/// shapes, `pieces` by default.
+#[derive(Deserialize)]
+#[serde(tag = "ask", rename_all = "snake_case")]
+enum Question {
+    /// The description of the robot: [`about`].
+    About,
+    /// `position` (m) and `quaternion_wxyz` of each link.
+    LinkPoses { q: Vec<f64> },
+    /// Random configuration `k` of SPEC 9.3.
+    Random {
+        #[serde(default)]
+        k: u64,
+    },
+    /// `q` with each value clamped to its bounds.
+    Clamp { q: Vec<f64> },
+    /// [`crate::inverse`].
+    InverseKinematics(InverseQuestion),
+    /// The visual and collision elements of the URDF, with the files of meshes.
+    Sources,
+    /// `link`, `piece`, and a box or a sphere as `solid`, for each shape.
+    Shapes {
+        #[serde(default)]
+        kind: Kind,
+    },
+    /// The distance and the closest points of each pair that is not skipped.
+    ClosestPoints {
+        q: Vec<f64>,
+        #[serde(default)]
+        kind: Kind,
+    },
+    /// The `k` nearest pairs.
+    Nearest {
+        q: Vec<f64>,
+        #[serde(default)]
+        kind: Kind,
+        #[serde(default = "one")]
+        k: u64,
+    },
+    /// Whether shapes that are not skipped touch.
+    InCollision {
+        q: Vec<f64>,
+        #[serde(default)]
+        kind: Kind,
+    },
+    /// `nearest`, each with its statistics; `in_collision`, `pairs` (the number checked) and `of` (their total number).
+    Proximity {
+        q: Vec<f64>,
+        #[serde(default)]
+        kind: Kind,
+        #[serde(default = "one")]
+        k: u64,
+    },
+    /// The learned self-collision model and its error rates: [`model::about`]. Null if there is none.
+    CollisionModel,
+    /// The model's estimates: [`model::clearances`]. Null if there is none.
+    Clearances { q: Vec<f64> },
+    /// The matrices of skips and reasons, and the edits.
+    Skips {
+        #[serde(default)]
+        kind: Kind,
+    },
+    /// As `skips` with these edits, and `files`: the text of each file of the URDD that changes.
+    EditSkips {
+        #[serde(default)]
+        kind: Kind,
+        edits: Vec<SkipEdit>,
+        skipped_reasons: Option<Vec<SkippedReason>>,
+    },
+    /// Reads the shapes, so that the next query is fast.
+    Prepare {
+        #[serde(default)]
+        kind: Kind,
+    },
+    /// The document of `kinematics_samples_module`.
+    Samples,
+}
+
+fn one() -> u64 {
+    1
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(try_from = "String")]
+struct Kind(ShapeKind);
+
+impl Default for Kind {
+    fn default() -> Self {
+        Kind(ShapeKind::Pieces)
+    }
+}
+
+impl TryFrom<String> for Kind {
+    type Error = <ShapeKind as FromStr>::Err;
+
+    fn try_from(name: String) -> Result<Self, Self::Error> {
+        name.parse().map(Kind)
+    }
+}
+
+/// Answers a [`Question`]: JSON in, JSON out.
 ///
 /// # Safety
 /// `handle` is an open robot that is not used concurrently; the bytes are valid for [`memory::bytes`].
@@ -108,66 +192,47 @@ pub unsafe extern "C" fn urdd_robot_ask(
 ) -> *mut u8 {
     // SAFETY: guaranteed by the caller.
     let (handle, question) = unsafe { (&mut *handle, memory::bytes(question, length)) };
-    answer::result(ask(handle, question))
+    let question = serde_json::from_slice(question).map_err(|error| error.to_string());
+    answer::result(question.and_then(|question| ask(handle, question)))
 }
 
-fn ask(handle: &mut Handle, question: &[u8]) -> Result<Value, String> {
-    let question: Value = serde_json::from_slice(question).map_err(|error| error.to_string())?;
+fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
     let said = |error: RobotError| error.to_string();
-    let values = || -> Result<Vec<f64>, String> {
-        let list = question["q"].as_array().ok_or("`q` is no list")?;
-        let number = |value: &Value| value.as_f64().ok_or("`q` has what is no number");
-        Ok(list.iter().map(number).collect::<Result<_, _>>()?)
-    };
-    let count = || usize::try_from(question["k"].as_u64().unwrap_or(1)).unwrap_or(usize::MAX);
-    match question["ask"].as_str().unwrap_or_default() {
-        "about" => about(&handle.files, &handle.robot),
-        "poses" => {
-            let poses = handle.robot.link_poses(&values()?).map_err(said)?;
-            let pose = |pose: &nalgebra::Isometry3<f64>| {
-                let q = pose.rotation.quaternion();
-                json!({
-                    "position": pose.translation.vector.as_slice(),
-                    "quaternion_wxyz": [q.w, q.i, q.j, q.k],
-                })
-            };
+    let count = |k: u64| usize::try_from(k).unwrap_or(usize::MAX);
+    match question {
+        Question::About => about(&handle.files, &handle.robot),
+        Question::LinkPoses { q } => {
+            let poses = handle.robot.link_poses(&q).map_err(said)?;
             Ok(poses.iter().map(pose).collect())
         }
-        "random" => {
+        Question::Random { k } => {
             let configurations = handle.robot.configurations().map_err(said)?;
-            Ok(json!(
-                configurations.random(question["k"].as_u64().unwrap_or(0))
-            ))
+            Ok(json!(configurations.random(k)))
         }
-        "clamp" => {
-            let mut q = values()?;
+        Question::Clamp { mut q } => {
             let configurations = handle.robot.configurations().map_err(said)?;
             configurations.clamp(&mut q);
             Ok(json!(q))
         }
-        "reach" => reach(&handle.robot, &values()?, &question),
-        "sources" => sources(&handle.files, &handle.robot),
-        "volumes" => volumes(&handle.robot, kind(&question)?).map_err(said),
-        "distances" => {
-            let q = values()?;
-            let pairs = proximity(handle, &question)?.distances(&q).map_err(said)?;
+        Question::InverseKinematics(question) => question.solve(&handle.robot),
+        Question::Sources => sources(&handle.files, &handle.robot),
+        Question::Shapes { kind } => shapes(&handle.robot, kind.0).map_err(said),
+        Question::ClosestPoints { q, kind } => {
+            let pairs = proximity(handle, kind)?.closest_points(&q).map_err(said)?;
             Ok(pairs.iter().map(pair).collect())
         }
-        "nearest" => {
-            let (q, k) = (values()?, count());
-            let pairs = proximity(handle, &question)?.nearest(&q, k).map_err(said)?;
-            Ok(pairs.iter().map(pair).collect())
+        Question::Nearest { q, kind, k } => {
+            let pairs = proximity(handle, kind)?.nearest(&q, count(k));
+            Ok(pairs.map_err(said)?.iter().map(pair).collect())
         }
-        "in_collision" => {
-            let q = values()?;
-            let found = proximity(handle, &question)?.in_collision(&q);
+        Question::InCollision { q, kind } => {
+            let found = proximity(handle, kind)?.in_collision(&q);
             found.map(Value::Bool).map_err(said)
         }
-        "proximity" => {
-            let (q, k) = (values()?, count());
-            let shapes = proximity(handle, &question)?;
-            let nearest = shapes.nearest(&q, k).map_err(said)?;
-            let (kind, checked) = (shapes.kind(), shapes.num_pairs());
+        Question::Proximity { q, kind, k } => {
+            let shapes = proximity(handle, kind)?;
+            let nearest = shapes.nearest(&q, count(k)).map_err(said)?;
+            let (kind, checked) = (kind.0, shapes.num_pairs());
             let in_collision = match nearest.first() {
                 Some(pair) => pair.distance <= 0.0,
                 None => shapes.in_collision(&q).map_err(said)?,
@@ -187,73 +252,70 @@ fn ask(handle: &mut Handle, question: &[u8]) -> Result<Value, String> {
                 "num_samples": pairs.num_samples(kind),
             }))
         }
-        "collision_model" => {
+        Question::CollisionModel => {
             let model = learned(&mut handle.model, &handle.robot)?;
             Ok(model.map_or(Value::Null, model::about))
         }
-        "clearances" => {
-            let q = values()?;
-            match learned(&mut handle.model, &handle.robot)? {
-                Some(model) => model::clearances(model, &handle.robot, &q),
-                None => Ok(Value::Null),
-            }
-        }
-        "skips" => {
-            let kind = kind(&question)?;
+        Question::Clearances { q } => match learned(&mut handle.model, &handle.robot)? {
+            Some(model) => model::clearances(model, &handle.robot, &q),
+            None => Ok(Value::Null),
+        },
+        Question::Skips { kind: Kind(kind) } => {
             let skips = handle.robot.skips(kind).map_err(said)?;
             Ok(pairs(handle)?.skips(kind, &skips))
         }
-        "edit_skips" => {
-            let kind = kind(&question)?;
-            let list = |key: &str| question[key].clone();
-            let edits = serde_json::from_value(list("edits")).map_err(|error| error.to_string())?;
-            let reasons = serde_json::from_value(list("skipped_reasons"));
-            let reasons = reasons.map_err(|error| error.to_string())?;
-            let edited = handle.robot.with_skip_edits(edits, reasons).map_err(said)?;
+        Question::EditSkips {
+            kind: Kind(kind),
+            edits,
+            skipped_reasons,
+        } => {
+            let edited = handle.robot.with_skip_edits(edits, skipped_reasons);
+            let edited = edited.map_err(said)?;
             let skips = handle.robot.skips(kind).map_err(said)?;
             Ok(pairs(handle)?.edited(kind, &skips, &edited))
         }
-        "prepare" => Ok(json!(proximity(handle, &question)?.num_pairs())),
-        "samples" => {
+        Question::Prepare { kind } => Ok(json!(proximity(handle, kind)?.num_pairs())),
+        Question::Samples => {
             let bytes = handle.files.read(
                 "kinematics_samples_module/module.json",
                 urdd_directory::limits::MAX_DOCUMENT_BYTES,
             )?;
             serde_json::from_slice(&bytes).map_err(|error| error.to_string())
         }
-        other => Err(format!("nothing is known of `{}`", other.escape_debug())),
     }
 }
 
-fn kind(question: &Value) -> Result<ShapeKind, String> {
-    let name = question["shapes"].as_str().unwrap_or("pieces");
-    name.parse::<ShapeKind>().map_err(|error| error.to_string())
+fn pose(pose: &Isometry3<f64>) -> Value {
+    let q = pose.rotation.quaternion();
+    json!({
+        "position": pose.translation.vector.as_slice(),
+        "quaternion_wxyz": [q.w, q.i, q.j, q.k],
+    })
 }
 
 /// The boxes or spheres of a kind.
-fn volumes(robot: &Robot, kind: ShapeKind) -> Result<Value, RobotError> {
+fn shapes(robot: &Robot, kind: ShapeKind) -> Result<Value, RobotError> {
     let shapes = robot.shapes(kind)?;
-    let volume = |shape: &urdd_robot::LinkShape| {
+    let shape = |shape: &LinkShape| {
         let solid = match &shape.solid {
             Solid::Mesh(_) => Value::Null,
-            Solid::Box { pose, half_extents } => {
-                let (t, q) = (pose.translation.vector, pose.rotation.quaternion());
-                json!({
-                    "position": t.as_slice(),
-                    "quaternion_wxyz": [q.w, q.i, q.j, q.k],
-                    "half_extents": half_extents,
-                })
+            Solid::Box {
+                pose: at,
+                half_extents,
+            } => {
+                let mut solid = pose(at);
+                solid["half_extents"] = json!(half_extents);
+                solid
             }
             Solid::Sphere { centre, radius } => json!({ "position": centre, "radius": radius }),
         };
         json!({ "link": shape.link, "piece": shape.piece, "solid": solid })
     };
-    Ok(shapes.iter().map(volume).collect())
+    Ok(shapes.iter().map(shape).collect())
 }
 
 /// The shapes of a kind, prepared on first use.
-fn proximity<'a>(handle: &'a mut Handle, question: &Value) -> Result<&'a Proximity, String> {
-    let kind = kind(question)?;
+fn proximity(handle: &mut Handle, Kind(kind): Kind) -> Result<&Proximity, String> {
     let known = &mut handle.proximity;
     let at = match known.iter().position(|known| known.kind() == kind) {
         Some(at) => at,

@@ -1,7 +1,6 @@
 //! The visual and collision elements of the URDF, with their files.
 
 use serde_json::{Value, json};
-use urdd_directory::root::Root;
 use urdd_document::load::Loaded;
 use urdd_document::robot::Element;
 use urdd_document::urdd::Urdd;
@@ -20,7 +19,7 @@ use crate::files::Files;
 /// the URDF's material, or null.
 pub fn sources(files: &Files, robot: &Robot) -> Result<Value, String> {
     let read = [ModuleKind::Urdf, ModuleKind::OriginalMeshes];
-    let loaded = Loaded::read_only(Root::of(files.clone()), &read);
+    let loaded = Loaded::read_only(files.root.clone(), &read);
     let part = Urdd::new(loaded.map_err(|error| error.to_string())?.into());
     let Some(known) = part.robot() else {
         return Err("urdf_module is missing or cannot be read".to_owned());

@@ -1,5 +1,6 @@
 //! The report of a URDD.
 
+use urdd_directory::root::Root;
 use urdd_validate::report;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_source;
@@ -20,14 +21,14 @@ pub unsafe extern "C" fn urdd_validate(
 ) -> *mut u8 {
     // SAFETY: guaranteed by the caller.
     let (files, name) = unsafe { (&*files, memory::bytes(name, name_length)) };
-    match validate(files.clone(), &String::from_utf8_lossy(name)) {
+    match validate(files.root.clone(), &String::from_utf8_lossy(name)) {
         Ok(report) => answer::text(&report),
         Err(error) => answer::result(Err(error)),
     }
 }
 
-fn validate(files: Files, name: &str) -> Result<String, String> {
+fn validate(root: Root, name: &str) -> Result<String, String> {
     let run =
-        validate_source(files, name, &Settings::default()).map_err(|error| error.to_string())?;
+        validate_source(root, name, &Settings::default()).map_err(|error| error.to_string())?;
     report::json(&run.report).map_err(|error| error.to_string())
 }

@@ -47,7 +47,7 @@ try {
     const handle = urdd.open(files);
     const about = urdd.ask(handle, { ask: "about" });
     assert.deepEqual(about.links.map((link) => link.name), read(target, "chain_module").links_in_chain.map((link) => link.name));
-    const batch = urdd.poses(handle, samples.samples.flatMap((sample) => sample.configuration));
+    const batch = urdd.linkPosesBatch(handle, samples.samples.flatMap((sample) => sample.configuration));
     samples.samples.forEach((sample, k) => {
       sample.link_poses.forEach((pose, link) => {
         const at = 7 * (k * sample.link_poses.length + link);
@@ -55,7 +55,7 @@ try {
       });
     });
     for (const sample of samples.samples) {
-      const poses = urdd.ask(handle, { ask: "poses", q: sample.configuration });
+      const poses = urdd.ask(handle, { ask: "link_poses", q: sample.configuration });
       sample.link_poses.forEach((pose, link) => {
         for (const key of ["position", "quaternion_wxyz"]) {
           const sign = key === "position" ? 1 : signOf(pose[key], poses[link][key]);
@@ -64,10 +64,10 @@ try {
       });
     }
 
-    for (const shapes of ["hulls", "pieces"]) {
-      const lines = run("check-collisions", target, "--random", "5", "--shapes", shapes, "--format", "json", "--nearest", "1000000");
+    for (const kind of ["hulls", "pieces"]) {
+      const lines = run("check-collisions", target, "--random", "5", "--shapes", kind, "--format", "json", "--nearest", "1000000");
       for (const native of lines.trim().split("\n").map((line) => JSON.parse(line))) {
-        const question = { q: native.values, shapes };
+        const question = { q: native.values, kind };
         const nearest = urdd.ask(handle, { ask: "nearest", k: 1e6, ...question });
         assert.equal(nearest.length, native.nearest.length);
         nearest.forEach((pair, k) => near(pair.distance, native.nearest[k].distance, 1e-9));
@@ -83,10 +83,10 @@ try {
         compared += nearest.length;
       }
     }
-    assert.throws(() => urdd.ask(handle, { ask: "poses", q: [NaN] }), /no number/);
-    assert.throws(() => urdd.ask(handle, { ask: "sing" }), /nothing is known of `sing`/);
+    assert.throws(() => urdd.ask(handle, { ask: "link_poses", q: [NaN] }), /expected f64/);
+    assert.throws(() => urdd.ask(handle, { ask: "sing" }), /unknown variant `sing`/);
     compareAbout(urdd.ask(handle, { ask: "about" }), target);
-    compareSkips(urdd.ask(handle, { ask: "skips", shapes: "hulls" }), target);
+    compareSkips(urdd.ask(handle, { ask: "skips", kind: "hulls" }), target);
     reaches(urdd, handle);
     assert.equal(urdd.ask(handle, { ask: "collision_model" }), null);
     assert.equal(urdd.ask(handle, { ask: "clearances", q: about.zero }), null);
@@ -169,14 +169,14 @@ function compareAbout(about, target) {
 function reaches(urdd, handle) {
   const about = urdd.ask(handle, { ask: "about" });
   const link = about.links.length - 1;
-  const there = urdd.ask(handle, { ask: "poses", q: urdd.ask(handle, { ask: "random", k: 3 }) })[link];
-  const wish = { ask: "reach", q: about.zero, link, position: there.position, restarts: 50 };
+  const there = urdd.ask(handle, { ask: "link_poses", q: urdd.ask(handle, { ask: "random", k: 3 }) })[link];
+  const wish = { ask: "inverse_kinematics", q: about.zero, link, position: there.position, restarts: 50 };
   const found = urdd.ask(handle, wish);
   assert.ok(found.reached, JSON.stringify(found));
-  const pose = urdd.ask(handle, { ask: "poses", q: found.configuration })[link];
+  const pose = urdd.ask(handle, { ask: "link_poses", q: found.configuration })[link];
   pose.position.forEach((x, k) => near(x, there.position[k], 1e-5));
   assert.deepEqual(urdd.ask(handle, { ...wish, dofs: [] }).configuration, about.zero);
-  assert.throws(() => urdd.ask(handle, { ...wish, position: [1, 2] }), /`position` is no list of 3 numbers/);
+  assert.throws(() => urdd.ask(handle, { ...wish, position: [1, 2] }), /expected an array of length 3/);
   assert.throws(() => urdd.ask(handle, { ...wish, link: 1000 }), /./);
 }
 
@@ -212,7 +212,7 @@ function compareModel(urdd, target) {
   for (let k = 0; k < 40; k++) {
     const found = urdd.ask(handle, { ask: "clearances", q: urdd.ask(handle, { ask: "random", k }) });
     const least = Math.min(...found.clearances);
-    const { pair, links, link_idxs, clearance } = found.least;
+    const { pair, links, link_idxs, clearance } = found.min_clearance;
     assert.equal(clearance, least);
     assert.equal(pair, found.clearances.indexOf(least));
     assert.deepEqual(link_idxs, [pairs[pair].link_a_idx, pairs[pair].link_b_idx]);

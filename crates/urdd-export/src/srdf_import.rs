@@ -82,7 +82,7 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
         let found = found.to_owned();
         return Err(SrdfError::OtherRobot { found, expected }.into());
     }
-    let links = robot.links()?;
+    let links = robot.link_names()?;
     let names = links.iter().map(String::as_str).zip(0..);
     let by_name: HashMap<&str, usize> = names.collect();
     // Called only for errors: each call counts lines from the beginning of the text.

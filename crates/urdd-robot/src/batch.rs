@@ -25,7 +25,8 @@ pub(super) fn room<T: Clone + Default + Send>(
 
 /// Writes the results of a batch of configurations, `width` values each, into `out`, in blocks of `block`
 /// configurations on rayon's thread pool. `start` creates the scratch state that a block shares. `write` gets that
-/// state, the index of the configuration and its part of `out`. Apart from `start` and `write`, nothing allocates.
+/// state, the index of the configuration and its part of `out`. A single block is written on the caller's thread. Apart
+/// from `start` and `write`, nothing allocates.
 ///
 /// # Errors
 /// The error of `write` for the first configuration that fails. Results after it may then be missing.
@@ -39,12 +40,16 @@ pub fn fill<T: Send, S, E: Send>(
     if width == 0 {
         return Ok(());
     }
-    let blocks = out.par_chunks_mut(width.saturating_mul(block)).enumerate();
-    let error = blocks.find_map_first(|(number, out)| {
+    let write_block = |(number, out): (usize, &mut [T])| {
         let mut shared = start();
         let mut each = out.chunks_mut(width).enumerate();
         each.find_map(|(k, row)| write(&mut shared, number * block + k, row).err())
-    });
+    };
+    let size = width.saturating_mul(block);
+    let error = match out.len() <= size {
+        true => write_block((0, out)),
+        false => (out.par_chunks_mut(size).enumerate()).find_map_first(write_block),
+    };
     error.map_or(Ok(()), Err)
 }
 

@@ -37,7 +37,7 @@ impl Robot {
         let (pairs, others) = (module.pairs.iter(), module.other_pairs.iter());
         let links = pairs.flat_map(|pair| [pair.link_a_idx, pair.link_b_idx]);
         let links = links.chain(others.flat_map(|pair| [pair.link_a_idx, pair.link_b_idx]));
-        let num_links = self.links()?.len();
+        let num_links = self.link_names()?.len();
         if let Some(link) = links.map(|link| link.get()).find(|link| *link >= num_links) {
             let reason = format!("link {link} is not one of the robot's {num_links}");
             return Err(unusable(reason));

@@ -105,7 +105,7 @@ pub enum RobotError {
         /// What is wrong with it.
         reason: String,
     },
-    /// The computation was cancelled: [`Proximity::until`](super::Proximity::until).
+    /// The computation was cancelled: [`Proximity::cancellable`](super::Proximity::cancellable).
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// An unusable mesh file.

@@ -95,14 +95,14 @@ impl Robot {
         start: &[f64],
         settings: &InverseSettings,
     ) -> Result<Inverse, RobotError> {
-        self.inverse_kinematics_until(target, start, settings, &Cancellation::default())
+        self.inverse_kinematics_cancellable(target, start, settings, &Cancellation::default())
     }
 
     /// As [`Robot::inverse_kinematics`], with cancellation, which takes effect before the next restart.
     ///
     /// # Errors
     /// As there, and [`RobotError::Cancelled`].
-    pub fn inverse_kinematics_until(
+    pub fn inverse_kinematics_cancellable(
         &self,
         target: &Target,
         start: &[f64],

@@ -15,8 +15,8 @@
 //! let robot = Robot::open(&path)?;
 //! let q = robot.configurations()?.middle();
 //! let poses = robot.link_poses(&q)?;
-//! let last = robot.links()?.len() - 1;
-//! println!("{} is at {}", robot.links()?[last], poses[last].translation);
+//! let last = robot.link_names()?.len() - 1;
+//! println!("{} is at {}", robot.link_names()?[last], poses[last].translation);
 //!
 //! let proximity = robot.proximity(ShapeKind::Pieces)?;
 //! if let Some(pair) = proximity.nearest(&q, 1)?.first() {
@@ -26,7 +26,8 @@
 //! ```
 //!
 //! Lengths are in metres, angles in radians. Poses are in the root link's frame. A configuration has one value for each
-//! DOF, in the order of [`Robot::dofs`]; values beyond the bounds are allowed. Links are in the order of `urdf_module`.
+//! DOF, in the order of [`Robot::dof_names`]; values beyond the bounds are allowed. Links are in the order of
+//! `urdf_module`.
 
 mod batch;
 mod collision_model;
@@ -53,7 +54,7 @@ pub use error::RobotError;
 pub use inverse::Target;
 pub use kinematics::Jacobian;
 pub use mesh::LinkVisual;
-pub use proximity::{PairDistance, Proximity, Until};
+pub use proximity::{Cancellable, PairDistance, Proximity};
 pub use robot::Robot;
 pub use shapes::{LinkShape, ShapeKind, Solid};
 pub use skip_edits::EditedSkips;
@@ -62,4 +63,4 @@ pub use space::Configurations;
 pub use statistics::PairStatistics;
 pub use urdd_kinematics::inverse::{Inverse, InverseSettings, InverseSolution};
 pub use urdd_kinematics::learn::{Clearance, CollisionModel};
-pub use world::{Among, Obstacle, ObstacleDistance, World};
+pub use world::{Obstacle, ObstacleDistance, World, WorldProximity};

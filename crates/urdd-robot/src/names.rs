@@ -9,47 +9,47 @@ impl Robot {
     ///
     /// # Errors
     /// If `chain_module` or `dof_module` is missing or unusable.
-    pub fn links(&self) -> Result<&[String], RobotError> {
+    pub fn link_names(&self) -> Result<&[String], RobotError> {
         Ok(&self.motion()?.links)
     }
 
     /// The index of a link.
     ///
     /// # Errors
-    /// [`RobotError::Unknown`], with the nearest name; and as [`Robot::links`].
+    /// [`RobotError::Unknown`], with the nearest name; and as [`Robot::link_names`].
     pub fn link(&self, name: &str) -> Result<usize, RobotError> {
-        index("link", self.links()?, name)
+        index("link", self.link_names()?, name)
     }
 
     /// The name of each joint.
     ///
     /// # Errors
-    /// As [`Robot::links`].
-    pub fn joints(&self) -> Result<&[String], RobotError> {
+    /// As [`Robot::link_names`].
+    pub fn joint_names(&self) -> Result<&[String], RobotError> {
         Ok(&self.motion()?.joints)
     }
 
     /// The name of each DOF: that of its joint, with the coordinate if the joint has several DOFs.
     ///
     /// # Errors
-    /// As [`Robot::links`].
-    pub fn dofs(&self) -> Result<&[String], RobotError> {
+    /// As [`Robot::link_names`].
+    pub fn dof_names(&self) -> Result<&[String], RobotError> {
         Ok(&self.motion()?.dofs)
     }
 
     /// The index of a DOF.
     ///
     /// # Errors
-    /// [`RobotError::Unknown`], with the nearest name; and as [`Robot::links`].
+    /// [`RobotError::Unknown`], with the nearest name; and as [`Robot::link_names`].
     pub fn dof(&self, name: &str) -> Result<usize, RobotError> {
-        index("DOF", self.dofs()?, name)
+        index("DOF", self.dof_names()?, name)
     }
 
     /// The unit of each DOF: `rad` or `m`.
     ///
     /// # Errors
-    /// As [`Robot::links`].
-    pub fn units(&self) -> Result<&[&'static str], RobotError> {
+    /// As [`Robot::link_names`].
+    pub fn dof_units(&self) -> Result<&[&'static str], RobotError> {
         Ok(&self.motion()?.units)
     }
 }

@@ -11,10 +11,10 @@ export interface Progress {
 interface Waiting {
   resolve: (value: never) => void;
   reject: (error: Error) => void;
-  tell: ((progress: Progress) => void) | undefined;
+  onProgress: ((progress: Progress) => void) | undefined;
 }
 
-/** The module ended with a trap: the worker is replaced, and what was open is opened again. */
+/** The module crashed: the worker is replaced, and the robot is reopened. */
 export class Trapped extends Error {}
 
 export class Engine {
@@ -32,23 +32,23 @@ export class Engine {
   async ask<K extends CallName>(
     call: K,
     question: Calls[K][0],
-    tell?: (progress: Progress) => void,
+    onProgress?: (progress: Progress) => void,
   ): Promise<Calls[K][1]> {
     await this.start();
     if (call === "open") this.source = (question as Calls["open"][0]).source;
-    return this.send(call, question, tell);
+    return this.send(call, question, onProgress);
   }
 
-  /** A second worker for what takes long; it ends afterwards. */
+  /** Runs a long query in a second worker, which then ends. */
   async aside<K extends CallName>(
     call: K,
     question: Calls[K][0],
-    tell?: (progress: Progress) => void,
+    onProgress?: (progress: Progress) => void,
   ): Promise<Calls[K][1]> {
     const other = new Engine(this.script, this.wasm);
     try {
       if (this.source) await other.ask("open", { source: this.source });
-      return await other.ask(call, question, tell);
+      return await other.ask(call, question, onProgress);
     } finally {
       other.end();
     }
@@ -65,12 +65,10 @@ export class Engine {
   private start(): Promise<unknown> {
     if (!this.ready) {
       this.worker = new Worker(this.script);
-      this.worker.addEventListener("message", (event: MessageEvent<Answer>) => {
-        this.answered(event.data);
-      });
-      this.worker.addEventListener("error", (event) => {
-        this.fail(new Error(event.message || "the worker cannot be started"));
-      });
+      this.worker.addEventListener("message", (event: MessageEvent<Answer>) => this.answered(event.data));
+      this.worker.addEventListener("error", (event) =>
+        this.fail(new Error(event.message || "the worker cannot be started")),
+      );
       this.ready = this.send("init", { wasm: this.wasm });
     }
     return this.ready;
@@ -79,11 +77,11 @@ export class Engine {
   private send<K extends CallName>(
     call: K,
     question: Calls[K][0],
-    tell?: (progress: Progress) => void,
+    onProgress?: (progress: Progress) => void,
   ): Promise<Calls[K][1]> {
     const id = this.next++;
     return new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject, tell });
+      this.waiting.set(id, { resolve, reject, onProgress });
       this.worker?.postMessage({ id, call, question });
     });
   }
@@ -92,14 +90,14 @@ export class Engine {
     const waiting = this.waiting.get(answer.id);
     if (!waiting) return;
     if ("progress" in answer) {
-      waiting.tell?.(answer.progress);
+      waiting.onProgress?.(answer.progress);
       return;
     }
     this.waiting.delete(answer.id);
     if (!("error" in answer)) waiting.resolve(answer.value as never);
     else if (answer.trapped) {
       waiting.reject(new Trapped(`the engine stopped: ${answer.error}`));
-      this.fail(new Trapped("the engine stopped, and was started again"));
+      this.fail(new Trapped("the engine stopped and was restarted"));
       const source = this.source;
       if (source) void this.ask("open", { source }).catch(() => undefined);
     } else waiting.reject(new Error(answer.error));

@@ -14,16 +14,16 @@ interface Exports {
   urdd_files_read(files: number, path: number, length: number): number;
   urdd_files_close(files: number): void;
   urdd_mesh(files: number, path: number, length: number): number;
-  /** A page in one file has a module without these. */
+  /** Missing in the module of a page in one file. */
   urdd_validate?: (files: number, name: number, length: number) => number;
   urdd_explain?: (code: number, length: number) => number;
   urdd_robot_open(files: number): number;
   urdd_robot_close(robot: number): void;
-  urdd_robot_poses(robot: number, values: number, count: number): number;
+  urdd_robot_link_poses_batch(robot: number, values: number, count: number): number;
   urdd_robot_ask(robot: number, question: number, length: number): number;
 }
 
-const NO_VALIDATOR = "This page carries no validator: drop the robot on the page of `urdd view`.";
+const NO_VALIDATOR = "This page has no validator: drop the robot on the page of `urdd view`.";
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
@@ -39,7 +39,7 @@ export class UrddModule {
     if (bytes instanceof Promise) {
       const response = await bytes;
       if (!response.ok) throw new Error(`the engine (urdd.wasm) cannot be loaded: status ${response.status}`);
-      // Some file servers do not say `application/wasm`, which streaming wants.
+      // Some file servers do not send `application/wasm`, which streaming requires.
       const streams = response.headers.get("content-type") === "application/wasm";
       const { instance } = streams
         ? await WebAssembly.instantiateStreaming(response, {})
@@ -55,15 +55,15 @@ export class UrddModule {
   }
 
   nameFile(files: number, path: string, size: number): void {
-    this.with([encoder.encode(path)], ([at, length]) => {
-      this.exports.urdd_files_name(files, at, length, Math.min(size, 0xffffffff));
-    });
+    this.with([encoder.encode(path)], ([at, length]) =>
+      this.exports.urdd_files_name(files, at, length, Math.min(size, 0xffffffff)),
+    );
   }
 
   giveFile(files: number, path: string, bytes: Uint8Array): void {
-    this.with([encoder.encode(path), bytes], ([at, length, data, size]) => {
-      this.exports.urdd_files_give(files, at, length, data, size);
-    });
+    this.with([encoder.encode(path), bytes], ([at, length, data, size]) =>
+      this.exports.urdd_files_give(files, at, length, data, size),
+    );
   }
 
   filesOfZip(name: string, zip: Uint8Array): number {
@@ -72,7 +72,7 @@ export class UrddModule {
     );
     if (files === 0) {
       this.with([zip], ([at, length]) => this.json(this.exports.urdd_zip_fault(at, length)));
-      throw new Error("this zip archive holds no URDD");
+      throw new Error("this zip archive has no URDD");
     }
     return files;
   }
@@ -113,9 +113,11 @@ export class UrddModule {
   }
 
   /** x, y, z and the quaternion w, x, y, z of each link. */
-  poses(robot: number, q: number[]): Float64Array {
+  linkPoses(robot: number, q: number[]): Float64Array {
     const values = new Uint8Array(new Float64Array(q).buffer);
-    const bytes = this.with([values], ([at]) => this.bytes(this.exports.urdd_robot_poses(robot, at, q.length)));
+    const bytes = this.with([values], ([at]) =>
+      this.bytes(this.exports.urdd_robot_link_poses_batch(robot, at, q.length)),
+    );
     return new Float64Array(bytes.buffer);
   }
 
@@ -125,17 +127,17 @@ export class UrddModule {
     );
   }
 
-  /** How much memory the module has, bytes. */
+  /** The module's memory, bytes. */
   get memory(): number {
     return this.exports.memory.buffer.byteLength;
   }
 
-  /** Calls with the places and lengths of some inputs. */
+  /** Calls with the addresses and lengths of inputs. */
   private with<T>(inputs: Uint8Array[], call: (at: [number, number, number, number]) => T): T {
     const at: [number, number, number, number] = [0, 0, 0, 0];
     inputs.forEach((bytes, k) => {
       const place = this.exports.urdd_alloc(bytes.length) >>> 0;
-      if (place === 0) throw new Error("there is no memory left for this robot");
+      if (place === 0) throw new Error("not enough memory for this robot");
       new Uint8Array(this.exports.memory.buffer, place, bytes.length).set(bytes);
       at[2 * k] = place;
       at[2 * k + 1] = bytes.length;
@@ -143,15 +145,13 @@ export class UrddModule {
     try {
       return call(at);
     } finally {
-      inputs.forEach((bytes, k) => {
-        this.exports.urdd_free(at[2 * k] ?? 0, bytes.length);
-      });
+      inputs.forEach((bytes, k) => this.exports.urdd_free(at[2 * k] ?? 0, bytes.length));
     }
   }
 
   private answer(pointer: number): Uint8Array<ArrayBuffer> {
     const at = pointer >>> 0;
-    if (at === 0) throw new Error("there is no memory left for this robot");
+    if (at === 0) throw new Error("not enough memory for this robot");
     const buffer = this.exports.memory.buffer;
     const length = new DataView(buffer).getUint32(at, true);
     const bytes = new Uint8Array(length);

@@ -1,4 +1,4 @@
-/** What the page and the worker that owns the WebAssembly module say to each other. */
+/** Messages between the page and the worker that owns the WebAssembly module. */
 
 import type { Unit } from "../ui/format";
 
@@ -69,7 +69,7 @@ export interface Fault {
   reason: string;
 }
 
-/** What a robot is: see `wasm/src/about.rs`. */
+/** The description of a robot: see `wasm/src/about.rs`. */
 export interface About {
   name: string | null;
   folder: string;
@@ -89,10 +89,10 @@ export interface About {
   faults: Fault[];
 }
 
-/** `urdd.json`, as far as the page looks at it; it may hold anything. */
+/** `urdd.json`, with any content. */
 export type Metadata = Record<string, unknown>;
 
-/** What stands for links and their pieces in checks: the names that the library knows. */
+/** The kinds of collision shapes, by the library's names. */
 export const SHAPE_KINDS = ["hulls", "pieces", "boxes", "spheres", "piece-boxes", "piece-spheres"] as const;
 export type ShapeKind = (typeof SHAPE_KINDS)[number];
 
@@ -118,10 +118,10 @@ export interface ProximityAnswer {
   pairs: number;
   of: number | null;
   num_samples: number | null;
-  /** What the learned model says of the same configuration, or why it cannot; null where there is none, or for other
-   * shapes than the pieces that it stands for. */
+  /** The learned model's estimate for the same configuration, or its error; null without a model, or for other shapes
+   * than pieces. */
   model: Learned | { error: string } | null;
-  /** How long the distances took, ms. */
+  /** Time to compute the distances, ms. */
   ms: number;
 }
 
@@ -129,15 +129,15 @@ export interface ProximityAnswer {
 export interface CollisionModel {
   /** Number of pairs of links that it has a clearance for. */
   pairs: number;
-  /** Number of pairs that it takes to be apart always. */
+  /** Number of pairs that it assumes to be always apart. */
   other_pairs: number;
   num_parameters: number;
-  /** From here on distances were all the same to it, metres. */
+  /** Training clipped distances at this value, metres. */
   clip_distance: number;
-  /** How often it is right on 50,000 configurations that SPEC 8.8.9 fixes. */
+  /** Its accuracy on 50,000 configurations that SPEC 8.8.9 defines. */
   evaluation: {
     num_colliding: number;
-    /** In collision, and cleared all the same. */
+    /** In collision, but cleared. */
     num_missed: number;
     /** In collision, and within a step of 0.05 rad or m of being free. */
     num_near_contact: number;
@@ -146,11 +146,11 @@ export interface CollisionModel {
     /** Free, and cleared. */
     num_cleared: number;
   };
-  /** The shares of these counts. */
+  /** The rates from these counts. */
   rates: { miss: Rate; near_contact_miss: Rate; clear: Rate };
 }
 
-/** A share of counted configurations, with the ends of its 95 % interval, 0 to 1. */
+/** A fraction of configurations, with its 95 % interval, 0 to 1. */
 export interface Rate {
   count: number;
   of: number;
@@ -158,17 +158,17 @@ export interface Rate {
   upper: number;
 }
 
-/** What the model estimates of a configuration. */
+/** The model's estimates for a configuration. */
 export interface Clearances {
   /** Whether any clearance is 0 or less. */
   may_collide: boolean;
-  /** The least clearance, metres, and the place of its pair among all; null for a model without a pair. */
-  least: { pair: number; links: [string, string]; link_idxs: [number, number]; clearance: number } | null;
-  /** Of each pair, metres. */
+  /** The minimum clearance, metres, and the index of its pair; null for a model without pairs. */
+  min_clearance: { pair: number; links: [string, string]; link_idxs: [number, number]; clearance: number } | null;
+  /** For each pair, metres. */
   clearances: number[];
 }
 
-/** The model, and what it says. */
+/** The model and its estimates. */
 export type Learned = CollisionModel & Clearances;
 
 export interface SkipEdit {
@@ -179,13 +179,13 @@ export interface SkipEdit {
 }
 
 export interface SkipsAnswer {
-  shapes: ShapeKind;
+  kind: ShapeKind;
   places: [number, number][];
   skipped: string[];
   reasons: string[] | null;
   edits: SkipEdit[] | null;
   skipped_reasons: string[] | null;
-  /** The files that change, where edits were made. */
+  /** The files that edits change. */
   files?: { path: string; text: string }[];
 }
 
@@ -196,7 +196,7 @@ export interface Sample {
   link_poses: Pose[];
 }
 
-export interface Volume {
+export interface Shape {
   link: number;
   piece: number;
   solid: { position: Vector; quaternion_wxyz?: Quaternion; half_extents?: Vector; radius?: number };
@@ -219,28 +219,28 @@ export interface SourceShape extends Pose {
   rgba: [number, number, number, number] | null;
 }
 
-/** Where a link should be, and which DOFs may change for it. */
-export interface Wish {
+/** A target for a link, and the DOFs that may change. */
+export interface InverseQuestion {
   q: number[];
   link: number;
-  /** In the link's frame, metres; its origin unless it is said. */
+  /** The point of the link that reaches the position, in the link's frame, metres; its origin by default. */
   point?: Vector;
-  /** Where that point should be, in the root link's frame. */
+  /** The target position, in the root link's frame, metres. */
   position: Vector;
-  /** How the link should be turned; it does not matter unless it is said. */
+  /** The target rotation of the link; free by default. */
   quaternion_wxyz?: Quaternion;
-  /** All unless they are said. */
+  /** The DOFs that may change; all by default. */
   dofs?: number[];
 }
 
-export interface Reached {
+export interface InverseSolution {
   configuration: number[];
   position_error: number;
   rotation_error: number;
   reached: boolean;
 }
 
-/** Triangles of a mesh, or why there are none. */
+/** The triangles of a mesh, or an error. */
 export interface LinkMesh {
   link: number;
   piece: number;
@@ -269,7 +269,7 @@ export interface UrddReport {
   checks: { code: string; status: string; reason: string | null; skipped: string | null }[];
   not_checked: { codes: string[]; reason: string }[];
   geometry_not_verified: { link: number; codes: string[]; reasons: string[] }[];
-  /** Why the rates of the self-collision model were not verified; null where they were, or there is none. */
+  /** Why the rates of the self-collision model were not verified; null if they were, or without a model. */
   model_not_verified: { codes: string[]; reasons: string[] } | null;
   modules: { name: string; path: string; version: string | null; profile: string | null }[];
 }
@@ -292,38 +292,38 @@ export interface Explanation {
 export interface FileEntry {
   path: string;
   size: number;
-  /** Where a site has it. */
+  /** Its path on a site. */
   at?: string;
 }
 
-/** Where a robot's files lie. */
+/** The source of a robot's files. */
 export type RobotSource =
   | { kind: "url"; name: string; base: string; token: string | null; files: FileEntry[]; revision: string | null }
   | { kind: "local"; name: string; files: { path: string; file: File }[] }
   | { kind: "zip"; name: string; bytes: ArrayBuffer };
 
-/** What the worker answers, by the name of what is asked. */
+/** The worker's queries and answers, by name. */
 export interface Calls {
-  /** The module: its address, or itself, compressed by brotli. */
+  /** The module: its address, or its bytes, compressed by brotli. */
   init: [{ wasm: string | ArrayBuffer }, null];
   open: [{ source: RobotSource }, { about: About; files: FileEntry[]; folder: string }];
-  poses: [{ q: number[] }, Float64Array];
+  linkPoses: [{ q: number[] }, Float64Array];
   random: [{ k: number }, number[]];
   file: [{ path: string }, ArrayBuffer];
   meshes: [{ kind: "plain" | "hulls" | "pieces" }, LinkMesh[]];
-  /** Of files: `link` is the number of the file in the question. */
+  /** The triangles of files: `link` is the index of the file in the query. */
   triangles: [{ paths: string[] }, LinkMesh[]];
   sources: [Record<string, never>, SourceShape[]];
-  reach: [Wish, Reached];
-  volumes: [{ shapes: ShapeKind }, Volume[]];
-  /** The nearest pairs: `k` of them, and more where all of these are in contact. */
-  proximity: [{ q: number[]; shapes: ShapeKind; k: number }, ProximityAnswer];
-  skips: [{ shapes: ShapeKind }, SkipsAnswer];
-  editSkips: [{ shapes: ShapeKind; edits: SkipEdit[]; skipped_reasons: string[] | null }, SkipsAnswer];
+  inverseKinematics: [InverseQuestion, InverseSolution];
+  shapes: [{ kind: ShapeKind }, Shape[]];
+  /** The `k` nearest pairs, or all contacts if there are more. */
+  proximity: [{ q: number[]; kind: ShapeKind; k: number }, ProximityAnswer];
+  skips: [{ kind: ShapeKind }, SkipsAnswer];
+  editSkips: [{ kind: ShapeKind; edits: SkipEdit[]; skipped_reasons: string[] | null }, SkipsAnswer];
   samples: [Record<string, never>, { samples: Sample[] }];
   explain: [{ code: string }, Explanation];
   validate: [{ name: string }, Report];
-  /** How much memory the module has, bytes. */
+  /** The module's memory, bytes. */
   memory: [Record<string, never>, number];
 }
 

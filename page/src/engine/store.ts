@@ -1,9 +1,9 @@
-/** The files of one robot: which there are, and which the module has already. */
+/** The files of one robot, and those that the module already has. */
 
 import type { UrddModule } from "./module";
 import type { FileEntry, RobotSource } from "./protocol";
 
-/** Files that are fetched at once. */
+/** Number of files fetched at once. */
 const AT_ONCE = 8;
 
 const ABOUT = [
@@ -20,7 +20,7 @@ const PAIRS = ["link_shapes_skips", "link_shapes_simple_skips", "link_shapes_dis
 
 const MODULES = {
   about: ABOUT,
-  volumes: ["link_shapes_approximations"],
+  shapes: ["link_shapes_approximations"],
   pairs: PAIRS,
   model: ["self_collision_model"],
   samples: ["kinematics_samples"],
@@ -33,7 +33,7 @@ export class Store {
   private readonly faults = new Map<string, string>();
   private readonly sizes: Map<string, number>;
   private readonly local = new Map<string, File>();
-  /** Where a site has a file, if not under its own name. */
+  /** The path of a file on a site, if it differs from its name. */
   private readonly places = new Map<string, string>();
 
   constructor(
@@ -64,7 +64,7 @@ export class Store {
     return [...this.sizes].map(([path, size]) => ({ path, size }));
   }
 
-  /** The files of the modules that a question is answered from. */
+  /** The files of the modules that a query needs. */
   needed(what: keyof typeof MODULES): string[] {
     const folders = MODULES[what].map((name) => `${name}_module`);
     return [...this.sizes.keys()].filter((path) => {
@@ -75,13 +75,13 @@ export class Store {
     });
   }
 
-  /** Why a file cannot be had, where it cannot. */
+  /** Why a file cannot be loaded. */
   fault(path: string): string | undefined {
     return this.faults.get(path);
   }
 
-  /** Gives files to the module. One that cannot be had is missing there, and the module says so. */
-  async ensure(paths: string[], tell?: (done: number, of: number) => void): Promise<void> {
+  /** Passes files to the module. A file that cannot be loaded is missing there; the module reports it. */
+  async ensure(paths: string[], onProgress?: (done: number, of: number) => void): Promise<void> {
     const wanted = paths.filter((path) => !this.given.has(path) && this.sizes.has(path));
     const missing = paths.filter((path) => !this.sizes.has(path));
     for (const path of missing) this.faults.set(path, "there is no such file");
@@ -97,7 +97,7 @@ export class Store {
           if (error instanceof WebAssembly.RuntimeError) throw error;
           this.faults.set(path, error instanceof Error ? error.message : String(error));
         }
-        tell?.(++done, wanted.length);
+        onProgress?.(++done, wanted.length);
       }
     };
     await Promise.all(Array.from({ length: Math.min(AT_ONCE, wanted.length) }, work));

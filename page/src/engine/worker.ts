@@ -1,4 +1,4 @@
-/** The worker: it owns the module, reads files and answers questions, one after another. */
+/** The worker: it owns the module, reads files and answers queries, one after another. */
 
 import { decompress } from "brotli/decompress";
 import { UrddModule } from "./module";
@@ -42,32 +42,30 @@ function open(): number {
   return robot;
 }
 
-type Tell = (done: number, of: number, what: string) => void;
+type OnProgress = (done: number, of: number, what: string) => void;
 type Question<K extends CallName> = Calls[K][0];
 type Result<K extends CallName> = Calls[K][1] | Promise<Calls[K][1]>;
 
-const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result<K> } = {
+const handlers: { [K in CallName]: (question: Question<K>, onProgress: OnProgress) => Result<K> } = {
   async init({ wasm }) {
     module = await UrddModule.of(typeof wasm === "string" ? fetch(wasm) : decompress(new Uint8Array(wasm)).slice());
     return null;
   },
 
-  async open({ source }, tell) {
+  async open({ source }, onProgress) {
     const engineNow = engine();
     if (store) engineNow.close(store.handle, robot);
     robot = 0;
     about = null;
     store = new Store(engineNow, source);
-    await store.ensure(store.needed("about"), (done, of) => {
-      tell(done, of, "modules");
-    });
+    await store.ensure(store.needed("about"), (done, of) => onProgress(done, of, "modules"));
     robot = engineNow.openRobot(store.handle);
     about = engineNow.ask(robot, { ask: "about" }) as About;
     return { about, files: store.list(), folder: store.name };
   },
 
-  poses({ q }) {
-    return engine().poses(open(), q);
+  linkPoses({ q }) {
+    return engine().linkPoses(open(), q);
   },
 
   random({ k }) {
@@ -78,21 +76,17 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     return (await opened().store.read(path)).buffer;
   },
 
-  async meshes({ kind }, tell) {
+  async meshes({ kind }, onProgress) {
     const { store, about } = opened();
     const lists: MeshPaths[][] = about.meshes[kind] ?? [];
     const paths = lists.flat().flatMap((mesh) => mesh.read ?? []);
-    await store.ensure(paths, (done, of) => {
-      tell(done, of, kind);
-    });
+    await store.ensure(paths, (done, of) => onProgress(done, of, kind));
     return lists.flatMap((meshes, link) => meshes.map((mesh, piece) => triangles(store, link, piece, mesh.read)));
   },
 
-  async triangles({ paths }, tell) {
+  async triangles({ paths }, onProgress) {
     const { store } = opened();
-    await store.ensure(paths, (done, of) => {
-      tell(done, of, "meshes");
-    });
+    await store.ensure(paths, (done, of) => onProgress(done, of, "meshes"));
     return paths.map((path, k) => triangles(store, k, 0, path));
   },
 
@@ -100,38 +94,38 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     return engine().ask(open(), { ask: "sources" }) as Calls["sources"][1];
   },
 
-  reach(wish) {
-    return engine().ask(open(), { ask: "reach", ...wish }) as Calls["reach"][1];
+  inverseKinematics(question) {
+    return engine().ask(open(), { ask: "inverse_kinematics", ...question }) as Calls["inverseKinematics"][1];
   },
 
-  async volumes({ shapes }) {
-    await opened().store.ensure(opened().store.needed("volumes"));
-    return engine().ask(open(), { ask: "volumes", shapes }) as Calls["volumes"][1];
+  async shapes({ kind }) {
+    await opened().store.ensure(opened().store.needed("shapes"));
+    return engine().ask(open(), { ask: "shapes", kind }) as Calls["shapes"][1];
   },
 
-  async proximity({ q, shapes, k }, tell) {
-    await ensureShapes(shapes, tell);
-    engine().ask(open(), { ask: "prepare", shapes });
+  async proximity({ q, kind, k }, onProgress) {
+    await ensureShapes(kind, onProgress);
+    engine().ask(open(), { ask: "prepare", kind });
     const begin = performance.now();
     const nearest = (k: number): Calls["proximity"][1] =>
-      engine().ask(open(), { ask: "proximity", q, shapes, k }) as Calls["proximity"][1];
+      engine().ask(open(), { ask: "proximity", q, kind, k }) as Calls["proximity"][1];
     let answer = nearest(k);
-    // Every contact is told of, however many there are.
+    // All contacts are reported, however many there are.
     for (let more = 4 * k; answer.nearest.length === more / 4 && (answer.nearest.at(-1)?.distance ?? 1) <= 0; more *= 4)
       answer = nearest(more);
     const ms = performance.now() - begin;
-    return { ...answer, model: shapes === "pieces" ? learned(q) : null, ms };
+    return { ...answer, model: kind === "pieces" ? learned(q) : null, ms };
   },
 
-  async skips({ shapes }) {
+  async skips({ kind }) {
     await opened().store.ensure(opened().store.needed("pairs"));
-    return engine().ask(open(), { ask: "skips", shapes }) as Calls["skips"][1];
+    return engine().ask(open(), { ask: "skips", kind }) as Calls["skips"][1];
   },
 
-  async editSkips({ shapes, edits, skipped_reasons }) {
+  async editSkips({ kind, edits, skipped_reasons }) {
     const { store } = opened();
     await store.ensure([...store.needed("pairs"), ...store.needed("about")]);
-    return engine().ask(open(), { ask: "edit_skips", shapes, edits, skipped_reasons }) as Calls["editSkips"][1];
+    return engine().ask(open(), { ask: "edit_skips", kind, edits, skipped_reasons }) as Calls["editSkips"][1];
   },
 
   async samples() {
@@ -147,30 +141,26 @@ const handlers: { [K in CallName]: (question: Question<K>, tell: Tell) => Result
     return engine().explain(code) as Calls["explain"][1];
   },
 
-  async validate({ name }, tell) {
+  async validate({ name }, onProgress) {
     const { store } = opened();
     const all = store.list().map((file) => file.path);
-    await store.ensure(all, (done, of) => {
-      tell(done, of, "files");
-    });
+    await store.ensure(all, (done, of) => onProgress(done, of, "files"));
     return engine().validate(store.handle, name) as Calls["validate"][1];
   },
 };
 
-/** What distances of these shapes are computed from. */
-async function ensureShapes(shapes: ShapeKind, tell: Tell): Promise<void> {
+/** Loads the data that distances of these shapes need. */
+async function ensureShapes(kind: ShapeKind, onProgress: OnProgress): Promise<void> {
   const { store, about } = opened();
   await store.ensure(store.needed("pairs"));
-  await store.ensure(store.needed("volumes"));
-  if (shapes === "pieces") await store.ensure(store.needed("model"));
-  const lists = shapes === "hulls" ? about.meshes.hulls : shapes === "pieces" ? about.meshes.pieces : null;
+  await store.ensure(store.needed("shapes"));
+  if (kind === "pieces") await store.ensure(store.needed("model"));
+  const lists = kind === "hulls" ? about.meshes.hulls : kind === "pieces" ? about.meshes.pieces : null;
   const paths = lists?.flat().flatMap((mesh) => mesh.read ?? []) ?? [];
-  await store.ensure(paths, (done, of) => {
-    tell(done, of, shapes);
-  });
+  await store.ensure(paths, (done, of) => onProgress(done, of, kind));
 }
 
-/** What the learned model says, where there is one. */
+/** The learned model's estimate; null without a model. */
 function learned(q: number[]): Calls["proximity"][1]["model"] {
   try {
     const model = engine().ask(open(), { ask: "collision_model" }) as CollisionModel | null;
@@ -182,7 +172,7 @@ function learned(q: number[]): Calls["proximity"][1]["model"] {
 }
 
 function triangles(store: Store, link: number, piece: number, path: string | null): LinkMesh {
-  if (path === null) return { link, piece, error: "it lies outside of this URDD" };
+  if (path === null) return { link, piece, error: "it is outside of this URDD" };
   try {
     const bytes = engine().mesh(store.handle, path);
     const [vertices = 0, faces = 0] = new Uint32Array(bytes.buffer, 0, 2);
@@ -207,16 +197,14 @@ function transfers(value: unknown): Transferable[] {
   return [];
 }
 
-/** Until this is done nothing else is answered: the robot that is being opened, and the module before. */
+/** Loading of the module and opening of a robot, which other queries wait for. */
 let opening: Promise<unknown> = Promise.resolve();
 
 async function answer({ id, call, question }: Request): Promise<void> {
   try {
-    const handler = handlers[call] as (question: unknown, tell: Tell) => unknown;
-    const tell: Tell = (done, of, what) => {
-      scope.postMessage({ id, progress: { done, of, what } }, []);
-    };
-    const answered = opening.then(() => handler(question, tell));
+    const handler = handlers[call] as (question: unknown, onProgress: OnProgress) => unknown;
+    const onProgress: OnProgress = (done, of, what) => scope.postMessage({ id, progress: { done, of, what } }, []);
+    const answered = opening.then(() => handler(question, onProgress));
     if (call === "init" || call === "open") opening = answered.catch(() => undefined);
     const value = await answered;
     scope.postMessage({ id, value }, transfers(value));
@@ -227,6 +215,4 @@ async function answer({ id, call, question }: Request): Promise<void> {
   }
 }
 
-scope.addEventListener("message", (event) => {
-  void answer(event.data);
-});
+scope.addEventListener("message", (event) => void answer(event.data));

@@ -1,23 +1,22 @@
-/** Beside the robot: which meshes were not found, and what is drawn in their place. */
+/** The list of missing meshes, and of what is drawn instead. */
 
 import { drawnInstead } from "../absent";
 import type { App } from "../app";
-import { fill, h } from "../ui/dom";
+import { button, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 
-/** Meshes that are named before the rest is counted. */
-const MOST = 40;
+/** Maximum number of meshes that are named. */
+const MAX_NAMED = 40;
 
 export function absent(app: App): HTMLElement {
   const title = h("summary", {});
   const list = h("ul", {});
   const more = h("p", { class: "hint" });
-  const away = h("button", { type: "button", class: "tiny", "aria-label": "Close the list of missing meshes" }, "✕");
-  const details = h("details", {}, title, list, more);
-  const element = h("div", { class: "absent", role: "status", hidden: true }, details, away);
-  away.addEventListener("click", () => {
+  const away = button("✕", { class: "tiny", "aria-label": "Close the list of missing meshes" }, () => {
     element.hidden = true;
   });
+  const details = h("details", {}, title, list, more);
+  const element = h("div", { class: "absent", role: "status", hidden: true }, details, away);
   app.store.on(["robot", "absent"], ({ robot, absent }) => {
     element.hidden = !robot || absent.length === 0;
     if (!robot || absent.length === 0) return;
@@ -25,11 +24,10 @@ export function absent(app: App): HTMLElement {
     fill(title, `${count(absent.length, "mesh was", "meshes were")} not found, of ${count(links.size, "link")}`);
     fill(
       list,
-      ...absent.slice(0, MOST).map((mesh) => {
-        const link = h("button", { type: "button", class: "place" }, name(robot.links[mesh.link]?.name ?? ""));
-        link.addEventListener("click", () => {
-          app.select({ kind: "link", index: mesh.link });
-        });
+      ...absent.slice(0, MAX_NAMED).map((mesh) => {
+        const link = button(name(robot.links[mesh.link]?.name ?? ""), { class: "place" }, () =>
+          app.select({ kind: "link", index: mesh.link }),
+        );
         return h(
           "li",
           {},
@@ -40,22 +38,20 @@ export function absent(app: App): HTMLElement {
         );
       }),
     );
-    more.textContent = absent.length > MOST ? `and ${absent.length - MOST} more` : "";
+    more.textContent = absent.length > MAX_NAMED ? `and ${absent.length - MAX_NAMED} more` : "";
   });
   return element;
 }
 
-/** In the header: the same, in short. */
+/** The short form in the header. */
 export function absentChip(app: App, n: number): Node | null {
   if (n === 0) return null;
-  const chip = h("button", { type: "button", class: "chip warning" }, `${count(n, "mesh", "meshes")} not found`);
-  chip.title = "Which meshes, and what is drawn instead";
-  chip.addEventListener("click", () => {
+  const title = "Which meshes, and what is drawn instead";
+  return button(`${count(n, "mesh", "meshes")} not found`, { class: "chip warning", title }, () => {
     for (const box of document.querySelectorAll<HTMLElement>(".absent")) {
       box.hidden = false;
       for (const details of box.querySelectorAll("details")) details.open = true;
     }
     app.showOnly("original");
   });
-  return chip;
 }

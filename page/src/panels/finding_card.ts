@@ -1,4 +1,4 @@
-/** A finding: what is wrong, its places with what was expected and found, the text there, and what the rule means. */
+/** A finding: its message, its places with expected and found values and their text, and the rule's explanation. */
 
 import type { App } from "../app";
 import { message } from "../app";
@@ -6,19 +6,16 @@ import type { Finding } from "../engine/protocol";
 import { excerpt } from "../excerpt";
 import { CONSEQUENCES, linkOf, places } from "../findings";
 import type { Place } from "../findings";
-import { fill, h, prose } from "../ui/dom";
+import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
 
-/** Places of a finding that are shown at first, and with each step. */
+/** Number of places shown at first, and added by each click. */
 const SHOWN = 5;
 const MORE = 50;
 
 export function card(app: App, finding: Finding): HTMLElement {
   const explanation = h("div", { class: "explanation" });
-  const button = h("button", { type: "button", class: "tiny" }, "Explain");
-  button.addEventListener("click", () => {
-    void explain(app, finding.code, explanation);
-  });
+  const made = button("Explain", { class: "tiny" }, () => void explain(app, finding.code, explanation));
   const consequence = CONSEQUENCES.get(String(finding["consequence"]));
   return h(
     "article",
@@ -30,7 +27,7 @@ export function card(app: App, finding: Finding): HTMLElement {
       h("strong", {}, finding.code),
       h("span", { class: "name", title: finding.name }, finding.name),
       h("span", { class: "spring" }),
-      button,
+      made,
     ),
     h("p", {}, ...prose(name(finding.message))),
     h("p", { class: "hint" }, [consequence, count(finding.count, "place")].filter(Boolean).join(" · ")),
@@ -42,7 +39,7 @@ export function card(app: App, finding: Finding): HTMLElement {
 function placeList(app: App, finding: Finding): HTMLElement {
   const all = places(finding);
   const list = h("ul", { class: "places" });
-  const more = h("button", { type: "button", class: "tiny" });
+  const more = button("", { class: "tiny" }, () => show(shown + MORE));
   const last = h("li", {}, more);
   let shown = 0;
   const show = (n: number): void => {
@@ -59,9 +56,6 @@ function placeList(app: App, finding: Finding): HTMLElement {
         h("span", { class: "hint" }, `${count(cut, "place")} more ${cut === 1 ? "is" : "are"} not in the report`),
       );
   };
-  more.addEventListener("click", () => {
-    show(shown + MORE);
-  });
   list.append(last);
   show(SHOWN);
   return list;
@@ -72,10 +66,9 @@ function placeRow(app: App, place: Place): HTMLElement {
   const link = robot ? linkOf(robot, place) : null;
   const where = place.file ? `${place.file}${place.line ? `:${place.line}` : ""}` : null;
   const texts = [place.subject, where, place.pointer].filter((text): text is string => Boolean(text));
-  const go = h("button", { type: "button", class: "place", title: texts.map(name).join("\n") });
-  fill(go, ...prose(name(texts[0] ?? "the URDD as a whole")));
   const text = h("div", { class: "excerpt", hidden: true });
-  go.addEventListener("click", () => {
+  const label = prose(name(texts[0] ?? "the URDD as a whole"));
+  const go = button(label, { class: "place", title: texts.map(name).join("\n") }, () => {
     if (link !== null) app.select({ kind: "link", index: link });
     if (place.file !== null && place.line !== null) void showText(app, place.file, place.line, place.column, text);
   });
@@ -100,7 +93,7 @@ function placeRow(app: App, place: Place): HTMLElement {
   );
 }
 
-/** The lines about a place; a second click takes them away. */
+/** Shows the lines around a place; a second click hides them. */
 async function showText(app: App, path: string, line: number, column: number | null, into: HTMLElement): Promise<void> {
   const button = into.parentElement?.querySelector(".place");
   into.hidden = !into.hidden;
@@ -109,7 +102,7 @@ async function showText(app: App, path: string, line: number, column: number | n
   try {
     const text = new TextDecoder().decode(await app.engine.ask("file", { path }));
     const found = excerpt(text, line, column);
-    if (!found) throw new Error("the file has no such line any more");
+    if (!found) throw new Error("the file no longer has this line");
     fill(
       into,
       ...found.lines.map(({ number, text, isPlace }) =>

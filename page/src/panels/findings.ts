@@ -1,10 +1,10 @@
-/** The validator's report: grouped and filtered, in the order in which to mend it. */
+/** The validator's report, grouped and filtered, in the order in which to fix it. */
 
 import type { App } from "../app";
 import type { Finding, Severity, UrddReport } from "../engine/protocol";
 import { linkOf, namedLinks, paintOf, places, tally, toMend } from "../findings";
 import type { State } from "../state";
-import { fill, h, prose } from "../ui/dom";
+import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { card } from "./finding_card";
 
@@ -22,25 +22,24 @@ export function findings(app: App): HTMLElement {
     ...GROUPS.map((group) => h("option", { value: group }, `by ${group}`)),
   );
   const toggles = SEVERITIES.map((severity) => {
-    const button = h("button", { type: "button", class: `chip ${severity}`, "aria-pressed": "true" }, severity);
-    button.addEventListener("click", () => {
+    const made = button(severity, { class: `chip ${severity}`, "aria-pressed": "true" }, () => {
       if (off.has(severity)) off.delete(severity);
       else off.add(severity);
       render();
     });
-    return [severity, button] as const;
+    return [severity, made] as const;
   });
   const verdict = h("p", { class: "verdict", "aria-live": "polite" });
   const list = h("div", { class: "findings" });
   const tools = h(
     "div",
     {},
-    h("div", { class: "actions" }, ...toggles.map(([, button]) => button)),
+    h("div", { class: "actions" }, ...toggles.map(([, toggle]) => toggle)),
     h("div", { class: "actions" }, search, by),
     painting(app),
   );
   const panel = h("div", { class: "panel" }, verdict, tools, list);
-  const validate = h("button", { type: "button", click: () => void app.loadReport() }, "Validate");
+  const validate = button("Validate", {}, () => void app.loadReport());
 
   const render = (): void => {
     const { report: state, robot } = app.store.now;
@@ -80,7 +79,7 @@ export function findings(app: App): HTMLElement {
         h("h2", {}, `${key}: ${sum(found).toLocaleString("en")}, of ${count(found.length, "kind")}`),
         ...found.map((finding) => card(app, finding)),
       ]),
-      shown.length === 0 && urdd.findings.length > 0 && h("p", { class: "empty" }, "No finding passes the filter."),
+      shown.length === 0 && urdd.findings.length > 0 && h("p", { class: "empty" }, "No finding matches the filter."),
       ...notVerified(urdd),
     );
   };
@@ -104,7 +103,7 @@ function words(urdd: UrddReport, counts: ReturnType<typeof tally>): string {
   const found = `${count(counts.all, "finding")}: ${count(counts.error, "error")}, ${count(counts.warning, "warning")}, ${counts.info} info.`;
   switch (urdd.verdict) {
     case "pass":
-      return urdd.findings.length === 0 ? "Passes: nothing was found." : `Passes. ${found}`;
+      return urdd.findings.length === 0 ? "Passes: no findings." : `Passes. ${found}`;
     case "fail":
       return `Fails. ${found}`;
     case "incomplete":
@@ -114,7 +113,7 @@ function words(urdd: UrddReport, counts: ReturnType<typeof tally>): string {
   }
 }
 
-/** The groups of a finding; by links, its places are divided among them. */
+/** The groups of a finding. Grouping by links splits its places. */
 function groupsOf(app: App, finding: Finding, grouping: Grouping): [string, Finding][] {
   if (grouping === "severity")
     return [[{ error: "Errors", warning: "Warnings", info: "Info" }[finding.severity], finding]];
@@ -136,9 +135,9 @@ function groupsOf(app: App, finding: Finding, grouping: Grouping): [string, Find
   ]);
 }
 
-const NO_LINK = "No link, or not said";
+const NO_LINK = "No link, or unknown";
 
-/** What links are painted by, with what the colours mean. */
+/** The selection of what links are painted by, with a legend. */
 function painting(app: App): HTMLElement {
   const choice = h("select", { id: "painted" });
   const legend = h("p", { class: "legend" });
@@ -157,7 +156,7 @@ function painting(app: App): HTMLElement {
   });
   app.store.on(["robot", "report", "painted"], (state) => {
     choice.value = state.painted === null ? "" : state.painted === "worst" ? "worst" : state.painted.code;
-    // Another report may not have the rule any more.
+    // A new report may no longer have the rule.
     if (choice.selectedIndex < 0) choice.value = "";
     fill(legend, ...keys(state));
   });
@@ -186,14 +185,14 @@ function keys({ robot, report: { report }, painted }: Readonly<State>): Node[] {
           h(
             "span",
             { class: "hint" },
-            `Left out: ${left.map(({ code, links }) => `${code} (${links.size} of ${count(robot.links.length, "link")})`).join(", ")}. Choose one to see its links.`,
+            `Not shown: ${left.map(({ code, links }) => `${code} (${links.size} of ${count(robot.links.length, "link")})`).join(", ")}. Choose one to see its links.`,
           ),
         ]
       : []),
   ];
 }
 
-/** What nobody can say of this URDD: grey, not green. Rules about modules that are not here come last. */
+/** What was not verified: grey, not green. Rules about missing modules come last. */
 function notVerified(urdd: UrddReport): Node[] {
   if (urdd.not_checked.length === 0) return [];
   return [

@@ -1,12 +1,12 @@
-/** All robots of the site, with pictures and search; and where a folder or a zip is dropped. */
+/** All robots of the site, with pictures and search, and a place to drop a folder or a zip. */
 
 import type { App } from "../app";
 import { message } from "../app";
 import type { Entry } from "../model";
-import { fill, h } from "../ui/dom";
+import { button, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 
-/** Robots that are asked about at once. */
+/** Number of parallel requests. */
 const AT_ONCE = 2;
 
 interface Card {
@@ -23,7 +23,7 @@ export function gallery(
   const search = h("input", { type: "search", placeholder: "Find a robot", "aria-label": "Find a robot" });
   const title = h("h2", {}, "Robots");
   const list = h("div", { class: "cards" });
-  const empty = h("p", { class: "empty" }, "No robot is like that.");
+  const empty = h("p", { class: "empty" }, "No robot matches.");
   const panel = h(
     "section",
     { class: "gallery", "aria-label": "Robots" },
@@ -51,7 +51,7 @@ export function gallery(
   app.store.on(["entries"], ({ entries }) => {
     for (const entry of entries) {
       const known = cards.get(entry.id);
-      if (known) known.show({ ...known.entry, ...told(entry) });
+      if (known) known.show({ ...known.entry, ...listed(entry) });
       else {
         const made = card(entry, open);
         cards.set(entry.id, made);
@@ -69,8 +69,8 @@ export function gallery(
   return panel;
 }
 
-/** What a line of `robots.json` says; what it leaves open may be known from elsewhere. */
-function told(entry: Entry): Partial<Entry> {
+/** An entry of `robots.json`, with what is known from elsewhere. */
+function listed(entry: Entry): Partial<Entry> {
   return Object.fromEntries(
     Object.entries(entry).filter(([key, value]) => value !== null || key === "making" || key === "failure"),
   );
@@ -88,17 +88,15 @@ function dropHere(choose: (files: FileList | null, folder: boolean) => void): HT
       choose(input.files, folder);
       input.value = "";
     });
-    const click = (): void => {
-      input.click();
-    };
-    return h("span", {}, h("button", { type: "button", click }, text), input);
+    const click = (): void => input.click();
+    return h("span", {}, button(text, {}, click), input);
   };
   return h(
     "div",
     { class: "drop" },
     h("p", {}, "Drop the folder of a URDD here, or a .zip of it, to see and validate it."),
     h("div", { class: "actions" }, picker(true, "Choose a folder"), picker(false, "Choose a .zip")),
-    h("p", { class: "hint" }, "It is read in this browser. Nothing is uploaded."),
+    h("p", { class: "hint" }, "It stays in this browser. Nothing is uploaded."),
   );
 }
 
@@ -106,14 +104,8 @@ function card(first: Entry, open: (entry: Entry) => void): Card {
   const picture = h("span", { class: "no-picture", "aria-hidden": "true" });
   const size = h("span", { class: "hint" });
   const verdict = h("span", { class: "verdict" });
-  const element = h(
-    "button",
-    { type: "button", class: "card" },
-    picture,
-    h("strong", { title: name(first.name) }, name(first.name)),
-    size,
-    verdict,
-  );
+  const heading = h("strong", { title: name(first.name) }, name(first.name));
+  const element = button([picture, heading, size, verdict], { class: "card" }, () => open(made.entry));
   const made: Card = {
     entry: first,
     element,
@@ -134,23 +126,20 @@ function card(first: Entry, open: (entry: Entry) => void): Card {
       element.disabled = entry.making !== null;
     },
   };
-  element.addEventListener("click", () => {
-    open(made.entry);
-  });
   made.show(first);
   return made;
 }
 
 function words({ making, failure, verdict, findings }: Entry): string {
-  if (making) return making.of > 0 ? `being generated: ${making.done} of ${making.of}` : "being generated";
-  if (failure !== null) return "could not be generated";
+  if (making) return making.of > 0 ? `generating: ${making.done} of ${making.of}` : "generating";
+  if (failure !== null) return "generation failed";
   if (verdict === null) return "";
   const [errors, warnings] = [findings?.error ?? 0, findings?.warning ?? 0];
   const passes = warnings > 0 ? `passes, ${count(warnings, "warning")}` : "passes";
   return { pass: passes, fail: `fails: ${count(errors, "error")}` }[verdict] ?? verdict;
 }
 
-/** Asks for what the list does not say, of cards that are seen. */
+/** Requests missing data of visible cards. */
 class Asker {
   private readonly waiting: Card[] = [];
   private busy = 0;
@@ -170,7 +159,7 @@ class Asker {
       }
       void this.work();
     });
-    // A robot that was being generated can be asked about when it is there.
+    // Data of a robot can be requested once it is generated.
     app.store.on(["entries"], () => {
       for (const [element, { entry }] of this.cards) {
         if (entry.making === null && entry.verdict === null) {
@@ -189,7 +178,7 @@ class Asker {
 
   private async work(): Promise<void> {
     while (this.busy < AT_ONCE) {
-      // An open robot is served first: nobody sees the gallery then.
+      // An open robot has priority: the gallery is hidden then.
       const card = this.app.store.now.robot ? undefined : this.waiting.shift();
       if (!card) return;
       this.busy++;
@@ -197,7 +186,7 @@ class Asker {
         const picture = await this.app.site.picture(card.entry);
         this.answered({ ...card.entry, picture });
         const summary = await this.app.site.summary(card.entry);
-        this.answered({ ...card.entry, ...told(summary) });
+        this.answered({ ...card.entry, ...listed(summary) });
       } catch (error) {
         console.info(message(error));
       }

@@ -1,15 +1,15 @@
-/** The bar at the top: name, size, findings, layers, and what is about the whole page. */
+/** The bar at the top: name, size, findings, layers, and actions on the whole page. */
 
 import type { App } from "../app";
 import { tally } from "../findings";
-import { fill, h } from "../ui/dom";
+import { button, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { LAYERS, LAYER_HINTS, LAYER_NAMES } from "../state";
 import { toggleTheme } from "../ui/theme";
 import { absentChip } from "./absent";
 import { collision } from "./status";
 
-/** Those that the bar has room for; the panel has all. */
+/** The layers in the bar; the panel has all. */
 const SHORT = LAYERS.slice(0, LAYERS.indexOf("spheres") + 1);
 
 export function header(
@@ -20,47 +20,28 @@ export function header(
   const chips = h("div", { class: "chips" });
   const buttons = SHORT.map((layer) => {
     const hint = [LAYER_HINTS[layer], "Shift-click for several"].filter(Boolean).join(". ");
-    const button = h("button", { type: "button", "aria-pressed": "false", title: hint }, LAYER_NAMES[layer]);
-    button.addEventListener("click", (event) => {
+    const made = button(LAYER_NAMES[layer], { "aria-pressed": "false", title: hint }, (event) => {
       const { layers } = app.store.now;
       if (event.shiftKey) app.setLayer(layer, { on: !layers[layer].on });
       else app.showOnly(layer);
     });
-    return [layer, button] as const;
+    return [layer, made] as const;
   });
   const layers = h(
     "div",
     { class: "segments", role: "group", "aria-label": "Shown shapes; shift-click for several" },
     ...buttons.map(([, button]) => button),
   );
-  const frames = h("button", { type: "button", class: "quiet frames", "aria-pressed": "false" }, "Frames");
-  frames.addEventListener("click", () => {
+  const frames = button("Frames", { class: "quiet frames", "aria-pressed": "false" }, () => {
     const { overlays } = app.store.now;
     app.store.set({ overlays: { ...overlays, frames: !overlays.frames } });
   });
-  const save = h(
-    "button",
-    { type: "button", class: "main", click: actions.save, title: "Save the generated URDD into a folder" },
-    "Save…",
+  const save = button("Save…", { class: "main", title: "Save the generated URDD into a folder" }, actions.save);
+  const share = button("Share", { class: "quiet", title: "Copy a link to this view" }, actions.share);
+  const picture = button("Picture", { class: "quiet", title: "Save the picture as PNG" }, actions.picture);
+  const links = button("Links", { class: "quiet fold", "aria-expanded": "false", "aria-controls": "links" }, () =>
+    app.store.set({ unfolded: app.store.now.unfolded === "links" ? null : "links" }),
   );
-  const share = h(
-    "button",
-    { type: "button", class: "quiet", click: actions.share, title: "Copy a link to this view" },
-    "Share",
-  );
-  const picture = h(
-    "button",
-    { type: "button", class: "quiet", click: actions.picture, title: "Save the picture as PNG" },
-    "Picture",
-  );
-  const links = h(
-    "button",
-    { type: "button", class: "quiet fold", "aria-expanded": "false", "aria-controls": "links" },
-    "Links",
-  );
-  links.addEventListener("click", () => {
-    app.store.set({ unfolded: app.store.now.unfolded === "links" ? null : "links" });
-  });
   app.store.on(["unfolded", "robot"], ({ unfolded, robot }) => {
     links.setAttribute("aria-expanded", String(unfolded === "links"));
     links.hidden = robot === null;
@@ -77,22 +58,16 @@ export function header(
     save,
     share,
     picture,
-    h(
-      "button",
-      {
-        type: "button",
-        class: "quiet icon",
-        click: toggleTheme,
-        "aria-label": "Dark or light",
-        title: "Dark or light",
-      },
-      "◐",
-    ),
+    button("◐", { class: "quiet icon", "aria-label": "Dark or light", title: "Dark or light" }, toggleTheme),
   );
-  const touching = h("button", { type: "button", class: "chip", title: "See the nearest pairs" });
-  touching.addEventListener("click", () => {
-    app.store.set({ tab: "Proximity", unfolded: "panels" });
-  });
+  const touching = button(
+    "",
+    {
+      class: "chip",
+      title: "See the nearest pairs",
+    },
+    () => app.store.set({ tab: "Proximity", unfolded: "panels" }),
+  );
   app.store.on(["robot", "proximity", "contacts"], (state) => {
     const { text, kind } = collision(state);
     touching.hidden = state.robot === null || state.contacts === null;
@@ -103,25 +78,19 @@ export function header(
     const several = entries.length > 1;
     fill(
       title,
-      several &&
-        robot &&
-        h("button", { type: "button", class: "quiet back", click: actions.gallery, "aria-label": "All robots" }, "☰"),
+      several && robot && button("☰", { class: "quiet back", "aria-label": "All robots" }, actions.gallery),
       h("h1", { title: robot ? name(robot.name) : "" }, robot ? name(robot.name) : "urdd"),
     );
     const found = report.report ? tally(report.report) : robot?.entry.findings;
     const chip = (severity: "error" | "warning"): Node | null => {
       const n = found?.[severity];
       if (!n) return null;
-      return h(
-        "button",
-        {
-          type: "button",
-          class: `chip ${severity}`,
-          click: () => {
-            app.store.set({ tab: "Findings", unfolded: "panels" });
-          },
-        },
+      return button(
         count(n, severity),
+        {
+          class: `chip ${severity}`,
+        },
+        () => app.store.set({ tab: "Findings", unfolded: "panels" }),
       );
     };
     fill(
@@ -137,20 +106,13 @@ export function header(
         ),
       touching,
       absentChip(app, robot ? absent.length : 0),
-      robot?.entry.temporary && h("span", { class: "chip", title: "It goes when `urdd view` ends" }, "not saved"),
+      robot?.entry.temporary && h("span", { class: "chip", title: "Deleted when `urdd view` ends" }, "not saved"),
       robot &&
         robot.entry.notes.length > 0 &&
-        h(
-          "button",
-          {
-            type: "button",
-            class: "chip",
-            title: "What was assumed when it was generated",
-            click: () => {
-              app.store.set({ tab: "Info", unfolded: "panels" });
-            },
-          },
+        button(
           count(robot.entry.notes.length, "assumption"),
+          { class: "chip", title: "Assumptions during generation" },
+          () => app.store.set({ tab: "Info", unfolded: "panels" }),
         ),
       chip("error"),
       chip("warning"),

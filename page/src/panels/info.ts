@@ -1,9 +1,9 @@
-/** What the robot is: its size and mass, its modules, its files; and of a selected link or joint everything known. */
+/** The robot's size, mass, modules and files, and all data of the selected link or joint. */
 
 import type { App } from "../app";
 import type { Inertial } from "../engine/protocol";
 import type { RobotModel } from "../model";
-import { fill, h } from "../ui/dom";
+import { button, fill, h } from "../ui/dom";
 import { bytes, count, dofValue, lengths, name, number } from "../ui/format";
 import { linkMatrix } from "../scene/drag";
 
@@ -24,39 +24,29 @@ export function info(app: App): HTMLElement {
     else if (selected.kind === "link") fill(chosen, ...ofLink(app, robot, selected.index, poses));
     else fill(chosen, ...ofJoint(app, robot, selected.index, q));
   });
-  app.store.on(["robot"], ({ robot }) => {
-    fill(whole, ...(robot ? ofRobot(robot) : []));
-  });
+  app.store.on(["robot"], ({ robot }) => fill(whole, ...(robot ? ofRobot(robot) : [])));
   return h("div", { class: "panel" }, chosen, whole);
 }
 
 function linkButton(app: App, robot: RobotModel, link: number | null): Node {
   if (link === null) return h("span", {}, "none");
-  return h(
-    "button",
-    {
-      type: "button",
-      class: "place",
-      click: () => {
-        app.select({ kind: "link", index: link });
-      },
-    },
+  return button(
     name(robot.links[link]?.name ?? ""),
+    {
+      class: "place",
+    },
+    () => app.select({ kind: "link", index: link }),
   );
 }
 
 function jointButton(app: App, robot: RobotModel, joint: number | null): Node {
   if (joint === null) return h("span", {}, "none, it is the root");
-  return h(
-    "button",
-    {
-      type: "button",
-      class: "place",
-      click: () => {
-        app.select({ kind: "joint", index: joint });
-      },
-    },
+  return button(
     name(robot.joints[joint]?.name ?? ""),
+    {
+      class: "place",
+    },
+    () => app.select({ kind: "joint", index: joint }),
   );
 }
 
@@ -150,7 +140,7 @@ function ofRobot(robot: RobotModel): Node[] {
     ),
     ...(robot.entry.notes.length > 0
       ? [
-          h("h2", {}, "Assumed when it was generated"),
+          h("h2", {}, "Assumptions during generation"),
           h("ul", { class: "notes" }, ...robot.entry.notes.map((note) => h("li", {}, name(note)))),
         ]
       : []),

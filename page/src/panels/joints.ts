@@ -1,8 +1,8 @@
-/** Every joint that moves: a slider, a number, its limits; and configurations as a whole. */
+/** Each movable joint with a slider, a number and limits; and actions on the whole configuration. */
 
 import type { App } from "../app";
 import { message } from "../app";
-import { cut, fill, h } from "../ui/dom";
+import { button, cut, fill, h } from "../ui/dom";
 import {
   count,
   dofValue,
@@ -25,7 +25,7 @@ interface Control {
   row: HTMLElement;
 }
 
-/** Without bounds a slider has these. */
+/** Bounds of a slider whose DOF has none. */
 const OPEN = { rad: Math.PI, m: 1 };
 
 export function joints(app: App): HTMLElement {
@@ -35,15 +35,11 @@ export function joints(app: App): HTMLElement {
   let controls: Control[] = [];
   let drawn = 0;
 
-  const button = (text: string, title: string, act: () => void): HTMLButtonElement =>
-    h("button", { type: "button", title, click: act }, text);
   const at = (key: "zero" | "middle") => () => {
     const q = app.store.now.robot?.about[key];
     if (q) app.move(q);
   };
-  const play = button("Play samples", "Show the stored samples one after another (space)", () => {
-    void player.toggle();
-  });
+  const play = button("Play samples", "Show the stored samples in turn (space)", () => void player.toggle());
   const step = (by: "back" | "forth", text: string, title: string): HTMLButtonElement => {
     const made = button(text, title, () => {
       player.stop();
@@ -52,22 +48,16 @@ export function joints(app: App): HTMLElement {
     made.setAttribute("aria-label", title);
     return made;
   };
-  const undo = step("back", "↶", "Take the last move back (Ctrl-Z)");
-  const redo = step("forth", "↷", "Move again (Ctrl-Shift-Z)");
+  const undo = step("back", "↶", "Undo the last move (Ctrl-Z)");
+  const redo = step("forth", "↷", "Redo the move (Ctrl-Shift-Z)");
   const actions = h(
     "div",
     { class: "actions" },
-    button("Zero", "Every DOF 0, or its nearest bound", at("zero")),
+    button("Zero", "Every DOF at 0, or at the bound nearest to 0", at("zero")),
     button("Middle", "Every DOF half-way between its bounds", at("middle")),
-    button("Random", "A random configuration within the bounds (R)", () => {
-      void random(app, drawn++);
-    }),
-    button("Copy", "Copy the configuration as a list of numbers, rad and m", () => {
-      void copy(app);
-    }),
-    button("Paste", "Paste a list of numbers, rad and m", () => {
-      void paste(app);
-    }),
+    button("Random", "A random configuration within the bounds (R)", () => void random(app, drawn++)),
+    button("Copy", "Copy the configuration as a list of numbers, rad and m", () => void copy(app)),
+    button("Paste", "Paste a list of numbers, rad and m", () => void paste(app)),
     play,
     h("span", { class: "spring" }),
     undo,
@@ -82,23 +72,21 @@ export function joints(app: App): HTMLElement {
     const followers = robot.joints.flatMap((other) =>
       other.mimic && dofs.includes(other.mimic.dof ?? -1) ? [other] : [],
     );
+    const [first] = dofs;
     const sweep =
       dofs.length === 1
-        ? h(
-            "button",
+        ? button(
+            "↔",
             {
-              type: "button",
               class: "tiny",
-              title: "Sweep this joint through its limits, and stop it",
+              title: "Sweep this joint through its limits",
               "aria-label": `Sweep ${name(found?.name ?? "")}`,
             },
-            "↔",
+            () => {
+              if (first !== undefined) player.sweep(first);
+            },
           )
         : null;
-    const [first] = dofs;
-    sweep?.addEventListener("click", () => {
-      if (first !== undefined) player.sweep(first);
-    });
     const heading = h(
       "div",
       { class: "heading" },
@@ -106,9 +94,7 @@ export function joints(app: App): HTMLElement {
       h("span", { class: "kind" }, (found?.type ?? "").toLowerCase()),
       sweep,
     );
-    heading.addEventListener("click", () => {
-      app.select({ kind: "joint", index: joint });
-    });
+    heading.addEventListener("click", () => app.select({ kind: "joint", index: joint }));
     const block = h(
       "div",
       { class: "joint", id: `joint-${joint}` },
@@ -124,12 +110,8 @@ export function joints(app: App): HTMLElement {
         ),
       );
     }
-    block.addEventListener("pointerenter", () => {
-      app.hover({ kind: "joint", index: joint });
-    });
-    block.addEventListener("pointerleave", () => {
-      app.hover(null);
-    });
+    block.addEventListener("pointerenter", () => app.hover({ kind: "joint", index: joint }));
+    block.addEventListener("pointerleave", () => app.hover(null));
     return block;
   };
 
@@ -144,7 +126,7 @@ export function joints(app: App): HTMLElement {
       max: upper,
       step: "any",
       "aria-label": label,
-      title: "Arrows: fine steps. Shift: ten times finer under the pointer",
+      title: "Arrow keys: fine steps. Shift-drag: ten times finer",
       value: 0,
     });
     refine(slider, () => fineStep(unit));
@@ -166,9 +148,7 @@ export function joints(app: App): HTMLElement {
       player.stop();
       app.setDof(dof, Number(slider.value));
     });
-    slider.addEventListener("dblclick", () => {
-      app.setDof(dof, robot.about.zero?.[dof] ?? 0);
-    });
+    slider.addEventListener("dblclick", () => app.setDof(dof, robot.about.zero?.[dof] ?? 0));
     entry.addEventListener("change", () => {
       player.stop();
       const value = fromShown(Number(entry.value), unit);
@@ -189,7 +169,7 @@ export function joints(app: App): HTMLElement {
     empty.textContent = !robot
       ? ""
       : robot.moves
-        ? "This robot has no joint that moves."
+        ? "This robot has no movable joints."
         : `The joints cannot be moved: ${robot.about.faults[0]?.reason ?? "chain_module or dof_module is missing"}.`;
   });
   app.store.on(["robot", "q", "units"], ({ robot, q }) => {
@@ -216,19 +196,15 @@ export function joints(app: App): HTMLElement {
     if (shown) {
       const error = (value: number, unit: string): string =>
         `${value === 0 ? "0" : value.toExponential(1).replace("-", "−")} ${unit}`;
-      sample.textContent = `Sample ${shown.at + 1} of ${shown.of}: poses differ by ${error(shown.position, "m")} and ${error(shown.angle, "rad")} at most`;
+      sample.textContent = `Sample ${shown.at + 1} of ${shown.of}: poses differ by at most ${error(shown.position, "m")} and ${error(shown.angle, "rad")}`;
       sample.classList.toggle("bad", shown.position > 1e-6 || shown.angle > 1e-6);
     }
   });
   player.changed = (playing) => {
     play.textContent = playing ? "Stop" : "Play samples";
   };
-  addEventListener("urdd-play", () => {
-    void player.toggle();
-  });
-  addEventListener("urdd-random", () => {
-    void random(app, drawn++);
-  });
+  addEventListener("urdd-play", () => void player.toggle());
+  addEventListener("urdd-random", () => void random(app, drawn++));
   return panel;
 }
 
@@ -260,7 +236,7 @@ async function paste(app: App): Promise<void> {
       .map(Number);
     const wanted = app.store.now.robot?.dofs.length ?? 0;
     if (values.length !== wanted || !values.every(Number.isFinite)) {
-      throw new Error(`the clipboard does not hold ${count(wanted, "number")}`);
+      throw new Error(`expected ${count(wanted, "number")} in the clipboard`);
     }
     app.move(values);
   } catch (error) {

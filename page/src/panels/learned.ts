@@ -1,12 +1,12 @@
-/** What the learned self-collision model says of a configuration, beside the exact answer. */
+/** The learned self-collision model's estimate, beside the exact result. */
 
 import type { Learned, ProximityAnswer, Rate } from "../engine/protocol";
 import { fill, h } from "../ui/dom";
 import { length, name } from "../ui/format";
 
-/** The line: one element, and how to show an answer in it. */
+/** An element, and a function that shows an answer in it. */
 export function learnedLine(): { element: HTMLElement; show: (answer: ProximityAnswer | null) => void } {
-  // The verdict alone is read out when it changes: the clearance changes with every move.
+  // Screen readers announce only the verdict: the clearance changes with every move.
   const verdict = h("span", { "aria-live": "polite" });
   const least = h("span", { class: "least" });
   const rates = h("span", { class: "hint" });
@@ -29,21 +29,21 @@ export function learnedLine(): { element: HTMLElement; show: (answer: ProximityA
         fill(rates);
         return;
       }
-      least.textContent = model.least
-        ? ` (least clearance ${length(model.least.clearance)}, ${model.least.links.map(name).join(" – ")})`
+      least.textContent = model.min_clearance
+        ? ` (minimum clearance ${length(model.min_clearance.clearance)}, ${model.min_clearance.links.map(name).join(" – ")})`
         : "";
-      least.title = `An estimate: distances of ${length(model.clip_distance)} and more were all the same to it`;
+      least.title = `An estimate. Training clipped distances at ${length(model.clip_distance)}`;
       rates.textContent = counted(model);
       rates.title = counts(model);
     },
   };
 }
 
-/** What it says, and how that is coloured. */
+/** The verdict, and its colour. */
 function said(model: Learned, exact: ProximityAnswer): [string, "" | "bad" | "doubt"] {
   if (model.may_collide)
-    return exact.in_collision ? ["may be in contact", ""] : ["held to be in contact, and is free", "doubt"];
-  return exact.in_collision ? ["held to be clear, and is in collision: missed", "bad"] : ["clear", ""];
+    return exact.in_collision ? ["may be in contact", ""] : ["predicted in contact, but is free", "doubt"];
+  return exact.in_collision ? ["predicted clear, but is in collision: missed", "bad"] : ["clear", ""];
 }
 
 function counted({ rates }: Learned): string {
@@ -52,8 +52,8 @@ function counted({ rates }: Learned): string {
 
 function counts({ rates: { miss, near_contact_miss: near, clear } }: Learned): string {
   return (
-    `Counted on 50,000 sampled configurations, with 95 % intervals: misses ${n(miss.count)} of ${n(miss.of)} collisions; ` +
-    `of ${n(near.of)} collisions within a step of 0.05 rad or m of contact it misses ${n(near.count)}; ` +
+    `Measured on 50,000 sampled configurations, with 95 % intervals: misses ${n(miss.count)} of ${n(miss.of)} collisions, ` +
+    `and ${n(near.count)} of ${n(near.of)} collisions within a step of 0.05 rad or m of being free; ` +
     `clears ${percent(clear)} of ${n(clear.of)} free configurations. An estimate, not a guarantee.`
   );
 }
@@ -61,7 +61,7 @@ function counts({ rates: { miss, near_contact_miss: near, clear } }: Learned): s
 /** A rate and its 95 % interval: `0.69 % (0.50 to 0.96 %)`. */
 function percent({ count, of, lower, upper }: Rate): string {
   const [share, low, high] = [of === 0 ? Number.NaN : count / of, lower, upper].map((x) => (100 * x).toFixed(2));
-  return of === 0 ? "an unknown share" : `${String(share)} % (${String(low)} to ${String(high)} %)`;
+  return of === 0 ? "an unknown fraction" : `${String(share)} % (${String(low)} to ${String(high)} %)`;
 }
 
 function n(count: number): string {

@@ -1,4 +1,4 @@
-/** The nearest pairs, as they are now and relative to the mean, and whether the robot collides. */
+/** The nearest pairs, with distances and distances relative to the mean, and whether the robot collides. */
 
 import type { App } from "../app";
 import { SHAPE_KINDS } from "../engine/protocol";
@@ -6,7 +6,7 @@ import type { PairDistance, ProximityAnswer, ShapeKind, SkipEdit, Statistics } f
 import { byLinks, isContact } from "../contacts";
 import type { LinkPair } from "../contacts";
 import { decide, nearer } from "../skips";
-import { cut, fill, h } from "../ui/dom";
+import { button, cut, fill, h } from "../ui/dom";
 import { count, length, name, percent } from "../ui/format";
 import type { Pair } from "../state";
 import { learnedLine } from "./learned";
@@ -29,21 +29,17 @@ interface LinkRow {
 export function proximity(app: App): HTMLElement {
   const kind = h(
     "select",
-    { "aria-label": "Shapes that distances are between" },
+    { "aria-label": "Kind of shapes" },
     ...SHAPE_KINDS.map((shapes) => h("option", { value: shapes }, SHAPE_NAMES[shapes])),
   );
-  kind.addEventListener("change", () => {
-    app.useShapes(kind.value as ShapeKind);
-  });
+  kind.addEventListener("change", () => app.useShapes(kind.value as ShapeKind));
   const order = h(
     "select",
     { "aria-label": "Order" },
     h("option", { value: "distance" }, "by distance"),
-    h("option", { value: "relative" }, "by share of mean"),
+    h("option", { value: "relative" }, "relative to mean"),
   );
-  order.addEventListener("change", () => {
-    render();
-  });
+  order.addEventListener("change", () => render());
   const state = h("p", { class: "collision", "aria-live": "polite" });
   const learned = learnedLine();
   const list = h("div", { class: "pairs" });
@@ -52,7 +48,7 @@ export function proximity(app: App): HTMLElement {
   const hint = h(
     "p",
     { class: "hint" },
-    "Each row is of two links. Distances are 0 in contact (SPEC 8.5), so how deep a contact is, is not known.",
+    "Each row is a pair of links. Distances are 0 in contact (SPEC 8.5): penetration depths are not computed.",
   );
   const panel = h(
     "div",
@@ -72,7 +68,7 @@ export function proximity(app: App): HTMLElement {
     detail,
   );
   const rows: LinkRow[] = [];
-  /** Pairs of links whose pieces are shown. */
+  /** Pairs of links whose pieces are visible. */
   const open = new Set<string>();
   const render = (): void => {
     const { robot, proximity, pair, shapes, tab } = app.store.now;
@@ -105,16 +101,14 @@ export function proximity(app: App): HTMLElement {
     selected(app, detail, nearest.find((at) => same(pair, pairOf(at))) ?? null, answer);
   };
   app.store.on(["robot", "proximity", "pair", "shapes", "skips", "tab", "units"], render);
-  app.store.on(["robot"], () => {
-    open.clear();
-  });
+  app.store.on(["robot"], () => open.clear());
   return panel;
 }
 
 /** Whether the robot collides, by links. */
 function verdict(app: App): string {
   const n = app.store.now.contacts?.pairs.length ?? 0;
-  return n === 0 ? "No self-collision" : `In collision with itself: ${count(n, "pair")} of links`;
+  return n === 0 ? "No self-collision" : `Self-collision: ${count(n, "pair")} of links`;
 }
 
 function said(error: string | null, answer: ProximityAnswer | null, open: boolean): string {
@@ -134,17 +128,14 @@ export function same(a: Pair | null, b: Pair | null): boolean {
   return a !== null && b !== null && a.flat().every((x, k) => x === b.flat()[k]);
 }
 
-/** The row of two links with those of their pieces, used again for other links. */
+/** A row for two links, with rows for their pieces. Reused for other links. */
 function linkRow(app: App, toggle: (key: string) => void): LinkRow {
   const main = row(app);
-  const more = h("button", { type: "button", class: "tiny expand" });
+  const more = button("", { class: "tiny expand" }, () => toggle(key));
   const pieces = h("div", { class: "pieces", hidden: true });
   const element = h("div", { class: "link-pair" }, main.element, more, pieces);
   const below: ReturnType<typeof row>[] = [];
   let key = "";
-  more.addEventListener("click", () => {
-    toggle(key);
-  });
   return {
     element,
     show({ links, shapes }, widest, chosen, open) {
@@ -182,7 +173,7 @@ function pieceNames({ links, pieces }: PairDistance): [string, string] {
   return [text(0), text(1)];
 }
 
-/** A row that is used again for another pair. */
+/** A row for a pair. Reused for other pairs. */
 function row(app: App): {
   element: HTMLButtonElement;
   show: (pair: PairDistance, widest: number, chosen: boolean, texts: { names: [string, string]; said: string }) => void;
@@ -194,10 +185,9 @@ function row(app: App): {
   const range = h("span", { class: "range" });
   const mark = h("span", { class: "mark" });
   const bar = h("span", { class: "gauge" }, range, mark);
-  const element = h("button", { type: "button", class: "pair" }, sides[0], distance, relative, sides[1], said, bar);
   let current: PairDistance | null = null;
   let isChosen = false;
-  element.addEventListener("click", () => {
+  const element = button([sides[0], distance, relative, sides[1], said, bar], { class: "pair" }, () => {
     if (current) app.store.set({ pair: isChosen ? null : pairOf(current) });
   });
   return {
@@ -241,11 +231,7 @@ function gauge(
   mark.style.left = `${share(now)}%`;
 }
 
-function act(text: string, title: string, does: () => Promise<void>): Node {
-  return h("button", { type: "button", title, click: () => void does() }, text);
-}
-
-/** Whether a decision that is not saved yet skips these links. */
+/** Whether an unsaved edit skips these links. */
 function isDecided(edits: readonly SkipEdit[] | null | undefined, [a, b]: [string, string]): boolean {
   const [last] = (edits ?? [])
     .filter((edit) => (edit.link_a === a && edit.link_b === b) || (edit.link_a === b && edit.link_b === a))
@@ -270,52 +256,35 @@ function selected(app: App, detail: HTMLElement, pair: PairDistance | null, answ
           h("dt", {}, "min · mean · max"),
           h("dd", {}, [statistics.min, statistics.mean, statistics.max].map((x) => length(x)).join(" · ")),
         )
-      : h("p", { class: "hint" }, "The URDD records no statistics of this pair."),
+      : h("p", { class: "hint" }, "The URDD has no statistics for this pair."),
     h(
       "div",
       { class: "actions" },
-      act("Skip this pair", "Collision checks leave these two links out, once it is saved in Skips", () =>
-        decide(app, [{ link_a: pair.links[0], link_b: pair.links[1], skip: true, reason: "" }]),
+      button(
+        "Skip this pair",
+        "Collision checks skip these two links once the edit is saved in Skips",
+        () => void decide(app, [{ link_a: pair.links[0], link_b: pair.links[1], skip: true, reason: "" }]),
       ),
-      act("Skip all nearer", "Every pair of links that is nearer than this one now", () =>
-        nearer(app, pair.link_idxs, "distance", ""),
+      button(
+        "Skip all nearer",
+        "Every pair of links that is nearer than this one in this configuration",
+        () => void nearer(app, pair.link_idxs, "distance", ""),
       ),
-      act("Skip all relatively nearer", "Every pair of links whose distance is a smaller share of its mean", () =>
-        nearer(app, pair.link_idxs, "relative", ""),
+      button(
+        "Skip all relatively nearer",
+        "Every pair of links whose distance is a smaller fraction of its mean",
+        () => void nearer(app, pair.link_idxs, "relative", ""),
       ),
-      h(
-        "button",
-        {
-          type: "button",
-          click: () => {
-            app.store.set({ tab: "Skips" });
-          },
-        },
-        "See its skip",
-      ),
-      h(
-        "button",
-        {
-          type: "button",
-          click: () => {
-            const keep = new Set(pair.link_idxs);
-            app.hide(app.store.now.robot?.links.keys() ?? [], true);
-            app.hide(keep, false);
-          },
-        },
-        "Show only these",
-      ),
-      h(
-        "button",
-        {
-          type: "button",
-          click: () => {
-            app.store.set({ pair: null });
-            app.hide(app.store.now.robot?.links.keys() ?? [], false);
-          },
-        },
-        "Show all",
-      ),
+      button("Show in Skips", {}, () => app.store.set({ tab: "Skips" })),
+      button("Show only these", {}, () => {
+        const keep = new Set(pair.link_idxs);
+        app.hide(app.store.now.robot?.links.keys() ?? [], true);
+        app.hide(keep, false);
+      }),
+      button("Show all", {}, () => {
+        app.store.set({ pair: null });
+        app.hide(app.store.now.robot?.links.keys() ?? [], false);
+      }),
     ),
   );
 }

@@ -1,4 +1,4 @@
-/** What stands for the links: layers with their opacity, what is drawn over them, and which links are shown. */
+/** Layers with their opacity, overlays, and the visible links. */
 
 import type { AbsentMesh } from "../absent";
 import type { App } from "../app";
@@ -7,10 +7,10 @@ import { partColor } from "../parts";
 import type { RobotPart } from "../parts";
 import type { LayerKind } from "../state";
 import { LAYERS, LAYER_HINTS, LAYER_NAMES, OVERLAYS, OVERLAY_NAMES } from "../state";
-import { cut, fill, h } from "../ui/dom";
+import { button, cut, fill, h } from "../ui/dom";
 import { count, length, name } from "../ui/format";
 
-/** Links that a layer's fault names. */
+/** Maximum number of links that a message names. */
 const NAMED = 6;
 
 export function shapes(app: App): HTMLElement {
@@ -24,12 +24,8 @@ export function shapes(app: App): HTMLElement {
       "aria-label": `Opacity of ${LAYER_NAMES[layer]}`,
     });
     const faults = h("span", { class: "fault" });
-    box.addEventListener("change", () => {
-      app.setLayer(layer, { on: box.checked });
-    });
-    opacity.addEventListener("input", () => {
-      app.setLayer(layer, { opacity: Number(opacity.value), on: true });
-    });
+    box.addEventListener("change", () => app.setLayer(layer, { on: box.checked }));
+    opacity.addEventListener("input", () => app.setLayer(layer, { opacity: Number(opacity.value), on: true }));
     const row = h(
       "div",
       { class: "layer" },
@@ -42,9 +38,9 @@ export function shapes(app: App): HTMLElement {
   });
   const overlays = OVERLAYS.map((kind) => {
     const box = h("input", { type: "checkbox", id: `overlay-${kind}` });
-    box.addEventListener("change", () => {
-      app.store.set({ overlays: { ...app.store.now.overlays, [kind]: box.checked } });
-    });
+    box.addEventListener("change", () =>
+      app.store.set({ overlays: { ...app.store.now.overlays, [kind]: box.checked } }),
+    );
     return { kind, box, row: h("div", { class: "check" }, box, h("label", { for: box.id }, OVERLAY_NAMES[kind])) };
   });
   // A tenth of a millimetre to ten metres.
@@ -59,21 +55,17 @@ export function shapes(app: App): HTMLElement {
     sizeText.textContent = frameSize === null ? "by the robot's size" : length(frameSize);
   });
   const byPart = h("input", { type: "checkbox", id: "by-part" });
-  byPart.addEventListener("change", () => {
-    app.store.set({ byPart: byPart.checked });
-  });
+  byPart.addEventListener("change", () => app.store.set({ byPart: byPart.checked }));
   const partList = h("div", { class: "links" });
   const parts = h(
     "div",
     { hidden: true },
     h("h2", {}, "Parts"),
-    h("div", { class: "check" }, byPart, h("label", { for: "by-part" }, "Colour links by the part that they are of")),
+    h("div", { class: "check" }, byPart, h("label", { for: "by-part" }, "Colour links by part")),
     partList,
   );
   const links = h("div", { class: "links" });
-  const all = (hide: boolean): void => {
-    app.hide(app.store.now.robot?.links.keys() ?? [], hide);
-  };
+  const all = (hide: boolean): void => app.hide(app.store.now.robot?.links.keys() ?? [], hide);
   const panel = h(
     "div",
     { class: "panel" },
@@ -81,7 +73,7 @@ export function shapes(app: App): HTMLElement {
     h("p", { class: "hint" }, "Several at once, each with its opacity."),
     ...layers.map(({ row }) => row),
     parts,
-    h("h2", {}, "Drawn over them"),
+    h("h2", {}, "Overlays"),
     h("div", { class: "checks" }, ...overlays.map(({ row }) => row)),
     h("div", { class: "check size" }, h("label", { for: size.id }, "Size of frames"), size, sizeText),
     h(
@@ -89,42 +81,13 @@ export function shapes(app: App): HTMLElement {
       { class: "headline" },
       h("h2", {}, "Links"),
       h("span", { class: "spring" }),
-      h(
-        "button",
-        {
-          type: "button",
-          class: "tiny",
-          click: () => {
-            all(false);
-          },
-        },
-        "All",
-      ),
-      h(
-        "button",
-        {
-          type: "button",
-          class: "tiny",
-          click: () => {
-            all(true);
-          },
-        },
-        "None",
-      ),
-      h(
-        "button",
-        {
-          type: "button",
-          class: "tiny",
-          title: "The selected link alone",
-          click: () => {
-            const { selected } = app.store.now;
-            all(true);
-            if (selected?.kind === "link") app.hide([selected.index], false);
-          },
-        },
-        "Selected",
-      ),
+      button("All", { class: "tiny" }, () => all(false)),
+      button("None", { class: "tiny" }, () => all(true)),
+      button("Selected", { class: "tiny", title: "Only the selected link" }, () => {
+        const { selected } = app.store.now;
+        all(true);
+        if (selected?.kind === "link") app.hide([selected.index], false);
+      }),
     ),
     links,
   );
@@ -140,9 +103,7 @@ export function shapes(app: App): HTMLElement {
       links,
       ...(robot?.links ?? []).map((link, index) => {
         const box = h("input", { type: "checkbox", id: `link-${index}` });
-        box.addEventListener("change", () => {
-          app.hide([index], !box.checked);
-        });
+        box.addEventListener("change", () => app.hide([index], !box.checked));
         boxes.push(box);
         const has = robot?.about.meshes.plain?.[index]?.length ?? 0;
         const pieces = robot?.about.meshes.pieces?.[index]?.length ?? 0;
@@ -185,7 +146,7 @@ export function shapes(app: App): HTMLElement {
   return panel;
 }
 
-/** Which meshes of a layer the URDD does not have. */
+/** The missing meshes of a layer. */
 function notFound(robot: RobotModel, layer: LayerKind, absent: readonly AbsentMesh[]): string {
   const of = absent.filter(({ geometry }) =>
     geometry === "Visual" ? layer === "original" || layer === "plain" : layer === "collision",

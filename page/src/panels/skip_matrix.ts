@@ -19,10 +19,10 @@ export function reasonClass(letter: string): string {
   return letter === "-" ? "none" : letter === "?" ? "open" : letter;
 }
 
-/** Side of the picture, CSS pixels. */
+/** Side of the matrix, CSS pixels. */
 export const SIDE = 340;
 
-/** The shapes that are rows and columns: all, or those of two links. */
+/** The shapes of the rows and columns: all, or those of two links. */
 export interface Region {
   rows: number[];
   columns: number[];
@@ -34,7 +34,7 @@ export function region(answer: SkipsAnswer, links: [number, number] | null): Reg
   return { rows: of(links?.[0]), columns: of(links?.[1]) };
 }
 
-/** Which pair of shapes is at a place, each from 0 to 1. */
+/** The pair of shapes at a position, from 0 to 1 along each side. */
 export function at({ rows, columns }: Region, x: number, y: number): [number, number] | null {
   const row = rows[Math.floor(y * rows.length)];
   const column = columns[Math.floor(x * columns.length)];
@@ -68,7 +68,7 @@ export function draw(
   });
   context.globalAlpha = 1;
   if (!pair) return;
-  const ofPieces = answer.shapes.startsWith("piece");
+  const ofPieces = answer.kind.startsWith("piece");
   const is = (shape: number, [link, piece]: [number, number]): boolean => {
     const place = answer.places[shape];
     return place?.[0] === link && (!ofPieces || place[1] === piece);

@@ -1,4 +1,4 @@
-/** Links by links: which pairs collision checks skip, and why; and a person's decisions on them. */
+/** The matrix of skipped pairs with their reasons, and the user's edits. */
 
 import type { App } from "../app";
 import { SHAPE_KINDS } from "../engine/protocol";
@@ -6,13 +6,13 @@ import type { ShapeKind, SkipEdit, SkipsAnswer } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import { decide, download, isSkipped, letterAt, load, nearer, save, undo } from "../skips";
 import type { Pair } from "../state";
-import { cut, fill, h } from "../ui/dom";
+import { button, cut, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { SHAPE_NAMES } from "./proximity";
 import { at, draw, REASONS, reasonClass, region } from "./skip_matrix";
 
-/** Rows whose names have room beside them. */
-const MOST_LABELS = 17;
+/** Maximum number of rows with names. */
+const MAX_LABELS = 17;
 
 export function skips(app: App): HTMLElement {
   /** The two links whose pieces are shown, one level down. */
@@ -27,14 +27,22 @@ export function skips(app: App): HTMLElement {
     class: "matrix",
     tabindex: "0",
     role: "application",
-    "aria-label": "Skips of pairs of shapes; arrows move",
+    "aria-label": "Skips of pairs of shapes; arrow keys move",
   });
-  // At the top, where nothing that they change moves them.
-  const up = h("button", { type: "button", class: "tiny", "aria-pressed": "true" }, "Links");
-  const into = h(
-    "button",
-    { type: "button", class: "tiny", "aria-pressed": "false", title: "The pieces of the chosen pair of links" },
+  // At the top, where they do not move when the content changes.
+  const up = button("Links", { class: "tiny", "aria-pressed": "true" }, () => {
+    down = null;
+    reload("hulls");
+  });
+  const into = button(
     "Its pieces",
+    { class: "tiny", "aria-pressed": "false", title: "The pieces of the chosen pair of links" },
+    () => {
+      const { pair } = app.store.now;
+      if (!pair) return;
+      down = [pair[0][0], pair[1][0]];
+      reload("pieces");
+    },
   );
   const legend = h("div", { class: "legend" });
   const said = h("p", { class: "hint said", "aria-live": "polite" });
@@ -61,16 +69,6 @@ export function skips(app: App): HTMLElement {
     down = null;
     reload(kind.value as ShapeKind);
   });
-  up.addEventListener("click", () => {
-    down = null;
-    reload("hulls");
-  });
-  into.addEventListener("click", () => {
-    const { pair } = app.store.now;
-    if (!pair) return;
-    down = [pair[0][0], pair[1][0]];
-    reload("pieces");
-  });
   const render = (): void => {
     const { skips: state, robot, pair } = app.store.now;
     const { answer, error } = state;
@@ -81,16 +79,16 @@ export function skips(app: App): HTMLElement {
     into.disabled = pair === null;
     empty.hidden = has;
     empty.textContent = error
-      ? `There are no skips to show: ${error}`
+      ? `The skips cannot be shown: ${error}`
       : answer && !has
-        ? "This robot has no shapes, and so no pairs."
+        ? "This robot has no shapes, so there are no pairs."
         : "";
     fill(chosen);
     fill(edits);
     if (!has) return;
     const shown = region(answer, down);
-    const named = shown.rows.length <= MOST_LABELS;
-    const across = shown.columns.length <= MOST_LABELS;
+    const named = shown.rows.length <= MAX_LABELS;
+    const across = shown.columns.length <= MAX_LABELS;
     labels.hidden = !named;
     columns.hidden = !across;
     fill(labels, ...(named ? shown.rows.map((shape) => label(robot, answer, shape, pair)) : []));
@@ -110,7 +108,7 @@ export function skips(app: App): HTMLElement {
     if (pair) fill(chosen, ...decision(app, robot, answer, pair));
     fill(edits, ...listed(app, answer));
   };
-  /** Of the chosen pair, or of all. */
+  /** A summary of the selected pair, or of all pairs. */
   const standing = (): string => {
     const { skips: state, robot, pair } = app.store.now;
     if (!state.answer || !robot) return "";
@@ -180,11 +178,11 @@ export function skips(app: App): HTMLElement {
 function label(robot: RobotModel, answer: SkipsAnswer, shape: number, pair: Pair | null): HTMLElement {
   const [link, piece] = answer.places[shape] ?? [0, 0];
   const text = name(robot.links[link]?.name ?? "");
-  const chosen = pair?.some(([other, k]) => other === link && (k === piece || !answer.shapes.startsWith("piece")));
+  const chosen = pair?.some(([other, k]) => other === link && (k === piece || !answer.kind.startsWith("piece")));
   return h(
     "span",
     { class: chosen ? "cut chosen" : "cut", title: text },
-    ...cut(answer.shapes.startsWith("piece") ? `${text} ${piece}` : text),
+    ...cut(answer.kind.startsWith("piece") ? `${text} ${piece}` : text),
   );
 }
 
@@ -205,22 +203,22 @@ function summary(answer: SkipsAnswer): string {
 function words(robot: RobotModel, answer: SkipsAnswer, [i, j]: [number, number]): string {
   const of = (k: number): string => {
     const [link, piece] = answer.places[k] ?? [0, 0];
-    return name(robot.links[link]?.name ?? "") + (answer.shapes.startsWith("piece") ? ` piece ${piece}` : "");
+    return name(robot.links[link]?.name ?? "") + (answer.kind.startsWith("piece") ? ` piece ${piece}` : "");
   };
   const reason = REASONS.get(letterAt(answer, i, j)) ?? "";
   return `${of(i)} · ${of(j)}: ${reason}, ${isSkipped(answer, i, j) ? "skipped" : "checked"}`;
 }
 
-/** The rows of a pair of shapes. */
+/** The row and the column of a pair of shapes. */
 function shapesOf(answer: SkipsAnswer, pair: Pair): [number, number] | null {
-  const ofPieces = answer.shapes.startsWith("piece");
+  const ofPieces = answer.kind.startsWith("piece");
   const [i = -1, j = -1] = pair.map(([link, piece]) =>
     answer.places.findIndex(([other, k]) => other === link && (!ofPieces || k === piece)),
   );
   return i < 0 || j < 0 ? null : [i, j];
 }
 
-/** Why pairs of shapes are skipped or not: the reasons with their numbers, and what a person decided. */
+/** The reasons of pairs of shapes with their counts, and the last edit. */
 function whys(answer: SkipsAnswer, pairs: [number, number][], links: [string, string]): string {
   const reasons = new Map<string, number>();
   for (const [i, j] of pairs) {
@@ -231,11 +229,11 @@ function whys(answer: SkipsAnswer, pairs: [number, number][], links: [string, st
     ?.filter(({ link_a, link_b }) => [link_a, link_b].sort().join("\0") === links.slice().sort().join("\0"))
     .pop();
   const found = [...reasons].map(([text, n]) => (pairs.length > 1 ? `${text} (${n.toLocaleString("en")})` : text));
-  const decided = edit && `decided: ${edit.skip ? "skip" : "check"}${edit.reason ? `, ${name(edit.reason)}` : ""}`;
+  const decided = edit && `edited: ${edit.skip ? "skip" : "check"}${edit.reason ? `, ${name(edit.reason)}` : ""}`;
   return [found.join(", "), decided].filter(Boolean).join("; ");
 }
 
-/** What can be decided of the chosen pair of links. */
+/** The possible edits of the selected pair of links. */
 function decision(app: App, robot: RobotModel, answer: SkipsAnswer, pair: Pair): Node[] {
   const links: [number, number] = [pair[0][0], pair[1][0]];
   const [a, b] = links.map((link) => robot.links[link]?.name ?? "") as [string, string];
@@ -258,36 +256,34 @@ function decision(app: App, robot: RobotModel, answer: SkipsAnswer, pair: Pair):
     h("p", { class: "why" }, `Reason: ${whys(answer, pairs, [a, b])}`),
   ];
   if (answer.edits === null)
-    return [...title, h("p", { class: "hint" }, "A legacy URDD has no edits: generate a new one to decide on skips.")];
+    return [...title, h("p", { class: "hint" }, "A legacy URDD has no edits: generate a new URDD to edit skips.")];
   if (links[0] === links[1])
     return [...title, h("p", { class: "hint" }, "Shapes of one link are never checked against each other.")];
   const reason = h("input", {
     type: "text",
-    placeholder: "Why? (kept with the decision)",
+    placeholder: "Reason (saved with the edit)",
     "aria-label": "Reason",
     maxlength: 10000,
   });
   const say = (skip: boolean): SkipEdit => ({ link_a: a, link_b: b, skip, reason: reason.value.trim() });
-  const button = (text: string, title: string, act: () => void): Node =>
-    h("button", { type: "button", title, click: act }, text);
   return [
     ...title,
     reason,
     h(
       "div",
       { class: "actions" },
-      button("Skip", "All pairs of shapes of these two links", () => {
-        void decide(app, [say(true)]);
-      }),
-      button("Check", "All pairs of shapes of these two links", () => {
-        void decide(app, [say(false)]);
-      }),
-      button("Skip all nearer", "Every pair of links that is nearer than this one in the present configuration", () => {
-        void nearer(app, links, "distance", reason.value.trim());
-      }),
-      button("Skip all relatively nearer", "Every pair of links whose distance is a smaller share of its mean", () => {
-        void nearer(app, links, "relative", reason.value.trim());
-      }),
+      button("Skip", "All pairs of shapes of these two links", () => void decide(app, [say(true)])),
+      button("Check", "All pairs of shapes of these two links", () => void decide(app, [say(false)])),
+      button(
+        "Skip all nearer",
+        "Every pair of links that is nearer than this one in this configuration",
+        () => void nearer(app, links, "distance", reason.value.trim()),
+      ),
+      button(
+        "Skip all relatively nearer",
+        "Every pair of links whose distance is a smaller fraction of its mean",
+        () => void nearer(app, links, "relative", reason.value.trim()),
+      ),
     ),
   ];
 }
@@ -296,46 +292,21 @@ function listed(app: App, answer: SkipsAnswer): Node[] {
   const { skips: state, robot } = app.store.now;
   if (!answer.edits || !robot) return [];
   const canUndo = state.before.length > 0 || state.saved > 0;
-  const back = h(
-    "button",
-    {
-      type: "button",
-      click: () => {
-        void undo(app);
-      },
-    },
+  const back = button(
     state.before.length > 0 || state.saved === 0 ? "Undo" : "Undo the save",
+    {},
+    () => void undo(app),
   );
   back.disabled = !canUndo;
   const writable = robot.entry.writable && app.site.mode === "live";
   const keep = writable
-    ? h(
-        "button",
-        {
-          type: "button",
-          class: "main",
-          click: () => {
-            void save(app);
-          },
-        },
-        "Save",
-      )
-    : h(
-        "button",
-        {
-          type: "button",
-          class: "main",
-          click: () => {
-            download(app);
-          },
-        },
-        "Download the files",
-      );
+    ? button("Save", { class: "main" }, () => void save(app))
+    : button("Download the files", { class: "main" }, () => download(app));
   keep.disabled = !state.dirty;
   return [
-    h("h2", {}, state.dirty ? "Decisions, not saved yet" : "Decisions"),
+    h("h2", {}, state.dirty ? "Edits, not saved yet" : "Edits"),
     answer.edits.length === 0 &&
-      h("p", { class: "hint" }, "None: skips follow from reasons alone. Click a pair to decide."),
+      h("p", { class: "hint" }, "None: skips follow from the reasons. Click a pair to edit it."),
     h(
       "ul",
       { class: "notes" },
@@ -354,8 +325,8 @@ function listed(app: App, answer: SkipsAnswer): Node[] {
         "p",
         { class: "hint" },
         robot.entry.temporary
-          ? "This URDD is temporary. Save it with Save… at the top: then decisions can be saved in its folder."
-          : "This page cannot write the URDD: it is shown from a site or an archive.",
+          ? "This URDD is temporary. Save it with Save… at the top: then edits can be saved in its folder."
+          : "This page cannot write the URDD: it is from a site or an archive.",
       ),
   ].filter((node) => node !== false);
 }

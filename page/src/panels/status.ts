@@ -1,21 +1,21 @@
 /** The line at the bottom. */
 
 import type { App } from "../app";
-import { fill, h } from "../ui/dom";
+import { button, fill, h } from "../ui/dom";
 import { count, name, number, UNIT_NAMES } from "../ui/format";
 import type { Units } from "../ui/format";
 import type { State } from "../state";
 import { SHAPE_NAMES } from "./proximity";
 
-/** Pairs of links that are named. */
+/** Maximum number of pairs of links that are named. */
 const NAMED = 2;
 
-/** What is being loaded, in words. */
+/** The progress of loading, in words. */
 export function said({ title = "Loading", what, done, of }: NonNullable<State["loading"]>): string {
   return `${title} ${what}${of > 0 ? `, ${done} of ${of}` : ""}`;
 }
 
-/** Whether the robot collides: in a few words, and as a class. */
+/** Whether the robot collides: a short text, and a class. */
 export function collision({ robot, proximity, contacts }: Readonly<State>): {
   text: string;
   kind: string;
@@ -23,8 +23,8 @@ export function collision({ robot, proximity, contacts }: Readonly<State>): {
 } {
   const { answer, error } = proximity;
   if (error !== null || !robot?.moves)
-    return { text: "collisions not known", kind: "open", more: error ?? "the joints cannot be moved" };
-  if (!answer || !contacts) return { text: "looking for collisions…", kind: "open", more: "" };
+    return { text: "collisions unknown", kind: "open", more: error ?? "the joints cannot be moved" };
+  if (!answer || !contacts) return { text: "checking for collisions…", kind: "open", more: "" };
   const pairs = contacts.pairs.map(({ links }) => links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "));
   if (pairs.length === 0) return { text: "no self-collision", kind: "good", more: "" };
   const rest = pairs.length > NAMED ? ` and ${pairs.length - NAMED} more` : "";
@@ -46,7 +46,7 @@ export function status(app: App): HTMLElement {
     const { text, kind, more } = collision(state);
     verdict.hidden = robot === null;
     const line = `● ${text}`;
-    // It is read out when it changes, and not with every move.
+    // Screen readers announce it when it changes, not with every move.
     if (verdict.textContent !== line) verdict.textContent = line;
     verdict.className = `verdict-now ${kind}`;
     verdict.title = more;
@@ -63,9 +63,7 @@ export function status(app: App): HTMLElement {
       );
     } else fill(left, h("span", {}, robot ? name(more) : ""));
   });
-  app.store.on(["note"], ({ note }) => {
-    fill(middle, note);
-  });
+  app.store.on(["note"], ({ note }) => fill(middle, note));
   app.store.on(["robot", "q", "sample"], ({ robot, q, sample }) => {
     const is = (key: "zero" | "middle"): boolean =>
       robot?.about[key]?.every((value, dof) => Math.abs(value - (q[dof] ?? 0)) < 1e-9) ?? false;
@@ -78,18 +76,17 @@ export function status(app: App): HTMLElement {
 /** The units of all numbers; a click changes them. */
 function switches(app: App): HTMLElement[] {
   const make = <K extends keyof Units>(key: K, both: readonly [Units[K], Units[K]]): HTMLElement => {
-    const button = h("button", { type: "button", class: "tiny unit" });
-    button.addEventListener("click", () => {
+    const made = button("", { class: "tiny unit" }, () => {
       const { units } = app.store.now;
       app.setUnits({ ...units, [key]: units[key] === both[0] ? both[1] : both[0] });
     });
     app.store.on(["units"], ({ units }) => {
       const [now, other] = units[key] === both[0] ? both : [both[1], both[0]];
-      button.textContent = now;
-      button.title = `In ${UNIT_NAMES[now]}. Click for ${UNIT_NAMES[other]}`;
-      button.setAttribute("aria-label", `${now}: ${key === "length" ? "lengths" : "angles"} in ${UNIT_NAMES[now]}`);
+      made.textContent = now;
+      made.title = `In ${UNIT_NAMES[now]}. Click for ${UNIT_NAMES[other]}`;
+      made.setAttribute("aria-label", `${now}: ${key === "length" ? "lengths" : "angles"} in ${UNIT_NAMES[now]}`);
     });
-    return button;
+    return made;
   };
   return [make("length", ["mm", "m"]), make("angle", ["°", "rad"])];
 }

@@ -1,4 +1,4 @@
-/** The tree of links and joints, with where each joint stands. */
+/** The tree of links and joints, with the position of each joint. */
 
 import type { App } from "../app";
 import { cut, fill, h } from "../ui/dom";
@@ -15,7 +15,7 @@ interface Row {
   dot: HTMLElement;
 }
 
-/** Room for indents, pixels. */
+/** Maximum width of indents, pixels. */
 const WIDEST = 72;
 
 const TURNS = new Set(["Revolute", "Continuous"]);
@@ -58,18 +58,12 @@ export function tree(app: App): HTMLElement {
     element.addEventListener("click", (event) => {
       if (event.altKey) app.hide([link], !app.store.now.hidden.has(link));
       else app.select({ kind: "link", index: link });
-      // Where the tree lies over the picture, the link is seen now.
+      // If the tree covers the picture, folding it shows the link.
       if (app.store.now.unfolded === "links") app.store.set({ unfolded: null });
     });
-    element.addEventListener("dblclick", () => {
-      app.store.set({ tab: "Joints" });
-    });
-    element.addEventListener("pointerenter", () => {
-      app.hover({ kind: "link", index: link });
-    });
-    element.addEventListener("pointerleave", () => {
-      app.hover(null);
-    });
+    element.addEventListener("dblclick", () => app.store.set({ tab: "Joints" }));
+    element.addEventListener("pointerenter", () => app.hover({ kind: "link", index: link }));
+    element.addEventListener("pointerleave", () => app.hover(null));
     return { link, depth, element, value, dot };
   };
 
@@ -90,7 +84,7 @@ export function tree(app: App): HTMLElement {
   app.store.on(["robot"], ({ robot }) => {
     const found = robot ? order(robot) : [];
     const deepest = Math.max(1, ...found.map(({ depth }) => depth));
-    // Deep trees are drawn closer, so that names have room.
+    // Deep trees have smaller indents, so that names fit.
     const step = Math.min(12, WIDEST / deepest);
     rows = robot ? found.map(({ link, depth }) => make(robot, link, depth, step)) : [];
     fill(list, ...rows.map((row) => row.element));
@@ -169,7 +163,7 @@ function order(robot: RobotModel): { link: number; depth: number }[] {
       if (child !== null) waiting.push({ link: child, depth });
     }
   }
-  // What the tree does not reach is shown all the same.
+  // Links outside the tree are shown too.
   robot.links.forEach((_, link) => {
     if (!seen.has(link)) found.push({ link, depth: 0 });
   });

@@ -1,8 +1,8 @@
-/** Dragging in the picture: a joint follows the pointer, or a link is pulled and the joints above it give way. */
+/** Dragging in the picture: a joint follows the pointer, or a link is pulled and the joints above it follow. */
 
 import { Matrix4, Plane, Quaternion, Vector3 } from "three";
 import type { Ray } from "three";
-import type { Pose, Reached, Wish } from "../engine/protocol";
+import type { Pose, InverseSolution, InverseQuestion } from "../engine/protocol";
 import type { RobotModel } from "../model";
 
 function matrix(pose: Pose): Matrix4 {
@@ -19,7 +19,7 @@ export function linkMatrix(poses: Float64Array, link: number): Matrix4 {
   );
 }
 
-/** Where a joint is, and along which axis, in the root's frame. */
+/** The position and the axis of a joint, in the root link's frame. */
 export function jointFrame(model: RobotModel, poses: Float64Array, joint: number): { origin: Vector3; axis: Vector3 } {
   const found = model.joints[joint];
   const parent = linkMatrix(poses, found?.parent ?? 0);
@@ -29,7 +29,7 @@ export function jointFrame(model: RobotModel, poses: Float64Array, joint: number
 }
 
 export interface Drag {
-  /** The configuration for a place of the pointer; null where there is none. */
+  /** The configuration for a position of the pointer; null if there is none. */
   to(ray: Ray, q: number[]): Promise<number[] | null>;
 }
 
@@ -54,7 +54,7 @@ export function dragJoint(
   const { origin, axis } = jointFrame(model, poses, joint);
   const slides = found.type === "Prismatic";
   const view = at.clone().sub(eye).normalize();
-  // A plane that turns with the joint is seen edge-on from the side: then the pointer's way along the rim counts.
+  // Seen from the side, the plane of rotation is a line: then the pointer's path along the rim counts.
   const edgeOn = Math.abs(view.dot(axis)) < 0.25;
   const start = at.clone().sub(origin);
   const arm = start.clone().projectOnPlane(axis);
@@ -90,17 +90,17 @@ export function dragJoint(
   };
 }
 
-/** Looks for a configuration. */
-export type Reach = (wish: Wish) => Promise<Reached>;
+/** Solves inverse kinematics. */
+export type Solve = (question: InverseQuestion) => Promise<InverseSolution>;
 
-/** A point of a link is pulled under the pointer; some DOFs give way, within their bounds. */
+/** Pulls a point of a link under the pointer by these DOFs, within their bounds. */
 export function pull(
   poses: Float64Array,
   link: number,
   dofs: number[],
   at: Vector3,
   eye: Vector3,
-  reach: Reach,
+  solve: Solve,
 ): Drag | null {
   if (dofs.length === 0) return null;
   const local = at.clone().applyMatrix4(linkMatrix(poses, link).invert());
@@ -109,8 +109,8 @@ export function pull(
     async to(ray, q) {
       const target = ray.intersectPlane(facing, new Vector3());
       if (!target) return null;
-      const wish = { q, link, point: local.toArray(), position: target.toArray(), dofs };
-      return (await reach(wish)).configuration;
+      const question = { q, link, point: local.toArray(), position: target.toArray(), dofs };
+      return (await solve(question)).configuration;
     },
   };
 }

@@ -1,4 +1,4 @@
-/** How each part of the robot looks: what is chosen, in contact, painted by findings or by parts, and what is faded. */
+/** The appearance of each link: selected, in contact, painted by findings or by parts, or faded. */
 
 import { Color } from "three";
 import { placeKey } from "../contacts";
@@ -9,7 +9,7 @@ import type { LayerKind, State } from "../state";
 import { color } from "../ui/theme";
 import type { Look } from "./robot";
 
-/** What is not looked at. */
+/** The appearance of faded links. */
 const FADED = 0.18;
 
 export function looks(state: Readonly<State>): (link: number, piece: number, layer: LayerKind) => Look {
@@ -21,7 +21,7 @@ export function looks(state: Readonly<State>): (link: number, piece: number, lay
   return (link, piece, layer) => {
     const isExact = layer === shapes;
     const place = layer === "pieces" || layer.startsWith("piece-") ? piece : 0;
-    // In the shapes that are checked, those that touch; in other layers the whole link.
+    // In the layer of the checked shapes, only the shapes that touch; in other layers the whole link.
     const touches =
       !state.painted &&
       (isExact ? (contacts?.places.has(placeKey(link, place)) ?? false) : (contacts?.links.has(link) ?? false));
@@ -64,7 +64,7 @@ function painted({ robot, painted, byPart, report: { report } }: Readonly<State>
   const names = { error: "--error", warning: "--warning", info: "--info", unverified: "--open" };
   return (link) => {
     const found = worst.get(link);
-    // Where only one rule counts, a link that it does not name is neither good nor bad.
+    // If only one rule counts, a link that it does not name is neither good nor bad.
     const rest = report && painted === "worst" ? "--good" : "--open";
     return new Color(color(found ? names[found] : rest));
   };

@@ -1,4 +1,4 @@
-/** Handles on the chosen link: it is moved or turned by them, and the joints above it give way within their bounds. */
+/** Handles that move or turn the selected link. The joints above it follow within their bounds. */
 
 import { Object3D, Quaternion, Vector3 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
@@ -11,12 +11,12 @@ import type { View } from "./view";
 export const GIZMOS = ["translate", "rotate"] as const;
 export type GizmoKind = (typeof GIZMOS)[number];
 
-/** Metres beyond which a place counts as out of reach. */
+/** Position error above which a target counts as out of reach, metres. */
 const REACHED = 1e-4;
 
 export class Gizmo {
   kind: GizmoKind | null = null;
-  /** Called when it is turned on or off. */
+  /** Called when it is switched on or off. */
   changed: () => void = () => undefined;
   private readonly target = new Object3D();
   private readonly controls: TransformControls;
@@ -37,7 +37,7 @@ export class Gizmo {
       const { link } = this;
       if (link === null) return;
       const { x, y, z, w } = quaternion;
-      const found = await app.engine.ask("reach", {
+      const found = await app.engine.ask("inverseKinematics", {
         q: app.store.now.q,
         link,
         position: position.toArray(),
@@ -50,12 +50,10 @@ export class Gizmo {
       view.controls.enabled = value !== true;
       if (value !== true) this.place();
     });
-    this.controls.addEventListener("change", () => {
-      view.invalidate();
-    });
-    this.controls.addEventListener("objectChange", () => {
-      this.follow.ask({ position: this.target.position.clone(), quaternion: this.target.quaternion.clone() });
-    });
+    this.controls.addEventListener("change", () => view.invalidate());
+    this.controls.addEventListener("objectChange", () =>
+      this.follow.ask({ position: this.target.position.clone(), quaternion: this.target.quaternion.clone() }),
+    );
     app.store.on(["selected", "robot"], ({ robot, selected }) => {
       const link = selected?.kind === "joint" ? (robot?.joints[selected.index]?.child ?? null) : selected?.index;
       this.link = robot?.moves ? (link ?? null) : null;
@@ -76,7 +74,7 @@ export class Gizmo {
   /** Off, moving, turning, off. */
   next(): void {
     this.use([null, ...GIZMOS, null][[null, ...GIZMOS].indexOf(this.kind) + 1] ?? null);
-    if (this.kind && this.link === null) this.app.note("Choose a link to move it by handles.");
+    if (this.kind && this.link === null) this.app.note("Select a link to move it by handles.");
   }
 
   /** Whether the pointer is on a handle. */

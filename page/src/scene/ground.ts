@@ -1,9 +1,9 @@
-/** The ground: lines at a round distance, under the robot. */
+/** The ground: a grid with a round spacing, under the robot. */
 
 import { BufferAttribute, BufferGeometry, Color, Group, LineBasicMaterial, LineSegments } from "three";
 import type { Box3 } from "three";
 
-/** The largest 1, 2 or 5 times a power of ten that is not more. */
+/** The largest number of the form 1, 2 or 5 times a power of ten that is not larger. */
 export function roundStep(length: number): number {
   const power = 10 ** Math.floor(Math.log10(length));
   const share = length / power;
@@ -12,7 +12,7 @@ export function roundStep(length: number): number {
 
 export class Ground {
   readonly group = new Group();
-  /** Distance of lines, metres. */
+  /** Spacing of the grid, metres. */
   step = 0.1;
   private colors: [string, string] = ["#2a3140", "#39424f"];
   private box: Box3 | null = null;

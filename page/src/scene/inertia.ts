@@ -2,7 +2,7 @@
 
 type Row = [number, number, number];
 
-/** Moments, and the axes to them: each a unit vector, right-handed together. By Jacobi's rotations. */
+/** Moments and their axes: unit vectors that form a right-handed frame. By Jacobi rotations. */
 export function principal([xx, xy, xz, yy, yz, zz]: readonly [number, number, number, number, number, number]): {
   moments: Row;
   axes: [Row, Row, Row];

@@ -1,4 +1,4 @@
-/** Makes the meshes of layers from what the engine reads. */
+/** Creates the meshes of layers from the engine's data. */
 
 import {
   BoxGeometry,
@@ -14,7 +14,7 @@ import {
 import type { Material, Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { Engine, Progress } from "../engine/client";
-import type { LinkMesh, ShapeKind, SourceShape, Volume } from "../engine/protocol";
+import type { LinkMesh, ShapeKind, SourceShape, Shape } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import { LAYERS } from "../state";
 import type { LayerKind } from "../state";
@@ -23,40 +23,40 @@ import type { MeshData, RobotScene } from "./robot";
 import { bare, dressed, isTextured } from "./sources";
 
 const PLAIN = new Color(0x9aa3b2);
-/** Pictures that are fetched at once. */
+/** Number of images fetched at once. */
 const AT_ONCE = 6;
 
-/** A colour for a piece: neighbours in number differ. */
+/** A colour for a piece: consecutive pieces differ. */
 export function pieceColor(link: number, piece: number): Color {
   const hue = (0.58 + 0.61803 * piece + 0.137 * link) % 1;
   return new Color().setHSL(hue, 0.5, 0.56, SRGBColorSpace);
 }
 
-/** Loads a layer. Gives what could not be loaded, a line for each. */
+/** Loads a layer. Returns a line for each item that could not be loaded. */
 export async function load(
   layer: LayerKind,
   scene: RobotScene,
   model: RobotModel,
   engine: Engine,
-  tell: (progress: Progress) => void,
+  onProgress: (progress: Progress) => void,
 ): Promise<string[]> {
   switch (layer) {
     case "original":
     case "plain":
-      return pictures(layer, scene, model, engine, tell);
+      return pictures(layer, scene, model, engine, onProgress);
     case "collision":
       return collision(scene, engine);
     case "hulls":
     case "pieces": {
       if (!model.about.meshes[layer]) return [missing(layer)];
-      const meshes = await engine.ask("meshes", { kind: layer }, tell);
+      const meshes = await engine.ask("meshes", { kind: layer }, onProgress);
       scene.begin(layer);
       return meshes.flatMap((mesh) => solid(layer, scene, mesh) ?? []);
     }
     default: {
-      const volumes = await engine.ask("volumes", { shapes: layer satisfies ShapeKind });
+      const shapes = await engine.ask("shapes", { kind: layer satisfies ShapeKind });
       scene.begin(layer);
-      for (const volume of volumes) scene.add(layer, volume.link, about(layer, volume));
+      for (const shape of shapes) scene.add(layer, shape.link, about(layer, shape));
       return [];
     }
   }
@@ -100,7 +100,7 @@ function solid(layer: LayerKind, scene: RobotScene, mesh: LinkMesh): string | nu
 }
 
 function tagged(mesh: Mesh, layer: LayerKind, link: number, piece: number, color: Color, opacity = 1): Mesh {
-  // Where surfaces of two layers are one, the later layer is seen.
+  // If surfaces of two layers coincide, the later layer is visible.
   const paint = mesh.material as MeshLambertMaterial;
   paint.polygonOffset = true;
   paint.polygonOffsetFactor = -LAYERS.indexOf(layer);
@@ -111,7 +111,7 @@ function tagged(mesh: Mesh, layer: LayerKind, link: number, piece: number, color
 }
 
 /** A box or a sphere. */
-function about(layer: LayerKind, { link, piece, solid }: Volume): Mesh {
+function about(layer: LayerKind, { link, piece, solid }: Shape): Mesh {
   const color = pieceColor(link, piece);
   const paint = material(color);
   let mesh: Mesh;
@@ -133,7 +133,7 @@ async function pictures(
   scene: RobotScene,
   model: RobotModel,
   engine: Engine,
-  tell: (progress: Progress) => void,
+  onProgress: (progress: Progress) => void,
 ): Promise<string[]> {
   const lists = model.about.meshes.plain;
   if (!lists) return [missing(layer)];
@@ -162,10 +162,10 @@ async function pictures(
           const picture = object ?? (await dressed(source, engine));
           dress(picture, layer, link, piece);
           scene.add(layer, link, picture);
-          tell({ done: ++done, of: jobs.length, what: "meshes" });
+          onProgress({ done: ++done, of: jobs.length, what: "meshes" });
           continue;
         }
-        if (path === null) throw new Error("there is no .glb of it in this URDD");
+        if (path === null) throw new Error("its .glb is not in this URDD");
         const bytes = await engine.ask("file", { path });
         const { scene: picture } = await loader.parseAsync(bytes, "");
         dress(picture, layer, link, piece);
@@ -175,17 +175,17 @@ async function pictures(
           `${path ?? model.links[link]?.name ?? ""}: ${error instanceof Error ? error.message : String(error)}`,
         );
       }
-      tell({ done: ++done, of: jobs.length, what: "meshes" });
+      onProgress({ done: ++done, of: jobs.length, what: "meshes" });
     }
   };
   await Promise.all(Array.from({ length: AT_ONCE }, work));
   return faults;
 }
 
-/** The visual elements of each link that has a texture: a plain mesh has colours alone. */
+/** The visual elements of each link that has a texture: a plain mesh has only colours. */
 async function withTextures(engine: Engine): Promise<Map<number, SourceShape[]>> {
   const found = new Map<number, SourceShape[]>();
-  // A legacy URDD, or one whose URDF cannot be read, has none that are known.
+  // Unknown for a legacy URDD, or if the URDF cannot be read.
   const sources = await engine.ask("sources", {}).catch(() => []);
   const visual = sources.filter(({ geometry, shape }) => geometry === "Visual" && shape !== null);
   const links = new Set(visual.filter(isTextured).map(({ link }) => link));
@@ -197,7 +197,7 @@ async function withTextures(engine: Engine): Promise<Map<number, SourceShape[]>>
   return found;
 }
 
-/** The materials of the page in the place of those of the file, with their colours. */
+/** Replaces the materials of a file by the page's, with the same colours. */
 function dress(picture: Object3D, layer: LayerKind, link: number, piece: number): void {
   for (const mesh of simple(picture)) {
     const known = mesh.material as Partial<MeshLambertMaterial> | undefined;
@@ -212,7 +212,7 @@ function dress(picture: Object3D, layer: LayerKind, link: number, piece: number)
   }
 }
 
-/** The meshes of a picture, each of one material; lines and points go. */
+/** The meshes of a scene, each with one material, without lines and points. */
 function simple(picture: Object3D): Mesh[] {
   const found: Mesh[] = [];
   const gone: Object3D[] = [];

@@ -1,13 +1,13 @@
-/** Names beside the frames of links: text over the picture. One that would cover another is left out. */
+/** Names beside the frames of links, as text over the picture. Omits names that would overlap. */
 
 import { Vector3 } from "three";
 import { fill, h } from "../ui/dom";
 import { name } from "../ui/format";
 import type { View } from "./view";
 
-/** Most names at once. */
-const MOST = 400;
-/** Room that a name takes, pixels: beside its point, for each character, and its height. */
+/** Maximum number of names. */
+const MAX_NAMES = 400;
+/** Size of a name in pixels: offset from its point, width of a character, height. */
 const BESIDE = 6;
 const WIDE = 6.4;
 const HIGH = 15;
@@ -18,14 +18,12 @@ export class Names {
   private poses: Float64Array | null = null;
 
   constructor(private readonly view: View) {
-    view.before.push(() => {
-      this.follow();
-    });
+    view.before.push(() => this.follow());
   }
 
-  /** Shows these links' names; the first are placed first. */
+  /** Shows these links' names, by priority. */
   show(links: readonly { index: number; name: string }[]): void {
-    this.labels = links.slice(0, MOST).map(({ index, name: text }) => {
+    this.labels = links.slice(0, MAX_NAMES).map(({ index, name: text }) => {
       const shown = name(text);
       return { link: index, width: BESIDE + WIDE * shown.length, element: h("span", {}, shown) };
     });

@@ -30,7 +30,7 @@ export class Overlays {
   readonly group = new Group();
   private readonly frames: Group[] = [];
 
-  /** Makes what is asked for. `size` is that of the robot, `frame` the length of a frame's axes, metres. */
+  /** Creates the selected overlays. `size` is the robot's, `frame` the length of a frame's axes, metres. */
   make(
     model: RobotModel,
     on: Record<OverlayKind, boolean>,
@@ -59,7 +59,7 @@ export class Overlays {
     if (on.path && selected !== null) this.group.add(path(model, selected));
   }
 
-  /** Puts them where the links are. */
+  /** Sets their poses from the links'. */
   pose(poses: Float64Array): void {
     const [place, turn, one] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
     this.frames.forEach((group, link) => {
@@ -89,7 +89,7 @@ export class Overlays {
   }
 }
 
-/** Drawn over what is before it. */
+/** Visible through other objects. */
 function above<T extends Object3D>(object: T): T {
   object.renderOrder = 5;
   const material = (object as unknown as { material?: Material }).material;
@@ -115,7 +115,7 @@ function centre(inertial: Inertial, size: number): Object3D {
   return above(ball);
 }
 
-/** The box of even density that has this mass and inertia. */
+/** The box of uniform density with this mass and inertia. */
 function inertia(inertial: Inertial): Object3D | null {
   const mass = inertial.mass ?? 0;
   if (mass <= 0 || !inertial.inertia) return null;

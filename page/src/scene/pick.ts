@@ -1,4 +1,4 @@
-/** What is under the pointer: by a tree of boxes over each mesh's triangles, made when it is first needed. */
+/** The object under the pointer, by a bounding volume hierarchy of each mesh, built on first use. */
 
 import { Mesh } from "three";
 import type { BufferGeometry, Vector3 } from "three";
@@ -27,7 +27,7 @@ export function pick(view: View, scene: RobotScene, x: number, y: number): Picke
   return hit && of ? { of, point: hit.point } : null;
 }
 
-/** Makes the trees while nothing else is to be done. */
+/** Builds the hierarchies while the browser is idle. */
 export function prepare(scene: RobotScene): void {
   const waiting = scene.meshes();
   const idle = (work: () => void): void => {

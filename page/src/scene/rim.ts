@@ -1,4 +1,4 @@
-/** Light along the outline of what is drawn: a dark robot stands out from a dark ground. */
+/** Light along the outline, which makes a dark robot visible on a dark background. */
 
 import { Color } from "three";
 import type { MeshLambertMaterial } from "three";
@@ -9,7 +9,7 @@ export function rimColor(color: string): void {
   rim.value.set(color);
 }
 
-/** The same material with the light of the outline. */
+/** The same material, with light along the outline. */
 export function rimmed(material: MeshLambertMaterial): MeshLambertMaterial {
   material.onBeforeCompile = (shader): void => {
     shader.uniforms["rim"] = rim;

@@ -1,11 +1,11 @@
-/** The robot's links in the scene: where they are, what stands for them, how they look. */
+/** The robot's links in the scene: poses, shapes, appearance. */
 
 import { Box3, Color, Group, Mesh, MeshLambertMaterial, Quaternion, Vector3 } from "three";
 import type { Object3D } from "three";
 import { LAYERS } from "../state";
 import type { Layer, LayerKind } from "../state";
 
-/** What a mesh of the scene is of. */
+/** The origin of a mesh in the scene. */
 export interface MeshData {
   link: number;
   piece: number;
@@ -18,7 +18,7 @@ export function dataOf(object: Object3D): MeshData | null {
   return (object.userData as { of?: MeshData }).of ?? null;
 }
 
-/** How a link is shown besides its layers: a tint, and how much of its opacity is left. */
+/** The appearance of a link in all layers: a tint, and a factor of its opacity. */
 export interface Look {
   tint: Color | null;
   fade: number;
@@ -39,7 +39,7 @@ export class RobotScene {
     });
   }
 
-  /** Puts each link to its pose: x, y, z and the quaternion w, x, y, z. */
+  /** Sets each link's pose: x, y, z and the quaternion w, x, y, z. */
   pose(poses: Float64Array): void {
     const [place, turn, scale] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
     this.links.forEach((group, link) => {
@@ -61,7 +61,7 @@ export class RobotScene {
     return this.layers.has(layer);
   }
 
-  /** Makes room for a layer. */
+  /** Adds an empty layer. */
   begin(layer: LayerKind): void {
     this.drop(layer);
     this.layers.set(
@@ -98,7 +98,7 @@ export class RobotScene {
     this.root.removeFromParent();
   }
 
-  /** Every mesh that is shown. */
+  /** All visible meshes. */
   meshes(): Mesh[] {
     const found: Mesh[] = [];
     for (const groups of this.layers.values()) {
@@ -112,7 +112,7 @@ export class RobotScene {
     return found;
   }
 
-  /** Shows layers and links, tinted and faded as told. */
+  /** Shows layers and links with these tints and opacities. */
   show(
     layers: Record<LayerKind, Layer>,
     hidden: ReadonlySet<number>,
@@ -133,7 +133,7 @@ export class RobotScene {
     }
   }
 
-  /** The box about everything, or about some links. */
+  /** The bounding box of everything, or of some links. */
   bounds(of?: ReadonlySet<number>): Box3 {
     this.root.updateMatrixWorld(true);
     const box = new Box3();

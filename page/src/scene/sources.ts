@@ -28,12 +28,12 @@ const IMAGE = /\.(?:png|jpe?g|webp|bmp|gif|tga)$/i;
 const GLTF = /\.(?:glb|gltf)$/i;
 const SAID_NOTHING = new Color(0xb9c0ca);
 
-/** Whether the shape looks otherwise than its plain mesh: that has no textures. */
+/** Whether the shape looks different from its plain mesh, which has no textures. */
 export function isTextured(shape: SourceShape): boolean {
   return shape.side_files.some((file) => IMAGE.test(file));
 }
 
-/** A group at the element's place in its link, with nothing in it. */
+/** An empty group with the element's pose in its link. */
 function placed(shape: SourceShape): Group {
   const group = new Group();
   const [w, x, y, z] = shape.quaternion_wxyz;
@@ -55,11 +55,11 @@ function material(shape: SourceShape, color: Color | null = null): MeshLambertMa
   });
 }
 
-/** A box, cylinder, capsule or sphere; null where the shape is a mesh or none. */
+/** A box, cylinder, capsule or sphere; null for a mesh or no shape. */
 function primitive({ shape }: SourceShape): BufferGeometry | null {
   if (shape?.Box) return new BoxGeometry(...shape.Box.size);
   if (shape?.Sphere) return new SphereGeometry(shape.Sphere.radius, 32, 20);
-  // Those of three.js stand along y.
+  // Those of three.js are along y.
   if (shape?.Cylinder)
     return new CylinderGeometry(shape.Cylinder.radius, shape.Cylinder.radius, shape.Cylinder.length, 40).rotateX(
       Math.PI / 2,
@@ -69,7 +69,7 @@ function primitive({ shape }: SourceShape): BufferGeometry | null {
   return null;
 }
 
-/** Shapes without their colours in files: what collision elements are. Gives an object, or why there is none. */
+/** A collision element, without the colours of its file: an object, or why there is none. */
 export async function bare(
   shapes: SourceShape[],
   engine: Engine,
@@ -85,7 +85,7 @@ export async function bare(
       const { filename } = shape.shape?.Mesh ?? {};
       if (filename === undefined) return group;
       const mesh = shape.path === null ? undefined : meshes[paths.indexOf(shape.path)];
-      if (!mesh?.positions || !mesh.indices) return new Error(mesh?.error ?? `${filename}: it is not in this URDD`);
+      if (!mesh?.positions || !mesh.indices) return new Error(mesh?.error ?? `${filename}: not in this URDD`);
       geometry = new BufferGeometry();
       geometry.setAttribute("position", new BufferAttribute(mesh.positions.slice(), 3));
       geometry.setIndex(new BufferAttribute(mesh.indices.slice(), 1));
@@ -99,10 +99,10 @@ export async function bare(
   });
 }
 
-/** A mesh with the colours and textures of its file. Texts and pictures come from the URDD alone. */
+/** A mesh with the colours and textures of its file. All files are from the URDD. */
 export async function dressed(shape: SourceShape, engine: Engine): Promise<Object3D> {
   const { path } = shape;
-  if (path === null) throw new Error(`${shape.shape?.Mesh?.filename ?? ""}: it is not in this URDD`);
+  if (path === null) throw new Error(`${shape.shape?.Mesh?.filename ?? ""}: not in this URDD`);
   const bytes = await engine.ask("file", { path });
   const side = new Map<string, string>();
   for (const file of shape.side_files) {
@@ -111,7 +111,7 @@ export async function dressed(shape: SourceShape, engine: Engine): Promise<Objec
   }
   const folder = path.slice(0, path.lastIndexOf("/") + 1);
   const manager = new LoadingManager();
-  // A file that is not there: an empty one, and no request.
+  // A missing file: an empty one, without a request.
   manager.setURLModifier((url) => (url.startsWith("blob:") ? url : (side.get(resolved(folder, url)) ?? "data:,")));
   const whole = new Promise<void>((resolve) => {
     manager.onLoad = resolve;
@@ -123,7 +123,7 @@ export async function dressed(shape: SourceShape, engine: Engine): Promise<Objec
     group.add(await parsed(path, bytes, manager, side));
   } finally {
     manager.itemEnd(path);
-    // Pictures come after the mesh; their addresses are given back then.
+    // Images load after the mesh; then their addresses are released.
     void whole.then(() => {
       for (const url of side.values()) URL.revokeObjectURL(url);
     });
@@ -140,7 +140,7 @@ async function parsed(
 ): Promise<Object3D> {
   if (GLTF.test(path)) {
     const { scene } = await new GLTFLoader(manager).parseAsync(bytes, "");
-    // glTF has y up; a URDF's reader turns it.
+    // glTF has y up; readers of URDFs rotate it.
     scene.rotation.x = Math.PI / 2;
     return scene;
   }
@@ -148,7 +148,7 @@ async function parsed(
   if (/\.dae$/i.test(path)) {
     const found = new ColladaLoader(manager).parse(text, "");
     if (!found) throw new Error(`${path}: it cannot be read`);
-    // Readers of URDFs take the unit and leave the up axis.
+    // Readers of URDFs apply the unit and ignore the up axis.
     found.scene.rotation.set(0, 0, 0);
     return found.scene;
   }
@@ -163,19 +163,19 @@ async function parsed(
     }
     return loader.parse(text);
   }
-  throw new Error(`${path}: no colours are known of this format`);
+  throw new Error(`${path}: colours of this format are not supported`);
 }
 
-/** A path of the URDD from a folder and what a file there says. */
+/** The path in the URDD of a reference in a file of this folder. */
 function resolved(folder: string, url: string): string {
   const parts: string[] = [];
-  let said = url;
+  let path = url;
   try {
-    said = decodeURIComponent(url);
+    path = decodeURIComponent(url);
   } catch {
-    // It is no percent-encoding: it stands as it is.
+    // Not percent-encoded: unchanged.
   }
-  for (const part of `${folder}${said.replaceAll("\\", "/")}`.split("/")) {
+  for (const part of `${folder}${path.replaceAll("\\", "/")}`.split("/")) {
     if (part === "..") parts.pop();
     else if (part !== "." && part !== "") parts.push(part);
   }

@@ -1,4 +1,4 @@
-/** Canvas, camera and light; draws when something changed, and not otherwise. */
+/** Canvas, camera and light. Draws only when something changed. */
 
 import {
   AmbientLight,
@@ -20,11 +20,11 @@ export class View {
   readonly scene = new Scene();
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
   readonly controls: OrbitControls;
-  /** Called before each picture. */
+  /** Called before each frame. */
   readonly before: (() => void)[] = [];
-  /** Called when the camera moved. */
+  /** Called after the camera moved. */
   readonly moved: (() => void)[] = [];
-  /** Number of pictures that were drawn. */
+  /** Number of drawn frames. */
   pictures = 0;
   private readonly renderer: WebGLRenderer;
   private readonly light = new DirectionalLight(0xffffff, 1.6);
@@ -47,11 +47,9 @@ export class View {
     });
   }
 
-  /** Draws as large as this element, whenever its size changes. */
+  /** Follows the size of this element. */
   follow(element: HTMLElement): void {
-    new ResizeObserver(() => {
-      this.resize();
-    }).observe(element);
+    new ResizeObserver(() => this.resize()).observe(element);
     this.resize();
   }
 
@@ -75,7 +73,7 @@ export class View {
     this.invalidate();
   }
 
-  /** The ray under a place of the window. */
+  /** The ray under a position in the window. */
   ray(x: number, y: number): Raycaster {
     const box = this.canvas.getBoundingClientRect();
     const place = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
@@ -85,14 +83,14 @@ export class View {
     return ray;
   }
 
-  /** Where a point is in the picture, pixels from its corner; null behind the camera. */
+  /** The position of a point in the picture, in pixels from its corner; null behind the camera. */
   place(point: Vector3): { x: number; y: number } | null {
     const at = point.clone().project(this.camera);
     if (at.z > 1) return null;
     return { x: ((at.x + 1) / 2) * this.canvas.clientWidth, y: ((1 - at.y) / 2) * this.canvas.clientHeight };
   }
 
-  /** Looks at all of a box, from where it is, or from a direction. */
+  /** Fits a box into the picture, from the present direction or another one. */
   fit(bounds: Box3, from?: Vector3): void {
     if (bounds.isEmpty()) return;
     this.bounds = bounds.clone();
@@ -108,7 +106,7 @@ export class View {
     this.invalidate();
   }
 
-  /** Depth that holds the robot, however small or large it is. */
+  /** Clipping planes for robots of any size. */
   planes(): void {
     const sphere = this.bounds.getBoundingSphere(new Sphere());
     const radius = Math.max(sphere.radius, 1e-4);
@@ -119,7 +117,7 @@ export class View {
     this.camera.updateProjectionMatrix();
   }
 
-  /** What the graphics card holds: numbers of geometries and textures. */
+  /** Numbers of geometries and textures on the graphics card. */
   held(): { geometries: number; textures: number } {
     return { ...this.renderer.info.memory };
   }
@@ -127,9 +125,7 @@ export class View {
   /** The picture as a PNG. */
   picture(): Promise<Blob | null> {
     this.draw();
-    return new Promise((resolve) => {
-      this.canvas.toBlob(resolve, "image/png");
-    });
+    return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
   }
 
   private resize(): void {
@@ -139,7 +135,7 @@ export class View {
     const before = this.half();
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    // What was in the picture stays in it, as large as there is room.
+    // The visible part stays visible, as large as possible.
     if (!this.bounds.isEmpty()) {
       const { target } = this.controls;
       this.camera.position
@@ -151,7 +147,7 @@ export class View {
     this.draw();
   }
 
-  /** Half the angle of the picture's shorter side. */
+  /** Half the angle of view along the picture's shorter side. */
   private half(): number {
     return Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) * (Math.PI / 360);
   }

@@ -1,4 +1,4 @@
-/** The points at which two shapes are nearest, the line between them, and the distance beside it. */
+/** The closest points of two shapes, the line between them, and the distance beside it. */
 
 import {
   BufferGeometry,
@@ -38,9 +38,7 @@ export class Witness {
     this.group.renderOrder = 10;
     this.group.traverse((object) => (object.renderOrder = 10));
     this.show(null, 1);
-    view.before.push(() => {
-      this.follow();
-    });
+    view.before.push(() => this.follow());
   }
 
   show(pair: PairDistance | null, size: number): void {

@@ -1,4 +1,4 @@
-/** Elements without HTML text: what comes from files is text, and stays text. */
+/** Elements without HTML text: text from files stays text. */
 
 export type Child = Node | string | number | null | undefined | false;
 
@@ -16,7 +16,7 @@ function apply(element: Element, attributes: Attributes, children: Child[]): voi
   }
 }
 
-/** An HTML element: functions among the attributes listen to events of that name. */
+/** An HTML element. Attributes that are functions are event listeners. */
 export function h<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   attributes: Attributes = {},
@@ -25,6 +25,16 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   const element = document.createElement(tag);
   apply(element, attributes, children);
   return element;
+}
+
+/** A button: its label, its tooltip or attributes, and what a click does. */
+export function button(
+  label: Child | Child[],
+  title: string | Attributes,
+  click: (event: MouseEvent) => void,
+): HTMLButtonElement {
+  const attributes = typeof title === "string" ? { title } : title;
+  return h("button", { type: "button", ...attributes, click }, ...(Array.isArray(label) ? label : [label]));
 }
 
 /** An SVG element. */
@@ -45,10 +55,10 @@ export function prose(text: string): Node[] {
     .map((part, k, all) => (k % 2 === 1 && k < all.length - 1 ? h("code", {}, part) : document.createTextNode(part)));
 }
 
-/** Characters at a name's end that are shown in any case. */
+/** Number of characters at the end of a name that are always shown. */
 const TAIL = 12;
 
-/** A name that is cut in its middle where there is no room: names of one robot differ at their ends. */
+/** A name that is truncated in its middle: names of one robot differ at their ends. */
 export function cut(text: string): Node[] {
   const chars = Array.from(text);
   if (chars.length < 2 * TAIL) return [h("span", { class: "head" }, text)];
@@ -58,7 +68,7 @@ export function cut(text: string): Node[] {
   ];
 }
 
-/** Puts children in the place of those that are there. */
+/** Replaces the children of an element. */
 export function fill(element: Element, ...children: Child[]): void {
   element.replaceChildren();
   apply(element, {}, children);

@@ -1,4 +1,4 @@
-/** Numbers for people: each with its unit. */
+/** Readable numbers with units. */
 
 const MINUS = "−";
 
@@ -6,7 +6,7 @@ function signed(text: string): string {
   return text.startsWith("-") ? MINUS + text.slice(1) : text;
 }
 
-/** A number of so many significant digits at most, without an exponent where that is readable. */
+/** A number with at most `digits` significant digits, without an exponent if that is readable. */
 export function number(value: number, digits = 3): string {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? "not a number" : value > 0 ? "∞" : MINUS + "∞";
   if (value === 0) return "0";
@@ -18,7 +18,7 @@ export function number(value: number, digits = 3): string {
   return signed(short === "-0" ? "0" : short);
 }
 
-/** The units in which lengths and angles are shown everywhere. */
+/** The units of all displayed lengths and angles. */
 export interface Units {
   length: "mm" | "m";
   angle: "°" | "rad";
@@ -29,14 +29,14 @@ export const UNIT_NAMES = { mm: "millimetres", m: "metres", "°": "degrees", rad
 const KEY = "urdd-units";
 const units: Units = { length: "mm", angle: "°" };
 
-/** The units as a person chose them last. */
+/** The last choice of units. */
 export function keptUnits(): Units {
   try {
     const [length, angle] = (localStorage.getItem(KEY) ?? "").split(" ");
     if (length === "m") units.length = "m";
     if (angle === "rad") units.angle = "rad";
   } catch {
-    // A frame that may keep nothing, as in a notebook.
+    // A sandboxed frame, as in a notebook, has no storage.
   }
   return { ...units };
 }
@@ -46,11 +46,11 @@ export function keepUnits({ length, angle }: Units): void {
   try {
     localStorage.setItem(KEY, `${length} ${angle}`);
   } catch {
-    // They hold until the page is left.
+    // They last until the page is closed.
   }
 }
 
-/** A length in metres, in the unit that is shown. */
+/** A length in metres, in the displayed unit. */
 export function length(metres: number, digits = 3): string {
   if (metres === 0) return `0 ${units.length}`;
   if (Math.abs(metres) < 1e-6) return units.length === "mm" ? "< 0.001 mm" : "< 0.000001 m";
@@ -74,12 +74,12 @@ export function dofValue(value: number, unit: Unit): string {
 
 export type Unit = "rad" | "m";
 
-/** The unit in which a DOF is shown and typed. */
+/** The unit in which a DOF is displayed and entered. */
 export function shownUnit(unit: Unit): keyof typeof UNIT_NAMES {
   return unit === "rad" ? units.angle : units.length;
 }
 
-/** How much of a unit that is shown is one of the library's. */
+/** The factor from the library's unit to the displayed one. */
 function scale(unit: Unit): number {
   if (unit === "rad") return units.angle === "°" ? 180 / Math.PI : 1;
   return units.length === "mm" ? 1000 : 1;
@@ -93,10 +93,10 @@ export function fromShown(value: number, unit: Unit): number {
   return value / scale(unit);
 }
 
-/** Digits after the point that are worth showing: a hundredth of a degree or millimetre, or less. */
+/** Number of useful decimals: down to a hundredth of a degree or millimetre. */
 const DECIMALS = { "°": 2, mm: 2, rad: 4, m: 5 } as const;
 
-/** A value as a person would type it, without the unit. */
+/** A value as a user would type it, without the unit. */
 export function entry(value: number, unit: Unit): string {
   return String(round(toShown(value, unit), DECIMALS[shownUnit(unit)]));
 }
@@ -135,7 +135,7 @@ export function bytes(n: number): string {
   return `${number(value)} ${units[unit] ?? ""}`;
 }
 
-/** A name from a file on one line: what cannot be seen, or turns the direction of text, is shown as its code. */
+/** A name from a file on one line: invisible characters and marks of text direction are shown as their codes. */
 export function name(text: string): string {
   let shown = "";
   for (const char of text) {

@@ -1,11 +1,11 @@
-/** Sliders that are as fine as their unit: arrows go by a step, and with Shift the pointer is ten times slower. */
+/** Fine sliders: arrow keys move by a step of the unit, and Shift makes the pointer ten times slower. */
 
-/** Steps of a page key, or of an arrow with Shift. */
+/** Number of steps for a page key, or for an arrow key with Shift. */
 const LARGE = 10;
 /** How much slower the pointer is with Shift. */
 const SLOW = 10;
 
-/** Gives a slider without steps of its own keys and a slow pointer. `step` is asked for when it is wanted. */
+/** Adds keys and a slow pointer to a slider without steps. `step` is called for each key. */
 export function refine(slider: HTMLInputElement, step: () => number): void {
   const put = (value: number): void => {
     slider.value = String(Math.min(Number(slider.max), Math.max(Number(slider.min), value)));

@@ -1,21 +1,20 @@
-/** Tabs as the ARIA practices have them: arrows move between them. */
+/** Tabs as in the ARIA practices: arrow keys move between them. */
 
 import type { App } from "../app";
 import { tally } from "../findings";
 import { TABS } from "../state";
 import type { Tab } from "../state";
-import { fill, h } from "./dom";
+import { button, fill, h } from "./dom";
 import { count } from "./format";
 
 export function tabs(app: App, panels: Record<Tab, HTMLElement>): HTMLElement {
   const buttons = TABS.map((tab) => {
-    const button = h("button", { type: "button", role: "tab", id: `tab-${tab}`, "aria-controls": `panel-${tab}` }, tab);
-    button.addEventListener("click", () => {
-      // Where panels fold, a second click folds.
+    const made = button(tab, { role: "tab", id: `tab-${tab}`, "aria-controls": `panel-${tab}` }, () => {
+      // In narrow windows, a second click folds the panel.
       const { tab: now, unfolded } = app.store.now;
       app.store.set({ tab, unfolded: now === tab && unfolded === "panels" ? null : "panels" });
     });
-    return button;
+    return made;
   });
   const list = h("div", { class: "tablist", role: "tablist", "aria-label": "Panels" }, ...buttons);
   list.addEventListener("keydown", (event) => {

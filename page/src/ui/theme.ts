@@ -1,8 +1,8 @@
-/** Dark or light: as the system has it, until the person chooses. */
+/** The dark or light theme: that of the system, until the user chooses one. */
 
 const KEY = "urdd-theme";
 
-/** What was chosen last. A frame that may keep nothing, as in a notebook, has no storage: asking for it throws. */
+/** The last choice. A sandboxed frame, as in a notebook, has no storage: access throws. */
 function remembered(): string | null {
   try {
     return localStorage.getItem(KEY);
@@ -15,14 +15,14 @@ function remember(theme: string): void {
   try {
     localStorage.setItem(KEY, theme);
   } catch {
-    // It holds until the page is left.
+    // It lasts until the page is closed.
   }
 }
 
 export function startTheme(): void {
   const chosen = remembered();
   if (chosen === "dark" || chosen === "light") document.documentElement.dataset["theme"] = chosen;
-  matchMedia("(prefers-color-scheme: light)").addEventListener("change", tell);
+  matchMedia("(prefers-color-scheme: light)").addEventListener("change", announce);
 }
 
 export function isLight(): boolean {
@@ -34,10 +34,10 @@ export function toggleTheme(): void {
   const next = isLight() ? "dark" : "light";
   document.documentElement.dataset["theme"] = next;
   remember(next);
-  tell();
+  announce();
 }
 
-function tell(): void {
+function announce(): void {
   dispatchEvent(new Event("urdd-theme"));
 }
 

@@ -1,16 +1,16 @@
-"""Universal Robot Description Directories (URDDs): a robot to ask about itself.
+"""Universal Robot Description Directories (URDDs): queries on robots.
 
 >>> import urdd
 >>> robot = urdd.load("welding_arm")
->>> q = robot.sample(100)
->>> robot.fk(q).shape
+>>> q = robot.random(100)
+>>> robot.link_poses(q).shape
 (100, 9, 4, 4)
 >>> robot.in_collision(q).shape
 (100,)
 
-Lengths are metres, angles radians, poses matrices (4, 4) in the frame of the root link. :class:`Robot` says the rest.
-:func:`generate` makes a URDD of a URDF, :func:`combine` one of several robots, :func:`validate` checks one,
-:func:`export` hands it on. :class:`World` holds obstacles.
+Lengths are metres, angles radians, poses matrices (4, 4) in the frame of the root link: see :class:`Robot`.
+:func:`generate` generates a URDD from a URDF, :func:`combine` one from several robots, :func:`validate` validates one,
+:func:`export` writes it in the formats of other programs. :class:`World` holds obstacles.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ from ._answers import (
     Box,
     ConvexMesh,
     InverseSolution,
-    InverseSolutions,
     LearnedPair,
     MeshKind,
     ObstacleDistance,
@@ -46,7 +45,7 @@ from ._proximity import Proximity
 from ._robot import Robot, load
 from ._urdd import __version__, num_threads, set_num_threads
 from ._validate import Rule, explain, validate
-from ._world import Among, World
+from ._world import World, WorldProximity
 from .errors import (
     CombineError,
     ConfigurationError,
@@ -71,7 +70,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "SKIP_REASONS",
-    "Among",
     "Box",
     "CollisionModel",
     "CombineError",
@@ -85,7 +83,6 @@ __all__ = [
     "GenerateError",
     "Generated",
     "InverseSolution",
-    "InverseSolutions",
     "Job",
     "LearnedPair",
     "MeshError",
@@ -117,6 +114,7 @@ __all__ = [
     "ValidationError",
     "Visual",
     "World",
+    "WorldProximity",
     "__version__",
     "combine",
     "errors",
@@ -134,7 +132,7 @@ __all__ = [
 ]
 
 
-#: What is imported when it is first asked for: together that takes as long as numpy.
+#: Imported on first use: together they take as long to import as numpy.
 _LATER = {
     "Frame": "_show",
     "MujocoRobot": "_mujoco",

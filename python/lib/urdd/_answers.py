@@ -1,4 +1,4 @@
-"""What a robot answers with."""
+"""Results of queries on a robot."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from typing import Literal, NamedTuple, TypeAlias
 from ._arrays import Bools, Floats, Indices
 
 ShapeKind: TypeAlias = Literal["hulls", "boxes", "spheres", "pieces", "piece-boxes", "piece-spheres"]
-"""A kind of shapes that stand for links: the convex hull of each link and its convex pieces, and the boxes and spheres
-about these."""
+"""A kind of collision shapes: the convex hulls of links, their convex pieces, and the bounding boxes and spheres of
+both."""
 
 MeshKind: TypeAlias = Literal["plain", "hulls", "pieces"]
-"""A kind of meshes: what a link looks like, its convex hull, its convex pieces."""
+"""A kind of meshes: a link's appearance, its convex hull, its convex pieces."""
 
 SkipReason: TypeAlias = Literal["same-link", "always", "adjacent", "default", "never", "none"]
 """Why a pair of shapes is skipped, or not: both are on one link, always in contact, on links that a joint connects, in
-contact in the default configuration, in contact in no sampled configuration, or none of these."""
+contact in the default configuration, never in contact in the sampled configurations, or none of these."""
 
 SKIP_REASONS: tuple[SkipReason, ...] = ("same-link", "always", "adjacent", "default", "never", "none")
-"""All reasons, in the order in which the first that applies counts."""
+"""All reasons, by priority: the first that applies counts."""
 
 
 @dataclass(frozen=True)
@@ -29,40 +29,40 @@ class Pair:
     links: tuple[str, str]
     """The names of the two links."""
     pieces: tuple[int, int]
-    """Which pieces of the links they are; 0 for hulls and what is about them."""
+    """The indices of the pieces; 0 for hulls and their bounding volumes."""
 
 
 @dataclass(frozen=True)
 class PairDistance(Pair):
-    """What is nearest in a pair of shapes."""
+    """The distance between two shapes, and their closest points."""
 
     distance: float
-    """Metres; 0 where they touch or overlap."""
+    """Metres; 0 if they touch or overlap."""
     relative: float | None
-    """The distance over the pair's mean distance in ``link_shapes_distance_statistics_module``: a measure of nearness
-    that is alike for large links and small ones. None where that module has none, or a mean of 0."""
+    """The distance divided by the pair's mean distance in ``link_shapes_distance_statistics_module``, which makes large
+    and small links comparable. None if that module has no mean for the pair, or a mean of 0."""
     points: Floats
-    """(2, 3): the point of each shape at which the distance is, in the root link's frame, metres."""
+    """(2, 3): the closest points of the two shapes, in the root link's frame, metres."""
 
 
 @dataclass(frozen=True)
 class LearnedPair:
-    """Two links that a learned self-collision model has an output for."""
+    """A pair of links that a learned self-collision model has an output for."""
 
     links: tuple[str, str]
     """The names of the two links."""
     margin: float
-    """What is taken from the network's output to give the clearance, metres: it makes misses rare."""
+    """The clearance is the network's output minus this margin, metres, which makes misses rare."""
 
 
 @dataclass(frozen=True)
 class Rate:
-    """A share of counted configurations, with its 95 % interval (Wilson's, SPEC 8.8.11)."""
+    """A fraction of configurations, with its 95 % interval (Wilson's, SPEC 8.8.11)."""
 
     count: int
-    """How many."""
+    """The numerator."""
     of: int
-    """Out of how many."""
+    """The denominator."""
     lower: float
     """The lower end of the interval, 0 to 1."""
     upper: float
@@ -82,56 +82,39 @@ class ObstaclePair:
     link: str
     """The name of the shape's link."""
     piece: int
-    """Which piece of the link it is; 0 for a hull and what is about it."""
+    """The index of the link's piece; 0 for a hull and its bounding volumes."""
     obstacle: str
     """The name of the obstacle."""
 
 
 @dataclass(frozen=True)
 class ObstacleDistance(ObstaclePair):
-    """How near a shape of a robot is to an obstacle."""
+    """The distance between a shape of a robot and an obstacle, and their closest points."""
 
     distance: float
-    """Metres; 0 where they touch or overlap."""
+    """Metres; 0 if they touch or overlap."""
     points: Floats
-    """(2, 3): the point of the shape and that of the obstacle at which the distance is, in the root link's frame,
-    metres; where they overlap, both are one point of both."""
+    """(2, 3): the closest points of the shape and of the obstacle, in the root link's frame, metres. If the two
+    overlap, both are the same point, which is in both."""
 
 
 @dataclass(frozen=True)
 class InverseSolution:
-    """A configuration, and how near to its target it is."""
+    """Configurations, and how near they are to their targets. One target gives scalars, many give arrays that begin
+    with the targets' axes."""
 
     q: Floats
-    """(dofs,), rad or m, within bounds. DOFs that do not move the link are as they were at the start."""
-    reached: bool
-    """Whether both errors are within the tolerances. Where not, this came nearest."""
-    position_error: float
-    """How far the point is from its target, metres."""
-    rotation_error: float
-    """The angle by which the link is turned against its target, radians; 0 where only a place is asked for."""
-    restarts: int
-    """Descents from random configurations that it took."""
-    iterations: int
-    """Steps of all descents."""
-
-
-@dataclass(frozen=True)
-class InverseSolutions:
-    """A configuration for each of n targets: the fields of :class:`InverseSolution`, as arrays."""
-
-    q: Floats
-    """(n, dofs)."""
+    """(..., dofs), rad or m, within the bounds. DOFs that do not move the link keep their start value."""
     reached: Bools
-    """(n,)."""
+    """(...): whether both errors are within the tolerances. If false, this is the nearest that was found."""
     position_error: Floats
-    """(n,), metres."""
+    """(...): the distance of the point from its target, metres."""
     rotation_error: Floats
-    """(n,), radians."""
+    """(...): the angle between the link and its target rotation, radians; 0 for a target position."""
     restarts: Indices
-    """(n,)."""
+    """(...): number of descents from random configurations."""
     iterations: Indices
-    """(n,)."""
+    """(...): number of steps of all descents."""
 
 
 @dataclass(frozen=True)
@@ -141,11 +124,11 @@ class ConvexMesh:
     link: str
     """The link."""
     piece: int
-    """Which of the link's pieces it is; 0 for a hull."""
+    """The index of the link's piece; 0 for a hull."""
     vertices: Floats
     """(v, 3), metres."""
     faces: Indices
-    """(f, 3): corners of each triangle, counter-clockwise when seen from outside."""
+    """(f, 3): the vertices of each triangle, counter-clockwise seen from outside."""
 
 
 @dataclass(frozen=True)
@@ -155,20 +138,20 @@ class Box:
     link: str
     """The link."""
     piece: int
-    """Which of the link's pieces it is about; 0 for a hull."""
+    """The index of the link's piece that it bounds; 0 for a hull."""
     pose: Floats
-    """(4, 4): the box's own frame, at its centre, along its sides."""
+    """(4, 4): the box's frame, at its centre, along its sides."""
     half_extents: Floats
     """(3,): half of each side, metres."""
 
 
 class Spheres(NamedTuple):
-    """Spheres, by row."""
+    """Spheres, one per row."""
 
     links: list[str]
-    """The link of each."""
+    """The link of each sphere."""
     pieces: Indices
-    """(n,): which of its link's pieces it is about; 0 for a hull."""
+    """(n,): the index of the link's piece that each bounds; 0 for a hull."""
     centres: Floats
     """(n, 3), in the link's frame, metres."""
     radii: Floats
@@ -182,27 +165,28 @@ class Visual:
     link: str
     """The link."""
     color: tuple[float, float, float, float] | None
-    """Red, green, blue and opacity, from 0 to 1; None where the file gives none, or a texture."""
+    """Red, green, blue and opacity, from 0 to 1; None if the file has none, or a texture."""
     vertices: Floats
     """(v, 3), metres."""
     faces: Indices
-    """(f, 3): corners of each triangle."""
+    """(f, 3): the vertices of each triangle."""
 
 
 @dataclass(frozen=True)
 class Skips:
-    """Which pairs of shapes of a kind a check for collisions leaves out, and why."""
+    """The pairs of shapes of a kind that need no collision check, and the reasons: MoveIt's *allowed collision matrix*,
+    for shapes instead of links."""
 
     kind: ShapeKind
     """The kind of shapes."""
     links: tuple[str, ...]
     """The link of each shape."""
     pieces: Indices
-    """(shapes,): which piece of its link each shape is."""
+    """(shapes,): the index of each shape's piece."""
     skipped: Bools
     """(shapes, shapes): whether the pair is skipped. Symmetric, true on the diagonal."""
     reasons: list[list[SkipReason]] | None
-    """The reason of each pair; None where the URDD does not say. A person's edits may decide otherwise."""
+    """The reason of each pair; None if the URDD does not state them. A user's edits can override them."""
 
     def pairs_of_links(self) -> set[frozenset[str]]:
         """The pairs of links all of whose shapes are skipped."""

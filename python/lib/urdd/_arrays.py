@@ -1,7 +1,8 @@
-"""Arrays as they come from people."""
+"""Arrays from users."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import prod
 from typing import Any, TypeAlias, TypeVar
 
@@ -14,28 +15,28 @@ Floats: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]
 Indices: TypeAlias = NDArray[np.uintp]
 
-_Array = TypeVar("_Array", NDArray[np.float64], NDArray[np.bool_])
+_Array = TypeVar("_Array", NDArray[np.float64], NDArray[np.bool_], NDArray[np.uintp])
 
 
 def numbers(values: ArrayLike, what: str) -> Floats:
-    """An array of binary64, row after row. Complex numbers, texts and ragged lists are refused."""
+    """An array of binary64 in row-major order. Rejects complex numbers, texts and ragged lists."""
     try:
         given: NDArray[Any] = np.asarray(values)
     except ValueError as error:
         raise ConfigurationError(f"{what} must be an array of numbers: {error}") from None
     if given.dtype.kind not in "fiu" and given.size > 0:
-        raise ConfigurationError(f"{what} must be an array of numbers, and is one of {given.dtype}")
+        raise ConfigurationError(f"{what} must be an array of numbers, not of {given.dtype}")
     return np.ascontiguousarray(given, dtype=np.float64) if given.ndim else given.astype(np.float64)
 
 
 def configurations(q: ArrayLike, dof_names: tuple[str, ...]) -> tuple[Floats, tuple[int, ...]]:
-    """Configurations as (n, dofs), and the shape before the last axis that they came in."""
+    """Configurations as (n, dofs), and their shape without the last axis."""
     dofs = len(dof_names)
     given = numbers(q, "a configuration")
     if given.ndim == 0 or given.shape[-1] != dofs:
         raise ConfigurationError(
             f"a configuration has one value for each of the {dofs} DOFs: the shape must be ({dofs},) or (n, {dofs}), "
-            f"and is {given.shape}"
+            f"not {given.shape}"
         )
     batch = given.shape[:-1]
     rows = flat(given)
@@ -46,8 +47,16 @@ def configurations(q: ArrayLike, dof_names: tuple[str, ...]) -> tuple[Floats, tu
     return rows, batch
 
 
+def batched(q: ArrayLike, dof_names: tuple[str, ...], ask: Callable[[Floats], _Array]) -> _Array:
+    """The results of a query on configurations (n, dofs), with the axes that the configurations came in. A result
+    without axes is a NumPy scalar, which prints and compares as a number."""
+    rows, batch = configurations(q, dof_names)
+    found = ask(rows)
+    return scalar(found.reshape(*batch, *found.shape[1:]))
+
+
 def positions(values: ArrayLike, length: int, whose: str) -> tuple[Floats, tuple[int, ...]]:
-    """Configurations of another program as (n, length), and the shape before the last axis that they came in."""
+    """Configurations of another program as (n, length), and their shape without the last axis."""
     given = numbers(values, f"a configuration of {whose}")
     if given.ndim == 0 or given.shape[-1] != length:
         raise ConfigurationError(f"{whose} configurations have {length} values, and these {given.shape}")
@@ -55,7 +64,7 @@ def positions(values: ArrayLike, length: int, whose: str) -> tuple[Floats, tuple
 
 
 def flat(given: Floats) -> Floats:
-    """(n, last): all axes but the last as one, also where the last has no values."""
+    """(n, last): all axes but the last as one, even if the last axis is empty."""
     return given.reshape(prod(given.shape[:-1]), given.shape[-1])
 
 
@@ -63,19 +72,37 @@ def one_configuration(q: ArrayLike, dof_names: tuple[str, ...]) -> Floats:
     """A single configuration as (1, dofs)."""
     rows, batch = configurations(q, dof_names)
     if batch:
-        raise ConfigurationError(f"this asks for one configuration: the shape must be ({len(dof_names)},)")
+        raise ConfigurationError(f"expected one configuration, of the shape ({len(dof_names)},)")
     return rows
 
 
 def scalar(values: _Array) -> _Array:
-    """Values as they are; one without axes as numpy's scalar, which prints and compares as a number."""
+    """The same values; an array without axes as a NumPy scalar."""
     found: _Array = values[()]
     return found
 
 
-def points(values: ArrayLike, what: str, length: int) -> Floats:
-    """Finite numbers, `length` of them."""
+def three(values: ArrayLike, what: str) -> tuple[float, float, float]:
+    """Three finite numbers."""
     given = numbers(values, what)
-    if given.shape != (length,) or not np.isfinite(given).all():
-        raise ConfigurationError(f"{what} must be {length} finite numbers, and is of shape {given.shape}")
+    if given.shape != (3,) or not np.isfinite(given).all():
+        raise ConfigurationError(f"{what} must be 3 finite numbers, not an array of the shape {given.shape}")
+    x, y, z = given.tolist()
+    return (x, y, z)
+
+
+def poses(values: ArrayLike, what: str) -> Floats:
+    """Poses (..., 4, 4) or positions (..., 3)."""
+    given = numbers(values, what)
+    is_pose = given.shape[-2:] == (4, 4)
+    if not is_pose and given.shape[-1:] != (3,):
+        raise ConfigurationError(f"{what} must have the shape (..., 4, 4) or (..., 3), not {given.shape}")
+    if not np.isfinite(given).all():
+        raise ConfigurationError(f"{what} is not finite")
+    if is_pose:
+        rotation = given[..., :3, :3]
+        unit = np.abs(rotation @ np.swapaxes(rotation, -1, -2) - np.eye(3)).max(initial=0.0) < 1e-6
+        last = np.abs(given[..., 3, :] - np.array([0.0, 0.0, 0.0, 1.0])).max(initial=0.0) < 1e-9
+        if not (unit and last and bool((np.linalg.det(rotation) > 0).all())):
+            raise ConfigurationError(f"{what} is not a pose: a rotation, a translation, and the last row 0, 0, 0, 1")
     return given

@@ -1,4 +1,4 @@
-"""The command line: that of the library, in this process."""
+"""The command line, in this process."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from . import _urdd
 
 
 def main() -> None:
-    """Runs the command line with the words of ``sys.argv``, and ends the process with its status."""
+    """Runs the command line with the arguments of ``sys.argv``, and ends the process with its status."""
     closed = sys.stdout is None  # pyright: ignore[reportUnnecessaryComparison]
     if closed:
-        # Whatever is opened next would be taken for standard output.
+        # The next file that is opened would become standard output.
         nothing = os.open(os.devnull, os.O_WRONLY)
         if nothing != 1:
             os.dup2(nothing, 1)
-    # Ctrl-C is for the program; Python would only take note of it.
+    # Ctrl-C is for the program; Python would only record it.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     status = _urdd.main(["urdd", *sys.argv[1:]], closed)
-    # Nothing of Python is left to do, and threads of the program may still be at work.
+    # Python has nothing left to do, and threads of the program may still run.
     os._exit(status)
 
 

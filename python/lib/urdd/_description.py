@@ -1,4 +1,4 @@
-"""What a robot is: its names and numbers, and the files of its URDD."""
+"""A robot's names, numbers and files."""
 
 from __future__ import annotations
 
@@ -11,26 +11,26 @@ from . import _urdd
 from .errors import OpenError
 
 if TYPE_CHECKING:
-    # It takes time to import, and few programs need it.
+    # Slow to import, and rarely needed.
     from .modules import Modules, RootMetadata
 
 
-class Described:
-    """What a robot is, of :class:`urdd.Robot`."""
+class RobotDescription:
+    """The names, modules and files of a :class:`urdd.Robot`."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self._path = Path(path)
-        _check_is_no_urdf(self._path)
+        _check_is_not_a_urdf(self._path)
         self._core = _urdd.Robot(self._path)
 
     @property
     def core(self) -> _urdd.Robot:
-        """The compiled part, for other files of this package."""
+        """The compiled part, for the other files of this package."""
         return self._core
 
     @property
     def path(self) -> Path:
-        """The folder or archive, as it was given."""
+        """The folder or archive, as it was passed."""
         return self._path
 
     @cached_property
@@ -41,7 +41,7 @@ class Described:
 
     @cached_property
     def metadata(self) -> RootMetadata | None:
-        """What ``urdd.json`` says; None in a URDD of before version 1."""
+        """The content of ``urdd.json``; None for a legacy URDD, from before version 1."""
         from .modules import read_root_metadata
 
         text = self._core.metadata()
@@ -61,12 +61,12 @@ class Described:
 
     @cached_property
     def joint_names(self) -> tuple[str, ...]:
-        """The name of each joint, fixed ones too."""
+        """The name of each joint, including fixed joints."""
         return tuple(self._core.joint_names())
 
     @cached_property
     def dof_names(self) -> tuple[str, ...]:
-        """The name of each DOF: that of its joint, with the coordinate where the joint has several."""
+        """The name of each DOF: that of its joint, with the coordinate if the joint has several DOFs."""
         return tuple(self._core.dof_names())
 
     @cached_property
@@ -76,7 +76,7 @@ class Described:
 
     @cached_property
     def root_link(self) -> str:
-        """The name of the link that all others hang on, in whose frame poses are."""
+        """The name of the root link. Poses are in its frame."""
         return self.link_names[self.modules.chain.root_idx]
 
     @property
@@ -89,30 +89,28 @@ class Described:
         """Number of DOFs: the length of a configuration."""
         return len(self.dof_names)
 
-    def link(self, name: str) -> int:
-        """The index of a link: ``poses[..., robot.link("tool0"), :, :]``.
+    def link(self, link: str | int) -> int:
+        """The index of a link, from its name or from an index, which may count from the end:
+        ``poses[..., robot.link("tool0"), :, :]``.
 
         Raises:
-            UnknownNameError: where there is no such link, with the nearest name.
+            UnknownNameError: for an unknown name, with the nearest known one.
+            IndexError: for an index that is out of range.
         """
-        return self._core.link(name)
+        if isinstance(link, str):
+            return self._core.link(link)
+        index = int(link)
+        if not -self.num_links <= index < self.num_links:
+            raise IndexError(f"link index {index} is out of range: the robot has {self.num_links} links")
+        return index % self.num_links
 
     def dof(self, name: str) -> int:
         """The index of a DOF.
 
         Raises:
-            UnknownNameError: where there is no such DOF, with the nearest name.
+            UnknownNameError: for an unknown name, with the nearest known one.
         """
         return self._core.dof(name)
-
-    def index(self, link: str | int) -> int:
-        """The index of a link by its name, or by its index, which may count from the end."""
-        if isinstance(link, str):
-            return self.link(link)
-        index = int(link)
-        if not -self.num_links <= index < self.num_links:
-            raise IndexError(f"there is no link {index}: their number is {self.num_links}")
-        return index % self.num_links
 
     @cached_property
     def folder(self) -> Path | None:
@@ -121,42 +119,42 @@ class Described:
 
     @cached_property
     def urdf_path(self) -> Path:
-        """The URDF that the URDD carries, on disk. Its meshes are the URDD's original meshes, and not beside it.
+        """The path of the URDF that the URDD includes. Its meshes are the URDD's original meshes, not files beside it.
 
         Raises:
-            OpenError: where none is carried, or in an archive: ``urdf_text`` reads it there.
+            OpenError: if it includes none, or is an archive: ``urdf_text`` reads it there.
         """
         source = self._core.source()
         if source is None:
-            raise OpenError(f"{self._path}: this URDD carries no URDF")
+            raise OpenError(f"{self._path}: this URDD includes no URDF")
         if self.folder is None:
-            raise OpenError(f"{self._path}: the URDF {source} lies in an archive; `urdf_text` reads it")
+            raise OpenError(f"{self._path}: the URDF {source} is in an archive; `urdf_text` reads it")
         return self.folder / source
 
     @cached_property
     def urdf_text(self) -> str:
-        """The text of the URDF that the URDD carries.
+        """The text of the URDF that the URDD includes.
 
         Raises:
-            OpenError: where none is carried.
+            OpenError: if it includes none.
         """
         source = self._core.source()
         if source is None:
-            raise OpenError(f"{self._path}: this URDD carries no URDF")
+            raise OpenError(f"{self._path}: this URDD includes no URDF")
         return self._core.read_file(source).decode("utf-8", errors="replace")
 
     def read_file(self, path: str) -> bytes:
-        """The bytes of a file of the URDD, such as a mesh that a module names.
+        """The bytes of a file of the URDD, such as a mesh that a module references.
 
         Raises:
-            OpenError: where there is none.
+            OpenError: if there is no such file.
         """
         return self._core.read_file(path)
 
 
-def _check_is_no_urdf(path: Path) -> None:
+def _check_is_not_a_urdf(path: Path) -> None:
     if path.suffix.lower() in (".urdf", ".xacro"):
         folder = path.name.split(".")[0]
-        raise OpenError(f"{path}: this is a URDF, and no URDD; make one: urdd.generate({str(path)!r}, {folder!r})")
+        raise OpenError(f"{path}: this is a URDF, not a URDD; generate one: urdd.generate({str(path)!r}, {folder!r})")
     if path.name == "urdd.json":
-        raise OpenError(f"{path}: this is a file of a URDD; give the folder that it lies in")
+        raise OpenError(f"{path}: this is a file of a URDD; pass the folder that it is in")

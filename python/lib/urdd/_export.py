@@ -1,4 +1,4 @@
-"""Exports: what programs read that read no URDD."""
+"""Exports to the formats of other programs."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from typing import Literal, TypeAlias
 
 from . import _urdd
 from ._answers import ShapeKind
+from ._description import RobotDescription
 from ._options import whole, words
-from ._robot import Robot, load
 
 __all__ = ["Export", "Format", "export"]
 
 Format: TypeAlias = Literal["srdf", "urdf", "drake", "mjcf", "curobo", "foam"]
 """A format: SRDF for MoveIt, URDF with our shapes as collision geometry, the same for Drake, MJCF for MuJoCo, spheres
-for cuRobo and as Foam writes them."""
+for cuRobo and Foam."""
 
 
-#: Spheres that can be asked for, at most: programs take some hundreds.
+#: Limits of the arguments of :func:`export`.
 MAX_SPHERES = 10_000
 MAX_SAMPLES = 1_000_000
 
@@ -32,24 +32,22 @@ class Export:
     text: str
     """The text of the file."""
     files: dict[str, bytes]
-    """The mesh files that it names, by path relative to it."""
+    """The mesh files that it references, by path relative to it."""
     notes: list[str]
-    """What the format could not say, or says in another way."""
+    """What the format cannot express, or expresses differently."""
 
     def write(self, file: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Writes the file, and the mesh files beside it.
 
         Raises:
-            FileExistsError: where a file is there that says something else, unless ``force``.
+            FileExistsError: if a file exists with other content, unless ``force``.
         """
         target = Path(file)
         contents = {target: self.text.encode(), **{target.parent / path: data for path, data in self.files.items()}}
         if not force:
             for path, content in contents.items():
                 if path.exists() and path.read_bytes() != content:
-                    raise FileExistsError(
-                        f"{path} is there already, and says something else: force=True writes over it"
-                    )
+                    raise FileExistsError(f"{path} exists with other content: force=True overwrites it")
         for path, content in contents.items():
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(content)
@@ -57,7 +55,7 @@ class Export:
 
 
 def export(
-    robot: Robot | str | os.PathLike[str],
+    robot: RobotDescription | str | os.PathLike[str],
     format: Format,  # noqa: A002
     output: str | os.PathLike[str] | None = None,
     *,
@@ -72,28 +70,28 @@ def export(
     mesh_folder: str | None = None,
     force: bool = False,
 ) -> Export:
-    """A robot in another format, in memory; with ``output`` in that file too.
+    """Exports a robot to another format, in memory; with ``output`` to that file too.
 
     Args:
         robot: the robot, or its path.
         format: the format.
         output: a file to write.
-        shapes: which shapes stand for the links: as collision geometry, and for which pairs are disabled.
-        reasons: for which reasons pairs of links are disabled. Without it, those of the URDD. Edits always hold.
-        keep_pairs: a pair of links of which the URDD skips some pieces and checks others is checked, in formats that
-            know links only. Without it such a pair is disabled, and a note names it.
-        spheres: at most so many spheres for each link. Without it, 12 on average and at most 150 in all; with
+        shapes: the kind of collision shapes. Pairs are disabled by the skips of this kind.
+        reasons: the reasons for which pairs of links are disabled; by default those of the URDD. Edits always apply.
+        keep_pairs: checks pairs of links of which the URDD skips only some pieces, in formats that disable pairs of
+            links only. By default such a pair is disabled, and a note names it.
+        spheres: maximum number of spheres for each link. By default 12 on average and at most 150 in all; with
             ``cover``, 8.
-        total_spheres: at most so many spheres for all links together, but at least one for each.
-        cover: spheres hold all of each link. Otherwise they are fitted such that they answer as the shapes do.
-        samples: in how many sampled configurations spheres are measured, or fewer where that is much work.
-        visuals: whether the file says what links look like.
-        mesh_folder: the folder of the mesh files, relative to the file; with ``output`` it is named as that is.
-        force: writes over files that are there.
+        total_spheres: maximum number of spheres for all links together, but at least one for each.
+        cover: covers each link with spheres. By default spheres are fitted to collide when the shapes do.
+        samples: number of configurations in which the spheres are measured; fewer if that is much work.
+        visuals: whether the file has visual geometry.
+        mesh_folder: the folder of the mesh files, relative to the file; with ``output``, named after it by default.
+        force: overwrites existing files.
 
     Raises:
-        ExportError: where the format cannot hold the robot.
-        FileExistsError: where a file is there that says something else.
+        ExportError: if the format cannot hold the robot.
+        FileExistsError: if a file exists with other content.
     """
     for name, count in (("spheres", spheres), ("total_spheres", total_spheres)):
         if count is not None:
@@ -101,7 +99,7 @@ def export(
     whole(samples, "samples", 100, MAX_SAMPLES)
     if mesh_folder is None:
         mesh_folder = "meshes" if output is None else f"{Path(output).stem}_meshes"
-    subject = robot if isinstance(robot, Robot) else load(robot)
+    subject = robot if isinstance(robot, RobotDescription) else RobotDescription(robot)
     text, files, notes = _urdd.export(
         subject.core,
         format,
@@ -115,7 +113,7 @@ def export(
         bool(visuals),
         mesh_folder,
     )
-    made = Export(text, dict(files), notes)
+    exported = Export(text, dict(files), notes)
     if output is not None:
-        made.write(output, force=force)
-    return made
+        exported.write(output, force=force)
+    return exported

@@ -1,4 +1,4 @@
-"""Making URDDs."""
+"""Generation of URDDs."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ __all__ = ["Generated", "Job", "Note", "find_urdfs", "generate", "generate_text"
 
 @dataclass(frozen=True)
 class Note:
-    """Something odd in a source, and what was made of it."""
+    """A problem in a source, and the assumption made for it."""
 
     kind: str
-    """What kind of oddity it is, such as ``mesh-not-found``."""
+    """The kind of problem, such as ``mesh-not-found``."""
     file: str
-    """The file, as it was named."""
+    """The file, as it was passed."""
     line: int
-    """Line, from 1; 0 where it is about the file as a whole."""
+    """Line, from 1; 0 if the note is about the file as a whole."""
     column: int
-    """Column, from 1; 0 where it is about the file as a whole."""
+    """Column, from 1; 0 if the note is about the file as a whole."""
     problem: str
     """What is wrong."""
     assumed: str
-    """What was assumed, or done."""
+    """The assumption or action."""
 
     def __str__(self) -> str:
         place = f":{self.line}:{self.column}" if self.line else ""
@@ -42,7 +42,7 @@ class Note:
 
 @dataclass(frozen=True)
 class Generated:
-    """A URDD that was made."""
+    """A generated URDD."""
 
     path: Path
     """Its folder."""
@@ -57,32 +57,32 @@ class Generated:
     conformance_class: str
     """The class that it claims: ``Core``, ``Geometry`` or ``Shapes``."""
     modules_made: list[str]
-    """The modules that were made."""
+    """The modules that were generated."""
     modules_kept: list[str]
-    """The modules that were taken over from the URDD before, since nothing that they are made of changed."""
+    """The modules that were reused from the previous URDD because their inputs did not change."""
     changed: bool
-    """Whether anything is different from what was there before; if not, nothing was written."""
+    """Whether anything differs from the previous URDD; if not, nothing was written."""
     meshes_named: int
-    """Names of meshes in the source."""
+    """Number of meshes that the source references."""
     meshes_not_found: int
-    """Those of which no file was found, or one that is no mesh."""
+    """Number of those without a file, or whose file is not a mesh."""
     meshes_not_usable: int
-    """Those whose file is carried and cannot be used."""
+    """Number of those whose file is included but unusable."""
     notes: list[Note]
-    """What was odd in the source, and what was made of it."""
+    """Problems in the source, and the assumptions made for them."""
 
     def load(self) -> Robot:
-        """The robot."""
+        """Opens the robot."""
         return load(self.path)
 
 
 class Job(NamedTuple):
-    """A robot of many."""
+    """One of many robots to generate."""
 
     source: Path
     """The URDF or xacro file."""
     name: str
-    """A name for its URDD, unlike every other in more than case."""
+    """A name for its URDD. Names differ in more than case."""
 
 
 def generate(
@@ -106,38 +106,39 @@ def generate(
     force: bool = False,
     progress: Callable[[str, int, int], object] | None = None,
 ) -> Generated:
-    """Makes a URDD of a URDF or xacro file, in the folder ``output``. It is there as a whole afterwards, or as it was.
+    """Generates a URDD from a URDF or xacro file, in the folder ``output``, which is replaced atomically and unchanged
+    on error.
 
-    A second run makes only what changed, and keeps a person's edits of skips.
+    A second run generates only what changed, and keeps the user's edits of skips.
 
     Args:
         source: the file.
         output: the folder of the URDD.
-        modules: modules to make besides the core class, or classes: ``["geometry"]``. Without it, all but
-            ``self_collision_model``, which is trained for a minute or more: ``["all", "self_collision_model"]``.
-        packages: where ROS packages are, by name.
-        allowed_folders: folders besides those of the robot and its packages from which mesh files may be taken.
-        geometry: which geometry links are made from; a link that has none of it gets the other.
-        mesh_formats: the files of each derived mesh. The .glb is always made.
-        pieces: most convex pieces of a link, 1 to 64.
-        piece_tolerance: a link gets no more pieces than are needed for this mean distance from their outside to its
-            surface, metres. Without it, as many as save enough.
-        samples: sampled configurations of the distance statistics, 100,000 at most.
-        skip: for which reasons pairs of shapes are skipped in collision checks. Without it, those of the URDD that is
-            replaced; of a new one all but ``never``.
-        strict: refuses a robot of which a mesh is not found, or anything has to be assumed that changes it.
-        xacro: expands macros in .urdf files too.
+        modules: modules or classes to generate besides the core class: ``["geometry"]``. By default all but
+            ``self_collision_model``, whose training takes a minute or more: ``["all", "self_collision_model"]``.
+        packages: the folders of ROS packages, by name.
+        allowed_folders: folders besides those of the robot and its packages from which mesh files may be read.
+        geometry: the geometry that shapes are computed from; a link without it uses the other.
+        mesh_formats: the file formats of derived meshes. The .glb is always written.
+        pieces: maximum number of convex pieces of a link, 1 to 64.
+        piece_tolerance: a link gets no more pieces than it needs for this mean distance between their outside and its
+            surface, metres. By default it gets as many as reduce the volume enough.
+        samples: number of sampled configurations for the distance statistics, at most 100,000.
+        skip: the reasons for which pairs of shapes are skipped in collision checks. By default those of the URDD that
+            is replaced; for a new URDD all but ``never``.
+        strict: rejects a robot if a mesh is not found, or if an assumption would change the robot.
+        xacro: also expands macros in .urdf files.
         xacro_arguments: arguments of the xacro file, by name.
-        xacro_timeout: how long the program xacro may take, seconds.
-        drop_edits: drops the edits of skips in the URDD that is replaced.
-        force: writes into a folder that holds something else than a URDD of this program.
-        progress: is called when a module is begun, with its name, how many modules are done, and how many there are,
-            and at last with all done; while a module is made that takes long, also with ``"MODULE: step"``, how many
-            steps of it are done, and how many there are.
+        xacro_timeout: time limit of the program xacro, seconds.
+        drop_edits: discards the edits of skips in the URDD that is replaced.
+        force: writes to a folder that holds something else than a URDD of this program.
+        progress: called with the name of each module before it is generated, the number of finished modules, and the
+            number of all modules; at the end with all finished. Slow modules also report ``"MODULE: step"``, with the
+            number of finished steps and of all steps.
 
     Raises:
-        GenerateError: where the source is no robot, or the URDD cannot be written.
-        KeyboardInterrupt: after Ctrl-C; nothing was changed then.
+        GenerateError: if the source is not a robot, or the URDD cannot be written.
+        KeyboardInterrupt: after Ctrl-C; nothing has changed.
     """
     given: MakingOptions = {
         "modules": modules,
@@ -168,7 +169,7 @@ def generate_text(
     progress: Callable[[str, int, int], object] | None = None,
     **options: Unpack[MakingOptions],
 ) -> Generated:
-    """As :func:`generate`, with the same options, of the text of a URDF. Relative names of meshes begin in
+    """As :func:`generate`, with the same options, from the text of a URDF. Relative mesh paths are relative to
     ``folder``."""
     text = urdf.encode() if isinstance(urdf, str) else bytes(urdf)
     target = Path(output)
@@ -177,25 +178,25 @@ def generate_text(
 
 
 def find_urdfs(*paths: str | os.PathLike[str], shard: tuple[int, int] | None = None) -> list[Job]:
-    """The robots below folders: every ``.urdf``, and every ``.urdf.xacro`` without one beside it, with a name for each.
+    """Finds the robots below folders: every ``.urdf``, and every ``.urdf.xacro`` without a ``.urdf`` beside it.
 
     Args:
         paths: files and folders.
-        shard: ``(i, n)``: the i-th of n parts alone, from 1; as ``urdd generate --shard i/n`` has them.
+        shard: ``(i, n)``: only the i-th of n parts, from 1, as in ``urdd generate --shard i/n``.
 
     Raises:
-        OpenError: where a path is not there, or a folder holds none.
+        OpenError: if a path does not exist, or a folder has no robots.
     """
     jobs = [Job(source, name) for source, name in _urdd.find_urdfs([Path(path) for path in paths])]
     if shard is None:
         return jobs
     part, of = shard
     if not 1 <= part <= of:
-        raise ValueError(f"a shard is (i, n) with i from 1 to n, and this is {shard}")
+        raise ValueError(f"a shard is (i, n) with i from 1 to n, not {shard}")
     return jobs[part - 1 :: of]
 
 
 def generated(path: Path, found: dict[str, Any]) -> Generated:
-    """What the compiled part says of a URDD that was made."""
+    """The result of the compiled part."""
     notes = [Note(*note) for note in found.pop("notes")]
     return Generated(path=path, notes=notes, **found)

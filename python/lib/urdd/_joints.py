@@ -1,4 +1,4 @@
-"""How joints move, and what their positions are in the configurations of other programs (SPEC 5.11)."""
+"""Joints, and their positions in the configurations of other programs (SPEC 5.11)."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ class Joint:
     name: str
     """Its name."""
     kind: JointType
-    """How it moves."""
+    """Its type."""
     parent: int
-    """The link that it hangs on."""
+    """Its parent link."""
     child: int
-    """The link that it moves."""
+    """Its child link."""
     origin: Floats
-    """(4, 4): the joint's frame in that of its parent."""
+    """(4, 4): the joint's frame in the parent link's frame."""
     axis: Floats
-    """(3,): its axis, of length 1; zeros where it has none."""
+    """(3,): its axis, of length 1; zeros if it has none."""
     dofs: tuple[int, ...]
     """Its DOFs."""
     mimic: tuple[int | None, float, float] | None
-    """Of a mimic joint the DOF that it follows, the multiplier, and the offset."""
+    """For a mimic joint: the DOF that it follows, the multiplier and the offset."""
 
     def position(self, q: Floats) -> Floats:
-        """(..., 1): the position of a joint that turns about an axis or slides along it, mimics included."""
+        """(..., 1): the position of a joint that rotates about an axis or slides along it, including mimic joints."""
         if self.mimic is None:
             return q[..., list(self.dofs)]
         dof, multiplier, offset = self.mimic
@@ -44,7 +44,7 @@ class Joint:
 
 
 def joints_of(modules: Modules) -> list[Joint]:
-    """The joints, each after the joint that its parent hangs on."""
+    """The joints, each after the joint that moves its parent link."""
     chain, dof = modules.chain, modules.dof
     found: list[Joint] = []
     waiting = [chain.root_idx]
@@ -100,8 +100,8 @@ def rotation_vector_of(wxyz: Floats) -> Floats:
 
 
 def in_plane_basis(axis: Floats) -> Floats:
-    """(3, 3): as columns the directions x and y of a planar joint's plane, and its axis: by the shortest arc from z to
-    the axis; for -z by half a turn about x."""
+    """(3, 3): as columns, the directions x and y of a planar joint's plane, and its axis. The shortest arc turns z to
+    the axis; for -z it is half a turn about x."""
     x, y, z = axis
     if z <= -1.0 + 1e-15 and abs(x) + abs(y) < 1e-15:
         return np.diag([1.0, -1.0, -1.0])
@@ -113,7 +113,7 @@ def in_plane_basis(axis: Floats) -> Floats:
 
 
 def right_jacobian(rotation_vector: Floats) -> Floats:
-    """(3, 3): from the change of a rotation vector to the angular velocity in the turned frame."""
+    """(3, 3): maps the derivative of a rotation vector to the angular velocity in the rotated frame."""
     angle = float(np.linalg.norm(rotation_vector))
     x, y, z = rotation_vector
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
@@ -128,7 +128,7 @@ def right_jacobian(rotation_vector: Floats) -> Floats:
 def quaternion_of_matrix(rotation: Floats) -> Floats:
     """(4,): the quaternion w, x, y, z, w >= 0, of a rotation (3, 3)."""
     r = rotation
-    # The largest of the four decides by which formula nothing cancels.
+    # The formula of the largest component avoids cancellation.
     four = np.array(
         [
             [1 + r[0, 0] + r[1, 1] + r[2, 2], r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]],

@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ._answers import ShapeKind
 from ._arrays import Floats, configurations, positions
+from ._export import export
 from ._joints import Joint, joints_of, quaternion_of, rotation_vector_of
+from ._kinematics import RobotKinematics
 from ._need import need
-
-if TYPE_CHECKING:
-    from ._robot import Robot
 
 
 @dataclass(frozen=True)
 class MujocoRobot:
     """A robot for MuJoCo. Its ``qpos`` is in MuJoCo's own order: :meth:`q` and :meth:`dofs` map configurations.
 
-    A floating joint is three slides and a ball, a planar one two slides and a hinge. Mimic joints are joints of their
-    own, held by equality constraints, which :meth:`q` sets.
+    A floating joint is three slides and a ball, a planar joint two slides and a hinge. Mimic joints are separate joints
+    with equality constraints; :meth:`q` sets them.
     """
 
     model: Any
@@ -30,7 +29,7 @@ class MujocoRobot:
     dof_names: tuple[str, ...]
     """The DOFs here."""
     notes: list[str]
-    """What MuJoCo's format could not say, or says in another way."""
+    """What MuJoCo's format cannot express, or expresses differently."""
     _places: tuple[tuple[Joint, tuple[int, ...]], ...]
 
     def q(self, q: ArrayLike) -> Floats:
@@ -48,7 +47,7 @@ class MujocoRobot:
         return found.reshape(*batch, self.model.nq)
 
     def dofs(self, q: ArrayLike) -> Floats:
-        """(..., dofs): our configuration of MuJoCo's ``qpos`` (..., nq). What mimic joints say is not looked at."""
+        """(..., dofs): our configuration of MuJoCo's ``qpos`` (..., nq). Ignores the values of mimic joints."""
         rows, batch = positions(q, self.model.nq, "MuJoCo's")
         found = np.zeros((len(rows), len(self.dof_names)))
         for joint, at in self._places:
@@ -61,13 +60,11 @@ class MujocoRobot:
         return found.reshape(*batch, len(self.dof_names))
 
 
-def to_mujoco(robot: Robot, shapes: ShapeKind = "pieces", *, visuals: bool = True) -> MujocoRobot:
+def to_mujoco(robot: RobotKinematics, shapes: ShapeKind = "pieces", *, visuals: bool = True) -> MujocoRobot:
     """As :meth:`urdd.Robot.to_mujoco`."""
-    from ._export import export
-
     mujoco = need("mujoco", "mujoco", "to_mujoco")
-    made = export(robot, "mjcf", shapes=shapes, visuals=visuals)
-    model = mujoco.MjModel.from_xml_string(made.text, made.files)
+    exported = export(robot, "mjcf", shapes=shapes, visuals=visuals)
+    model = mujoco.MjModel.from_xml_string(exported.text, exported.files)
 
     def at(name: str) -> int:
         return int(model.jnt_qposadr[model.joint(name).id])
@@ -82,4 +79,4 @@ def to_mujoco(robot: Robot, shapes: ShapeKind = "pieces", *, visuals: bool = Tru
         if joint.kind == "Floating":
             names = [*(f"{joint.name}/trans_{part}" for part in "xyz"), joint.name]
         places.append((joint, tuple(at(name) for name in names)))
-    return MujocoRobot(model, robot.dof_names, made.notes, tuple(places))
+    return MujocoRobot(model, robot.dof_names, exported.notes, tuple(places))

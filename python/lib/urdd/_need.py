@@ -1,4 +1,4 @@
-"""Packages that only a part of this one needs."""
+"""Optional dependencies."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 def need(module: str, extra: str, method: str) -> Any:
-    """Imports a module, and says how to get it where it is not there."""
+    """Imports a module; the error says how to install it."""
     try:
         return import_module(module)
     except ModuleNotFoundError as error:

@@ -1,4 +1,4 @@
-"""How URDDs are made."""
+"""Options of the compiled part, with their types checked."""
 
 from __future__ import annotations
 
@@ -10,45 +10,48 @@ from operator import index
 from pathlib import Path
 from typing import Literal, SupportsIndex, TypedDict
 
-__all__ = ["GenerateOptions", "MakingOptions", "options_of", "whole", "words"]
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["GenerateOptions", "InverseOptions", "MakingOptions", "ValidateOptions", "options_of", "whole", "words"]
 
 
 class MakingOptions(TypedDict, total=False):
-    """Keyword arguments of :func:`urdd.generate` that everything takes that makes a URDD; described there."""
+    """Keyword arguments of :func:`urdd.generate` that all functions that generate a URDD accept."""
 
     modules: Iterable[str] | None
-    """Modules to make besides the core class, or classes. Without it, all but ``self_collision_model``."""
+    """Modules or classes to generate besides the core class; by default all but ``self_collision_model``."""
     packages: Mapping[str, str | os.PathLike[str]] | None
-    """Where ROS packages are, by name."""
+    """The folders of ROS packages, by name."""
     allowed_folders: Iterable[str | os.PathLike[str]]
-    """Folders besides those of the robot and its packages from which mesh files may be taken."""
+    """Folders besides those of the robot and its packages from which mesh files may be read."""
     geometry: Literal["visual", "collision"]
-    """Which geometry links are made from."""
+    """The geometry that shapes are computed from."""
     mesh_formats: Iterable[Literal["glb", "stl", "obj"]]
-    """The files of each derived mesh."""
+    """The file formats of derived meshes."""
     pieces: int
-    """Most convex pieces of a link, 1 to 64."""
+    """Maximum number of convex pieces of a link, 1 to 64."""
     piece_tolerance: float | None
-    """The mean distance of pieces to the surface for which no more are needed, metres."""
+    """Sufficient mean distance of the pieces from the surface, metres."""
     samples: int
-    """Sampled configurations of the distance statistics."""
+    """Number of sampled configurations for the distance statistics."""
     skip: Iterable[Literal["same-link", "always", "adjacent", "default", "never"]] | None
-    """For which reasons pairs of shapes are skipped."""
+    """The reasons for which pairs of shapes are skipped."""
     strict: bool
-    """Refuses what changes the robot."""
+    """Rejects assumptions that change the robot."""
     xacro: bool
-    """Expands macros in .urdf files too."""
+    """Also expands macros in .urdf files."""
     xacro_timeout: float
-    """How long the program xacro may take, seconds."""
+    """Time limit of the program xacro, seconds."""
     drop_edits: bool
-    """Drops the edits of skips in the URDD that is replaced."""
+    """Discards the edits of skips in the URDD that is replaced."""
     force: bool
-    """Writes into a folder that holds something else."""
+    """Writes to a folder that holds something else."""
 
 
 @dataclass(frozen=True)
 class GenerateOptions:
-    """The same for the compiled part, every one of them."""
+    """All options of generation, for the compiled part."""
 
     modules: list[str] | None
     packages: list[tuple[str, Path]]
@@ -67,16 +70,42 @@ class GenerateOptions:
     force: bool
 
 
+@dataclass(frozen=True)
+class InverseOptions:
+    """The settings of :meth:`urdd.Robot.inverse_kinematics`, for the compiled part."""
+
+    point: tuple[float, float, float]
+    position_tolerance: float
+    rotation_tolerance: float
+    iterations: int
+    restarts: int
+    seed: int
+    bounds: NDArray[np.float64] | None
+
+
+@dataclass(frozen=True)
+class ValidateOptions:
+    """The options of :func:`urdd.validate`, for the compiled part."""
+
+    conformance_class: str | None
+    deep: bool
+    fail_on: str | None
+    config: str | None
+    select: list[str]
+    ignore: list[str]
+    exclude: list[str]
+
+
 def options_of(
-    given: MakingOptions, asker: str, xacro_arguments: Mapping[str, object] | None = None
+    given: MakingOptions, caller: str, xacro_arguments: Mapping[str, object] | None = None
 ) -> GenerateOptions:
-    """All options; what is not given is as usual."""
+    """All options, with defaults for those that are not given."""
     unknown = given.keys() - MakingOptions.__annotations__.keys()
     if unknown:
         name = min(unknown)
         near = get_close_matches(name, MakingOptions.__annotations__, n=1)
         meant = f". Did you mean {near[0]!r}?" if near else ""
-        raise TypeError(f"{asker}() got an unexpected keyword argument {name!r}{meant}")
+        raise TypeError(f"{caller}() got an unexpected keyword argument {name!r}{meant}")
     modules, skip, tolerance = given.get("modules"), given.get("skip"), given.get("piece_tolerance")
     return GenerateOptions(
         modules=None if modules is None else words(modules, "modules"),
@@ -98,15 +127,15 @@ def options_of(
 
 
 def whole(given: SupportsIndex, what: str, least: int, most: int) -> int:
-    """A whole number, which is from ``least`` to ``most``."""
+    """A whole number from ``least`` to ``most``."""
     number = index(given)
     if not least <= number <= most:
-        raise ValueError(f"{what} must be from {least:,} to {most:,}, and is {number:,}")
+        raise ValueError(f"{what} must be from {least:,} to {most:,}, not {number:,}")
     return number
 
 
 def words(given: Iterable[str], what: str) -> list[str]:
-    """A list of words. A single text is one by mistake: its letters would be the words."""
+    """A list of words. Rejects a single text, whose letters would become the words."""
     if isinstance(given, str):
         raise TypeError(f"{what} must be a list of words: [{given!r}]")
     return list(given)

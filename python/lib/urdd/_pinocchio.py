@@ -14,21 +14,24 @@ from ._joints import (
     Joint,
     in_plane_basis,
     joints_of,
+    pose,
     quaternion_of,
     right_jacobian,
     rotation_vector_of,
 )
+from ._kinematics import RobotKinematics
 from ._need import need
+from ._proximity import Proximity
+from ._shapes import shapes as shapes_of
 from .errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from ._robot import Robot
     from .modules import Origin
 
 
 @dataclass(frozen=True)
 class _Place:
-    """Where a joint's values are in Pinocchio's vectors."""
+    """The indices of a joint's values in Pinocchio's vectors."""
 
     joint: Joint
     q: int
@@ -39,14 +42,14 @@ class _Place:
 class PinocchioRobot:
     """A robot for Pinocchio. The order of its joints is Pinocchio's own: :meth:`q` and :meth:`dofs` map configurations.
 
-    Mimic joints are joints of their own here, which :meth:`q` sets. Each link has a body frame of its name.
+    Mimic joints are separate joints here; :meth:`q` sets them. Each link has a body frame of its name.
     """
 
     model: Any
     """``pinocchio.Model``."""
     collision_model: Any
-    """``pinocchio.GeometryModel`` of the shapes, named ``link/piece``, with the pairs that are not skipped; None where
-    no shapes were asked for."""
+    """``pinocchio.GeometryModel`` of the shapes, named ``link/piece``, with the pairs that are not skipped; None
+    if no shapes were requested."""
     dof_names: tuple[str, ...]
     """The DOFs here."""
     _places: tuple[_Place, ...]
@@ -73,7 +76,7 @@ class PinocchioRobot:
         return found.reshape(*batch, self.model.nq)
 
     def dofs(self, q: ArrayLike) -> Floats:
-        """(..., dofs): our configuration of one of Pinocchio's (..., nq). What mimic joints say is not looked at."""
+        """(..., dofs): our configuration of one of Pinocchio's (..., nq). Ignores the values of mimic joints."""
         rows, batch = positions(q, self.model.nq, "Pinocchio's")
         found = np.zeros((len(rows), len(self.dof_names)))
         for place in self._places:
@@ -95,11 +98,11 @@ class PinocchioRobot:
         return found.reshape(*batch, len(self.dof_names))
 
     def tangent(self, q: ArrayLike) -> Floats:
-        """(nv, dofs): from velocities of our DOFs, in one configuration of ours, to Pinocchio's. Our Jacobian is
+        """(nv, dofs): maps velocities of our DOFs to Pinocchio's, in one of our configurations. Our Jacobian is
         Pinocchio's (``LOCAL_WORLD_ALIGNED``) times this."""
         rows, batch = configurations(q, self.dof_names)
         if batch:
-            raise ConfigurationError("this asks for one configuration")
+            raise ConfigurationError(f"expected one configuration, of the shape ({len(self.dof_names)},)")
         found = np.zeros((self.model.nv, len(self.dof_names)))
         for place in self._places:
             joint, at = place.joint, place.v
@@ -123,14 +126,14 @@ class PinocchioRobot:
         return found
 
 
-def to_pinocchio(robot: Robot, shapes: ShapeKind | None = "pieces") -> PinocchioRobot:
+def to_pinocchio(robot: RobotKinematics, shapes: ShapeKind | None = "pieces") -> PinocchioRobot:
     """As :meth:`urdd.Robot.to_pinocchio`."""
     pin = need("pinocchio", "pinocchio", "to_pinocchio")
     bounds = robot.modules.bounds
     model = pin.Model()
     model.name = robot.name
     root = robot.modules.chain.root_idx
-    # Of each link the joint that moves it, its place in that joint's frame, and the frame that it hangs on.
+    # For each link: the joint that moves it, its pose in that joint's frame, and its parent frame.
     links: dict[int, tuple[int, Floats, int]] = {root: (0, np.eye(4), 0)}
     frames = {root: _add_body(pin, model, robot.link_names[root], 0, np.eye(4), 0)}
     kept: list[tuple[Joint, int]] = []
@@ -182,7 +185,7 @@ def _add_body(pin: Any, model: Any, name: str, joint: int, place: Floats, above:
 
 
 def _joint_model(pin: Any, joint: Joint) -> tuple[Any, Floats]:
-    """Pinocchio's joint, and its frame in the joint's own."""
+    """Pinocchio's joint, and its frame in our joint's frame."""
     basis = np.eye(4)
     if joint.kind in ("Revolute", "Continuous", "Prismatic"):
         aligned = {(1.0, 0.0, 0.0): "X", (0.0, 1.0, 0.0): "Y", (0.0, 0.0, 1.0): "Z"}
@@ -219,8 +222,6 @@ def _origin(origin: Origin | None) -> Floats:
 
 
 def _rotation(rotation_vector: Floats) -> Floats:
-    from ._joints import pose
-
     return pose([0.0, 0.0, 0.0], quaternion_of(rotation_vector).tolist())[:3, :3]
 
 
@@ -260,7 +261,7 @@ def _set_effort(robot: PinocchioRobot, model: Any, speeds: list[float | None], e
 
 def _geometry(
     pin: Any,
-    robot: Robot,
+    robot: RobotKinematics,
     model: Any,
     kind: ShapeKind,
     links: dict[int, tuple[int, Floats, int]],
@@ -276,7 +277,7 @@ def _geometry(
         thing = pin.GeometryObject(f"{link}/{piece}", joint, frames[index], pin.SE3(at @ place), shape)
         numbers_of[index, piece] = geometry.addGeometryObject(thing)
 
-    shapes = robot.shapes(kind)
+    shapes = shapes_of(robot, kind)
     if isinstance(shapes, Spheres):
         for link, piece, centre, radius in zip(*shapes, strict=True):
             place = np.eye(4)
@@ -288,7 +289,7 @@ def _geometry(
                 add(shape.link, shape.piece, coal.Box(*(2 * shape.half_extents).tolist()), shape.pose)
             else:
                 add(shape.link, shape.piece, _convex(coal, shape), np.eye(4))
-    for (a, i), (b, j) in robot.proximity(kind).pair_indices.tolist():
+    for (a, i), (b, j) in Proximity(robot, kind).pair_indices.tolist():
         geometry.addCollisionPair(pin.CollisionPair(numbers_of[a, i], numbers_of[b, j]))
     return geometry
 

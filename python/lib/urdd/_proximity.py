@@ -1,4 +1,4 @@
-"""Distances and collisions."""
+"""Distances and collisions between the links of a robot."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._answers import Pair, PairDistance, ShapeKind
-from ._arrays import Bools, Floats, Indices, configurations, one_configuration, scalar
+from ._arrays import Bools, Floats, Indices, batched, one_configuration
+from ._description import RobotDescription
 
 if TYPE_CHECKING:
     from . import _urdd
-    from ._robot import Robot
 
 
 class Proximity:
     """The shapes of one kind, prepared for distances: ``robot.proximity("pieces")``.
 
-    Distances are right within 1e-9 m, and 0 for shapes that touch or overlap: depths of penetration are not given.
+    Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: penetration depths are not computed.
 
-    It is pickled as its robot, which is its path, and its kind.
+    Pickled as its robot and kind.
     """
 
-    def __init__(self, robot: Robot, kind: ShapeKind) -> None:
+    def __init__(self, robot: RobotDescription, kind: ShapeKind) -> None:
         self._robot = robot
         self._core = robot.core.proximity(kind)
         self._link_names = robot.link_names
@@ -32,7 +32,7 @@ class Proximity:
 
     @property
     def kind(self) -> ShapeKind:
-        """Of which kind the shapes are."""
+        """The kind of the shapes."""
         return self._core.kind
 
     @property
@@ -47,7 +47,7 @@ class Proximity:
 
     @cached_property
     def pair_indices(self) -> Indices:
-        """(pairs, 2, 2): of each pair that is not skipped, and each of its two shapes, the link and the piece."""
+        """(pairs, 2, 2): the link and the piece of both shapes of each pair that is not skipped."""
         return self._core.pairs()
 
     @cached_property
@@ -59,23 +59,20 @@ class Proximity:
 
     def distances(self, q: ArrayLike) -> Floats:
         """(..., pairs): the distance of each pair that is not skipped, metres."""
-        rows, batch = configurations(q, self._dof_names)
-        return self._core.distances(rows).reshape(*batch, self.num_pairs)
+        return batched(q, self._dof_names, self._core.distances)
 
     def self_distance(self, q: ArrayLike) -> Floats:
-        """(...): the least distance of all pairs, metres; infinite where there is no pair."""
-        rows, batch = configurations(q, self._dof_names)
-        return scalar(self._core.self_distance(rows).reshape(batch))
+        """(...): the minimum distance over all pairs, metres; infinite if there are no pairs."""
+        return batched(q, self._dof_names, self._core.self_distance)
 
     def in_collision(self, q: ArrayLike) -> Bools:
-        """(...): whether any pair touches or overlaps. This is answered soonest: it ends with the first that does."""
-        rows, batch = configurations(q, self._dof_names)
-        return scalar(self._core.in_collision(rows).reshape(batch))
+        """(...): whether any pair touches or overlaps. The fastest query: it stops at the first collision."""
+        return batched(q, self._dof_names, self._core.in_collision)
 
     def nearest(self, q: ArrayLike, k: int = 1) -> list[PairDistance]:
-        """The ``k`` nearest pairs in one configuration, nearest first; fewer where there are fewer pairs."""
+        """The ``k`` nearest pairs in one configuration, nearest first; all pairs if there are fewer."""
         if k < 0:
-            raise ValueError(f"the number of pairs must not be negative, and is {k}")
+            raise ValueError(f"the number of pairs must not be negative, but is {k}")
         return self._answers(self._core.nearest(one_configuration(q, self._dof_names), min(k, self.num_pairs)))
 
     def collisions(self, q: ArrayLike) -> list[PairDistance]:
@@ -94,7 +91,7 @@ class Proximity:
             for links, pieces, distance, relative, points in found
         ]
 
-    def __reduce__(self) -> tuple[type[Proximity], tuple[Robot, ShapeKind]]:
+    def __reduce__(self) -> tuple[type[Proximity], tuple[RobotDescription, ShapeKind]]:
         return type(self), (self._robot, self.kind)
 
     def __repr__(self) -> str:

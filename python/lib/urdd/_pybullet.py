@@ -6,23 +6,24 @@ import os
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ._answers import ShapeKind
 from ._arrays import Floats, configurations, one_configuration, positions
+from ._export import export
 from ._joints import Joint, joints_of
+from ._kinematics import RobotKinematics
 from ._need import need
+from ._proximity import Proximity
+from ._shapes import skips
 from .errors import ExportError
 
-if TYPE_CHECKING:
-    from ._robot import Robot
-
-#: Reasons for which pieces are skipped that touch at all times, or often where the robot is at rest.
+#: Reasons of skipped pieces that touch always, or often at rest.
 _TOUCHING = {"always", "adjacent", "default"}
-#: Configurations in which it is counted what is lost.
+#: Number of configurations in which lost collisions are counted.
 _SAMPLES = 1000
 
 
@@ -30,8 +31,8 @@ _SAMPLES = 1000
 class PybulletRobot:
     """A robot in PyBullet. Its joints are in PyBullet's own order: :meth:`q` and :meth:`dofs` map configurations.
 
-    Mimic joints are joints of their own here, which :meth:`q` and :meth:`set` put where they belong; PyBullet does not
-    hold them there.
+    Mimic joints are separate joints here. :meth:`q` and :meth:`set` place them, but PyBullet does not keep them in
+    place.
     """
 
     body: int
@@ -45,7 +46,7 @@ class PybulletRobot:
     dof_names: tuple[str, ...]
     """The DOFs here."""
     notes: list[str]
-    """What PyBullet could not be told: the pairs of links of which only some pieces are skipped."""
+    """What PyBullet cannot express: the pairs of links of which only some pieces are skipped."""
     _moving: tuple[Joint, ...]
 
     def q(self, q: ArrayLike) -> Floats:
@@ -58,8 +59,8 @@ class PybulletRobot:
         return found.reshape(*batch, len(self.joints))
 
     def dofs(self, q: ArrayLike) -> Floats:
-        """(..., dofs): our configuration of PyBullet's positions (..., joints). What mimic joints say is not looked
-        at."""
+        """(..., dofs): our configuration of PyBullet's positions (..., joints). Ignores the values of mimic
+        joints."""
         rows, batch = positions(q, len(self.joints), "PyBullet's")
         found = np.zeros((len(rows), len(self.dof_names)))
         for at, joint in enumerate(self._moving):
@@ -75,18 +76,21 @@ class PybulletRobot:
             bullet.resetJointState(self.body, number, position, physicsClientId=self.client)
 
     def get(self) -> Floats:
-        """(dofs,): the configuration that the robot is in. What mimic joints say is not looked at."""
+        """(dofs,): the present configuration. Ignores the values of mimic joints."""
         bullet = need("pybullet", "pybullet", "to_pybullet")
         states = [bullet.getJointState(self.body, number, physicsClientId=self.client) for number in self.joints]
         return self.dofs(np.array([state[0] for state in states], dtype=np.float64))
 
 
 def to_pybullet(
-    robot: Robot, client: int = 0, shapes: ShapeKind = "pieces", *, visuals: bool = False, keep_pairs: bool = False
+    robot: RobotKinematics,
+    client: int = 0,
+    shapes: ShapeKind = "pieces",
+    *,
+    visuals: bool = False,
+    keep_pairs: bool = False,
 ) -> PybulletRobot:
     """As :meth:`urdd.Robot.to_pybullet`."""
-    from ._export import export
-
     bullet = need("pybullet", "pybullet", "to_pybullet")
     moving = [joint for joint in joints_of(robot.modules) if joint.kind != "Fixed"]
     for joint in moving:
@@ -104,29 +108,29 @@ def to_pybullet(
     numbers: dict[str, int] = {}
     links = {robot.root_link: -1}
     for number in range(bullet.getNumJoints(body, physicsClientId=client)):
-        told: Any = bullet.getJointInfo(body, number, physicsClientId=client)
-        numbers[told[1].decode()] = number
-        links[told[12].decode()] = number
+        info: Any = bullet.getJointInfo(body, number, physicsClientId=client)
+        numbers[info[1].decode()] = number
+        links[info[12].decode()] = number
     for a, b in apart:
         bullet.setCollisionFilterPair(body, body, links[a], links[b], 0, physicsClientId=client)
     joints = tuple(numbers[joint.name] for joint in moving)
     return PybulletRobot(body, client, links, joints, robot.dof_names, notes, tuple(moving))
 
 
-def _apart(robot: Robot, shapes: ShapeKind, keep_pairs: bool) -> tuple[list[tuple[str, str]], list[str]]:
-    """The pairs of links that do not collide in PyBullet, and what is lost by that."""
-    skips = robot.skips(shapes)
-    names = sorted(set(skips.links))
-    rows = {name: [k for k, link in enumerate(skips.links) if link == name] for name in names}
+def _apart(robot: RobotKinematics, shapes: ShapeKind, keep_pairs: bool) -> tuple[list[tuple[str, str]], list[str]]:
+    """The pairs of links that do not collide in PyBullet, and the collisions lost by that."""
+    skipping = skips(robot, shapes)
+    names = sorted(set(skipping.links))
+    rows = {name: [k for k, link in enumerate(skipping.links) if link == name] for name in names}
     apart: list[tuple[str, str]] = []
     mixed: dict[tuple[str, str], tuple[int, int]] = {}
     for k, a in enumerate(names):
         for b in names[k + 1 :]:
-            skipped = skips.skipped[np.ix_(rows[a], rows[b])]
+            skipped = skipping.skipped[np.ix_(rows[a], rows[b])]
             if skipped.all():
                 apart.append((a, b))
             elif any(
-                skips.reasons is not None and skips.reasons[rows[a][i]][rows[b][j]] in _TOUCHING
+                skipping.reasons is not None and skipping.reasons[rows[a][i]][rows[b][j]] in _TOUCHING
                 for i, j in np.argwhere(skipped).tolist()
             ):
                 mixed[a, b] = (int(skipped.sum()), skipped.size)
@@ -135,7 +139,7 @@ def _apart(robot: Robot, shapes: ShapeKind, keep_pairs: bool) -> tuple[list[tupl
     if keep_pairs:
         return apart, [
             f"links `{a}` and `{b}` collide with all of their pieces, though {skipped} of {count} pairs of these are "
-            f"skipped: they may touch at all times"
+            f"skipped: they may always touch"
             for (a, b), (skipped, count) in mixed.items()
         ]
     lost = _lost(robot, shapes, list(mixed))
@@ -146,11 +150,11 @@ def _apart(robot: Robot, shapes: ShapeKind, keep_pairs: bool) -> tuple[list[tupl
     ]
 
 
-def _lost(robot: Robot, shapes: ShapeKind, pairs: list[tuple[str, str]]) -> dict[tuple[str, str], int]:
-    """In how many sampled configurations pieces of two links touch that are not skipped."""
-    proximity = robot.proximity(shapes)
+def _lost(robot: RobotKinematics, shapes: ShapeKind, pairs: list[tuple[str, str]]) -> dict[tuple[str, str], int]:
+    """For each pair of links, the number of random configurations in which pieces that are not skipped touch."""
+    proximity = Proximity(robot, shapes)
     links = np.sort(proximity.pair_indices[:, :, 0], axis=1)
-    q = robot.sample(_SAMPLES)
+    q = robot.random(_SAMPLES)
     found = dict.fromkeys(pairs, 0)
     of = {pair: (links == sorted(robot.link(name) for name in pair)).all(axis=1) for pair in pairs}
     for some in np.array_split(q[proximity.in_collision(q)], 20):

@@ -1,4 +1,4 @@
-"""How modules are read; `urdd.modules` has a property for each."""
+"""Reading of modules; `urdd.modules` has a property for each."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ _T = TypeVar("_T")
 
 
 class Reading:
-    """The modules of a URDD as documents. Each is read when it is first asked for, and then kept."""
+    """The modules of a URDD as documents. Each is read on first use."""
 
     def __init__(self, core: _urdd.Robot) -> None:
         self._core = core
         self._known: dict[str, Any] = {}
 
     def names(self) -> list[str]:
-        """The names of the modules that are there, in the order of the specification."""
+        """The names of the modules in the URDD, in the order of the specification."""
         return self._core.module_names()
 
     def version(self, name: str) -> str:
@@ -28,7 +28,7 @@ class Reading:
         return self._core.module(name)[0]
 
     def json(self, name: str) -> Any:
-        """The document of a module as it is, of any version: dictionaries, lists, numbers, texts."""
+        """The unmodified document of a module of any version: dictionaries, lists, numbers, texts."""
         return json.loads(self._core.module(name)[2])
 
     def _read(self, name: str, make: Callable[[Any], _T]) -> _T:
@@ -36,8 +36,8 @@ class Reading:
             version, is_legacy, text = self._core.module(name)
             if is_legacy:
                 raise ModuleUnusableError(
-                    f"{name} has version {version}, of before version 1, which has no type here: "
-                    f"`modules.json({name!r})` gives it as it is",
+                    f"{name} has version {version}, from before version 1, which has no type here: "
+                    f"`modules.json({name!r})` returns its document",
                     name,
                 )
             self._known[name] = make(json.loads(text))

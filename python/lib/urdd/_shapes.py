@@ -1,19 +1,25 @@
-"""Shapes, and which pairs of them are skipped."""
+"""Shapes, and the pairs of them that are skipped."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ._answers import SKIP_REASONS, Box, ConvexMesh, ShapeKind, Skips, Spheres, Visual
 from ._arrays import Indices
-
-if TYPE_CHECKING:
-    from ._robot import Robot
+from ._description import RobotDescription
 
 
-def convex(robot: Robot, kind: ShapeKind) -> list[ConvexMesh]:
+def shapes(robot: RobotDescription, kind: ShapeKind) -> list[ConvexMesh] | list[Box] | Spheres:
+    """The shapes of a kind."""
+    if kind in ("hulls", "pieces"):
+        return convex(robot, kind)
+    about = "pieces" if kind.startswith("piece-") else "hulls"
+    return spheres(robot, about) if kind.endswith("spheres") else boxes(robot, about)
+
+
+def convex(robot: RobotDescription, kind: ShapeKind) -> list[ConvexMesh]:
     """The hulls or pieces."""
     found: list[Any] = robot.core.shapes(kind)
     return [
@@ -21,14 +27,14 @@ def convex(robot: Robot, kind: ShapeKind) -> list[ConvexMesh]:
     ]
 
 
-def boxes(robot: Robot, about: str) -> list[Box]:
-    """The box about each of the hulls or pieces."""
+def boxes(robot: RobotDescription, about: str) -> list[Box]:
+    """The bounding box of each of the hulls or pieces."""
     found: list[Any] = robot.core.shapes(_about(about, "boxes", "piece-boxes"))
     return [Box(robot.link_names[one["link"]], one["piece"], one["pose"], one["half_extents"]) for one in found]
 
 
-def spheres(robot: Robot, about: str) -> Spheres:
-    """The sphere about each of the hulls or pieces."""
+def spheres(robot: RobotDescription, about: str) -> Spheres:
+    """The bounding sphere of each of the hulls or pieces."""
     found: list[Any] = robot.core.shapes(_about(about, "spheres", "piece-spheres"))
     return Spheres(
         [robot.link_names[one["link"]] for one in found],
@@ -38,7 +44,7 @@ def spheres(robot: Robot, about: str) -> Spheres:
     )
 
 
-def visuals(robot: Robot) -> list[Visual]:
+def visuals(robot: RobotDescription) -> list[Visual]:
     """The plain mesh of each link, by colour."""
     found: list[Any] = robot.core.visuals()
     return [
@@ -52,8 +58,8 @@ def visuals(robot: Robot) -> list[Visual]:
     ]
 
 
-def skips(robot: Robot, kind: ShapeKind) -> Skips:
-    """Which pairs are left out, and why."""
+def skips(robot: RobotDescription, kind: ShapeKind) -> Skips:
+    """The skipped pairs, and the reasons."""
     places, skipped, reasons = robot.core.skips(kind)
     words = None if reasons is None else [[SKIP_REASONS[number] for number in row] for row in reasons.tolist()]
     links = tuple(robot.link_names[link] for link in places[:, 0].tolist())
@@ -66,5 +72,5 @@ def _faces(faces: Any) -> Indices:
 
 def _about(about: str, hulls: ShapeKind, pieces: ShapeKind) -> ShapeKind:
     if about not in ("hulls", "pieces"):
-        raise ValueError(f"about must be 'hulls' or 'pieces', and is {about!r}")
+        raise ValueError(f"about must be 'hulls' or 'pieces', not {about!r}")
     return hulls if about == "hulls" else pieces

@@ -1,17 +1,15 @@
-"""Showing a robot: the page of `urdd view`, or viser."""
+"""Display of a robot: the page of `urdd view`, or viser."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from numpy.typing import ArrayLike
 
 from . import _urdd
 from ._arrays import one_configuration
+from ._kinematics import RobotKinematics
 from ._need import need
-
-if TYPE_CHECKING:
-    from ._robot import Robot
 
 
 class Shown:
@@ -20,7 +18,7 @@ class Shown:
     def __init__(self, page: _urdd.Page, address: str) -> None:
         self._page = page
         self.address = address
-        """What to open. It carries the key without which nothing is answered."""
+        """The address to open. It includes the token that the server requires."""
 
     def close(self) -> None:
         """Stops serving."""
@@ -39,20 +37,20 @@ class Shown:
 class ShownByViser:
     """A robot in viser."""
 
-    def __init__(self, robot: Robot, server: Any, frames: dict[str, Any]) -> None:
+    def __init__(self, robot: RobotKinematics, server: Any, frames: dict[str, Any]) -> None:
         self._robot = robot
         self._frames = frames
         self.server = server
         """``viser.ViserServer``."""
         self.address: str = f"http://127.0.0.1:{server.get_port()}"
-        """What to open."""
+        """The address to open."""
 
     def set(self, q: ArrayLike) -> None:
         """Shows another configuration (dofs,)."""
         from ._joints import quaternion_of_matrix
 
         row = one_configuration(q, self._robot.dof_names)[0]
-        for link, pose in self._robot.link_poses(row).items():
+        for link, pose in zip(self._robot.link_names, self._robot.link_poses(row), strict=True):
             if link in self._frames:
                 self._frames[link].position = pose[:3, 3]
                 self._frames[link].wxyz = quaternion_of_matrix(pose[:3, :3])
@@ -80,8 +78,8 @@ class Frame:
         self._height = height
 
     def _repr_html_(self) -> str:
-        # Without `allow-same-origin` the frame has an origin of its own: its scripts reach neither the notebook nor its
-        # server. A person may download the picture, and decisions on skips.
+        # Without `allow-same-origin`, the frame has an origin of its own: its scripts cannot reach the notebook or its
+        # server. Users may download the picture and the edits of skips.
         style = f"width: 100%; height: {self._height}px; border: 0"
         import html
 
@@ -90,7 +88,7 @@ class Frame:
 
 
 def show(
-    robot: Robot,
+    robot: RobotKinematics,
     q: ArrayLike | None,
     *,
     backend: Literal["page", "viser"],
@@ -108,11 +106,11 @@ def show(
             _open(address)
         return Shown(page, address)
     if backend != "viser":
-        raise ValueError(f"there is no backend {backend!r}; there are: page, viser")
+        raise ValueError(f"unknown backend {backend!r}; expected page or viser")
     viser = need("viser", "viser", "show(backend='viser')")
     from ._trimesh import link_mesh
 
-    # For this machine alone; viser listens to all others too, unless it is told.
+    # This machine only: by default viser listens on all interfaces.
     server = viser.ViserServer(host="127.0.0.1", **({} if port is None else {"port": port}))
     frames: dict[str, Any] = {}
     for link, mesh in zip(robot.link_names, robot.modules.plain_meshes.link_meshes, strict=True):
@@ -131,6 +129,6 @@ def _open(address: str) -> None:
     webbrowser.open(address)
 
 
-def frame(robot: Robot, height: int) -> Frame:
+def frame(robot: RobotKinematics, height: int) -> Frame:
     """As :meth:`urdd.Robot.frame`."""
     return Frame(_urdd.page_html(robot.path), height)

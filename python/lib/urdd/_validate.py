@@ -9,29 +9,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from . import _urdd
-from ._options import words
+from ._options import ValidateOptions, words
 from .errors import OpenError, ValidationError
 
 if TYPE_CHECKING:
     from .report import Report
 
-__all__ = ["Rule", "ValidateOptions", "check", "explain", "validate"]
+__all__ = ["Rule", "check", "explain", "validate"]
 
-#: Errors that the message of a :class:`ValidationError` says, at most.
+#: Maximum number of errors in the message of a :class:`ValidationError`.
 _SHOWN = 5
-
-
-@dataclass(frozen=True)
-class ValidateOptions:
-    """How URDDs are validated; each is described at :func:`validate`."""
-
-    conformance_class: str | None
-    deep: bool
-    fail_on: str | None
-    config: str | None
-    select: list[str]
-    ignore: list[str]
-    exclude: list[str]
 
 
 @dataclass(frozen=True)
@@ -41,13 +28,13 @@ class Rule:
     code: str
     """Its code, such as ``DOF003``."""
     name: str
-    """What is wrong where it finds something, as a word."""
+    """A short name of the problem that it finds."""
     severity: str
-    """How bad that is: ``error``, ``warning`` or ``info``."""
+    """Its severity: ``error``, ``warning`` or ``info``."""
     clause: str
     """The clause of the specification."""
     explanation: str
-    """What is wrong, why it matters, and what to do."""
+    """The problem, why it matters, and what to do."""
 
 
 def validate(
@@ -60,7 +47,7 @@ def validate(
     ignore: Iterable[str] = (),
     exclude: Iterable[str] = (),
 ) -> Report:
-    """Checks every URDD at or below each of the paths against the specification.
+    """Validates every URDD at or below each of the paths against the specification.
 
     >>> import urdd
     >>> report = urdd.validate("welding_arm")
@@ -70,17 +57,17 @@ def validate(
     []
 
     Args:
-        paths: URDDs, folders of them, zip archives, or URDFs by themselves.
-        conformance_class: the class to hold every URDD to, instead of the one that it claims.
-        deep: recomputes sampled data in full, however long it takes.
-        fail_on: the severity from which on the verdict is ``fail``; ``error`` without it.
-        config: a settings file such as ``urdd.toml``. Without it there are no settings, also where that file is there.
-        select: codes or families of rules that alone are reported.
-        ignore: codes or families of rules that are not reported.
-        exclude: patterns of folders that are left out.
+        paths: URDDs, folders of URDDs, zip archives, or URDFs.
+        conformance_class: the class to validate against, instead of the one that each URDD claims.
+        deep: recomputes all sampled data, without a time limit.
+        fail_on: the lowest severity that makes the verdict ``fail``; ``error`` by default.
+        config: a settings file such as ``urdd.toml``. No such file is read by default.
+        select: codes or families of the only rules to report.
+        ignore: codes or families of rules not to report.
+        exclude: patterns of folders to exclude.
 
     Raises:
-        OpenError: where under one of the paths there is nothing to examine.
+        OpenError: if there is nothing to validate at one of the paths.
     """
     if not paths:
         raise TypeError("validate needs a path: a URDD, or a folder with URDDs")
@@ -105,17 +92,17 @@ def validate(
 
 
 def check(path: Path) -> None:
-    """That the URDD at a path passes.
+    """Validates the URDD at a path.
 
     Raises:
-        ValidationError: with what was found.
+        ValidationError: if it does not pass, with the findings.
     """
     report = validate(path)
     failed = [urdd for urdd in report.urdds if urdd.verdict != "pass"]
     if not failed:
         return
     found = [finding for urdd in failed for finding in urdd.findings if finding.severity == "error"]
-    lines = [f"{path}: does not pass validation ({failed[0].verdict}); `findings` of this error says all"]
+    lines = [f"{path}: does not pass validation ({failed[0].verdict}); `findings` of this error lists all"]
     lines += [urdd.reason for urdd in failed if urdd.reason is not None]
     for finding in found[:_SHOWN]:
         place = "".join(part for part in (finding.file, finding.pointer and f"#{finding.pointer}") if part)
@@ -126,9 +113,9 @@ def check(path: Path) -> None:
 
 
 def explain(code: str) -> Rule:
-    """What a rule checks, why, and what to do.
+    """Explains a rule: what it checks, why, and what to do.
 
     Raises:
-        UnknownNameError: where there is no such rule.
+        UnknownNameError: if there is no such rule.
     """
     return Rule(code, *_urdd.explain(code))

@@ -1,11 +1,11 @@
-"""What can go wrong. Every message says what is wrong, where, and what to do."""
+"""Errors. Every message says what is wrong, where, and what to do."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    # It takes time to import.
+    # Slow to import.
     from .report import Finding, Report
 
 __all__ = [
@@ -26,14 +26,14 @@ __all__ = [
 
 
 class Place(NamedTuple):
-    """A place in a file, and what is wrong there."""
+    """A location in a file, and the problem there."""
 
     file: str
-    """The file, as it was named."""
+    """The file, as it was passed."""
     line: int
-    """Line, from 1; 0 where it is about the file as a whole."""
+    """Line, from 1; 0 for the file as a whole."""
     column: int
-    """Column in the line, in characters, from 1; 0 where it is about the file as a whole."""
+    """Column in the line, in characters, from 1; 0 for the file as a whole."""
     problem: str
     """What is wrong."""
 
@@ -51,11 +51,11 @@ class UrddError(Exception):
 
 
 class OpenError(UrddError, OSError):
-    """There is no URDD at a path, or it cannot be read."""
+    """A path without a URDD, or one that cannot be read."""
 
 
 class ModuleMissingError(UrddError, LookupError):
-    """A module that is needed is not there."""
+    """A required module is missing."""
 
     def __init__(self, message: str, module: str = "") -> None:
         super().__init__(message, module)
@@ -64,38 +64,38 @@ class ModuleMissingError(UrddError, LookupError):
 
 
 class ModuleUnusableError(UrddError, ValueError):
-    """A module that is needed is there, and of no use. ``urdd.validate`` says more."""
+    """A required module is unusable. ``urdd.validate`` says more."""
 
     def __init__(self, message: str, module: str = "") -> None:
         super().__init__(message, module)
         self.module: str = module
-        """The name of the module; empty where several disagree."""
+        """The name of the module; empty if several modules disagree."""
 
 
 class UnknownNameError(UrddError, LookupError):
-    """There is no link, DOF, kind of shapes, rule or module of this name."""
+    """An unknown name of a link, DOF, kind of shapes, rule or module."""
 
     def __init__(self, message: str, what: str = "", name: str = "", nearest: str | None = None) -> None:
         super().__init__(message, what, name, nearest)
         self.what: str = what
-        """What it should be the name of."""
+        """The kind of name, such as ``link``."""
         self.name: str = name
         """The name."""
         self.nearest: str | None = nearest
-        """The name that is nearest to it; None where none is near."""
+        """The most similar known name; None if none is similar."""
 
 
 class ConfigurationError(UrddError, ValueError):
-    """Values that are no configurations of the robot: another shape, or not finite. Or no target of inverse
+    """Values that are not configurations of the robot: a wrong shape, or not finite. Or an invalid target of inverse
     kinematics."""
 
 
 class MeshError(UrddError):
-    """A mesh file that cannot be used."""
+    """An unusable mesh file."""
 
 
 class ObstacleError(UrddError, ValueError):
-    """An obstacle that is none: a size below 0, numbers that are not finite, no points."""
+    """An invalid obstacle: a negative size, numbers that are not finite, no points."""
 
     def __init__(self, message: str, name: str = "") -> None:
         super().__init__(message, name)
@@ -113,16 +113,16 @@ class ValidationError(UrddError, ValueError):
     def __init__(self, message: str, report: Report) -> None:
         super().__init__(message, report)
         self.report: Report = report
-        """What the validator found: as :func:`urdd.validate` returns it."""
+        """The validator's report, as :func:`urdd.validate` returns it."""
 
     @property
     def findings(self) -> list[Finding]:
-        """What was found, of every severity."""
+        """All findings, of every severity."""
         return [finding for urdd in self.report.urdds for finding in urdd.findings]
 
 
 class _MakingError(UrddError):
-    """Nothing was written, and what was there before still is."""
+    """An error that leaves the output unchanged."""
 
     def __init__(
         self, message: str, code: str = "", places: list[tuple[str, int, int, str]] | list[Place] | None = None
@@ -130,18 +130,18 @@ class _MakingError(UrddError):
         found = [Place(*place) for place in places or []]
         super().__init__(message, code, found)
         self.code: str = code
-        """What kind of error it is, such as ``refused``, ``unreadable``, ``outside``, ``strict``."""
+        """The kind of error, such as ``refused``, ``unreadable``, ``outside``, ``strict``."""
         self.places: list[Place] = found
-        """The places that are at fault, in the order of the file."""
+        """The locations of the problems, in the order of the file."""
 
 
 class GenerateError(_MakingError):
-    """A URDD could not be made. Nothing was written, and what was there before still is."""
+    """A URDD could not be generated. The output is unchanged."""
 
 
 class CombineError(_MakingError):
-    """Robots could not be put together. Nothing was written, and what was there before still is. Codes are those of
-    :class:`GenerateError`, ``recipe``, ``part`` and ``part-fails``."""
+    """Robots could not be combined. The output is unchanged. Codes are those of :class:`GenerateError`, ``recipe``,
+    ``part`` and ``part-fails``."""
 
     def __init__(
         self,
@@ -152,7 +152,7 @@ class CombineError(_MakingError):
     ) -> None:
         super().__init__(message, code, places)
         self.part: str | None = part
-        """The id of the part that is at fault; None where it is the recipe, or all together."""
+        """The id of the part with the problem; None if it is in the recipe, or in the combination."""
 
     def __reduce__(self) -> tuple[type[CombineError], tuple[object, ...]]:
         return type(self), (*self.args, self.part)

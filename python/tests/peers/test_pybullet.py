@@ -25,13 +25,13 @@ def test_it_moves_alike(name: str, urdds: Path, client: int) -> None:
     robot = urdd.load(urdds / name)
     peer = robot.to_pybullet(client)
     root = robot.link_names[robot.modules.chain.root_idx]
-    for q in robot.sample(10, seed=6):
+    for q in robot.random(10, seed=6):
         peer.set(q)
         np.testing.assert_allclose(peer.get(), q, atol=1e-12)
         states = pybullet.getJointStates(peer.body, peer.joints, physicsClientId=client)
         np.testing.assert_allclose(peer.q(q), [state[0] for state in states], atol=1e-12)
         np.testing.assert_array_equal(peer.dofs(peer.q(q)), q)
-        for link, pose in robot.link_poses(q).items():
+        for link, pose in zip(robot.link_names, robot.link_poses(q), strict=True):
             if link == root:
                 continue
             state = pybullet.getLinkState(
@@ -60,7 +60,7 @@ def test_nothing_touches_at_all_times(tmp_path: Path, client: int) -> None:
     robot = urdd.generate_text(MIXED, tmp_path / "mixed").load()
     peer = robot.to_pybullet(client)
     assert len(peer.notes) == 1
-    for q in robot.sample(50, seed=7):
+    for q in robot.random(50, seed=7):
         peer.set(q)
         assert contacts(peer.body, client) == set()
     kept = robot.to_pybullet(client, keep_pairs=True)
@@ -71,7 +71,7 @@ def test_nothing_touches_at_all_times(tmp_path: Path, client: int) -> None:
 def test_it_collides_where_we_do(arm: urdd.Robot, client: int) -> None:
     peer = arm.to_pybullet(client)
     assert peer.notes == []
-    q = arm.sample(300, seed=8)
+    q = arm.random(300, seed=8)
     distances, told = arm.self_distance(q), arm.in_collision(q)
     assert 0 < told.sum() < 300
     for one, distance in zip(q, distances, strict=True):

@@ -15,9 +15,9 @@ from sockets import listening
 def test_links_are_where_they_are(arm: urdd.Robot) -> None:
     shown = arm.show(backend="viser", open_browser=False, port=18765)
     try:
-        q = arm.sample(seed=8)
+        q = arm.random(seed=8)
         shown.set(q)
-        for link, pose in arm.link_poses(q).items():
+        for link, pose in zip(arm.link_names, arm.link_poses(q), strict=True):
             if link in {hull.link for hull in arm.hulls()}:
                 np.testing.assert_allclose(shown._frames[link].position, pose[:3, 3], atol=1e-6)
                 assert np.linalg.norm(shown._frames[link].wxyz) == pytest.approx(1, abs=1e-6)

@@ -232,7 +232,7 @@ fn each_part_moves_as_by_itself() {
     );
     let base = arm_poses[arm.link("tool0").expect("a link")] * attachment;
     let moved = gripper.link_poses(of_gripper).expect("poses");
-    for (name, pose) in gripper.links().expect("links").iter().zip(moved) {
+    for (name, pose) in gripper.link_names().expect("links").iter().zip(moved) {
         let link = whole.link(&format!("g_{name}")).expect("a link");
         let apart = (poses[link].to_homogeneous() - (base * pose).to_homogeneous()).amax();
         assert!(apart < 1e-14, "{name}: {apart:e}");

@@ -199,7 +199,7 @@ fn freeze_some(dice: &mut Dice, member: &mut Member, text: &mut String) {
         return;
     }
     let joint = free[dice.below(free.len())];
-    let names: Vec<String> = (of.robot.dofs().expect("DOFs").iter())
+    let names: Vec<String> = (of.robot.dof_names().expect("DOFs").iter())
         .filter(|name| **name == joint.name || name.starts_with(&format!("{}/", joint.name)))
         .cloned()
         .collect();
@@ -224,7 +224,7 @@ fn compare(whole: &Robot, members: &[Member], k: u64) {
     let dof = |name: &str| whole.dof(name).ok().map(|dof| q[dof]);
     for member in members {
         let own = &member.of.robot;
-        let names = own.dofs().expect("DOFs");
+        let names = own.dof_names().expect("DOFs");
         let own_q: Vec<f64> = names
             .iter()
             .map(|name| {
@@ -243,7 +243,7 @@ fn compare(whole: &Robot, members: &[Member], k: u64) {
                 .expect("a link")]
         };
         let root = at(member.of.root());
-        for (name, pose) in own.links().expect("links").iter().zip(own_poses) {
+        for (name, pose) in own.link_names().expect("links").iter().zip(own_poses) {
             if member.dropped.contains(name) {
                 assert!(whole.link(&format!("{}{name}", member.prefix)).is_err());
                 continue;

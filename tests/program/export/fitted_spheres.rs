@@ -21,7 +21,7 @@ struct Model {
 
 fn read(text: &str, robot: &Robot) -> Model {
     let document: serde_yaml::Value = serde_yaml::from_str(text).expect("YAML");
-    let links = robot.links().expect("links").to_vec();
+    let links = robot.link_names().expect("links").to_vec();
     let number = |value: &serde_yaml::Value| value.as_f64().expect("a number");
     let of_link = |name: &String| -> Vec<([f64; 3], f64)> {
         let list = document["collision_spheres"][name.as_str()].as_sequence();

@@ -60,7 +60,7 @@ fn walk(
 
 /// The positions of MuJoCo's joints: by DOF, three of a rotation for a ball, and mimics by their equality.
 fn values(document: &Document, robot: &Robot, q: &[f64]) -> HashMap<String, Vec<f64>> {
-    let dofs = robot.dofs().expect("DOFs");
+    let dofs = robot.dof_names().expect("DOFs");
     let mut values = HashMap::new();
     let joints = document
         .descendants()
@@ -119,7 +119,7 @@ fn assert_moves_alike(robot: &Robot, text: &str, name: &str) {
             &values(&document, robot, &q),
             &mut found,
         );
-        let links = robot.links().expect("links");
+        let links = robot.link_names().expect("links");
         let expected = robot.link_poses(&q).expect("poses");
         for (link, expected) in links.iter().zip(expected) {
             let got = match link.as_str() {

@@ -22,7 +22,7 @@ fn pairs_in(text: &str, element: &str, keys: [&str; 2]) -> BTreeSet<Pair> {
 /// For each pair of links the reasons of their shapes.
 fn reasons(robot: &Robot, kind: ShapeKind) -> BTreeMap<Pair, BTreeSet<String>> {
     let skips = robot.skips(kind).expect("skips");
-    let links = robot.links().expect("links");
+    let links = robot.link_names().expect("links");
     let mut reasons: BTreeMap<Pair, BTreeSet<String>> = BTreeMap::new();
     for (i, (a, _)) in skips.places().iter().enumerate() {
         for (j, (b, _)) in skips.places().iter().enumerate() {
@@ -139,7 +139,7 @@ fn sorted(one: &str, other: &str) -> [(String, String); 2] {
 fn checked(robot: &Robot, kind: ShapeKind) -> Shapes {
     let skips = robot.skips(kind).expect("skips");
     let description = robot.description().expect("a description");
-    let names = robot.links().expect("links");
+    let names = robot.link_names().expect("links");
     let mut rigid: BTreeMap<&str, &str> = names
         .iter()
         .map(|name| (name.as_str(), name.as_str()))
@@ -195,7 +195,7 @@ fn a_mixed_pair_is_named_with_what_is_lost_or_found_for_nothing() {
     let configurations = robot.configurations().expect("bounds");
     let touches = |k: &u64| {
         let distances = proximity
-            .distances(&configurations.random(*k))
+            .closest_points(&configurations.random(*k))
             .expect("distances");
         distances.iter().any(|pair| pair.distance == 0.0)
     };
@@ -390,7 +390,7 @@ fn reasons_are_named_as_moveit_names_them() {
         .expect("an export")
         .text;
     let document = Document::parse(&text).expect("well-formed");
-    let links = robot.links().expect("links");
+    let links = robot.link_names().expect("links");
     let mut seen = 0;
     for pair in document
         .descendants()

@@ -129,7 +129,7 @@ fn covering_spheres_of_a_link_hold_its_pieces() {
         let options = covering(SphereBudget::default());
         let spheres = foam(&robot, options.clone());
         assert_eq!(spheres, curobo(&robot, &options), "{name}");
-        let links = robot.links().expect("links");
+        let links = robot.link_names().expect("links");
         let mut next = 1u64;
         let mut dice = || {
             // Numerical Recipes' congruential sequence.
@@ -203,7 +203,7 @@ fn more_covering_spheres_waste_less_and_keep_to_their_number() {
     assert!(sums[3] < 0.5 * sums[0], "{sums:?}");
     // One sphere of a link is the smallest about its pieces: no larger than that about its hull, and not smaller.
     let one = foam(&robot, covering(SphereBudget::PerLink(1)));
-    let links = robot.links().expect("links");
+    let links = robot.link_names().expect("links");
     for shape in robot.shapes(ShapeKind::Spheres).expect("spheres") {
         let Solid::Sphere { radius, .. } = shape.solid else {
             panic!("a sphere");

@@ -142,11 +142,21 @@ fn batches_of_distances_stop() {
         })
     };
     for found in [
-        stopped(&|token| proximity.until(token).in_collision_batch(&batch).map(drop)),
-        stopped(&|token| proximity.until(token).self_distance_batch(&batch).map(drop)),
         stopped(&|token| {
             proximity
-                .until(token)
+                .cancellable(token)
+                .in_collision_batch(&batch)
+                .map(drop)
+        }),
+        stopped(&|token| {
+            proximity
+                .cancellable(token)
+                .self_distance_batch(&batch)
+                .map(drop)
+        }),
+        stopped(&|token| {
+            proximity
+                .cancellable(token)
                 .distances_batch(&batch[..q.len() * 10_000])
                 .map(drop)
         }),
@@ -156,7 +166,7 @@ fn batches_of_distances_stop() {
     // One that nobody cancels is as without.
     let few = &batch[..q.len() * 3];
     let token = Cancellation::default();
-    let until = proximity.until(&token);
+    let until = proximity.cancellable(&token);
     assert_eq!(until.distances_batch(few), proximity.distances_batch(few));
     assert_eq!(
         until.in_collision_batch(few),

@@ -119,7 +119,7 @@ fn every_pose_of_every_robot_is_found_again() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).unwrap();
         let space = robot.configurations().unwrap();
-        for link in 0..robot.links().unwrap().len() {
+        for link in 0..robot.link_names().unwrap().len() {
             for k in 0..6 {
                 // Numbers that no restart begins with.
                 let wanted = space.random((1 << 20) + k);

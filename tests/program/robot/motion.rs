@@ -19,8 +19,8 @@ const PLANAR: &str = r#"<robot name="planar">
 fn a_planar_arm_as_the_textbook_has_it() {
     let (_folder, path) = made_of(PLANAR);
     let robot = Robot::open(path).unwrap();
-    assert_eq!(robot.dofs().unwrap(), ["shoulder", "elbow"]);
-    assert_eq!(robot.units().unwrap(), ["rad", "rad"]);
+    assert_eq!(robot.dof_names().unwrap(), ["shoulder", "elbow"]);
+    assert_eq!(robot.dof_units().unwrap(), ["rad", "rad"]);
     let (a, b) = (0.4, -1.1);
     let tip = robot.link("tip").unwrap();
     let pose = robot.link_poses(&[a, b]).unwrap()[tip];
@@ -73,7 +73,7 @@ fn jacobians_are_the_differences_of_poses_on_every_kind_of_joint() {
         let space = robot.configurations().unwrap();
         for k in 0..4 {
             let q = space.random(k);
-            for link in 0..robot.links().unwrap().len() {
+            for link in 0..robot.link_names().unwrap().len() {
                 let point = [0.1, -0.2, 0.3];
                 let jacobian = robot.jacobian_at(&q, link, point).unwrap();
                 for dof in 0..q.len() {
@@ -136,7 +136,7 @@ fn a_batch_of_jacobians_is_each_of_them_to_the_bit() {
         let robot = Robot::open(path).unwrap();
         let space = robot.configurations().unwrap();
         let all: Vec<Vec<f64>> = (0..70).map(|k| space.random(k)).collect();
-        for link in 0..robot.links().unwrap().len() {
+        for link in 0..robot.link_names().unwrap().len() {
             let batch = robot.jacobian_batch(&all.concat(), link).unwrap();
             let each = all.iter().map(|q| robot.jacobian(q, link).unwrap());
             let each: Vec<f64> = each.flat_map(|j| j.as_slice().to_vec()).collect();

@@ -42,7 +42,7 @@ fn blocks_as_their_sizes_have_them() {
             "{kind}"
         );
         for q in [-0.3, 0.0, 0.7, -1.39] {
-            let pairs = proximity.distances(&[q, 1.0]).unwrap();
+            let pairs = proximity.closest_points(&[q, 1.0]).unwrap();
             let pair = pair(&pairs, "cube", "block");
             assert!((pair.distance - (1.4 + q)).abs() < 1e-7, "{kind}: {pair:?}");
             let [on_cube, on_block] = pair.points;
@@ -52,7 +52,7 @@ fn blocks_as_their_sizes_have_them() {
         }
         // The block in the cube, right in its middle and through its side.
         for q in [-2.0, -1.5] {
-            let pairs = proximity.distances(&[q, 1.0]).unwrap();
+            let pairs = proximity.closest_points(&[q, 1.0]).unwrap();
             let pair = pair(&pairs, "cube", "block");
             assert_eq!(pair.distance, 0.0);
             assert_eq!(pair.points[0], pair.points[1]);
@@ -69,7 +69,7 @@ fn blocks_as_their_sizes_have_them() {
         assert_eq!(proximity.collisions(&[0.0, 1.0]).unwrap(), []);
     }
     let spheres = robot.proximity(ShapeKind::Spheres).unwrap();
-    let pairs = spheres.distances(&[0.5, 0.5]).unwrap();
+    let pairs = spheres.closest_points(&[0.5, 0.5]).unwrap();
     // Spheres about a box reach to its corners; that about the ball is the ball.
     let found = pair(&pairs, "cube", "block").distance;
     assert!(
@@ -97,7 +97,7 @@ fn relative_distances_are_by_the_mean_that_is_recorded() {
         .as_f64()
         .unwrap();
     let proximity = robot.proximity(ShapeKind::Hulls).unwrap();
-    let pairs = proximity.distances(&[0.0, 0.0]).unwrap();
+    let pairs = proximity.closest_points(&[0.0, 0.0]).unwrap();
     let relative = pair(&pairs, "cube", "block").relative.unwrap();
     assert!((relative - 1.4 / mean).abs() < 1e-6, "{relative}");
 }
@@ -172,8 +172,8 @@ fn every_question_agrees_with_each_pair_asked_alone() {
                 };
                 let mut expected = one_by_one(&robot, kind, &q);
                 expected.sort_by(f64::total_cmp);
-                let pairs = proximity.distances(&q).unwrap();
-                let values = proximity.distance_values(&q).unwrap();
+                let pairs = proximity.closest_points(&q).unwrap();
+                let values = proximity.distances(&q).unwrap();
                 assert!(
                     pairs
                         .iter()
@@ -237,7 +237,7 @@ fn points_of_the_least_distance_are_in_their_shapes() {
     for k in 0..30 {
         let q = robot.configurations().unwrap().random(k);
         let poses = robot.link_poses(&q).unwrap();
-        for pair in proximity.distances(&q).unwrap() {
+        for pair in proximity.closest_points(&q).unwrap() {
             touching += usize::from(pair.distance == 0.0);
             for side in [0, 1] {
                 let (link, piece) = (pair.link_idxs[side], pair.pieces[side]);
@@ -278,7 +278,7 @@ fn many_at_once_are_each_by_itself_for_any_number_of_threads() {
         assert_eq!(collide[k], proximity.in_collision(q).unwrap());
         assert_eq!(Some(least[k]), proximity.self_distance(q).unwrap());
         let own = &values[k * proximity.num_pairs()..(k + 1) * proximity.num_pairs()];
-        assert_eq!(own, proximity.distance_values(q).unwrap());
+        assert_eq!(own, proximity.distances(q).unwrap());
     }
     assert!(proximity.in_collision_batch(&batch[1..]).is_err());
     assert!(proximity.in_collision(&[f64::INFINITY; 6]).is_err());

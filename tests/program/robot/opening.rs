@@ -38,7 +38,7 @@ fn folder_zip_and_memory_are_the_same_robot() {
         let proximity = robot.proximity(ShapeKind::Pieces).unwrap();
         (
             robot.link_poses(&q).unwrap(),
-            proximity.distances(&q).unwrap(),
+            proximity.closest_points(&q).unwrap(),
         )
     });
     assert!(!asked[0].1.is_empty());
@@ -160,7 +160,7 @@ fn names_that_are_not_there_bring_the_nearest() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(&path).unwrap();
     assert_eq!(
-        robot.links().unwrap()[robot.link("turret").unwrap()],
+        robot.link_names().unwrap()[robot.link("turret").unwrap()],
         "turret"
     );
     assert_eq!(

@@ -43,9 +43,9 @@ fn bodies_as_their_sizes_have_them() {
         Obstacle::cylinder("mast", at(0.0, -3.0, 0.0), 0.5, 4.0).unwrap(),
     ]);
     let proximity = robot.proximity(ShapeKind::Boxes).unwrap();
-    let among = proximity.among(&world).unwrap();
+    let among = proximity.world_proximity(&world).unwrap();
     for q in [-0.7, 0.0, 1.1] {
-        let all = among.distances(&[q, 0.0]).unwrap();
+        let all = among.closest_points(&[q, 0.0]).unwrap();
         assert_eq!(all.len(), 8);
         let wall = of(&all, "block", "wall");
         assert!((wall.distance - (2.4 - q)).abs() < 1e-7, "{wall:?}");
@@ -65,7 +65,7 @@ fn bodies_as_their_sizes_have_them() {
         let short = exact - mast.distance;
         assert!((-1e-9..=0.5 * 0.0013).contains(&short), "{mast:?}");
     }
-    let hit = among.distances(&[2.45, 0.0]).unwrap();
+    let hit = among.closest_points(&[2.45, 0.0]).unwrap();
     let hit = of(&hit, "block", "wall");
     assert_eq!((hit.distance, hit.points[0]), (0.0, hit.points[1]));
     assert!(among.in_collision(&[2.45, 0.0]).unwrap());
@@ -78,16 +78,16 @@ fn spheres_reach_as_far_as_their_radii() {
     let robot = Robot::open(path).unwrap();
     let world = World::new([Obstacle::sphere("sun", [0.0, 3.0, 0.0], 0.5).unwrap()]);
     let proximity = robot.proximity(ShapeKind::Spheres).unwrap();
-    let among = proximity.among(&world).unwrap();
+    let among = proximity.world_proximity(&world).unwrap();
     let ball = &among
-        .distances(&[0.0, std::f64::consts::FRAC_PI_2])
+        .closest_points(&[0.0, std::f64::consts::FRAC_PI_2])
         .unwrap()[1];
     assert!((ball.distance - 1.4).abs() < 1e-6, "{ball:?}");
     assert!((ball.points[0][1] - 1.1).abs() < 1e-6 && (ball.points[1][1] - 2.5).abs() < 1e-6);
     // Deep in one another: one point of both.
     let world = World::new([Obstacle::sphere("sun", [0.9, 0.0, 0.0], 0.5).unwrap()]);
-    let among = proximity.among(&world).unwrap();
-    let ball = &among.distances(&[-3.0, 0.0]).unwrap()[1];
+    let among = proximity.world_proximity(&world).unwrap();
+    let ball = &among.closest_points(&[-3.0, 0.0]).unwrap()[1];
     assert_eq!((ball.distance, ball.points[0]), (0.0, ball.points[1]));
     let from = |centre: [f64; 3]| -> f64 {
         let d = [0, 1, 2].map(|k| ball.points[0][k] - centre[k]);
@@ -142,18 +142,28 @@ fn a_mesh_keeps_its_cavity_and_a_hull_fills_it() {
     // The block stands in the middle of the cup, the ball outside.
     let q = [0.0, 0.0];
     let world = World::new([pieces]);
-    let all = proximity.among(&world).unwrap().distances(&q).unwrap();
+    let all = proximity
+        .world_proximity(&world)
+        .unwrap()
+        .closest_points(&q)
+        .unwrap();
     let inside = of(&all, "block", "cup");
     assert!((inside.distance - 0.3).abs() < 2e-4, "{inside:?}");
-    let among = proximity.among(&world).unwrap();
-    let values = among.distance_values(&q).unwrap();
+    let among = proximity.world_proximity(&world).unwrap();
+    let values = among.distances(&q).unwrap();
     // One for each shape, of the nearest part.
     assert_eq!(values.len(), all.len());
     for (value, one) in values.iter().zip(&all) {
         assert!((value - one.distance).abs() < 1e-12, "{value} {one:?}");
     }
     let world = World::new([hull]);
-    assert!(proximity.among(&world).unwrap().in_collision(&q).unwrap());
+    assert!(
+        proximity
+            .world_proximity(&world)
+            .unwrap()
+            .in_collision(&q)
+            .unwrap()
+    );
 }
 
 #[test]
@@ -177,14 +187,14 @@ fn as_parry_has_it() {
     let rod = Capsule::new(Vector::new(0.0, 0.0, -0.3), Vector::new(0.0, 0.0, 0.3), 0.1);
     let block = Cuboid::new(Vector::new(0.2, 0.3, 0.1));
     let bodies: [(&str, &dyn Shape); 2] = [("box", &block), ("rod", &rod)];
-    let among = proximity.among(&world).unwrap();
+    let among = proximity.world_proximity(&world).unwrap();
     let (mut apart, mut together) = (0, 0);
     for seed in 0..40 {
         let q = robot.configurations().unwrap().random(seed);
         let poses = robot.link_poses(&q).unwrap();
-        let all = among.distances(&q).unwrap();
+        let all = among.closest_points(&q).unwrap();
         let values: Vec<f64> = all.iter().map(|one| one.distance).collect();
-        let without_points = among.distance_values(&q).unwrap();
+        let without_points = among.distances(&q).unwrap();
         assert_eq!(without_points.len(), values.len());
         for (one, other) in without_points.iter().zip(&values) {
             assert!((one - other).abs() < 1e-12, "{one} {other}");
@@ -201,7 +211,7 @@ fn as_parry_has_it() {
             nearest[0].distance
         );
         assert_eq!(
-            among.least_distance(&q).unwrap(),
+            among.min_distance(&q).unwrap(),
             without_points.iter().copied().reduce(f64::min)
         );
         assert_eq!(among.in_collision(&q).unwrap(), nearest[0].distance == 0.0);
@@ -246,15 +256,21 @@ fn links_that_an_obstacle_ignores() {
     let table = Obstacle::cuboid("table", at(0.0, 0.0, -0.2), [0.5, 0.5, 0.15]).unwrap();
     let q = [0.0, 0.0];
     let world = World::new([table.clone()]);
-    assert!(proximity.among(&world).unwrap().in_collision(&q).unwrap());
+    assert!(
+        proximity
+            .world_proximity(&world)
+            .unwrap()
+            .in_collision(&q)
+            .unwrap()
+    );
     let world = World::new([table.clone().ignoring("block")]);
-    let among = proximity.among(&world).unwrap();
+    let among = proximity.world_proximity(&world).unwrap();
     assert!(!among.in_collision(&q).unwrap());
     let all = among.nearest(&q, 10).unwrap();
     assert_eq!(all.len(), 1);
     assert_eq!(&*all[0].link, "ball");
     let wrong = World::new([table.ignoring("blok")]);
-    match proximity.among(&wrong) {
+    match proximity.world_proximity(&wrong) {
         Err(RobotError::Unknown { name, nearest, .. }) => {
             assert_eq!((name.as_str(), nearest.as_deref()), ("blok", Some("block")));
         }

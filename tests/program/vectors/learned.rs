@@ -114,7 +114,7 @@ fn derivatives_are_those_of_differences() {
             let expected: Vec<f64> = (0..q.len()).map(difference).collect();
             assert_near(&found, &expected, 1e-7, &format!("{q:?}, pair {pair}"));
         }
-        let least = model.least(q).unwrap().unwrap();
+        let least = model.min_clearance(q).unwrap().unwrap();
         let smallest = vector
             .clearances
             .iter()

@@ -115,7 +115,7 @@ fn one_file_holds_what_the_page_reads_and_nothing_of_a_persons() {
     for kind in [ShapeKind::Hulls, ShapeKind::Pieces] {
         let distances = |robot: &Robot| {
             let proximity = robot.proximity(kind).expect("shapes");
-            proximity.distances(&zero).expect("distances")
+            proximity.closest_points(&zero).expect("distances")
         };
         let (part, whole) = (distances(&part), distances(&whole));
         assert!(!part.is_empty() && part.len() == whole.len());

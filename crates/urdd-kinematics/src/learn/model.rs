@@ -126,7 +126,10 @@ impl CollisionModel {
     ///
     /// # Errors
     /// As [`CollisionModel::clearances`].
-    pub fn least(&self, configuration: &[f64]) -> Result<Option<Clearance>, ConfigurationError> {
+    pub fn min_clearance(
+        &self,
+        configuration: &[f64],
+    ) -> Result<Option<Clearance>, ConfigurationError> {
         self.check(configuration)?;
         let values = self.network.values_of_one(self.told(configuration));
         let last = values.last().map_or(&[][..], Vec::as_slice);
@@ -189,7 +192,10 @@ impl CollisionModel {
     ///
     /// # Errors
     /// As [`CollisionModel::clearances_batch`].
-    pub fn least_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, ConfigurationError> {
+    pub fn min_clearance_batch(
+        &self,
+        configurations: &[f64],
+    ) -> Result<Vec<f64>, ConfigurationError> {
         self.batch(configurations, |clearances, out| {
             // `f64::min` would ignore NaN, and an unknown clearance would count as clear.
             let least = |least: f64, clearance: f64| match least < clearance || least.is_nan() {

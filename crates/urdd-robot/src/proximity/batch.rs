@@ -10,9 +10,9 @@ use urdd_directory::cancellation::Cancellation;
 /// Configurations in one block of work.
 const BLOCK: usize = 32;
 
-/// Batch queries with cancellation: [`Proximity::until`].
+/// Batch queries with cancellation: [`Proximity::cancellable`].
 #[derive(Debug, Clone, Copy)]
-pub struct Until<'a> {
+pub struct Cancellable<'a> {
     proximity: &'a Proximity,
     cancellation: &'a Cancellation,
 }
@@ -34,15 +34,15 @@ impl Proximity {
     /// # elsewhere.cancel();
     /// let proximity = robot.proximity(ShapeKind::Hulls)?;
     /// let batch = robot.configurations()?.random(1);
-    /// match proximity.until(&cancellation).distances_batch(&batch) {
+    /// match proximity.cancellable(&cancellation).distances_batch(&batch) {
     ///     Ok(distances) => println!("{distances:?}"),
     ///     Err(RobotError::Cancelled(_)) => println!("stopped"),
     ///     Err(error) => return Err(error.into()),
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn until<'a>(&'a self, cancellation: &'a Cancellation) -> Until<'a> {
-        Until {
+    pub fn cancellable<'a>(&'a self, cancellation: &'a Cancellation) -> Cancellable<'a> {
+        Cancellable {
             proximity: self,
             cancellation,
         }
@@ -52,9 +52,9 @@ impl Proximity {
     ///
     /// # Errors
     /// [`RobotError::Batch`] if the number of values is not a multiple of the number of DOFs; [`RobotError::Memory`] if
-    /// there is not enough memory; and as [`Proximity::distances`], for the first invalid configuration.
+    /// there is not enough memory; and as [`Proximity::closest_points`], for the first invalid configuration.
     pub fn in_collision_batch(&self, configurations: &[f64]) -> Result<Vec<bool>, RobotError> {
-        self.until(&Cancellation::default())
+        self.cancellable(&Cancellation::default())
             .in_collision_batch(configurations)
     }
 
@@ -89,7 +89,7 @@ impl Proximity {
     /// # Errors
     /// As [`Proximity::in_collision_batch`].
     pub fn self_distance_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
-        self.until(&Cancellation::default())
+        self.cancellable(&Cancellation::default())
             .self_distance_batch(configurations)
     }
 
@@ -99,12 +99,12 @@ impl Proximity {
     /// # Errors
     /// As [`Proximity::in_collision_batch`].
     pub fn distances_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
-        self.until(&Cancellation::default())
+        self.cancellable(&Cancellation::default())
             .distances_batch(configurations)
     }
 }
 
-impl Until<'_> {
+impl Cancellable<'_> {
     /// As [`Proximity::in_collision_batch`].
     ///
     /// # Errors
@@ -144,7 +144,7 @@ impl Until<'_> {
     /// As [`Proximity::self_distance_batch`], into `out`.
     ///
     /// # Errors
-    /// As [`Until::in_collision_batch_into`].
+    /// As [`Cancellable::in_collision_batch_into`].
     pub fn self_distance_batch_into(
         &self,
         configurations: &[f64],
@@ -172,7 +172,7 @@ impl Until<'_> {
     /// As [`Proximity::distances_batch`], into `out`.
     ///
     /// # Errors
-    /// As [`Until::in_collision_batch_into`].
+    /// As [`Cancellable::in_collision_batch_into`].
     pub fn distances_batch_into(
         &self,
         configurations: &[f64],

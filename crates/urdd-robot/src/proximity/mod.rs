@@ -1,9 +1,10 @@
 //! Distances and collisions between the links of a robot.
 //!
 //! [`Robot::proximity`] prepares the shapes of one kind and their pairs that are not skipped. Then
-//! [`Proximity::distances`] returns all pairs, [`Proximity::nearest`] the nearest pairs, [`Proximity::self_distance`]
-//! the minimum distance, and [`Proximity::in_collision`] a yes or no, which is the fastest query. The batch methods run
-//! on rayon's thread pool. Results do not depend on the number of threads or on the batch.
+//! [`Proximity::distances`] returns the distance of each pair, [`Proximity::closest_points`] the closest points too,
+//! [`Proximity::nearest`] the nearest pairs, [`Proximity::self_distance`] the minimum distance, and
+//! [`Proximity::in_collision`] a yes or no, which is the fastest query. The batch methods run on rayon's thread pool.
+//! Results do not depend on the number of threads or on the batch.
 //!
 //! Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: penetration depths are not computed.
 //! Bounding spheres, of each shape and of all shapes of a link, exclude distant pairs. They are computed from the
@@ -29,7 +30,7 @@ use super::skips::Skips;
 use super::statistics::AllStatistics;
 use urdd_geometry::convex::Level;
 
-pub use batch::Until;
+pub use batch::Cancellable;
 pub(super) use body::Body;
 pub(super) use vector::{dot, to_root};
 

@@ -7,12 +7,12 @@ use crate::error::RobotError;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
 
 impl Proximity {
-    /// All pairs that are checked, in the order of [`Proximity::pairs`]. `configuration` has one value for each DOF,
-    /// rad or m; values beyond the bounds are allowed.
+    /// The distance and the closest points of each pair that is checked, in the order of [`Proximity::pairs`].
+    /// `configuration` has one value for each DOF, rad or m; values beyond the bounds are allowed.
     ///
     /// # Errors
     /// [`RobotError::Configuration`] if the length differs from the number of DOFs or a value is not finite.
-    pub fn distances(&self, configuration: &[f64]) -> Result<Vec<PairDistance>, RobotError> {
+    pub fn closest_points(&self, configuration: &[f64]) -> Result<Vec<PairDistance>, RobotError> {
         let mut placed = Placed::default();
         self.place(configuration, &mut placed)?;
         self.place_centres(&mut placed);
@@ -20,11 +20,11 @@ impl Proximity {
         Ok(self.witnesses(&placed, &all))
     }
 
-    /// The distances only, in metres, in the order of [`Proximity::pairs`].
+    /// The distance of each pair that is checked, in metres, in the order of [`Proximity::pairs`].
     ///
     /// # Errors
-    /// As [`Proximity::distances`].
-    pub fn distance_values(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
+    /// As [`Proximity::closest_points`].
+    pub fn distances(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
         let mut values = vec![0.0; self.pairs.len()];
         self.values_into(configuration, &mut Placed::default(), &mut values)?;
         Ok(values)
@@ -34,7 +34,7 @@ impl Proximity {
     /// [`Proximity::pairs`].
     ///
     /// # Errors
-    /// As [`Proximity::distances`].
+    /// As [`Proximity::closest_points`].
     pub fn nearest(
         &self,
         configuration: &[f64],
@@ -49,7 +49,7 @@ impl Proximity {
     /// The minimum distance over all pairs, in metres; `None` if there are no pairs.
     ///
     /// # Errors
-    /// As [`Proximity::distances`].
+    /// As [`Proximity::closest_points`].
     pub fn self_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
         let least = self.least(configuration, 1, &mut Placed::default())?;
         Ok(least.first().map(|(distance, _)| *distance))
@@ -58,7 +58,7 @@ impl Proximity {
     /// Whether any pair touches or overlaps, that is, has distance 0. Stops at the first collision.
     ///
     /// # Errors
-    /// As [`Proximity::distances`].
+    /// As [`Proximity::closest_points`].
     pub fn in_collision(&self, configuration: &[f64]) -> Result<bool, RobotError> {
         self.collides(configuration, &mut Placed::default())
     }
@@ -66,7 +66,7 @@ impl Proximity {
     /// The pairs that touch or overlap, in the order of [`Proximity::pairs`].
     ///
     /// # Errors
-    /// As [`Proximity::distances`].
+    /// As [`Proximity::closest_points`].
     pub fn collisions(&self, configuration: &[f64]) -> Result<Vec<PairDistance>, RobotError> {
         let mut placed = Placed::default();
         self.place(configuration, &mut placed)?;

@@ -1,8 +1,9 @@
 //! Obstacles around a robot, and its distances to them.
 //!
-//! A [`World`] is a list of [`Obstacle`]s: boxes, spheres, capsules, cylinders and meshes. [`Proximity::among`]
-//! combines a robot's shapes of one kind with a world. [`Among`] then offers queries like those of [`Proximity`]. Skips
-//! do not apply: every shape of the robot is tested against every obstacle, except for links that the obstacle ignores.
+//! A [`World`] is a list of [`Obstacle`]s: boxes, spheres, capsules, cylinders and meshes.
+//! [`Proximity::world_proximity`] combines a robot's shapes of one kind with a world. [`WorldProximity`] then offers
+//! queries like those of [`Proximity`]. Skips do not apply: every shape of the robot is tested against every obstacle,
+//! except for links that the obstacle ignores.
 //!
 //! ```
 //! use nalgebra::Isometry3;
@@ -14,10 +15,10 @@
 //! let ball = Obstacle::sphere("ball", [0.4, 0.0, 0.3], 0.1)?;
 //! let world = World::new([table.ignoring("base_link"), ball]);
 //! let proximity = robot.proximity(ShapeKind::Pieces)?;
-//! let among = proximity.among(&world)?;
+//! let proximity = proximity.world_proximity(&world)?;
 //! let q = robot.configurations()?.zero();
-//! if !among.in_collision(&q)? {
-//!     let nearest = &among.nearest(&q, 1)?[0];
+//! if !proximity.in_collision(&q)? {
+//!     let nearest = &proximity.nearest(&q, 1)?[0];
 //!     println!("{} is {} m from {}", nearest.link, nearest.distance, nearest.obstacle);
 //! }
 //! # Ok(())
@@ -26,11 +27,11 @@
 //!
 //! Positions are in the root link's frame, in metres. To move the robot's base, apply the inverse motion to the world.
 
-mod among;
 mod obstacle;
+mod proximity;
 
-pub use among::{Among, ObstacleDistance};
 pub use obstacle::{Obstacle, World};
+pub use proximity::{ObstacleDistance, WorldProximity};
 
 #[cfg(doc)]
 use super::Proximity;

@@ -146,7 +146,7 @@ impl Obstacle {
     }
 
     /// Excludes a link from the tests against this obstacle, such as the base mounted on it or the gripper that holds
-    /// it. [`Proximity::among`](crate::Proximity::among) rejects an unknown link.
+    /// it. [`Proximity::world_proximity`](crate::Proximity::world_proximity) rejects an unknown link.
     pub fn ignoring(mut self, link: &str) -> Self {
         self.ignored.push(link.to_owned());
         self

@@ -35,7 +35,7 @@ type Bounded = (f64, (usize, usize));
 
 /// A robot's shapes and a world, prepared for distance queries.
 #[derive(Debug)]
-pub struct Among<P> {
+pub struct WorldProximity<P> {
     proximity: P,
     names: Vec<Arc<str>>,
     parts: Vec<(usize, Part)>,
@@ -48,13 +48,13 @@ impl Proximity {
     ///
     /// # Errors
     /// [`RobotError::Unknown`] if an obstacle ignores a link that does not exist.
-    pub fn among(&self, world: &World) -> Result<Among<&Proximity>, RobotError> {
-        Among::new(self, world)
+    pub fn world_proximity(&self, world: &World) -> Result<WorldProximity<&Proximity>, RobotError> {
+        WorldProximity::new(self, world)
     }
 }
 
-impl<P: Deref<Target = Proximity>> Among<P> {
-    /// As [`Proximity::among`], with borrowed or shared shapes.
+impl<P: Deref<Target = Proximity>> WorldProximity<P> {
+    /// As [`Proximity::world_proximity`], with borrowed or shared shapes.
     ///
     /// # Errors
     /// As there.
@@ -69,7 +69,7 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         let obstacles = world.obstacles.iter().enumerate();
         let parts = obstacles
             .flat_map(|(k, obstacle)| obstacle.parts.iter().map(move |part| (k, part.clone())));
-        Ok(Among {
+        Ok(WorldProximity {
             proximity,
             names: world.obstacles.iter().map(|one| one.name.clone()).collect(),
             parts: parts.collect(),
@@ -87,11 +87,11 @@ impl<P: Deref<Target = Proximity>> Among<P> {
         })
     }
 
-    /// The distance of each of the [pairs](Among::pairs), in metres: as [`Among::distances`], without the points.
+    /// The distance of each of the [pairs](WorldProximity::pairs), in metres.
     ///
     /// # Errors
-    /// As [`Proximity::distances`].
-    pub fn distance_values(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
+    /// As [`Proximity::closest_points`].
+    pub fn distances(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
         let placed = self.place(configuration)?;
         let tested: Vec<(usize, usize)> = self.tested().collect();
         let values = self.values(&placed, &tested).into_iter().zip(&tested);
@@ -112,8 +112,8 @@ impl<P: Deref<Target = Proximity>> Among<P> {
     /// The minimum distance over all pairs, in metres; `None` if there are no pairs.
     ///
     /// # Errors
-    /// As [`Proximity::distances`].
-    pub fn least_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
+    /// As [`Proximity::closest_points`].
+    pub fn min_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
         let placed = self.place(configuration)?;
         let nearest = self.least_pairs(&placed, self.tested().collect(), 1);
         Ok(nearest.first().map(|(distance, _)| *distance))
@@ -123,8 +123,11 @@ impl<P: Deref<Target = Proximity>> Among<P> {
     /// shape, in the order of links and pieces, then by obstacle.
     ///
     /// # Errors
-    /// As [`Proximity::distances`].
-    pub fn distances(&self, configuration: &[f64]) -> Result<Vec<ObstacleDistance>, RobotError> {
+    /// As [`Proximity::closest_points`].
+    pub fn closest_points(
+        &self,
+        configuration: &[f64],
+    ) -> Result<Vec<ObstacleDistance>, RobotError> {
         let placed = self.place(configuration)?;
         let mut all = Vec::new();
         for shape in 0..self.proximity.shapes.len() {
@@ -140,7 +143,7 @@ impl<P: Deref<Target = Proximity>> Among<P> {
     /// The `k` nearest pairs of a shape of the robot and a part of an obstacle, nearest first.
     ///
     /// # Errors
-    /// As [`Proximity::distances`].
+    /// As [`Proximity::closest_points`].
     pub fn nearest(
         &self,
         configuration: &[f64],
@@ -153,7 +156,7 @@ impl<P: Deref<Target = Proximity>> Among<P> {
     /// Whether any shape of the robot touches or overlaps an obstacle.
     ///
     /// # Errors
-    /// As [`Proximity::distances`].
+    /// As [`Proximity::closest_points`].
     pub fn in_collision(&self, configuration: &[f64]) -> Result<bool, RobotError> {
         let placed = self.place(configuration)?;
         let near = self

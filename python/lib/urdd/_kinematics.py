@@ -1,0 +1,177 @@
+"""A robot's kinematics: configurations, poses, Jacobians, inverse kinematics."""
+
+from __future__ import annotations
+
+from operator import index
+from sys import maxsize
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._answers import InverseSolution
+from ._arrays import Bools, Floats, batched, configurations, numbers, poses, scalar, three
+from ._description import RobotDescription
+from ._options import InverseOptions, whole
+from .errors import ConfigurationError
+
+#: Period of the sequence of random configurations (SPEC 9.3).
+_CONFIGURATIONS = 2**32
+#: Distance between the first configurations of two seeds: by the golden ratio, so that those of many seeds are far
+#: apart.
+_SEED_STRIDE = 0x9E3779B9
+
+
+class RobotKinematics(RobotDescription):
+    """The kinematics of a :class:`urdd.Robot`."""
+
+    # Configurations.
+
+    @property
+    def bounds(self) -> Floats:
+        """(dofs, 2): the lower and the upper bound of each DOF; always finite."""
+        return self._core.bounds()
+
+    @property
+    def zero(self) -> Floats:
+        """(dofs,): every DOF at 0, or at the bound nearest to 0 if 0 is out of bounds. Pinocchio's *neutral
+        configuration* is the same, without the clamping."""
+        return self._core.configuration("zero")
+
+    @property
+    def middle(self) -> Floats:
+        """(dofs,): every DOF half-way between its bounds."""
+        return self._core.configuration("middle")
+
+    @property
+    def lower(self) -> Floats:
+        """(dofs,): every DOF at its lower bound."""
+        return self._core.configuration("lower")
+
+    @property
+    def upper(self) -> Floats:
+        """(dofs,): every DOF at its upper bound."""
+        return self._core.configuration("upper")
+
+    def random(self, n: int | None = None, seed: int = 0) -> Floats:
+        """Random configurations, uniform within the bounds: (dofs,), or (n, dofs).
+
+        The specification defines the sequence (SPEC 9.3), so it is the same in every program, on every machine and for
+        every ``n``. It begins at number 0, or with a seed at number ``seed * 0x9E3779B9 % 2**32``.
+
+        Raises:
+            MemoryError: if there is not enough memory, as in every method that returns an array.
+        """
+        count = 1 if n is None else index(n)
+        if count < 0:
+            raise ValueError(f"the number of configurations must not be negative, but is {count}")
+        if count > maxsize:
+            raise MemoryError(f"{count} configurations are more than any memory holds: ask for fewer at once")
+        start = whole(seed, "a seed", 0, _CONFIGURATIONS - 1)
+        found = self._core.random(count, start * _SEED_STRIDE % _CONFIGURATIONS)
+        return found[0] if n is None else found
+
+    def clamp(self, q: ArrayLike) -> Floats:
+        """``q`` with each value clamped to its bounds. Rotation vectors are unchanged."""
+        return batched(q, self.dof_names, self._core.clamp)
+
+    def is_within_bounds(self, q: ArrayLike) -> Bools:
+        """(...): whether each value is within its bounds."""
+        return batched(q, self.dof_names, lambda rows: (self._core.clamp(rows) == rows).all(axis=1))
+
+    # Poses.
+
+    def link_poses(self, q: ArrayLike) -> Floats:
+        """(..., links, 4, 4): forward kinematics, the pose of each link.
+
+        Raises:
+            ConfigurationError: for a wrong shape, or a value that is not finite.
+        """
+        return batched(q, self.dof_names, self._core.link_poses)
+
+    def link_pose(self, q: ArrayLike, link: str | int) -> Floats:
+        """(..., 4, 4): forward kinematics, the pose of one link.
+
+        Raises:
+            ConfigurationError: for a wrong shape, or a value that is not finite.
+            UnknownNameError: for an unknown link.
+        """
+        return batched(q, self.dof_names, lambda rows: self._core.link_poses(rows, self.link(link))[:, 0])
+
+    def jacobian(self, q: ArrayLike, link: str | int, point: ArrayLike | None = None) -> Floats:
+        """(..., 6, dofs): the geometric Jacobian of a link.
+
+        Rows 0 to 2 are the linear velocity of the origin of the link's frame (or of ``point``, (3,), metres in the
+        link's frame), rows 3 to 5 the angular velocity, both expressed in the root link's frame. A mimic joint
+        contributes to the column of the DOF that it follows.
+        """
+        at = None if point is None else three(point, "a point")
+        return batched(q, self.dof_names, lambda rows: self._core.jacobians(rows, self.link(link), at))
+
+    def inverse_kinematics(
+        self,
+        link: str | int,
+        target: ArrayLike,
+        start: ArrayLike | None = None,
+        *,
+        point: ArrayLike = (0.0, 0.0, 0.0),
+        position_tolerance: float = 1e-6,
+        rotation_tolerance: float = 1e-6,
+        iterations: int = 100,
+        restarts: int = 100,
+        seed: int = 0,
+        bounds: ArrayLike | None = None,
+    ) -> InverseSolution:
+        """Inverse kinematics: a configuration within the bounds in which a link reaches a target.
+
+        Searches by damped least squares from ``start``, then from random configurations. Supports mimic joints. Does
+        not check for self-collision. The same question has the same answer. Many targets run on all threads.
+
+        Args:
+            link: the link.
+            target: a pose (4, 4), or a position (3,) if the link's rotation is free; or many of them, (..., 4, 4) or
+                (..., 3).
+            start: a configuration, or one for each target; :attr:`zero` by default.
+            point: the point of the link that reaches the target position, in the link's frame, metres.
+            position_tolerance: maximum distance of the point from its target, metres.
+            rotation_tolerance: maximum angle of the link to its target rotation, radians.
+            iterations: maximum number of steps of each descent.
+            restarts: maximum number of descents from random configurations.
+            seed: selects the random configurations.
+            bounds: (dofs, 2), instead of :attr:`bounds`.
+        """
+        targets = poses(target, "a target")
+        is_pose = targets.shape[-1] == 4
+        batch = targets.shape[: -2 if is_pose else -1]
+        starts, start_batch = configurations(self.zero if start is None else start, self.dof_names)
+        if len(starts) != 1 and start_batch != batch:
+            raise ConfigurationError(
+                f"start must be one configuration, or one for each target: expected the shape "
+                f"{(*batch, self.num_dofs)}, found {(*start_batch, self.num_dofs)}"
+            )
+        limits = None
+        if bounds is not None:
+            limits = numbers(bounds, "bounds")
+            if limits.shape != (self.num_dofs, 2):
+                raise ConfigurationError(f"bounds must have the shape ({self.num_dofs}, 2), not {limits.shape}")
+        if not (position_tolerance >= 0 and rotation_tolerance >= 0):
+            raise ConfigurationError("tolerances must be numbers, and not negative")
+        options = InverseOptions(
+            point=three(point, "a point"),
+            position_tolerance=float(position_tolerance),
+            rotation_tolerance=float(rotation_tolerance),
+            iterations=whole(iterations, "iterations", 0, maxsize),
+            restarts=whole(restarts, "restarts", 0, maxsize),
+            seed=whole(seed, "a seed", 0, 2**64 - 1),
+            bounds=limits,
+        )
+        rows = targets.reshape(-1, *((4, 4) if is_pose else (1, 3)))
+        found = self._core.inverse_kinematics(self.link(link), rows, starts, options)
+        configuration, rest = found[:, : self.num_dofs], found[:, self.num_dofs :].T.reshape(5, *batch)
+        return InverseSolution(
+            q=configuration.reshape(*batch, self.num_dofs),
+            reached=scalar(rest[0] > 0),
+            position_error=scalar(rest[1].copy()),
+            rotation_error=scalar(rest[2].copy()),
+            restarts=scalar(rest[3].astype(np.uintp)),
+            iterations=scalar(rest[4].astype(np.uintp)),
+        )
