@@ -1,6 +1,8 @@
+//! Internal to urdd; no stability promise.
+//!
 //! The program `urdd`: its command line ([`cli`]), the page's server ([`view`]) and the conformance suite
-//! ([`conformance`]). Libraries are the crates `urdd-robot`, `urdd-validate`, `urdd-generate` and `urdd-export`; this
-//! one is for the program and the Python package, and promises nothing. `SPEC.md` is the normative text of the format.
+//! ([`conformance`]), for the program itself and the Python package. Programs of your own use the crates `urdd-robot`,
+//! `urdd-validate`, `urdd-generate`, `urdd-export` and `urdd-format`. `SPEC.md` is the normative text of the format.
 
 #[doc(hidden)]
 pub mod cli;

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::dice::Dice;
 use super::meaning;
 use super::mesh_edit::MeshEdit;
-use super::mutation::{Change, Description, FileChange, Files, Mutation, Target};
+use super::mutation::{Change, FileChange, Files, Mutation};
 use super::original::Original;
 use super::plan::Plan;
 use super::sample;
@@ -44,26 +44,11 @@ fn mutation(path: &str, kind: &'static str, step: f64, drawn: usize) -> Mutation
     let file = path.to_owned();
     let make = move |original: &Original| {
         let (after, from, to) = edited(original, &file, step, drawn)?;
-        (!meaning::is_same(original, &file, &after)).then(|| FileChange {
-            files: Files::from([(file.clone(), Some(after))]),
-            unlisted: Vec::new(),
-            from,
-            to,
-        })
+        (!meaning::is_same(original, &file, &after))
+            .then(|| FileChange::new(Files::from([(file.clone(), Some(after))]), from, to))
     };
-    Mutation {
-        description: Description {
-            module: MODULE.to_owned(),
-            file: path.to_owned(),
-            field: "carried meshes".to_owned(),
-            pointer: None,
-            target: Target::File,
-            kind,
-            from: String::new(),
-            to: String::new(),
-        },
-        change: Change::Files(Box::new(make)),
-    }
+    let change = Change::Files(Box::new(make));
+    Mutation::of_file(MODULE, path, "carried meshes", kind, change)
 }
 
 /// The file with one vertex moved, and the old and new coordinates. Preserves the rest of text files.

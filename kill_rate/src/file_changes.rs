@@ -8,9 +8,7 @@ use super::dice::Dice;
 use super::edit::Edit;
 use super::file_bytes::Damage;
 use super::meaning;
-use super::mutation::{
-    Change, Description, FileChange, Files, MakeFiles, Mutation, Target, shortened,
-};
+use super::mutation::{Change, FileChange, Files, MakeFiles, Mutation, shortened};
 use super::original::Original;
 use super::plan::Plan;
 use super::sample;
@@ -66,19 +64,8 @@ fn of_file(
     dice: &mut Dice,
 ) -> Vec<Mutation> {
     let path = paths[index];
-    let mutation = |kind: &'static str, change: Change| Mutation {
-        description: Description {
-            module: module.to_owned(),
-            file: path.clone(),
-            field: field.to_owned(),
-            pointer: None,
-            target: Target::File,
-            kind,
-            from: String::new(),
-            to: String::new(),
-        },
-        change,
-    };
+    let mutation =
+        |kind: &'static str, change: Change| Mutation::of_file(module, path, field, kind, change);
     let mut out = Vec::new();
     for (kind, damage) in Damage::each(dice) {
         out.push(mutation(kind, Change::Files(damaged(path, damage))));
@@ -129,11 +116,9 @@ fn damaged(path: &str, damage: Damage) -> MakeFiles {
     Box::new(move |original| {
         let bytes = original.files.get(&path)?;
         let (after, to) = damage.of(bytes)?;
-        (!meaning::is_same(original, &path, &after)).then(|| FileChange {
-            files: Files::from([(path.clone(), Some(after))]),
-            unlisted: Vec::new(),
-            from: format!("{} bytes", bytes.len()),
-            to,
+        (!meaning::is_same(original, &path, &after)).then(|| {
+            let files = Files::from([(path.clone(), Some(after))]);
+            FileChange::new(files, format!("{} bytes", bytes.len()), to)
         })
     })
 }
@@ -149,12 +134,7 @@ fn exchanged(path: &str, other: &str, both: bool) -> MakeFiles {
         if both {
             files.insert(other.clone(), Some(a.clone()));
         }
-        Some(FileChange {
-            files,
-            unlisted: Vec::new(),
-            from: path.clone(),
-            to: other.clone(),
-        })
+        Some(FileChange::new(files, &path, &other))
     })
 }
 
@@ -175,12 +155,9 @@ fn versions(
     let write = |path: String| -> MakeFiles {
         Box::new(move |original| {
             let before = String::from_utf8_lossy(original.files.get(&path)?).into_owned();
-            Some(FileChange {
-                files: Files::from([(path.clone(), Some(version.into()))]),
-                unlisted: Vec::new(),
-                from: format!("{before:?}"),
-                to: shortened(&format!("{version:?}")),
-            })
+            let files = Files::from([(path.clone(), Some(version.into()))]);
+            let to = shortened(&format!("{version:?}"));
+            Some(FileChange::new(files, format!("{before:?}"), to))
         })
     };
     let mut out = vec![mutation(

@@ -1,3 +1,5 @@
+//! Internal to urdd; no stability promise.
+//!
 //! The kill rate of `urdd validate`: the proportion of single mutations of valid URDDs that the validator detects.
 //!
 //! Each mutation changes one value of a URDD. Then the sizes and hashes in the root metadata are updated, as a producer

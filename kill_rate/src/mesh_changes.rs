@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::dice::Dice;
 use super::meaning;
 use super::mesh_edit::MeshEdit;
-use super::mutation::{Change, Description, FileChange, Files, Mutation, Target};
+use super::mutation::{Change, FileChange, Files, Mutation};
 use super::original::{Document, Original};
 use super::plan::Plan;
 use super::pointer;
@@ -85,18 +85,11 @@ fn of_mesh(
     dice: &mut Dice,
 ) -> Vec<Mutation> {
     let entry = &entries[index];
-    let mutation = |kind: &'static str, change: Change| Mutation {
-        description: Description {
-            module: document.name.clone(),
-            file: entry.files[scope[0]].clone(),
-            field: format!("meshes, {name}"),
-            pointer: Some(entry.pointer.clone()),
-            target: Target::File,
-            kind,
-            from: String::new(),
-            to: String::new(),
-        },
-        change,
+    let mutation = |kind: &'static str, change: Change| {
+        let (file, field) = (&entry.files[scope[0]], format!("meshes, {name}"));
+        let mut mutation = Mutation::of_file(&document.name, file, &field, kind, change);
+        mutation.description.pointer = Some(entry.pointer.clone());
+        mutation
     };
     let mut out = Vec::new();
     for (kind, edit) in MeshEdit::each(dice) {
@@ -146,12 +139,7 @@ fn edited(
         }
         files.insert(path.clone(), Some(after));
     }
-    (!files.is_empty()).then(|| FileChange {
-        files,
-        unlisted: Vec::new(),
-        from: spot.from,
-        to: spot.to,
-    })
+    (!files.is_empty()).then(|| FileChange::new(files, spot.from, spot.to))
 }
 
 fn exchanged(original: &Original, entry: &Entry, other: &Entry, both: bool) -> Option<FileChange> {
@@ -166,10 +154,5 @@ fn exchanged(original: &Original, entry: &Entry, other: &Entry, both: bool) -> O
             files.insert(b.clone(), Some(of_a.clone()));
         }
     }
-    Some(FileChange {
-        files,
-        unlisted: Vec::new(),
-        from: entry.pointer.clone(),
-        to: other.pointer.clone(),
-    })
+    Some(FileChange::new(files, &entry.pointer, &other.pointer))
 }

@@ -1,7 +1,7 @@
 //! Mutations of whole modules: removed, or replaced by another robot's.
 
 use super::edit::Edit;
-use super::mutation::{Change, Description, FileChange, Files, Mutation, Target};
+use super::mutation::{Change, FileChange, Files, Mutation};
 use super::original::Original;
 use urdd_format::registry::ModuleKind;
 
@@ -39,12 +39,8 @@ fn gone(original: &Original, name: &str, folder: &str) -> Mutation {
     let mut entries = entries(original).to_vec();
     entries.retain(|entry| entry["path"] != folder);
     let make = move |_: &Original| {
-        Some(FileChange {
-            files: files.iter().map(|path| (path.clone(), None)).collect(),
-            unlisted: Vec::new(),
-            from: "a module".to_owned(),
-            to: "none".to_owned(),
-        })
+        let files = files.iter().map(|path| (path.clone(), None)).collect();
+        Some(FileChange::new(files, "a module", "none"))
     };
     let edits = vec![Edit::Set("/modules".to_owned(), entries.into())];
     mutation(
@@ -69,14 +65,7 @@ fn replaced(original: &Original, other: &Original, name: &str, folder: &str) -> 
     let differs = files
         .iter()
         .any(|(path, bytes)| original.files.get(path) != bytes.as_ref());
-    let make = move |_: &Original| {
-        differs.then(|| FileChange {
-            files: files.clone(),
-            unlisted: Vec::new(),
-            from: from.clone(),
-            to: to.clone(),
-        })
-    };
+    let make = move |_: &Original| differs.then(|| FileChange::new(files.clone(), &from, &to));
     let place = format!("/modules/{here}");
     let edits = vec![Edit::Set(place, entries(other)[there].clone())];
     let change = Change::FilesAndMetadata(Box::new(make), edits);
@@ -100,17 +89,5 @@ fn entries(original: &Original) -> &[serde_json::Value] {
 }
 
 fn mutation(name: &str, folder: &str, kind: &'static str, change: Change) -> Mutation {
-    Mutation {
-        description: Description {
-            module: name.to_owned(),
-            file: folder.to_owned(),
-            field: "the module".to_owned(),
-            pointer: None,
-            target: Target::File,
-            kind,
-            from: String::new(),
-            to: String::new(),
-        },
-        change,
-    }
+    Mutation::of_file(name, folder, "the module", kind, change)
 }

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use super::edit::{self, Edit};
-use super::original::{self, Original};
+use super::original::Original;
 use urdd_directory::canonical;
 use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::file_entry;
 
 /// The files that a mutation changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -67,6 +68,18 @@ pub(crate) struct FileChange {
     pub to: String,
 }
 
+impl FileChange {
+    /// Replaces files; the root metadata still lists them.
+    pub(crate) fn new(files: Files, from: impl Into<String>, to: impl Into<String>) -> Self {
+        FileChange {
+            files,
+            unlisted: Vec::new(),
+            from: from.into(),
+            to: to.into(),
+        }
+    }
+}
+
 /// Computes the mutated files. `None` if the meaning would not change.
 pub(crate) type MakeFiles = Box<dyn Fn(&Original) -> Option<FileChange> + Send + Sync>;
 
@@ -87,6 +100,30 @@ pub(crate) struct Mutation {
 }
 
 impl Mutation {
+    /// A mutation of whole files. The description names the file, or the first of several.
+    pub(crate) fn of_file(
+        module: &str,
+        file: &str,
+        field: &str,
+        kind: &'static str,
+        change: Change,
+    ) -> Self {
+        let description = Description {
+            module: module.to_owned(),
+            file: file.to_owned(),
+            field: field.to_owned(),
+            pointer: None,
+            target: Target::File,
+            kind,
+            from: String::new(),
+            to: String::new(),
+        };
+        Mutation {
+            description,
+            change,
+        }
+    }
+
     /// The files to replace, including the root metadata, and the description with old and new values. `None` if
     /// nothing changes.
     pub(crate) fn make(&self, original: &Original) -> Option<(Files, Description)> {
@@ -99,7 +136,7 @@ impl Mutation {
             }
         };
         if let Some(mut metadata) = metadata.filter(|_| !files.contains_key(ROOT_METADATA)) {
-            original::rehash(&mut metadata, &files);
+            file_entry::reseal(&mut metadata, |path| files.get(path)?.as_deref());
             files.insert(
                 ROOT_METADATA.to_owned(),
                 Some(canonical::json_string(&metadata).into_bytes()),
@@ -140,7 +177,9 @@ fn changed(
     description: &mut Description,
 ) -> Option<(Files, Option<Value>)> {
     let mut metadata = edit::apply(original.metadata(), edits)?;
-    original::unlist(&mut metadata, &change.unlisted);
+    file_entry::unlist(&mut metadata, |path| {
+        change.unlisted.iter().any(|gone| gone == path)
+    });
     (description.from, description.to) = (change.from, change.to);
     Some((change.files, Some(metadata)))
 }

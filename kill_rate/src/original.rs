@@ -11,7 +11,6 @@ use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::json;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::{EntryKind, ReadError, Root};
-use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::registry::{self, ModuleKind, Profile};
 use urdd_format::root_metadata::RootMetadata;
 
@@ -175,38 +174,4 @@ fn read_files(path: &Path) -> Result<BTreeMap<String, Vec<u8>>, OriginalError> {
             Ok((entry.path.clone(), bytes.map_err(failed(&entry.path))?))
         })
         .collect()
-}
-
-/// Updates the entries of changed files in the root metadata, as a producer would write them. Keeps the entries of
-/// removed files.
-pub(crate) fn rehash(metadata: &mut Value, changed: &BTreeMap<String, Option<Vec<u8>>>) {
-    use sha2::{Digest, Sha256};
-    let update = |entry: &mut Value| {
-        let path = entry.get("path").and_then(Value::as_str);
-        if let Some(Some(bytes)) = path.and_then(|path| changed.get(path)) {
-            entry["size"] = serde_json::json!(bytes.len());
-            entry["sha256"] = serde_json::json!(hexadecimal(&Sha256::digest(bytes)));
-        }
-    };
-    if let Some(entry) = metadata.pointer_mut("/source/Urdf") {
-        update(entry);
-    }
-    let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
-    for module in modules.into_iter().flatten() {
-        let files = module.get_mut("files").and_then(Value::as_array_mut);
-        files.into_iter().flatten().for_each(update);
-    }
-}
-
-/// Removes files from the lists of the root metadata.
-pub(crate) fn unlist(metadata: &mut Value, gone: &[String]) {
-    let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
-    for module in modules.into_iter().flatten() {
-        if let Some(files) = module.get_mut("files").and_then(Value::as_array_mut) {
-            files.retain(|entry| {
-                let path = entry.get("path").and_then(Value::as_str);
-                path.is_none_or(|path| !gone.iter().any(|gone| gone == path))
-            });
-        }
-    }
 }

@@ -1,11 +1,12 @@
 //! The validator's verdict on a mutation.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::mutation::Description;
+use urdd_format::report::{Severity, Status, Verdict};
 use urdd_validate::code::Code;
-use urdd_validate::engine::{Check, Outcome as RuleOutcome};
-use urdd_validate::rule::{Phase, Rule, Severity};
+use urdd_validate::rule::{Phase, Rule};
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_with;
 
@@ -61,23 +62,24 @@ pub(crate) fn judge(path: &Path, rules: &[&'static Rule], settings: &Settings) -
 }
 
 fn judge_by(path: &Path, rules: &[&'static Rule], settings: &Settings) -> Outcome {
-    let examined = match validate_with(&[path], settings, rules) {
-        Ok(mut report) => match report.subjects.pop().map(|subject| subject.result) {
-            Some(Ok(examined)) => examined,
+    let urdd = match validate_with(&[path], settings, rules) {
+        Ok(mut run) => match run.report.urdds.pop() {
+            Some(urdd) if urdd.verdict != Verdict::Unreadable => urdd,
             _ => return Outcome::Unreadable,
         },
         Err(_) => return Outcome::Unreadable,
     };
-    let crashed = |check: &&Check| matches!(check.outcome, RuleOutcome::Crashed(_));
-    if let Some(check) = examined.checks.iter().find(crashed) {
-        return Outcome::Crashed(check.rule.code);
+    let mut checks = urdd.checks.iter();
+    let crashed = checks.find(|check| check.status == Status::Crashed);
+    if let Some(code) = crashed.and_then(|check| Code::parse(&check.code)) {
+        return Outcome::Crashed(code);
     }
     let codes = |of: &dyn Fn(Severity) -> bool| -> Vec<Code> {
-        let found = examined
-            .checks
-            .iter()
-            .filter(|check| !check.findings.is_empty() && of(check.severity));
-        found.map(|check| check.rule.code).collect()
+        let found = urdd.findings.iter().filter(|finding| of(finding.severity));
+        let codes: BTreeSet<_> = found
+            .filter_map(|finding| Code::parse(&finding.code))
+            .collect();
+        codes.into_iter().collect()
     };
     let errors = codes(&|severity| severity == Severity::Error);
     if !errors.is_empty() {

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::dice::Dice;
 use super::file_bytes::Damage;
 use super::free::Ground;
-use super::mutation::{Change, Description, FileChange, Files, Mutation, Target, shortened};
+use super::mutation::{Change, FileChange, Files, Mutation, shortened};
 use super::number_changes;
 use super::original::Original;
 use super::plan::Plan;
@@ -116,12 +116,8 @@ pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> 
         let path_of = path.to_owned();
         let make = move |original: &Original| {
             let (after, to) = damage.of(original.files.get(&path_of)?)?;
-            Some(FileChange {
-                files: Files::from([(path_of.clone(), Some(after))]),
-                unlisted: Vec::new(),
-                from: "the file".to_owned(),
-                to,
-            })
+            let files = Files::from([(path_of.clone(), Some(after))]);
+            Some(FileChange::new(files, "the file", to))
         };
         mutation(path, "the file", kind, Change::Files(Box::new(make)))
     });
@@ -204,27 +200,11 @@ fn replaced(path: &str, value: Range<usize>, to: String) -> Change {
         let mut text = String::from_utf8(original.files.get(&path)?.clone()).ok()?;
         let from = text.get(value.clone())?.to_owned();
         text.replace_range(value.clone(), &to);
-        Some(FileChange {
-            files: Files::from([(path.clone(), Some(text.into_bytes()))]),
-            unlisted: Vec::new(),
-            from: shortened(&from),
-            to: shortened(&to),
-        })
+        let files = Files::from([(path.clone(), Some(text.into_bytes()))]);
+        Some(FileChange::new(files, shortened(&from), shortened(&to)))
     }))
 }
 
 fn mutation(path: &str, field: &str, kind: &'static str, change: Change) -> Mutation {
-    Mutation {
-        description: Description {
-            module: SOURCE.to_owned(),
-            file: path.to_owned(),
-            field: field.to_owned(),
-            pointer: None,
-            target: Target::File,
-            kind,
-            from: String::new(),
-            to: String::new(),
-        },
-        change,
-    }
+    Mutation::of_file(SOURCE, path, field, kind, change)
 }

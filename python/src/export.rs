@@ -52,7 +52,9 @@ pub fn export<'py>(
         each.collect::<Result<Vec<_>, _>>()
     });
     let options = Options {
-        shapes: shapes.parse().map_err(|error| of_robot(py, &error))?,
+        shapes: shapes
+            .parse::<urdd_robot::ShapeKind>()
+            .map_err(|error| of_robot(py, &error.into()))?,
         reasons: reasons.transpose().map_err(PyValueError::new_err)?,
         keep_pairs,
         spheres: match (total_spheres, spheres) {

@@ -110,7 +110,7 @@ impl Options {
             strict: self.strict,
             drop_edits: self.drop_edits,
             force: self.force,
-            reuse: Vec::new(),
+            donors: Vec::new(),
             cancellation: Cancellation::default(),
         })
     }

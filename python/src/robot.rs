@@ -302,7 +302,9 @@ impl Robot {
 
     /// The shapes of a kind, prepared for distances.
     fn proximity(&self, py: Python<'_>, kind: &str) -> PyResult<Py<Proximity>> {
-        let kind: ShapeKind = kind.parse().map_err(|error| of_robot(py, &error))?;
+        let kind = kind
+            .parse::<ShapeKind>()
+            .map_err(|error| of_robot(py, &error.into()))?;
         if let Some(known) = work::lock(py, &self.proximity)?.get(&kind) {
             return Ok(known.clone_ref(py));
         }

@@ -16,7 +16,9 @@ impl Robot {
     /// The shapes of a kind, each as a dictionary: `link`, `piece`, and `vertices` and `faces`, or `pose` and
     /// `half_extents`, or `centre` and `radius`.
     fn shapes<'py>(&self, py: Python<'py>, kind: &str) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let kind: ShapeKind = kind.parse().map_err(|error| of_robot(py, &error))?;
+        let kind = kind
+            .parse::<ShapeKind>()
+            .map_err(|error| of_robot(py, &error.into()))?;
         let shapes = self.ask(py, move |robot, _| robot.shapes(kind))?;
         let one = |shape: urdd_robot::LinkShape| {
             let found = PyDict::new(py);
@@ -68,7 +70,9 @@ impl Robot {
         Bound<'py, PyArray2<bool>>,
         Option<Bound<'py, PyArray2<u8>>>,
     )> {
-        let kind: ShapeKind = kind.parse().map_err(|error| of_robot(py, &error))?;
+        let kind = kind
+            .parse::<ShapeKind>()
+            .map_err(|error| of_robot(py, &error.into()))?;
         let skips = self.ask(py, move |robot, _| robot.skips(kind))?;
         let count = skips.len();
         let pairs = || (0..count).flat_map(|i| (0..count).map(move |j| (i, j)));

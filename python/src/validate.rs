@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use serde_json::{Value, from_value};
-use urdd_validate::report::{self};
-use urdd_validate::rule::Severity;
+use urdd_validate::report;
 use urdd_validate::selection::Codes;
 use urdd_validate::settings::{Exclude, Settings};
 use urdd_validate::{ValidateError, rules};
@@ -73,8 +72,7 @@ pub fn validate(py: Python<'_>, paths: Vec<PathBuf>, options: Options) -> PyResu
     let outcome = work::run(py, move |cancellation| {
         settings.cancellation = cancellation.clone();
         let run = urdd_validate::validate(&paths, &settings)?;
-        let fail_on = settings.fail_on.unwrap_or(Severity::Error);
-        Ok(report::json(&run.report(fail_on)))
+        Ok(report::json(&run.report))
     })?;
     match outcome {
         Ok(text) => text.map_err(|error| PyRuntimeError::new_err(error.to_string())),

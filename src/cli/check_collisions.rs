@@ -130,7 +130,7 @@ fn check(arguments: &CheckCollisionsArguments) -> Result<bool, String> {
         let (text, any) = sum_up(&proximity, &chosen, dofs).map_err(in_urdd)?;
         return output::print(&text).map(|()| any);
     }
-    let of_pieces = proximity.kind().is_of_pieces();
+    let of_pieces = !proximity.kind().is_of_links();
     let (mut text, mut any) = (String::new(), false);
     for number in 0..chosen.count() {
         let configuration = chosen.at(number, dofs);

@@ -65,13 +65,7 @@ pub struct CombineArguments {
 
 /// Runs `urdd combine`.
 pub fn run(arguments: &CombineArguments) -> ExitCode {
-    match put_together(arguments) {
-        Ok(status) => ExitCode::from(status),
-        Err(message) => {
-            output::error(&message);
-            ExitCode::from(output::USAGE)
-        }
-    }
+    output::ended(put_together(arguments))
 }
 
 fn put_together(arguments: &CombineArguments) -> Result<u8, String> {

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use super::output::{self, printed};
 use urdd_format::escape;
 use urdd_validate::code::RetiredCode;
+use urdd_validate::report;
 use urdd_validate::rule::Rule;
 use urdd_validate::rules;
 use urdd_validate::selection::Codes;
@@ -144,8 +145,6 @@ fn as_json(rule: &Rule) -> Value {
 }
 
 fn print_json(value: &Value) -> ExitCode {
-    match serde_json::to_string_pretty(value) {
-        Ok(text) => printed(output::print(&(text + "\n"))),
-        Err(error) => printed(Err(error.to_string())),
-    }
+    let text = report::json(value).map_err(|error| error.to_string());
+    printed(text.and_then(|text| output::print(&text)))
 }

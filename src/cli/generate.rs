@@ -17,8 +17,6 @@ use urdd_generate::{MAX_SOURCE_BYTES, Settings, generate_text};
 
 /// Exit status: a robot could not be generated.
 const FAILED: u8 = 1;
-/// Exit status: usage error, or no robot.
-const USAGE: u8 = 2;
 
 /// The argument for a URDF from standard input.
 const STANDARD_INPUT: &str = "-";
@@ -54,13 +52,7 @@ pub struct GenerateArguments {
 
 /// Runs `urdd generate`.
 pub fn run(arguments: &GenerateArguments) -> ExitCode {
-    match generate(arguments) {
-        Ok(status) => ExitCode::from(status),
-        Err(message) => {
-            output::error(&message);
-            ExitCode::from(USAGE)
-        }
-    }
+    output::ended(generate(arguments))
 }
 
 /// Returns the exit status.

@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum};
 use super::output;
 use urdd_directory::discover::discover;
 use urdd_format::escape;
+use urdd_validate::report;
 use urdd_validate::report::info::{self, Info};
 
 /// Arguments of `urdd info`.
@@ -32,10 +33,7 @@ enum Format {
 
 /// Runs `urdd info`.
 pub fn run(arguments: &InfoArguments) -> ExitCode {
-    match tell(arguments) {
-        Ok(text) => output::printed(output::print(&text)),
-        Err(message) => output::printed(Err(message)),
-    }
+    output::printed(tell(arguments).and_then(|text| output::print(&text)))
 }
 
 fn tell(arguments: &InfoArguments) -> Result<String, String> {
@@ -53,8 +51,7 @@ fn tell(arguments: &InfoArguments) -> Result<String, String> {
         }
     }
     if arguments.format == Format::Json {
-        let text = serde_json::to_string_pretty(&infos).map_err(|error| error.to_string())?;
-        return Ok(escape::json(&text).into_owned() + "\n");
+        return report::json(&infos).map_err(|error| error.to_string());
     }
     let mut text = String::new();
     for info in &infos {

@@ -209,7 +209,7 @@ impl MakingArguments {
                 reasons.map(SkippedReason::from).collect()
             }),
             force: self.force,
-            reuse: Vec::new(),
+            donors: Vec::new(),
             cancellation: signals.cancellation(),
         })
     }

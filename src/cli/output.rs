@@ -56,7 +56,8 @@ fn write(text: &str) -> Result<bool, String> {
     }
 }
 
-/// As [`print`], for text in a format that has already escaped names by its own rules.
+/// As [`print`], for text in a format that has already escaped names by its own rules, or that consists of workflow
+/// commands.
 ///
 /// # Errors
 /// As for [`print`].
@@ -68,14 +69,6 @@ pub fn print_raw(text: &str) -> Result<(), String> {
 pub fn error(message: &str) {
     let message = inert(message);
     let _ = writeln!(io::stderr().lock(), "urdd: {message}");
-}
-
-/// As [`print`], for text that consists of workflow commands.
-///
-/// # Errors
-/// As for [`print`].
-pub fn print_commands(text: &str) -> Result<(), String> {
-    write(&escape::lines(text)).map(|_| ())
 }
 
 /// Makes lines inert for terminals and for GitHub Actions runners, which treat any line that begins with `::` or `##[`
@@ -316,8 +309,13 @@ fn reason(error: &io::Error) -> String {
 
 /// The exit status of a command that only prints.
 pub fn printed(result: Result<(), String>) -> ExitCode {
+    ended(result.map(|()| 0))
+}
+
+/// The exit status of a command. Prints its error message.
+pub fn ended(result: Result<u8, String>) -> ExitCode {
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(status) => ExitCode::from(status),
         Err(message) => {
             error(&message);
             ExitCode::from(USAGE)

@@ -11,12 +11,10 @@ use super::output::{self, Color};
 use super::words::{Class, Level};
 use urdd_directory::regular;
 use urdd_format::escape;
-use urdd_validate::report::human;
-use urdd_validate::report::model::Verdict;
+use urdd_format::report::{Report, Severity, Verdict};
 use urdd_validate::report::place::places;
 use urdd_validate::report::style::Style;
-use urdd_validate::report::{self, Report};
-use urdd_validate::rule::Severity;
+use urdd_validate::report::{self, human};
 use urdd_validate::selection::Codes;
 use urdd_validate::settings::{Exclude, Settings};
 use urdd_validate::{ValidateError, rules};
@@ -128,13 +126,7 @@ impl Format {
 
 /// Runs `urdd validate`.
 pub fn run(arguments: &ValidateArguments, color: Color) -> ExitCode {
-    match validate(arguments, color) {
-        Ok(status) => ExitCode::from(status),
-        Err(message) => {
-            output::error(&message);
-            ExitCode::from(output::USAGE)
-        }
-    }
+    output::ended(validate(arguments, color))
 }
 
 fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
@@ -142,7 +134,6 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
         output::check_name(file)?;
     }
     let settings = read_settings(arguments)?;
-    let fail_on = settings.fail_on.unwrap_or(Severity::Error);
     let mut rules = rules::all();
     if arguments.with_crashing_rule {
         rules.push(&rules::testing::CRASHING);
@@ -157,14 +148,14 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
     });
     let _ = std::panic::take_hook();
     let run = run?;
-    if run.subjects.is_empty() {
+    if run.report.urdds.is_empty() {
         let urdds = run.excluded;
         return Err(format!(
             "nothing to examine: all URDDs that were found ({urdds}) are excluded"
         ));
     }
-    let report = run.report(fail_on);
-    let status = status(&report);
+    let report = &run.report;
+    let status = status(report);
     let current = std::env::current_dir().unwrap_or_default();
     let places = places(&run, &current);
 
@@ -177,21 +168,22 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
     };
     let render = |format: Format| -> Result<String, String> {
         match format {
-            Format::Json => report::json(&report).map_err(|error| error.to_string()),
+            Format::Json => report::json(report).map_err(|error| error.to_string()),
             Format::Sarif => {
-                report::sarif(&run, &report, &places, status).map_err(|error| error.to_string())
+                report::sarif(report, &places, status).map_err(|error| error.to_string())
             }
             Format::Junit => {
-                report::junit(&run, &report, &places, fail_on).map_err(|error| error.to_string())
+                let fail_on = settings.fail_on.unwrap_or(Severity::Error);
+                report::junit(report, &places, fail_on).map_err(|error| error.to_string())
             }
             Format::Github => {
                 let mut text = String::new();
-                report::github(&report, &places, &mut text).map_err(|error| error.to_string())?;
+                report::github(report, &places, &mut text).map_err(|error| error.to_string())?;
                 Ok(text)
             }
             Format::Human => {
                 let mut text = String::new();
-                human::write(&report, style, &mut text).map_err(|error| error.to_string())?;
+                human::write(report, style, &mut text).map_err(|error| error.to_string())?;
                 Ok(text)
             }
         }
@@ -205,7 +197,7 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
     let text = render(arguments.format)?;
     let printed = match arguments.format {
         Format::Github => {
-            output::print_commands(&text).and_then(|()| output::print(&render(Format::Human)?))
+            output::print_raw(&text).and_then(|()| output::print(&render(Format::Human)?))
         }
         _ => output::print(&text),
     };

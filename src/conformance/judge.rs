@@ -1,8 +1,7 @@
 //! Compares the findings of `urdd validate` with those that a case expects.
 
 use super::case::{Case, Expected, Verdict};
-use urdd_validate::report::model::{Finding, Severity};
-use urdd_validate::report::{self, Report};
+use urdd_format::report::{self, Finding, Report, Severity};
 
 /// The findings that a case of the rule `code` lists: all except infos of other rules.
 pub fn found(code: &str, report: &Report) -> Vec<Expected> {
@@ -22,7 +21,7 @@ pub fn found(code: &str, report: &Report) -> Vec<Expected> {
 
 /// The verdict of a report on one URDD.
 pub fn verdict(report: &Report) -> Verdict {
-    match report.count(report::model::Verdict::Pass) == report.urdds.len() {
+    match report.count(report::Verdict::Pass) == report.urdds.len() {
         true => Verdict::Accept,
         false => Verdict::Reject,
     }

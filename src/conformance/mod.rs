@@ -12,6 +12,7 @@ pub mod export;
 pub mod judge;
 pub mod process;
 pub mod producer;
+pub mod run_error;
 pub mod seal;
 pub mod skips;
 pub mod suite;

@@ -6,13 +6,13 @@ use std::time::Duration;
 
 use rayon::prelude::*;
 
-use super::data::{self, DataError, ROBOTS};
+use super::data::{self, ROBOTS};
 use super::process::{End, Ran, Template};
+use super::run_error::{RunError, with_threads};
 use super::skips::{Skip, SkipError};
-use super::tree::TreeError;
 use super::valid;
-use super::workplace::{Workplace, WorkplaceError};
-use urdd_directory::cancellation::{Cancellation, Cancelled};
+use super::workplace::Workplace;
+use urdd_directory::cancellation::Cancellation;
 use urdd_format::conformance::{
     ClassScore, ModuleScore, ModuleStatus, ProducerResult, RobotModule, RobotScore, ScoreStatus,
 };
@@ -53,32 +53,6 @@ pub enum Event<'a> {
     Scored(&'a RobotScore),
 }
 
-/// Why a producer cannot be run.
-#[derive(Debug, thiserror::Error)]
-pub enum ProducerError {
-    /// The robots cannot be read.
-    #[error(transparent)]
-    Data(#[from] DataError),
-    /// The robot does not exist.
-    #[error("there is no robot `{0}`; the robots are {1}")]
-    UnknownRobot(String, String),
-    /// The skip list names something that does not exist.
-    #[error("the skip list: {0}")]
-    Skip(#[from] SkipError),
-    /// The working folder cannot be created.
-    #[error(transparent)]
-    Folder(#[from] WorkplaceError),
-    /// The thread pool cannot be created.
-    #[error("{0} commands at a time cannot be run: {1}")]
-    Jobs(usize, rayon::ThreadPoolBuildError),
-    /// The robots cannot be written to the working folder.
-    #[error(transparent)]
-    Robots(#[from] TreeError),
-    /// The run was cancelled.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
-
 /// Form of a line in a producer's skip list.
 pub const SKIP_FORM: &str = "`robot  # reason`, or `robot module  # reason`";
 
@@ -86,10 +60,7 @@ pub const SKIP_FORM: &str = "`robot  # reason`, or `robot module  # reason`";
 ///
 /// # Errors
 /// If a robot or a module does not exist, the working folder cannot be created, or the run is cancelled.
-pub fn run(
-    plan: &Plan,
-    observe: &(dyn Fn(&Event) + Sync),
-) -> Result<ProducerResult, ProducerError> {
+pub fn run(plan: &Plan, observe: &(dyn Fn(&Event) + Sync)) -> Result<ProducerResult, RunError> {
     data::check()?;
     let names = chosen(&plan.robots)?;
     check_skips(&plan.skips)?;
@@ -100,14 +71,10 @@ pub fn run(
         observe(&Event::Scored(&done.0));
         Ok(done)
     };
-    let all = || -> Result<Vec<(RobotScore, BTreeSet<usize>)>, ProducerError> {
+    let all = || -> Result<Vec<(RobotScore, BTreeSet<usize>)>, RunError> {
         names.par_iter().map(one).collect()
     };
-    let done = rayon::ThreadPoolBuilder::new()
-        .num_threads(plan.jobs)
-        .build()
-        .map_err(|error| ProducerError::Jobs(plan.jobs, error))?
-        .install(all)?;
+    let done = with_threads(plan.jobs, all)?;
     let (robots, used): (Vec<RobotScore>, Vec<BTreeSet<usize>>) = done.into_iter().unzip();
     let used: BTreeSet<usize> = used.into_iter().flatten().collect();
     let ran = |skip: &&Skip| {
@@ -137,13 +104,13 @@ pub fn run(
     })
 }
 
-fn chosen(asked: &[String]) -> Result<Vec<String>, ProducerError> {
+fn chosen(asked: &[String]) -> Result<Vec<String>, RunError> {
     let all = valid::robots();
     if asked.is_empty() {
         return Ok(all);
     }
     match asked.iter().find(|robot| !all.contains(robot)) {
-        Some(unknown) => Err(ProducerError::UnknownRobot(unknown.clone(), all.join(", "))),
+        Some(unknown) => Err(RunError::UnknownRobot(unknown.clone(), all.join(", "))),
         None => Ok(all
             .into_iter()
             .filter(|robot| asked.contains(robot))
@@ -151,7 +118,7 @@ fn chosen(asked: &[String]) -> Result<Vec<String>, ProducerError> {
     }
 }
 
-fn check_skips(skips: &[Skip]) -> Result<(), ProducerError> {
+fn check_skips(skips: &[Skip]) -> Result<(), RunError> {
     let robots = valid::robots();
     let is_module = |word: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == word);
     for skip in skips {
@@ -177,7 +144,7 @@ fn robot(
     plan: &Plan,
     name: &str,
     folder: &Path,
-) -> Result<(RobotScore, BTreeSet<usize>), ProducerError> {
+) -> Result<(RobotScore, BTreeSet<usize>), RunError> {
     let robots = folder.join(ROBOTS);
     valid::write_robots(&robots)?;
     let urdf = robots.join(format!("{name}.urdf"));
@@ -211,7 +178,7 @@ fn examine(out: &PathBuf, plan: &Plan) -> Result<Urdd, Option<String>> {
         let text = error.to_string();
         Some(text.replace(&out.display().to_string(), "{out}"))
     })?;
-    let mut urdds = run.report(Severity::Error).urdds;
+    let mut urdds = run.report.urdds;
     match (urdds.pop(), urdds.is_empty()) {
         (Some(urdd), true) if urdd.verdict == Verdict::Unreadable => Err(urdd.reason),
         (Some(urdd), true) if urdd.path == folder_name(out) => Ok(urdd),
@@ -345,10 +312,6 @@ fn apply_skips(plan: &Plan, score: &mut RobotScore) -> BTreeSet<usize> {
 /// The rule that reports a missing module of the class.
 const MODULE_MISSING: &str = "DIR019";
 
-fn count(number: usize) -> Count {
-    Count(u32::try_from(number).unwrap_or(u32::MAX))
-}
-
 fn classes(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ClassScore> {
     let below = ConformanceClass::ALL.iter().copied();
     below
@@ -367,8 +330,8 @@ fn classes(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ClassScore> {
             };
             ClassScore {
                 class,
-                passed: count(robots.iter().filter(passes).count()),
-                of: count(robots.len()),
+                passed: Count::saturating(robots.iter().filter(passes).count()),
+                of: Count::saturating(robots.len()),
             }
         })
         .collect()
@@ -387,10 +350,10 @@ fn modules(asked: ConformanceClass, robots: &[RobotScore]) -> Vec<ModuleScore> {
         let codes: BTreeSet<&String> = own.iter().flat_map(|module| &module.codes).collect();
         scores.push(ModuleScore {
             name: kind.name().to_owned(),
-            present: count(passed + failed),
-            passed: count(passed),
-            failed: count(failed),
-            of: count(robots.len()),
+            present: Count::saturating(passed + failed),
+            passed: Count::saturating(passed),
+            failed: Count::saturating(failed),
+            of: Count::saturating(robots.len()),
             codes: codes.into_iter().cloned().collect(),
         });
     }

@@ -2,14 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
-
 use super::change::mirror_of;
 use super::tree::{FilePath, Tree};
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::{canonical, json};
-use urdd_format::hexadecimal::hexadecimal;
+use urdd_directory::{canonical, file_entry, json};
 
 /// Adds a canonical `module.yaml` to every `module.json` without one.
 pub fn add_mirrors(tree: &mut Tree) {
@@ -36,44 +32,9 @@ pub fn rehash(tree: &mut Tree, kept: &BTreeSet<String>) {
         return;
     };
     let mut metadata = document.value;
-    let before = metadata.clone();
-    for entry in entries_mut(&mut metadata) {
-        let path = entry.get("path").and_then(Value::as_str);
-        let path = path.filter(|path| !kept.contains(*path));
-        if let Some(bytes) = path.and_then(|path| tree.file(path)) {
-            let (size, sha256) = size_and_hash(bytes);
-            entry["size"] = json!(size);
-            entry["sha256"] = json!(sha256);
-        }
-    }
-    if metadata != before {
+    let listed = |path: &str| tree.file(path).filter(|_| !kept.contains(path));
+    if file_entry::reseal(&mut metadata, listed) {
         let text = canonical::json_string(&metadata);
         tree.put(ROOT_METADATA.into(), text.into_bytes());
     }
-}
-
-/// Size and SHA-256 of a file, in the form of `urdd.json`.
-pub fn size_and_hash(bytes: &[u8]) -> (usize, String) {
-    (bytes.len(), hexadecimal(&Sha256::digest(bytes)))
-}
-
-/// The file entries of `urdd.json`.
-pub fn entries_mut(metadata: &mut Value) -> Vec<&mut Value> {
-    let mut entries = Vec::new();
-    let Some(root) = metadata.as_object_mut() else {
-        return entries;
-    };
-    for (key, value) in root {
-        match key.as_str() {
-            "source" => entries.extend(value.get_mut("Urdf")),
-            "modules" => {
-                let modules = value.as_array_mut().into_iter().flatten();
-                let files = modules.filter_map(|module| module.get_mut("files")?.as_array_mut());
-                entries.extend(files.flatten());
-            }
-            _ => {}
-        }
-    }
-    entries.retain(|entry| entry.is_object());
-    entries
 }

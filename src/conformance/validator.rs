@@ -14,13 +14,14 @@ use serde::Serialize;
 use super::case::Verdict;
 use super::catalogue::{Item, ItemKind, items};
 use super::data::{ROBOTS, URDD, VALID};
-use super::export::{ExportError, write_valid};
+use super::export::write_valid;
 use super::process::{End, Ran, Template};
+use super::run_error::{RunError, with_threads};
 use super::skips::{Skip, SkipError};
-use super::suite::{CaseError, Suite, SuiteError};
+use super::suite::Suite;
 use super::tree::TreeError;
 use super::valid;
-use super::workplace::{Workplace, WorkplaceError};
+use super::workplace::Workplace;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_format::conformance::{CaseFault, CaseScore, GroupScore, ValidatorResult, WrongCase};
 use urdd_format::index::Count;
@@ -80,46 +81,6 @@ pub enum Event<'a> {
     NotRun,
 }
 
-/// Why a validator cannot be run.
-#[derive(Debug, thiserror::Error)]
-pub enum ValidatorError {
-    /// No case matches the version and the ids.
-    #[error("there is no case to run; `urdd conformance export` writes them all, and their list")]
-    NoCase,
-    /// The skip list names something that does not exist.
-    #[error("the skip list: {0}")]
-    Skip(#[from] SkipError),
-    /// The working folder cannot be created.
-    #[error(transparent)]
-    Folder(#[from] WorkplaceError),
-    /// The thread pool cannot be created.
-    #[error("{0} commands at a time cannot be run: {1}")]
-    Jobs(usize, rayon::ThreadPoolBuildError),
-    /// A URDD cannot be removed.
-    #[error("{}: cannot be removed: {error}", path.display())]
-    Remove {
-        /// Its path.
-        path: PathBuf,
-        /// Reason.
-        error: std::io::Error,
-    },
-    /// The suite is damaged.
-    #[error("the suite is damaged: {0}")]
-    Suite(#[from] SuiteError),
-    /// A case of the suite is damaged.
-    #[error("the suite is damaged: {0}")]
-    Case(#[from] CaseError),
-    /// A valid URDD cannot be generated.
-    #[error(transparent)]
-    Valid(#[from] ExportError),
-    /// A case cannot be written.
-    #[error(transparent)]
-    Tree(#[from] TreeError),
-    /// The run was cancelled.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
-
 /// Form of a line in a validator's skip list.
 pub const SKIP_FORM: &str = "`case  # reason`, `code  # reason`, or `family  # reason`";
 
@@ -127,10 +88,7 @@ pub const SKIP_FORM: &str = "`case  # reason`, `code  # reason`, or `family  # r
 ///
 /// # Errors
 /// If there is nothing to run, the working folder cannot be created, or the run is cancelled.
-pub fn run(
-    plan: &Plan,
-    observe: &(dyn Fn(&Event) + Sync),
-) -> Result<ValidatorResult, ValidatorError> {
+pub fn run(plan: &Plan, observe: &(dyn Fn(&Event) + Sync)) -> Result<ValidatorResult, RunError> {
     let suite = Suite::carried()?;
     let all = items(&suite);
     check_skips(&plan.skips, &all)?;
@@ -142,7 +100,7 @@ pub fn run(
     });
     let chosen: Vec<Item> = chosen.collect();
     if chosen.is_empty() {
-        return Err(ValidatorError::NoCase);
+        return Err(RunError::NoCase);
     }
     let folder = Workplace::new(plan.keep.as_deref())?;
     observe(&Event::Start(chosen.len()));
@@ -154,12 +112,12 @@ pub fn run(
         let valid = folder.path().join(VALID);
         write_valid(&names, &robots, &valid, &plan.cancellation).map_err(|error| {
             match plan.cancellation.is_cancelled() {
-                true => ValidatorError::Cancelled(Cancelled),
+                true => RunError::Cancelled(Cancelled),
                 false => error.into(),
             }
         })?;
     }
-    let judge = |item: &Item| -> Result<Option<Ran>, ValidatorError> {
+    let judge = |item: &Item| -> Result<Option<Ran>, RunError> {
         let ran = judge(plan, &suite, item, folder.path())?;
         match &ran {
             Some(ran) => observe(&Event::Judged(Judged {
@@ -174,15 +132,10 @@ pub fn run(
         }
         Ok(ran)
     };
-    let all =
-        || -> Result<Vec<Option<Ran>>, ValidatorError> { chosen.par_iter().map(judge).collect() };
+    let all = || -> Result<Vec<Option<Ran>>, RunError> { chosen.par_iter().map(judge).collect() };
     let ran = match plan.jobs {
         None => all(),
-        Some(jobs) => rayon::ThreadPoolBuilder::new()
-            .num_threads(jobs)
-            .build()
-            .map_err(|error| ValidatorError::Jobs(jobs, error))?
-            .install(all),
+        Some(jobs) => with_threads(jobs, all),
     };
     Ok(scored(plan, &chosen, ran?))
 }
@@ -192,12 +145,7 @@ fn is_legacy(item: &Item) -> bool {
 }
 
 /// Runs the command on one URDD; `None` if this operating system cannot represent it.
-fn judge(
-    plan: &Plan,
-    suite: &Suite,
-    item: &Item,
-    folder: &Path,
-) -> Result<Option<Ran>, ValidatorError> {
+fn judge(plan: &Plan, suite: &Suite, item: &Item, folder: &Path) -> Result<Option<Ran>, RunError> {
     plan.cancellation.check()?;
     let path = folder.join(&item.folder);
     let case = suite.cases.iter().find(|case| case.id() == item.id);
@@ -213,7 +161,7 @@ fn judge(
         .run(&[("dir", &path)], plan.limit, &plan.cancellation)?;
     if let (Some(_), Some(around), None) = (case, path.parent(), &plan.keep) {
         debug_assert!(path.ends_with(URDD));
-        fs::remove_dir_all(around).map_err(|error| ValidatorError::Remove {
+        fs::remove_dir_all(around).map_err(|error| RunError::Remove {
             path: around.to_owned(),
             error,
         })?;

@@ -9,9 +9,8 @@ use super::picture;
 use super::reply::{Body, Reply};
 use super::revision;
 use urdd_directory::root::{EntryKind, ReadError, Root};
-use urdd_format::report::Severity;
 use urdd_robot::Robot;
-use urdd_validate::report::{self};
+use urdd_validate::report;
 use urdd_validate::settings::Settings;
 use urdd_validate::{Run, validate, validate_source};
 
@@ -295,7 +294,7 @@ pub fn report_on(root: &Root, name: &str) -> Result<String, String> {
 }
 
 fn as_json(run: &Run) -> Result<String, String> {
-    report::json(&run.report(Severity::Error)).map_err(|error| error.to_string())
+    report::json(&run.report).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]

@@ -3,16 +3,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
 
 use super::export_error::ExportError;
-use urdd_directory::regular;
 use urdd_directory::staging::StagingError;
-use urdd_format::hexadecimal::hexadecimal;
+use urdd_directory::{digest, regular};
 
 /// The list itself. Its presence identifies a site.
 pub const LIST: &str = "urdd-site.json";
@@ -212,15 +210,7 @@ fn hash_of(path: &Path) -> io::Result<String> {
     if !fs::symlink_metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a regular file"));
     }
-    let mut file = File::open(path)?;
-    let mut hash = Sha256::new();
-    let mut piece = vec![0; 1 << 16];
-    loop {
-        match file.read(&mut piece)? {
-            0 => return Ok(hexadecimal(&hash.finalize())),
-            read => hash.update(&piece[..read]),
-        }
-    }
+    Ok(digest::of_reader(File::open(path)?)?.1)
 }
 
 fn unwritten(path: &Path, error: io::Error) -> ExportError {

@@ -13,7 +13,7 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-use urdd_directory::canonical;
+use urdd_directory::{canonical, file_entry};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::registry::{ModuleKind, SPEC_VERSION};
 use urdd_format::urdf::*;
@@ -322,10 +322,7 @@ impl Fixture {
 
     /// Removes a file from its module's list in `urdd.json`.
     pub fn unlist(&mut self, path: &str) {
-        for module in self.modules_mut() {
-            let files = module["files"].as_array_mut().expect("a list");
-            files.retain(|file| file["path"] != json!(path));
-        }
+        file_entry::unlist(self.doc_mut(ROOT), |listed| listed == path);
     }
 
     /// Rebuilds all file lists in `urdd.json`: existing files and those that `seal` will write.
@@ -386,16 +383,7 @@ impl Fixture {
             }
         }
         let mut root = self.documents[ROOT].clone();
-        if let Some(entry) = root.pointer_mut("/source/Urdf") {
-            self.rehash(entry);
-        }
-        let modules = root.get_mut("modules").and_then(Value::as_array_mut);
-        for module in modules.into_iter().flatten() {
-            let files = module.get_mut("files").and_then(Value::as_array_mut);
-            for entry in files.into_iter().flatten() {
-                self.rehash(entry);
-            }
-        }
+        file_entry::all(&mut root).for_each(|entry| self.rehash(entry));
         if !self.by_hand.contains(ROOT) {
             self.files.insert(ROOT.to_owned(), self.json(&root));
         }
@@ -445,7 +433,8 @@ fn sealed_files(folder: &str) -> [String; 3] {
     ["VERSION", "module.json", "module.yaml"].map(|file| format!("{folder}/{file}"))
 }
 
-/// Size and SHA-256 of a file in the format of `urdd.json`.
+/// Size and SHA-256 of a file in the format of `urdd.json`. Independent of `urdd_directory::digest`, which the
+/// validator's tests check against it, and the tests of other producers.
 pub fn size_and_hash(bytes: &[u8]) -> (usize, String) {
     let digest = Sha256::digest(bytes);
     let digits = digest.iter().map(|byte| format!("{byte:02x}"));

@@ -1,3 +1,5 @@
+//! Internal to urdd; no stability promise.
+//!
 //! Helpers shared by tests. Most of them form a second, simple producer of URDDs for the valid base cases of tests. It
 //! shares only the types of `urdd_format` with the generator.
 //!

@@ -139,8 +139,8 @@ fn crashes_are_told() {
 #[test]
 fn json_reports_fit_their_schema() {
     let folder = collection();
-    let schema = serde_json::to_value(schemars::schema_for!(urdd_validate::report::Report))
-        .expect("a value");
+    let schema =
+        serde_json::to_value(schemars::schema_for!(urdd_format::report::Report)).expect("a value");
     let schema = jsonschema::draft202012::new(&schema).expect("a schema");
     for arguments in [
         &["."] as &[&str],

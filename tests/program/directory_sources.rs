@@ -59,8 +59,7 @@ fn findings(output: &Output) -> Value {
 /// The report on a URDD with faults, in a folder and packed in two ways.
 #[test]
 fn a_urdd_in_memory_has_the_report_of_its_folder() {
-    use urdd_format::report::Severity;
-    use urdd_validate::report::{self};
+    use urdd_validate::report;
     use urdd_validate::settings::Settings;
     use urdd_validate::{validate, validate_source};
     for (name, errors) in [("arm", 0), ("stale_gripper", 1)] {
@@ -73,9 +72,7 @@ fn a_urdd_in_memory_has_the_report_of_its_folder() {
         let settings = Settings::default();
         let from_memory = validate_source(memory, name, &settings).expect("a run");
         let from_folder = validate(&[folder], &settings).expect("a run");
-        let text = |run: &urdd_validate::Run| {
-            report::json(&run.report(Severity::Error)).expect("a report")
-        };
+        let text = |run: &urdd_validate::Run| report::json(&run.report).expect("a report");
         assert_eq!(text(&from_memory), text(&from_folder));
         let value: Value = serde_json::from_str(&text(&from_memory)).expect("JSON");
         assert!(value["totals"]["error"].as_u64() >= Some(errors), "{name}");

@@ -6,7 +6,6 @@ use urdd_format::self_collision_model::SelfCollisionModelModule;
 use urdd_validate::code::Code;
 use urdd_validate::code::Code::*;
 use urdd_validate::learned::counts::Judge;
-use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 use urdd_validate::skip::SkipReason;
 use urdd_validate::solids::Solids;
@@ -123,7 +122,7 @@ mod flattering {
         let folder = tempfile::tempdir().expect("a folder");
         large.write_to(folder.path());
         let run = validate(&[folder.path()], &Settings::default()).expect("a URDD");
-        let report = run.report(Severity::Error);
+        let report = run.report;
         let open = report.urdds[0].model_not_verified.as_ref();
         let open = open.expect("not verified");
         assert_eq!(open.codes, ["LRN010", "LRN011"]);

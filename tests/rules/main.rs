@@ -38,7 +38,6 @@ use std::path::Path;
 use testkit::fixture::Fixture;
 use urdd_format::report;
 use urdd_validate::code::Code;
-use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 use urdd_validate::{rules, validate};
 
@@ -167,7 +166,7 @@ fn findings(write: &dyn Fn(&Path)) -> BTreeMap<String, String> {
     std::fs::create_dir(&root).expect("the URDD's folder");
     write(&root);
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
-    let report = run.report(Severity::Error);
+    let report = run.report;
     let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
     findings
         .filter(|f| f.severity != report::Severity::Info)

@@ -81,7 +81,7 @@ fn up(x: f64) -> f64 {
 }
 
 /// Two boxes, the second of which names a file without a surface.
-fn bare() -> Fixture {
+pub fn bare() -> Fixture {
     let mut bare = link("b");
     bare.visual
         .push(visual(None, mesh("package://robot/bare.stl", None)));

@@ -345,22 +345,7 @@ fn links() -> Vec<Case> {
             MSH011,
             "carried-file-without-a-surface",
             false,
-            || {
-                let mut bare = link("b");
-                bare.visual
-                    .push(visual(None, mesh("package://robot/bare.stl", None)));
-                let mut fixture = Fixture::full(&robot_of(vec![boxy("a"), bare]));
-                let path = format!("mesh_modules/{ORIGINAL}/meshes/bare.stl");
-                fixture.put_file(&path, vec![0; 84]);
-                fixture.set(ORIGINAL, "/references/0/path", json!(path));
-                let file = json!({"path": path, "side_files": [], "usable": false});
-                fixture.set(ORIGINAL, "/files/-", file);
-                let entry = json!({"path": path, "size": 0, "sha256": ""});
-                let listed = fixture.doc_mut(ROOT).pointer_mut("/modules/6/files");
-                let listed = listed.and_then(Value::as_array_mut).expect("a list");
-                listed.insert(1, entry);
-                fixture
-            },
+            crate::mesh_files::bare,
             |_| {},
         ),
         invalid(MSH012, "file-not-listed", |f| {

@@ -1,7 +1,6 @@
 //! What a finding says: where, what is wrong, what was expected and found, in words that a reader can act on.
 
 use serde_json::json;
-use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 
@@ -104,7 +103,7 @@ fn findings_say_where_and_what_to_do() {
         let root = folder.path().join("robot");
         urdd.write_to(&root);
         let run = validate(&[&root], &Settings::default()).expect("something to examine");
-        let report = run.report(Severity::Error);
+        let report = run.report;
         let findings: Vec<_> = report.urdds[0].findings.iter().collect();
         let finding = findings
             .iter()

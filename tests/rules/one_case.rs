@@ -9,7 +9,7 @@ use std::path::Path;
 
 use urdd_format::report::Severity as Shown;
 use urdd_validate::finding::Finding;
-use urdd_validate::rule::{Rule, Severity};
+use urdd_validate::rule::Rule;
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_with;
@@ -60,7 +60,7 @@ fn fault(case: &Case, stand: Stand) -> Option<String> {
 fn judged(case: &Case, root: &Path, rules: &[&'static Rule]) -> Option<String> {
     let code = case.code.as_str();
     let run = validate_with(&[root], &Settings::default(), rules).expect("something to examine");
-    let report = run.report(Severity::Error);
+    let report = run.report;
     let findings: Vec<_> = report
         .urdds
         .iter()
@@ -91,14 +91,10 @@ fn judged(case: &Case, root: &Path, rules: &[&'static Rule]) -> Option<String> {
         );
     }
     // Why the rule found nothing: it may not have looked.
-    let check = run
-        .subjects
-        .iter()
-        .filter_map(|subject| subject.result.as_ref().ok())
-        .flat_map(|examined| &examined.checks)
-        .find(|check| check.rule.code == case.code);
-    if let (false, Some(check)) = (own, check) {
-        let _ = write!(text, "\n    {code} itself: {:?}", check.outcome);
+    let mut checks = report.urdds.iter().flat_map(|urdd| &urdd.checks);
+    if let (false, Some(check)) = (own, checks.find(|check| check.code == code)) {
+        let reason = check.reason.as_deref().unwrap_or_default();
+        let _ = write!(text, "\n    {code} itself: {} {reason}", check.status);
     }
     Some(text)
 }

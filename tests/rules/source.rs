@@ -37,13 +37,13 @@ fn limit_of(lower: f64, effort: Option<f64>, velocity: Option<f64>) -> Option<Li
         upper: Some(1.0),
         effort,
         velocity,
-        ..lower_only(lower)?
+        ..limit_from(Some(lower))?
     })
 }
 
-fn lower_only(lower: f64) -> Option<Limit> {
+fn limit_from(lower: Option<f64>) -> Option<Limit> {
     Some(Limit {
-        lower: Some(lower),
+        lower,
         upper: None,
         effort: Some(1.0),
         velocity: Some(1.0),
@@ -67,11 +67,11 @@ fn limits() -> Vec<Case> {
             robot.joint_mut("turn").limit = limit(1.0, -1.0);
         }),
         odd(SRC001, "absent-upper-is-zero", |robot| {
-            robot.joint_mut("turn").limit = lower_only(0.5);
+            robot.joint_mut("turn").limit = limit_from(Some(0.5));
         }),
         fine(SRC001, "lower-equals-upper", |robot| {
             robot.joint_mut("turn").limit = limit(-0.5, -0.5);
-            robot.joint_mut("slide").limit = lower_only(-0.5);
+            robot.joint_mut("slide").limit = limit_from(Some(-0.5));
             // Of a continuous joint they have no meaning.
             robot.joint_mut("spin").limit = limit(1.0, -1.0);
         }),
@@ -96,15 +96,7 @@ fn limits() -> Vec<Case> {
             robot.joint_mut("turn").limit = None;
         }),
         odd(SRC006, "prismatic-with-an-empty-limit", |robot| {
-            robot.joint_mut("slide").limit = Some(Limit {
-                lower: None,
-                upper: None,
-                effort: Some(1.0),
-                velocity: Some(1.0),
-                acceleration: None,
-                deceleration: None,
-                jerk: None,
-            });
+            robot.joint_mut("slide").limit = limit_from(None);
         }),
         odd(SRC009, "revolute-without-effort-and-speed", |robot| {
             robot.joint_mut("turn").limit = limit_of(-1.0, Some(0.0), Some(0.0));
@@ -121,7 +113,7 @@ fn limits() -> Vec<Case> {
         }),
         fine(SRC006, "mimic-without-limit", |robot| {
             robot.joint_mut("right").limit = None;
-            robot.joint_mut("turn").limit = lower_only(-1.0);
+            robot.joint_mut("turn").limit = limit_from(Some(-1.0));
         }),
     ]
 }

@@ -45,15 +45,14 @@ impl Pairs {
     }
 
     fn of_kind(&self, kind: ShapeKind) -> Option<Statistics<'_>> {
-        let place = ShapeKind::ALL.iter().position(|other| *other == kind)?;
-        statistics(self.part.document(STATISTICS)?)?[place]
+        statistics(self.part.document(STATISTICS)?)?[kind as usize]
     }
 
     /// `min`, `mean` and `max` of the pair, in metres, if recorded.
     pub fn statistics(&self, kind: ShapeKind, links: [usize; 2], pieces: [usize; 2]) -> Value {
-        let index = match kind.is_of_pieces() {
-            true => &self.pieces,
-            false => &self.full,
+        let index = match kind.is_of_links() {
+            true => &self.full,
+            false => &self.pieces,
         };
         let shape = |k: usize| index.get(&(links[k], pieces[k])).copied();
         let found = || {
@@ -69,9 +68,9 @@ impl Pairs {
 
     /// Number of pairs of shapes, including skipped ones; null if the URDD does not record it.
     pub fn count(&self, kind: ShapeKind) -> Value {
-        let shapes = match kind.is_of_pieces() {
-            true => self.pieces.len(),
-            false => self.full.len(),
+        let shapes = match kind.is_of_links() {
+            true => self.full.len(),
+            false => self.pieces.len(),
         };
         match shapes {
             0 => Value::Null,

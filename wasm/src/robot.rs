@@ -227,7 +227,7 @@ fn ask(handle: &mut Handle, question: &[u8]) -> Result<Value, String> {
 
 fn kind(question: &Value) -> Result<ShapeKind, String> {
     let name = question["shapes"].as_str().unwrap_or("pieces");
-    name.parse().map_err(|error: RobotError| error.to_string())
+    name.parse::<ShapeKind>().map_err(|error| error.to_string())
 }
 
 /// The boxes or spheres of a kind.

@@ -1,7 +1,6 @@
 //! The report of a URDD.
 
-use urdd_format::report::Severity;
-use urdd_validate::report::{self};
+use urdd_validate::report;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_source;
 
@@ -30,5 +29,5 @@ pub unsafe extern "C" fn urdd_validate(
 fn validate(files: Files, name: &str) -> Result<String, String> {
     let run =
         validate_source(files, name, &Settings::default()).map_err(|error| error.to_string())?;
-    report::json(&run.report(Severity::Error)).map_err(|error| error.to_string())
+    report::json(&run.report).map_err(|error| error.to_string())
 }

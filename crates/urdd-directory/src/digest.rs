@@ -1,6 +1,6 @@
 //! Sizes and hashes of files, and comparison with stated values, in bounded memory.
 
-use std::io::Read;
+use std::io::{self, Read};
 
 use sha2::{Digest, Sha256};
 
@@ -25,21 +25,32 @@ pub enum Change {
 /// # Errors
 /// If the file cannot be read.
 pub fn of(root: &Root, path: &str) -> Result<(u64, String), ReadError> {
-    let (mut file, _) = root.open_file(path)?;
+    let (file, _) = root.open_file(path)?;
+    of_reader(file).map_err(|error| ReadError::Io(error.to_string()))
+}
+
+/// Size and SHA-256 of what a reader returns, as [`of`] returns them.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn of_reader(mut reader: impl Read) -> io::Result<(u64, String)> {
     let mut hasher = Sha256::new();
     let mut piece = vec![0; 1 << 16];
     let mut size = 0;
     loop {
-        let read = file
-            .read(&mut piece)
-            .map_err(|error| ReadError::Io(error.to_string()))?;
-        if read == 0 {
-            break;
+        match reader.read(&mut piece)? {
+            0 => return Ok((size, hexadecimal(&hasher.finalize()))),
+            read => {
+                size += read as u64;
+                hasher.update(&piece[..read]);
+            }
         }
-        size += read as u64;
-        hasher.update(&piece[..read]);
     }
-    Ok((size, hexadecimal(&hasher.finalize())))
+}
+
+/// Size and SHA-256 of a file's content, as [`of`] returns them.
+pub fn of_bytes(bytes: &[u8]) -> (u64, String) {
+    (bytes.len() as u64, hexadecimal(&Sha256::digest(bytes)))
 }
 
 /// Prefix of every Git LFS pointer. Pointers are shorter than [`LONGEST_LFS_POINTER`].

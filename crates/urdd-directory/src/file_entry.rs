@@ -2,6 +2,23 @@
 
 use serde_json::{Value, json};
 
+use super::digest;
+
+/// The file entries that are objects: that of the source, then those of the modules.
+pub fn all(metadata: &mut Value) -> impl Iterator<Item = &mut Value> {
+    let (mut source, mut modules) = (None, None);
+    for (key, value) in metadata.as_object_mut().into_iter().flatten() {
+        match key.as_str() {
+            "source" => source = value.get_mut("Urdf"),
+            "modules" => modules = value.as_array_mut(),
+            _ => {}
+        }
+    }
+    let modules = modules.into_iter().flatten().flat_map(of_module);
+    let entries = source.into_iter().chain(modules);
+    entries.filter(|entry| entry.is_object())
+}
+
 /// The file entries of all modules.
 pub fn of_modules(metadata: &mut Value) -> impl Iterator<Item = &mut Value> {
     let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
@@ -17,6 +34,28 @@ pub fn of_module(module: &mut Value) -> impl Iterator<Item = &mut Value> {
 /// The path of an entry.
 pub fn path(entry: &Value) -> Option<&str> {
     entry.get("path").and_then(Value::as_str)
+}
+
+/// Updates the entries of those files that `bytes` returns. Returns whether one of them changed.
+pub fn reseal<'a>(metadata: &mut Value, bytes: impl Fn(&str) -> Option<&'a [u8]>) -> bool {
+    let mut changed = false;
+    for entry in all(metadata) {
+        if let Some(bytes) = path(entry).and_then(&bytes) {
+            let (size, sha256) = digest::of_bytes(bytes);
+            changed |= update(entry, size, &sha256);
+        }
+    }
+    changed
+}
+
+/// Removes the entries of files of modules.
+pub fn unlist(metadata: &mut Value, is_gone: impl Fn(&str) -> bool) {
+    let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
+    for module in modules.into_iter().flatten() {
+        if let Some(files) = module.get_mut("files").and_then(Value::as_array_mut) {
+            files.retain(|entry| !path(entry).is_some_and(&is_gone));
+        }
+    }
 }
 
 /// Writes size and SHA-256 into an entry. Returns whether they changed.

@@ -79,8 +79,24 @@ impl Wanted {
 
 #[cfg(test)]
 mod tests {
-    use super::super::json_scan::find_value;
     use super::*;
+
+    #[test]
+    fn broken_text_ends_the_search() {
+        for text in [
+            "",
+            "\"",
+            "{\"a",
+            "{\"a\\",
+            "[1,,",
+            "}}",
+            "{\"é\\ud800\":1}",
+            "[\\",
+            ":",
+        ] {
+            assert_eq!(find_values(text, &["/a/0"]), [None], "{text}");
+        }
+    }
 
     #[test]
     fn many_are_found_as_one_is() {
@@ -104,7 +120,10 @@ mod tests {
             "/c/d/0",
         ];
         let many = find_values(text, &pointers);
-        let each: Vec<Option<usize>> = pointers.iter().map(|p| find_value(text, p)).collect();
+        let each: Vec<Option<usize>> = pointers
+            .iter()
+            .map(|p| find_values(text, &[p])[0])
+            .collect();
         assert_eq!(many, each);
         assert_eq!(many.iter().flatten().count(), 9);
     }

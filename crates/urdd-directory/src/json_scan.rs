@@ -15,25 +15,6 @@ pub struct RepeatedKey {
     pub pointer: String,
 }
 
-/// Byte offset of the value at `pointer`. For duplicate keys, the last one counts.
-pub fn find_value(text: &str, pointer: &str) -> Option<usize> {
-    let mut scan = Scan::new(text);
-    scan.skip_space();
-    for segment in segments(pointer)? {
-        scan.enter(&segment?, None)?;
-        scan.skip_space();
-    }
-    (scan.at < text.len()).then_some(scan.at)
-}
-
-/// Byte offset of the `occurrence`-th (from 0) occurrence of the key that `pointer` ends with.
-pub fn find_key(text: &str, pointer: &str, occurrence: usize) -> Option<usize> {
-    let (parent, key) = pointer.rsplit_once('/')?;
-    let at = find_value(text, parent)?;
-    let mut scan = Scan { text, at };
-    scan.enter(&unescape(key)?, Some(occurrence))
-}
-
 /// Calls `found` for every repeated occurrence of a key in its object.
 pub fn repeated_keys(text: &str, mut found: impl FnMut(&dyn Fn() -> RepeatedKey)) {
     let mut walk = Walk::new(text, true);
@@ -185,51 +166,6 @@ impl<'a> Scan<'a> {
             }
         }
     }
-
-    /// From the start of a container, moves to the start of one of its children. With an `occurrence`, returns the
-    /// offset of that occurrence of the key; else the offset of the child.
-    fn enter(&mut self, segment: &str, occurrence: Option<usize>) -> Option<usize> {
-        if self.eat(b'[').is_some() {
-            return self.enter_list(segment).filter(|_| occurrence.is_none());
-        }
-        self.eat(b'{')?;
-        let mut seen = 0;
-        let mut last = None;
-        loop {
-            self.skip_space();
-            let at = self.at;
-            let Some(key) = self.key() else { break };
-            self.eat(b':')?;
-            self.skip_space();
-            if key == segment {
-                if occurrence == Some(seen) {
-                    return Some(at);
-                }
-                seen += 1;
-                last = Some(self.at);
-            }
-            self.skip_value()?;
-            if self.eat(b',').is_none() {
-                break;
-            }
-        }
-        self.at = last.filter(|_| occurrence.is_none())?;
-        Some(self.at)
-    }
-
-    fn enter_list(&mut self, segment: &str) -> Option<usize> {
-        let wanted: usize = segment.parse().ok()?;
-        // "01" and "+1" are not indices.
-        if wanted.to_string() != segment {
-            return None;
-        }
-        for _ in 0..wanted {
-            self.skip_value()?;
-            self.eat(b',')?;
-        }
-        self.skip_space();
-        (!matches!(self.peek(), None | Some(b']'))).then_some(self.at)
-    }
 }
 
 /// One open container of a [`Walk`].
@@ -367,8 +303,6 @@ mod tests {
         ] {
             repeated_keys(text, |_| {});
             pointer_at(text, usize::MAX);
-            find_value(text, "/a/0");
-            find_key(text, "/a", 3);
         }
     }
 }

@@ -1,3 +1,5 @@
+//! Internal to urdd; no stability promise.
+//!
 //! The files of a URDD on disk, in memory or in a zip archive: discovery, listing, safe reading and writing. Also JSON
 //! and YAML as text, and the folder of published schemas.
 
@@ -11,7 +13,7 @@ pub mod document;
 pub mod file_entry;
 pub mod json;
 mod json_fault;
-mod json_places;
+pub mod json_places;
 pub mod json_scan;
 pub mod layout;
 pub mod limits;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{json_places, json_scan};
+use super::json_places;
 
 /// A position in a text: 1-based line and column. Columns count Unicode scalar values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -86,7 +86,7 @@ pub fn position(text: &str, offset: usize) -> Position {
 ///
 /// For duplicate keys, the last one counts, as in the value that [`super::json::read`] returns.
 pub fn locate(text: &str, pointer: &str) -> Option<Position> {
-    json_scan::find_value(text, pointer).map(|offset| position(text, offset))
+    locate_all(text, &[pointer]).pop()?
 }
 
 /// Like [`locate`], for many pointers in one pass.
@@ -96,11 +96,6 @@ pub fn locate_all(text: &str, pointers: &[&str]) -> Vec<Option<Position>> {
     offsets
         .map(|offset| offset.map(|offset| index.position(offset)))
         .collect()
-}
-
-/// The position of the `occurrence`-th (from 0) occurrence of the key that a pointer ends with.
-pub fn locate_key(text: &str, pointer: &str, occurrence: usize) -> Option<Position> {
-    json_scan::find_key(text, pointer, occurrence).map(|offset| position(text, offset))
 }
 
 fn count(n: usize) -> u32 {
@@ -169,12 +164,8 @@ mod tests {
     }
 
     #[test]
-    fn finds_each_occurrence_of_a_key() {
+    fn of_a_key_named_twice_the_last_counts() {
         let text = r#"{"a": {"b": 1}, "c": 2, "a": {"b": 3, "b": 4}}"#;
-        assert_eq!(locate_key(text, "/a", 0), Some(at(1, 2)));
-        assert_eq!(locate_key(text, "/a", 1), Some(at(1, 25)));
-        assert_eq!(locate_key(text, "/a", 2), None);
-        assert_eq!(locate_key(text, "/a/b", 1), Some(at(1, 39)));
         assert_eq!(locate(text, "/a/b"), Some(at(1, 44)));
     }
 }

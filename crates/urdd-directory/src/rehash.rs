@@ -63,10 +63,7 @@ pub fn rehash(root: &Root) -> Result<Vec<String>, RehashError> {
         .map_err(RehashError::Metadata)?;
     let mut metadata = json::read(&bytes)?.value;
     let mut changed = Vec::new();
-    if let Some(entry) = metadata.pointer_mut("/source/Urdf") {
-        update(root, entry, &mut changed)?;
-    }
-    for entry in file_entry::of_modules(&mut metadata) {
+    for entry in file_entry::all(&mut metadata) {
         update(root, entry, &mut changed)?;
     }
     if !changed.is_empty() {

@@ -1,3 +1,5 @@
+//! Internal to urdd; no stability promise.
+//!
 //! A loaded URDD of any version: its files and modules as far as they are readable ([`urdd::Urdd`]), and
 //! version-independent views. Fields with the same name in both versions have the same pointer.
 //!

@@ -6,6 +6,7 @@ use nalgebra::Matrix3;
 
 use crate::legacy_urdf::of_legacy;
 use crate::pose::{has_quaternions, rotation_of_quaternion, rotation_of_rpy, unit_quaternion};
+use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleDocument;
 use urdd_format::urdf::{self as v1, JointType};
 
@@ -33,6 +34,16 @@ pub struct Link {
     pub visual: Vec<Element>,
     /// Its collision elements.
     pub collision: Vec<Element>,
+}
+
+impl Link {
+    /// Its visual or its collision elements.
+    pub fn elements(&self, kind: GeometryKind) -> &[Element] {
+        match kind {
+            GeometryKind::Visual => &self.visual,
+            GeometryKind::Collision => &self.collision,
+        }
+    }
 }
 
 /// A visual or collision element.

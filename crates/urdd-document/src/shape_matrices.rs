@@ -2,11 +2,12 @@
 
 use std::fmt::Debug;
 
-use super::shapes::{KINDS, ShapeKind};
 use urdd_format::index::LinkIdx;
 use urdd_format::legacy::link_shapes_lie_alg_error_models::ErrorBounds;
-use urdd_format::link_shapes_simple_skips::SkipReason;
+use urdd_format::link_shapes_simple_skips::{LinkShapesSimpleSkipsModule, SkipReason};
+use urdd_format::link_shapes_skips::LinkShapesSkipsModule;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::shape_kind::{OfKinds, ShapeKind};
 use urdd_format::shapes::PieceShape;
 
 /// The modules with matrices over shapes.
@@ -51,115 +52,61 @@ pub struct Statistics<'a> {
 const V1_KEYS: [&str; 3] = ["mean_distances", "min_distances", "max_distances"];
 const LEGACY_KEYS: [&str; 3] = ["averages", "minimums", "maximums"];
 
-/// The six statistics of `link_shapes_distance_statistics_module`, in the order of [`KINDS`].
+/// The six statistics of `link_shapes_distance_statistics_module`, in the order of [`ShapeKind::ALL`].
 pub fn statistics(document: &ModuleDocument) -> Option<[Option<Statistics<'_>>; 6]> {
     match document {
-        ModuleDocument::LinkShapesDistanceStatistics(m) => {
-            let six = [
-                Some(&m.full_convex_hulls),
-                Some(&m.full_obbs),
-                Some(&m.full_bounding_spheres),
-                m.decomposition_convex_hulls.as_ref(),
-                m.decomposition_obbs.as_ref(),
-                m.decomposition_bounding_spheres.as_ref(),
-            ];
-            Some(six.map(|one| {
-                one.map(|one| Statistics {
-                    keys: V1_KEYS,
-                    mean: &one.mean_distances,
-                    min: &one.min_distances,
-                    max: &one.max_distances,
-                    num_samples: Some(m.num_samples.0),
-                })
-            }))
-        }
-        ModuleDocument::LegacyLinkShapesDistanceStatistics(m) => {
-            let six = [
-                &m.full_convex_hulls,
-                &m.full_obbs,
-                &m.full_bounding_spheres,
-                &m.decomposition_convex_hulls,
-                &m.decomposition_obbs,
-                &m.decomposition_bounding_spheres,
-            ];
-            Some(six.map(|one| {
-                Some(Statistics {
-                    keys: LEGACY_KEYS,
-                    mean: &one.averages,
-                    min: &one.minimums,
-                    max: &one.maximums,
-                    num_samples: None,
-                })
-            }))
-        }
+        ModuleDocument::LinkShapesDistanceStatistics(m) => Some(m.of_kinds().map(|one| {
+            one.map(|one| Statistics {
+                keys: V1_KEYS,
+                mean: &one.mean_distances,
+                min: &one.min_distances,
+                max: &one.max_distances,
+                num_samples: Some(m.num_samples.0),
+            })
+        })),
+        ModuleDocument::LegacyLinkShapesDistanceStatistics(m) => Some(m.of_kinds().map(|one| {
+            one.map(|one| Statistics {
+                keys: LEGACY_KEYS,
+                mean: &one.averages,
+                min: &one.minimums,
+                max: &one.maximums,
+                num_samples: None,
+            })
+        })),
         _ => None,
     }
 }
 
 /// The six matrices of `link_shapes_simple_skips_module` or `link_shapes_skips_module`, in the order
-/// of [`KINDS`].
+/// of [`ShapeKind::ALL`].
 pub fn skips(document: &ModuleDocument) -> Option<[Rows<'_, bool>; 6]> {
-    match document {
-        ModuleDocument::LinkShapesSimpleSkips(m) => Some([
-            Some(&m.full_convex_hulls_simple_skips),
-            Some(&m.full_obbs_simple_skips),
-            Some(&m.full_bounding_spheres_simple_skips),
-            m.decomposition_convex_hulls_simple_skips.as_deref(),
-            m.decomposition_obbs_simple_skips.as_deref(),
-            m.decomposition_bounding_spheres_simple_skips.as_deref(),
-        ]),
-        ModuleDocument::LegacyLinkShapesSimpleSkips(m) => Some([
-            Some(&m.full_convex_hulls_simple_skips),
-            Some(&m.full_obbs_simple_skips),
-            Some(&m.full_bounding_spheres_simple_skips),
-            Some(&m.decomposition_convex_hulls_simple_skips),
-            Some(&m.decomposition_obbs_simple_skips),
-            Some(&m.decomposition_bounding_spheres_simple_skips),
-        ]),
-        ModuleDocument::LinkShapesSkips(m) => Some([
-            Some(&m.full_convex_hulls_skips),
-            Some(&m.full_obbs_skips),
-            Some(&m.full_bounding_spheres_skips),
-            m.decomposition_convex_hulls_skips.as_deref(),
-            m.decomposition_obbs_skips.as_deref(),
-            m.decomposition_bounding_spheres_skips.as_deref(),
-        ]),
-        ModuleDocument::LegacyLinkShapesSkips(m) => Some([
-            Some(&m.full_convex_hulls_skips),
-            Some(&m.full_obbs_skips),
-            Some(&m.full_bounding_spheres_skips),
-            Some(&m.decomposition_convex_hulls_skips),
-            Some(&m.decomposition_obbs_skips),
-            Some(&m.decomposition_bounding_spheres_skips),
-        ]),
-        _ => None,
-    }
-}
-
-/// Suffix after the name of a kind in the key of a skip matrix.
-fn skips_suffix(document: &ModuleDocument) -> &'static str {
-    match document {
-        ModuleDocument::LinkShapesSkips(_) | ModuleDocument::LegacyLinkShapesSkips(_) => "_skips",
-        _ => "_simple_skips",
-    }
+    let six = match document {
+        ModuleDocument::LinkShapesSimpleSkips(m) => m.of_kinds(),
+        ModuleDocument::LegacyLinkShapesSimpleSkips(m) => m.of_kinds(),
+        ModuleDocument::LinkShapesSkips(m) => m.of_kinds(),
+        ModuleDocument::LegacyLinkShapesSkips(m) => m.of_kinds(),
+        _ => return None,
+    };
+    Some(six.map(|rows| rows.map(Vec::as_slice)))
 }
 
 /// JSON Pointer to a skip matrix.
 pub fn skips_pointer(document: &ModuleDocument, kind: ShapeKind) -> String {
-    format!("/{}{}", kind.name, skips_suffix(document))
+    let keys = match document {
+        ModuleDocument::LinkShapesSkips(_) | ModuleDocument::LegacyLinkShapesSkips(_) => {
+            LinkShapesSkipsModule::KEYS
+        }
+        _ => LinkShapesSimpleSkipsModule::KEYS,
+    };
+    format!("/{}", keys[kind as usize])
 }
 
 /// The six matrices of reasons of `link_shapes_simple_skips_module` of version 1.
 pub fn reasons(document: &ModuleDocument) -> Option<[Rows<'_, SkipReason>; 6]> {
     match document {
-        ModuleDocument::LinkShapesSimpleSkips(m) => Some([
-            Some(&m.reasons.full_convex_hulls),
-            Some(&m.reasons.full_obbs),
-            Some(&m.reasons.full_bounding_spheres),
-            m.reasons.decomposition_convex_hulls.as_deref(),
-            m.reasons.decomposition_obbs.as_deref(),
-            m.reasons.decomposition_bounding_spheres.as_deref(),
-        ]),
+        ModuleDocument::LinkShapesSimpleSkips(m) => {
+            Some(m.reasons.of_kinds().map(|rows| rows.map(Vec::as_slice)))
+        }
         _ => None,
     }
 }
@@ -283,39 +230,34 @@ pub fn matrices(document: &ModuleDocument) -> Vec<Matrix<'_>> {
             elements,
         });
     };
-    for (kind, one) in KINDS
-        .into_iter()
-        .zip(statistics(document).into_iter().flatten())
-    {
+    for (kind, one) in of_each(statistics(document)) {
         match one {
-            None => add(kind, format!("/{}", kind.name), None),
+            None => add(kind, format!("/{}", kind.key()), None),
             Some(one) => {
                 for (key, rows) in one.keys.into_iter().zip([one.mean, one.min, one.max]) {
-                    let pointer = format!("/{}/{key}", kind.name);
+                    let pointer = format!("/{}/{key}", kind.key());
                     add(kind, pointer, Some(Elements::Distances(rows)));
                 }
             }
         }
     }
-    for (kind, rows) in KINDS.into_iter().zip(skips(document).into_iter().flatten()) {
-        add(
-            kind,
-            skips_pointer(document, kind),
-            rows.map(Elements::Skips),
-        );
+    for (kind, rows) in of_each(skips(document)) {
+        let pointer = skips_pointer(document, kind);
+        add(kind, pointer, rows.map(Elements::Skips));
     }
-    for (kind, rows) in KINDS
-        .into_iter()
-        .zip(reasons(document).into_iter().flatten())
-    {
-        let pointer = format!("/reasons/{}", kind.name);
+    for (kind, rows) in of_each(reasons(document)) {
+        let pointer = format!("/reasons/{}", kind.key());
         add(kind, pointer, rows.map(Elements::Reasons));
     }
     for (suffix, six) in models(document).into_iter().flatten() {
-        for (kind, rows) in KINDS.into_iter().zip(six) {
-            let pointer = format!("/{}{suffix}", kind.name);
+        for (kind, rows) in of_each(Some(six)) {
+            let pointer = format!("/{}{suffix}", kind.key());
             add(kind, pointer, Some(Elements::Models(rows)));
         }
     }
     matrices
+}
+
+fn of_each<T>(six: Option<[T; 6]>) -> impl Iterator<Item = (ShapeKind, T)> {
+    ShapeKind::ALL.into_iter().zip(six.into_iter().flatten())
 }

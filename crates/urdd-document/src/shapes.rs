@@ -6,37 +6,13 @@ use crate::urdd::Urdd;
 use urdd_format::legacy::link_shapes_approximations as legacy;
 use urdd_format::link_shapes_approximations as v1;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::shape_kind::ShapeKind;
 
 /// The modules with lists per link.
 pub const LIST_MODULES: &[ModuleKind] = &[
     ModuleKind::LinkShapesApproximations,
     ModuleKind::LinkShapesMaxDistanceFromOrigin,
 ];
-
-/// One of the six kinds of shape.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct ShapeKind {
-    /// Its name, a prefix of keys.
-    pub name: &'static str,
-    /// Whether the shapes are links; else they are pieces.
-    pub full: bool,
-    /// Whether they are the hulls or pieces themselves; else their bounding boxes or bounding spheres.
-    pub hulls: bool,
-}
-
-/// The six kinds, in the order of the documents.
-pub const KINDS: [ShapeKind; 6] = [
-    kind("full_convex_hulls", true, true),
-    kind("full_obbs", true, false),
-    kind("full_bounding_spheres", true, false),
-    kind("decomposition_convex_hulls", false, true),
-    kind("decomposition_obbs", false, false),
-    kind("decomposition_bounding_spheres", false, false),
-];
-
-const fn kind(name: &'static str, full: bool, hulls: bool) -> ShapeKind {
-    ShapeKind { name, full, hulls }
-}
 
 /// The meaning of shape indices (SPEC 8.1).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -64,7 +40,7 @@ impl Shapes {
 
     /// Number of shapes of a kind.
     pub fn count(&self, kind: ShapeKind) -> usize {
-        match kind.full {
+        match kind.is_of_links() {
             true => self.full.len(),
             false => self.pieces.len(),
         }
@@ -72,7 +48,7 @@ impl Shapes {
 
     /// The link of a shape.
     pub fn link(&self, kind: ShapeKind, shape: usize) -> Option<usize> {
-        match kind.full {
+        match kind.is_of_links() {
             true => self.full.get(shape).copied(),
             false => self.pieces.get(shape).map(|(link, _)| *link),
         }
@@ -80,7 +56,7 @@ impl Shapes {
 
     /// The link and the piece of a shape; the piece of a full shape is 0.
     pub fn place(&self, kind: ShapeKind, shape: usize) -> Option<(usize, usize)> {
-        match kind.full {
+        match kind.is_of_links() {
             true => self.full.get(shape).map(|link| (*link, 0)),
             false => self.pieces.get(shape).copied(),
         }
@@ -91,7 +67,7 @@ impl Shapes {
         let link = self.link(kind, shape);
         let name = link.and_then(|link| Some(urdd.robot()?.links.get(link)?.name.as_str()));
         match (name, self.pieces.get(shape)) {
-            (Some(name), _) if kind.full => format!("{shape} (link `{name}`)"),
+            (Some(name), _) if kind.is_of_links() => format!("{shape} (link `{name}`)"),
             (Some(name), Some((_, piece))) => format!("{shape} (piece {piece} of `{name}`)"),
             _ => shape.to_string(),
         }
@@ -153,33 +129,24 @@ pub struct ShapeList<T> {
 impl<T> ShapeList<T> {
     /// JSON Pointer to an entry.
     pub fn pointer(&self, link: usize, piece: usize) -> String {
-        match self.kind.full {
+        match self.kind.is_of_links() {
             true => format!("/{}/{link}", self.key),
             false => format!("/{}/{link}/{piece}", self.key),
         }
     }
 
-    fn full<S>(
+    /// A list of the document: an option or a list for each link.
+    fn new<'a, S: 'a, L>(
         kind: ShapeKind,
         key: &'static str,
-        list: &[Option<S>],
-        read: impl Fn(&S) -> T,
-    ) -> Self {
-        let links = list.iter().map(|entry| entry.iter().map(&read).collect());
-        ShapeList {
-            key,
-            kind,
-            links: links.collect(),
-        }
-    }
-
-    fn pieces<S>(
-        kind: ShapeKind,
-        key: &'static str,
-        list: &[Vec<S>],
-        read: impl Fn(&S) -> T,
-    ) -> Self {
-        let links = list.iter().map(|entry| entry.iter().map(&read).collect());
+        list: &'a [L],
+        read: impl Fn(&'a S) -> T,
+    ) -> Self
+    where
+        &'a L: IntoIterator<Item = &'a S>,
+    {
+        let links = list.iter();
+        let links = links.map(|entry| entry.into_iter().map(&read).collect());
         ShapeList {
             key,
             kind,
@@ -190,40 +157,24 @@ impl<T> ShapeList<T> {
 
 /// The lists of `link_shapes_approximations_module`: boxes and spheres.
 pub fn approximations(document: &ModuleDocument) -> Option<Vec<ShapeList<Volume>>> {
-    let [_, boxes, spheres, _, piece_boxes, piece_spheres] = KINDS;
     macro_rules! lists {
         ($module:expr, $types:ident) => {{
-            let read_box = |b: &$types::Obb| Volume::Box {
+            let of_box = |b: &$types::Obb| Volume::Box {
                 half_extents: b.half_extents,
                 offset: b.offset_xyz,
                 rpy: b.offset_rpy,
             };
-            let read_sphere = |s: &$types::BoundingSphere| Volume::Sphere {
+            let of_sphere = |s: &$types::BoundingSphere| Volume::Sphere {
                 radius: s.radius,
                 offset: s.offset_xyz,
             };
-            vec![
-                ShapeList::full(boxes, "full_obbs", &$module.full_obbs, read_box),
-                ShapeList::full(
-                    spheres,
-                    "full_bounding_spheres",
-                    &$module.full_bounding_spheres,
-                    read_sphere,
-                ),
-                ShapeList::pieces(
-                    piece_boxes,
-                    "decomposition_obbs",
-                    &$module.decomposition_obbs,
-                    read_box,
-                ),
-                ShapeList::pieces(
-                    piece_spheres,
-                    "decomposition_bounding_spheres",
-                    &$module.decomposition_bounding_spheres,
-                    read_sphere,
-                ),
-            ]
+            lists!($module; Boxes full_obbs of_box, Spheres full_bounding_spheres of_sphere,
+                PieceBoxes decomposition_obbs of_box,
+                PieceSpheres decomposition_bounding_spheres of_sphere)
         }};
+        ($module:expr; $($kind:ident $field:ident $read:ident),*) => {
+            vec![$(ShapeList::new(ShapeKind::$kind, stringify!($field), &$module.$field, $read)),*]
+        };
     }
     match document {
         ModuleDocument::LinkShapesApproximations(module) => Some(lists!(module, v1)),
@@ -232,27 +183,25 @@ pub fn approximations(document: &ModuleDocument) -> Option<Vec<ShapeList<Volume>
     }
 }
 
-/// The lists of `link_shapes_max_distance_from_origin_module`, in the order of [`KINDS`].
+/// The lists of `link_shapes_max_distance_from_origin_module`, in the order of [`ShapeKind::ALL`].
 pub fn max_distances(document: &ModuleDocument) -> Option<[ShapeList<f64>; 6]> {
     macro_rules! lists {
-        ($module:expr; $($field:ident $how:ident $at:literal),*) => {
-            Some([$(ShapeList::$how(KINDS[$at], stringify!($field), &$module.$field, |d: &f64| *d)),*])
+        ($module:expr; $($kind:ident $field:ident)*) => {
+            [$(ShapeList::new(ShapeKind::$kind, stringify!($field), &$module.$field, |d: &f64| *d)),*]
         };
-    }
-    macro_rules! six {
         ($module:expr) => {
             lists!($module;
-                full_convex_hulls_maximum_distances full 0,
-                full_obbs_maximum_distances full 1,
-                full_bounding_spheres_maximum_distances full 2,
-                decomposition_convex_hulls_maximum_distances pieces 3,
-                decomposition_obbs_maximum_distances pieces 4,
-                decomposition_bounding_spheres_maximum_distances pieces 5)
+                Hulls full_convex_hulls_maximum_distances
+                Boxes full_obbs_maximum_distances
+                Spheres full_bounding_spheres_maximum_distances
+                Pieces decomposition_convex_hulls_maximum_distances
+                PieceBoxes decomposition_obbs_maximum_distances
+                PieceSpheres decomposition_bounding_spheres_maximum_distances)
         };
     }
     match document {
-        ModuleDocument::LinkShapesMaxDistanceFromOrigin(module) => six!(module),
-        ModuleDocument::LegacyLinkShapesMaxDistanceFromOrigin(module) => six!(module),
+        ModuleDocument::LinkShapesMaxDistanceFromOrigin(module) => Some(lists!(module)),
+        ModuleDocument::LegacyLinkShapesMaxDistanceFromOrigin(module) => Some(lists!(module)),
         _ => None,
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use crate::robot::Element;
 use crate::urdd::Urdd;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
@@ -53,28 +54,22 @@ impl<'a> UsableGeometry<'a> {
         usable
     }
 
+    fn elements(&self, link: usize, kind: GeometryKind) -> &'a [Element] {
+        let robot = self.urdd.robot();
+        let link = robot.and_then(|robot| robot.links.get(link));
+        link.map_or(&[], |link| link.elements(kind))
+    }
+
     /// Whether a link has a usable element of a kind.
     pub fn has(&self, link: usize, kind: GeometryKind) -> bool {
-        let Some(named) = self.urdd.robot().and_then(|robot| robot.links.get(link)) else {
-            return false;
-        };
-        let elements = match kind {
-            GeometryKind::Visual => &named.visual,
-            GeometryKind::Collision => &named.collision,
-        };
-        (0..elements.len()).any(|element| self.is_usable(link, kind, element))
+        let count = self.elements(link, kind).len();
+        (0..count).any(|element| self.is_usable(link, kind, element))
     }
 
     /// Whether an element of a link is usable.
     pub fn is_usable(&self, link: usize, kind: GeometryKind, element: usize) -> bool {
-        let Some(named) = self.urdd.robot().and_then(|robot| robot.links.get(link)) else {
-            return false;
-        };
-        let elements = match kind {
-            GeometryKind::Visual => &named.visual,
-            GeometryKind::Collision => &named.collision,
-        };
-        let Some(geometry) = elements.get(element).and_then(|e| e.geometry.as_ref()) else {
+        let element_of = self.elements(link, kind).get(element);
+        let Some(geometry) = element_of.and_then(|element| element.geometry.as_ref()) else {
             return false;
         };
         let lost = match (geometry, kind) {

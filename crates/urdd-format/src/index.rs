@@ -33,6 +33,13 @@ integer! {
     pub struct Count;
 }
 
+impl Count {
+    /// The count, or the largest one that a document can hold.
+    pub fn saturating(count: usize) -> Self {
+        Count(u32::try_from(count).unwrap_or(u32::MAX))
+    }
+}
+
 integer! {
     /// Number of a sampled configuration: `k` of SPEC's sequence, from 0.
     pub struct SampleIdx;

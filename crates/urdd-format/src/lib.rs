@@ -3,8 +3,23 @@
 //!
 //! Each type is the source of its published JSON Schema, and accepts exactly what that schema
 //! accepts: see [`object`].
+//!
+//! ```
+//! use urdd_format::bounds::BoundsModule;
+//! use urdd_format::registry::ModuleKind;
+//!
+//! let text = r#"{
+//!     "bounds": [[-1.5, 2.0]], "dof_lower_bounds": [-1.5], "dof_upper_bounds": [2.0],
+//!     "dof_limited": [true], "dof_velocity_limits": [null], "dof_effort_limits": [87.0]
+//! }"#;
+//! let module: BoundsModule = serde_json::from_str(text)?; // every key is required, unknown keys are refused
+//! assert_eq!(module.bounds, [[-1.5, 2.0]]);
+//! assert!(ModuleKind::Bounds.depends_on().contains(&ModuleKind::Dof));
+//! # Ok::<(), serde_json::Error>(())
+//! ```
 
 pub mod bounds;
+#[doc(hidden)]
 pub mod bundle;
 pub mod chain;
 pub mod composition;
@@ -13,7 +28,9 @@ pub mod connections;
 pub mod convex_decomposition_meshes;
 pub mod convex_hull_meshes;
 pub mod dof;
+#[doc(hidden)]
 pub mod escape;
+#[doc(hidden)]
 pub mod hexadecimal;
 pub mod index;
 pub mod kinematics_samples;
@@ -24,19 +41,23 @@ pub mod link_shapes_max_distance_from_origin;
 pub mod link_shapes_simple_skips;
 pub mod link_shapes_skips;
 pub mod meshes;
+#[doc(hidden)]
 pub mod nearest;
 pub mod object;
 pub mod original_meshes;
 pub mod plain_meshes;
 pub mod pose;
 pub mod rate;
+#[doc(hidden)]
 pub mod readable;
 pub mod registry;
 pub mod report;
 pub mod root_metadata;
 pub mod schema;
 pub mod self_collision_model;
+pub mod shape_kind;
 pub mod shapes;
+#[doc(hidden)]
 pub mod skips;
 pub mod tagged;
 pub mod urdf;

@@ -45,6 +45,11 @@ macro_rules! kinds {
                 match self { $(ModuleKind::$kind => $name,)* }
             }
 
+            /// Its name as `--modules` accepts it: without `_module`.
+            pub fn short_name(self) -> &'static str {
+                self.name().strip_suffix("_module").unwrap_or(self.name())
+            }
+
             /// Folder of the module, relative to the URDD's root.
             pub fn folder(self) -> &'static str {
                 match self { $(ModuleKind::$kind => concat!($folder, $name),)* }

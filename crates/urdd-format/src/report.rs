@@ -86,6 +86,7 @@ string_enum! {
 
 object! {
     /// How large a robot is; null where no module says it.
+    #[derive(Default)]
     pub struct Size {
         /// Number of links.
         pub links: Option<Count>,
@@ -288,6 +289,7 @@ object! {
 
 object! {
     /// A place of a finding.
+    #[derive(Default)]
     pub struct Place {
         /// The file.
         pub file: Option<String>,

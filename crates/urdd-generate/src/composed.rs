@@ -3,8 +3,7 @@
 use std::collections::HashSet;
 use std::path::PathBuf;
 
-use super::edits::Decisions;
-use super::old::Old;
+use super::donor::edits::Decisions;
 use urdd_format::composition::CompositionModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 
@@ -24,9 +23,10 @@ pub struct Composed {
 }
 
 impl Composed {
-    /// The user's decisions about skips: those of the parts, then those of the URDD that is replaced.
-    pub(super) fn decisions(&self, old: Option<&Old>, mut there: Decisions) -> Decisions {
-        if let (None, Some(reasons)) = (old, &self.skipped_reasons) {
+    /// The user's decisions about skips: those of the parts, then `there`, those of the URDD that is replaced; without one
+    /// `is_new` is true.
+    pub(super) fn decisions(&self, is_new: bool, mut there: Decisions) -> Decisions {
+        if let (true, Some(reasons)) = (is_new, &self.skipped_reasons) {
             there.skipped_reasons.clone_from(reasons);
         }
         let words = |edit: &SkipEdit| {

@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 
 use sha2::{Digest, Sha256 as Hash};
 
+use super::context::Context;
 use super::error::GenerateError;
-use super::geometry_stages::unmeasurable;
-use super::made::{Made, document};
-use super::meshes::written::LinkPieces;
-use super::work::Work;
+use super::made::{Digests, Made, made};
+use super::meshes::written::WrittenMesh;
+use super::note::NoteKind;
 use crate::train::{self, MOST_PAIRS, NoModel, Subject, Useless};
 use urdd_directory::writer::sha256;
 use urdd_format::chain::ChainModule;
@@ -28,62 +28,63 @@ use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
 const CLIP: f64 = 1.0 / 16.0;
 
 /// Version of the training; changed whenever the trained model changes.
-const TRAINING: &str = "2";
+pub(super) const TRAINING: &str = "2";
 
-pub(super) fn settings(work: &Work) -> String {
-    format!("{TRAINING} {:?}", work.settings.model_effort)
-}
-
-/// Trains the model. Returns `None`, with a note, if a model would be of no use.
-pub(super) fn self_collision_model(work: &mut Work) -> Result<Option<Made>, GenerateError> {
-    let pieces = work.artifacts.pieces()?;
-    let skips = work.artifacts.skips()?;
-    let statistics = work.artifacts.statistics()?;
-    let unusable = |work: &Work, error: &dyn std::fmt::Display| {
-        let reason = error.to_string();
-        unmeasurable(work, reason)
-    };
-    let (dof, chain, bounds) = (&work.dof, &work.chain, &work.bounds);
-    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|e| unusable(work, &e))?;
-    let kinematics = ForwardKinematics::new(chain, dof).map_err(|e| unusable(work, &e))?;
-    let pairs = pairs(&pieces, &skips).map_err(|e| unusable(work, &e))?;
-    let trained_on = trained_on(work, &skips);
-    let made = match pairs.bodies().len() > MOST_PAIRS {
+/// Trains the model. Without a document, but with a note, if a model would be of no use.
+pub(super) fn self_collision_model(
+    context: &Context,
+    pieces: &[Vec<WrittenMesh>],
+    skips: &LinkShapesSkipsModule,
+    statistics: &LinkShapesDistanceStatisticsModule,
+    digests: &Digests,
+) -> Result<Made, GenerateError> {
+    let unusable = |error: &dyn std::fmt::Display| context.unmeasurable(error.to_string());
+    let (dof, chain, bounds) = context.kinematics();
+    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|e| unusable(&e))?;
+    let kinematics = ForwardKinematics::new(chain, dof).map_err(|e| unusable(&e))?;
+    let pairs = pairs(pieces, skips).map_err(|e| unusable(&e))?;
+    let trained_on = trained_on(context, skips, digests);
+    let model = match pairs.bodies().len() > MOST_PAIRS {
         true => Err(Useless::ManyPairs { most: MOST_PAIRS }),
-        false => inputs(work, &pairs),
+        false => inputs(context, &pairs),
     };
-    let made = made.map_err(NoModel::OfNoUse);
-    let made = made.and_then(|inputs| {
+    let model = model.map_err(NoModel::OfNoUse);
+    let model = model.and_then(|inputs| {
         let subject = Subject {
             kinematics: &kinematics,
             space: &space,
             inputs,
             pairs: &pairs,
-            clip_distance: clip_distance(&statistics),
+            clip_distance: clip_distance(statistics),
             trained_on,
-            effort: work.settings.model_effort,
+            effort: context.settings.model_effort,
         };
         let progress = |done: usize, total: usize| {
-            work.progress
-                .part(ModuleKind::SelfCollisionModel, done, total);
+            let kind = ModuleKind::SelfCollisionModel;
+            context.progress.part(kind, done, total);
         };
-        train::train(subject, &work.settings.cancellation, &progress)
+        train::train(subject, &context.settings.cancellation, &progress)
     });
-    match made {
-        Ok(module) => Ok(Some(document(&module)?)),
+    match model {
+        Ok(module) => made(&module),
         Err(NoModel::OfNoUse(useless)) => {
             let problem = format!("a self-collision model is of no use: {useless}");
-            work.of_no_use(problem, "self_collision_model_module is left out");
-            Ok(None)
+            let assumed = "self_collision_model_module is left out";
+            Ok(Made {
+                document: None,
+                files: Vec::new(),
+                notes: vec![context.note(NoteKind::OfNoUse, problem, assumed)],
+                product: (),
+            })
         }
         Err(NoModel::Cancelled(cancelled)) => Err(cancelled.into()),
-        Err(NoModel::Configuration(error)) => Err(unusable(work, &error)),
+        Err(NoModel::Configuration(error)) => Err(unusable(&error)),
     }
 }
 
 /// The pairs of links to check: those with two pieces whose pair is not skipped or, without matrices over pieces, those
 /// whose hulls are not skipped.
-fn pairs(pieces: &LinkPieces, skips: &LinkShapesSkipsModule) -> Result<BodyPairs, String> {
+fn pairs(pieces: &[Vec<WrittenMesh>], skips: &LinkShapesSkipsModule) -> Result<BodyPairs, String> {
     // Pieces of an earlier run are read from their files, with vertices in another order. The last digits of distances
     // depend on that order.
     let in_order = |vertices: &[[f64; 3]]| {
@@ -136,7 +137,7 @@ fn clip_distance(statistics: &LinkShapesDistanceStatisticsModule) -> f64 {
 }
 
 /// SHA-256 over the concatenated hashes of all files that the model depends on: SPEC 8.8.7.
-fn trained_on(work: &Work, skips: &LinkShapesSkipsModule) -> Sha256 {
+fn trained_on(context: &Context, skips: &LinkShapesSkipsModule, digests: &Digests) -> Sha256 {
     let kinds = [
         ModuleKind::Dof,
         ModuleKind::Chain,
@@ -147,25 +148,25 @@ fn trained_on(work: &Work, skips: &LinkShapesSkipsModule) -> Sha256 {
     let kind = ModuleKind::ConvexDecompositionMeshes;
     let pieces = skips.decomposition_shapes.iter().map(|piece| {
         let (link, piece) = (piece.link_idx.get(), piece.piece_idx.get());
-        work.mesh_files(kind, link, Some(piece)).glb
+        context.mesh_files(kind, link, Some(piece)).glb
     });
     let mut text = String::new();
     for path in documents.into_iter().chain(pieces) {
         // Each of these files was written or kept by an earlier stage.
-        text += work.digests.get(&path).map_or("", String::as_str);
+        text += digests.get(&path).map_or("", String::as_str);
         text.push('\n');
     }
     sha256(&Hash::digest(text))
 }
 
 /// The network's inputs: the DOFs that move the links of a pair relative to each other.
-fn inputs(work: &Work, pairs: &BodyPairs) -> Result<Vec<ModelInput>, Useless> {
+fn inputs(context: &Context, pairs: &BodyPairs) -> Result<Vec<ModelInput>, Useless> {
     let dofs: BTreeSet<usize> = pairs
         .bodies()
-        .flat_map(|links| between(&work.chain, links))
+        .flat_map(|links| between(&context.chain, links))
         .flat_map(|joint| {
-            let own = work.dof.joint_idx_to_dof_idxs_mapping[joint].iter();
-            let mimic = work.dof.joint_idx_to_mimic_mapping[joint].as_ref();
+            let own = context.dof.joint_idx_to_dof_idxs_mapping[joint].iter();
+            let mimic = context.dof.joint_idx_to_mimic_mapping[joint].as_ref();
             let followed = mimic.and_then(|mimic| mimic.dof_idx.as_ref());
             own.chain(followed).map(|dof| dof.get())
         })
@@ -173,10 +174,10 @@ fn inputs(work: &Work, pairs: &BodyPairs) -> Result<Vec<ModelInput>, Useless> {
     let mut inputs = Vec::new();
     let mut turned: BTreeSet<usize> = BTreeSet::new();
     for dof in dofs {
-        let of = &work.dof.dofs[dof];
+        let of = &context.dof.dofs[dof];
         let joint = of.joint_idx.get();
-        let joint_type = work.chain.joints_in_chain[joint].joint_type;
-        let dofs = &work.dof.joint_idx_to_dof_idxs_mapping[joint];
+        let joint_type = context.chain.joints_in_chain[joint].joint_type;
+        let dofs = &context.dof.joint_idx_to_dof_idxs_mapping[joint];
         let index = |dof: usize| DofIdx(u32::try_from(dof).unwrap_or(u32::MAX));
         match (of.quantity, joint_type) {
             (Quantity::Length, JointType::Floating | JointType::Planar) => {
@@ -184,7 +185,7 @@ fn inputs(work: &Work, pairs: &BodyPairs) -> Result<Vec<ModelInput>, Useless> {
                 return Err(Useless::NoLimits { dof });
             }
             (Quantity::Length, _) => {
-                let [lower, upper] = work.bounds.bounds[dof];
+                let [lower, upper] = context.bounds.bounds[dof];
                 let half_range = train::rounded(0.5 * (upper - lower).abs());
                 inputs.push(ModelInput::Length(LengthInput {
                     dof_idx: index(dof),

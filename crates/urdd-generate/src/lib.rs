@@ -2,56 +2,73 @@
 //!
 //! [`generate`] builds one URDD, [`batch`] many. The generator and the validator are each written from SPEC.md and
 //! import nothing from each other.
+//!
+//! ```
+//! use urdd_generate::{Settings, generate};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let target = folder.path().join("gripper");
+//! let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/../../conformance/robots/gripper.urdf");
+//! let made = generate(urdf.as_ref(), &target, &Settings::default(), &())?;
+//! println!("{}: {} links, {} DOFs", made.robot_name, made.num_links, made.num_dofs);
+//! for note in &made.notes {
+//!     println!("{note}"); // what is odd about the URDF, and how it was read
+//! }
+//! assert!(target.join("urdd.json").is_file());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
-mod artifacts;
 pub mod batch;
 mod bounded;
 mod bounds;
-mod carry_over;
 mod chain;
 pub mod combine;
 mod composed;
 mod connections;
+mod context;
 mod distinct;
 mod dof;
-mod edits;
+mod donor;
 mod error;
 pub mod fault;
-mod geometry_stages;
+mod inputs;
 mod kinematics_samples;
 mod learned;
 mod made;
+mod mesh_stages;
 mod meshes;
 mod metadata;
+mod modules;
 pub mod note;
-mod old;
 mod pose;
+#[doc(hidden)]
 pub mod process;
+mod product;
 mod progress;
-mod reuse;
 mod robot;
 mod selection;
 mod settings;
 mod shape_documents;
+mod shape_stages;
 mod shapes;
 mod size;
 mod source;
 mod stages;
-mod taken;
 pub mod train;
 mod urdf;
-mod work;
 
 pub use bounded::MAX_SOURCE_BYTES;
-pub use composed::Composed;
-pub use connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS};
+pub(crate) use composed::Composed;
 pub use error::{EditsFault, GenerateError, OutsideMesh};
-pub use kinematics_samples::NUM_SAMPLED;
 pub use meshes::{MeshCount, PackagePathError, Packages};
-pub use pose::{has_quaternions, of as origin_pose};
+pub use modules::MadeModule;
+pub(crate) use pose::{has_quaternions, of as origin_pose};
 pub use progress::Progress;
-pub use robot::{Generated, MadeModule, generate, generate_composed, generate_text};
+pub(crate) use robot::generate_composed;
+pub use robot::{Generated, generate, generate_text};
 pub use selection::{Selection, UnknownModule};
 pub use settings::{MeshFormats, Pieces, Settings};
-pub use size::{MOST_ELEMENTS, MOST_LINKS};
-pub use source::{SourceRobot, XacroSettings, read_urdf};
+pub(crate) use size::MOST_LINKS;
+pub use source::XacroSettings;
+#[doc(hidden)]
+pub use source::read_urdf;

@@ -1,46 +1,64 @@
-//! A module that was built: its document and its files.
+//! What a stage returns.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use serde::Serialize;
 
 use super::error::GenerateError;
+use super::note::Note;
 use urdd_directory::document::Document;
 
-/// A module that was built.
-pub(super) struct Made {
-    pub document: Document,
+/// The SHA-256 of each file that was written or kept, by its path.
+pub(super) type Digests = HashMap<String, String>;
+
+/// What a stage returns.
+pub(super) struct Made<T = ()> {
+    /// The module; `None` if it is of no use for this robot.
+    pub document: Option<Document>,
     /// The files that the document references.
     pub files: Vec<MadeFile>,
+    pub notes: Vec<Note>,
+    /// What later stages use.
+    pub product: T,
 }
 
 /// A file of a module.
 pub(super) struct MadeFile {
     /// Path relative to the URDD's root.
     pub path: String,
-    pub content: Content,
-}
-
-/// The content of a file.
-pub(super) enum Content {
-    Bytes(Vec<u8>),
-    /// A mesh file, whose bytes a mesh reader shares.
-    Shared(Arc<Vec<u8>>),
-}
-
-/// A module without additional files.
-pub(super) fn document(module: &impl Serialize) -> Result<Made, GenerateError> {
-    streamed(serde_json::to_value(module).map(Document::Whole))
+    /// Its content, which a mesh reader or another link may share.
+    pub bytes: Arc<Vec<u8>>,
 }
 
 /// A module without additional files, from its document.
-pub(super) fn streamed(
+pub(super) fn streamed<T>(
     document: Result<Document, serde_json::Error>,
-) -> Result<Made, GenerateError> {
+    product: T,
+) -> Result<Made<T>, GenerateError> {
     let document = document.map_err(|error| GenerateError::Internal {
         file: String::new(),
         reason: error.to_string(),
     })?;
-    let files = Vec::new();
-    Ok(Made { document, files })
+    Ok(Made {
+        document: Some(document),
+        files: Vec::new(),
+        notes: Vec::new(),
+        product,
+    })
+}
+
+/// A module without additional files or product.
+pub(super) fn made(module: &impl Serialize) -> Result<Made, GenerateError> {
+    made_with(module, Vec::new(), ())
+}
+
+/// A module with its files and product.
+pub(super) fn made_with<T>(
+    module: &impl Serialize,
+    files: Vec<MadeFile>,
+    product: T,
+) -> Result<Made<T>, GenerateError> {
+    let made = streamed(serde_json::to_value(module).map(Document::Whole), product)?;
+    Ok(Made { files, ..made })
 }

@@ -51,7 +51,11 @@ pub(super) fn entry(kind: ModuleKind, mut files: Vec<FileEntry>, inputs: Option<
 
 /// The hash of all inputs of a module: the program version, the module and its settings, and the files of the modules
 /// that it depends on.
-pub(super) fn inputs(kind: ModuleKind, settings: &str, made: &[Entry]) -> String {
+pub(super) fn inputs<'a>(
+    kind: ModuleKind,
+    settings: &str,
+    modules: impl Iterator<Item = &'a ModuleEntry> + Clone,
+) -> String {
     let mut text = format!(
         "{GENERATOR} {}\n{} {MODULE_VERSION}\n{settings}\n",
         env!("CARGO_PKG_VERSION"),
@@ -59,8 +63,8 @@ pub(super) fn inputs(kind: ModuleKind, settings: &str, made: &[Entry]) -> String
     );
     let needed = kind.depends_on().iter().map(|kind| kind.name());
     for name in needed {
-        let files = made.iter().filter(|entry| entry.module.name == name);
-        for file in files.flat_map(|entry| &entry.module.files) {
+        let named = modules.clone().filter(|module| module.name == name);
+        for file in named.flat_map(|module| &module.files) {
             text += &format!("{} {} {}\n", file.path, file.size, file.sha256);
         }
     }

@@ -1,32 +1,28 @@
 //! Generates the URDD of one robot.
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use super::carry_over::{carry_over, extensions};
 use super::composed::Composed;
-use super::edits::{self, Decisions};
+use super::context::Context;
+use super::donor::edits::{self, Decisions};
+use super::donor::{Donor, others};
 use super::error::GenerateError;
-use super::made::{Content, Made};
 use super::meshes::MeshCount;
-use super::metadata::{self, Entry};
+use super::metadata;
+use super::modules::{MadeModule, Modules, check_assumptions};
 use super::note::Note;
-use super::old::Old;
 use super::progress::Progress;
-use super::reuse::Reusable;
 use super::settings::Settings;
-use super::size;
 use super::source::{self, Source};
-use super::stages::{self, Make, Stage};
-use super::work::Work;
+use super::{size, stages};
 use urdd_directory::canonical;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::path::portable;
+use urdd_directory::root::Root;
 use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
-use urdd_format::registry::ModuleKind;
-use urdd_format::root_metadata::{ConformanceClass, FileEntry};
+use urdd_format::root_metadata::{self, ConformanceClass};
 
 /// Sizes and hashes refer to bytes: Git must not convert line endings.
 const GIT_ATTRIBUTES: &str = "# The hashes in urdd.json are of these very bytes.\n* -text\n";
@@ -53,15 +49,6 @@ pub struct Generated {
     pub meshes: MeshCount,
     /// Deviations in the source, and how they were interpreted.
     pub notes: Vec<Note>,
-}
-
-/// A module of a generated URDD.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct MadeModule {
-    /// Which module.
-    pub kind: ModuleKind,
-    /// Whether it was kept from the old URDD because none of its inputs changed.
-    pub kept: bool,
 }
 
 /// Generates the URDD of the URDF (or xacro file) `source` in the folder `target`. The folder is replaced atomically;
@@ -132,47 +119,33 @@ fn make(
     check_assumptions(&source.notes, settings)?;
     // From here on, no other run changes the target.
     let staging = Staging::begin(target, &settings.cancellation)?;
-    let old = Old::read(target);
-    let edits = match settings.drop_edits {
+    let replaced = Root::open_folder(target).ok().and_then(Donor::open);
+    let replaced = replaced.as_ref();
+    let decisions = match settings.drop_edits {
         true => Decisions::default(),
-        false => edits::read(target, &settings.selection, old.as_ref())?,
+        false => edits::read(target, &settings.selection, replaced)?,
     };
-    let edits = match composed {
-        Some(composed) => composed.decisions(old.as_ref(), edits),
-        None => edits,
+    let decisions = match composed {
+        Some(composed) => composed.decisions(replaced.is_none(), decisions),
+        None => decisions,
     };
-    check_target(target, old.as_ref(), settings)?;
-    let writer = Writer::new(staging.content());
+    check_target(target, replaced, settings)?;
 
-    let mut work = Work::new(source, settings, staging.content(), edits)?;
-    work.reusable = Reusable::of(&settings.reuse, &stages::settings_texts(&work));
-    work.progress = progress;
-    work.composition = composed.map(|composed| &composed.composition);
-    let of_parts = composed.map(|_| ModuleKind::Composition);
-    let kinds: BTreeSet<ModuleKind> = settings.selection.kinds().chain(of_parts).collect();
-    let stages: Vec<&Stage> = kinds.into_iter().filter_map(stages::of).collect();
-    let (mut entries, mut modules) = (Vec::new(), Vec::new());
-    for (done, stage) in stages.iter().enumerate() {
-        settings.cancellation.check()?;
-        progress.module(stage.kind, done, stages.len());
-        let made = run(stage, &mut work, &writer, old.as_ref(), &entries)?;
-        check_assumptions(&work.notes, settings)?;
-        let Some((entry, kept)) = made else {
-            continue;
-        };
-        let files = entry.module.files.iter();
-        work.digests
-            .extend(files.map(|file| (file.path.clone(), file.sha256.as_str().to_owned())));
-        entries.push(entry);
-        modules.push(MadeModule {
-            kind: stage.kind,
-            kept,
-        });
-    }
-    let num_dofs = work.dof.dofs.len();
-    let meshes = work.original.as_ref().map(|original| original.count);
-    let mut notes = source.notes.clone();
-    notes.append(&mut work.notes);
+    let composition = composed.map(|composed| &composed.composition);
+    let context = Context::new(source, settings, composition, decisions, progress)?;
+    let writer = Writer::new(staging.content());
+    let root = Root::open_folder(staging.content()).map_err(|error| GenerateError::Internal {
+        file: staging.content().display().to_string(),
+        reason: error.to_string(),
+    })?;
+    let mut modules = Modules::new(&context, replaced, &writer, root);
+    let meshes = stages::run(&context, &mut modules)?;
+    let Modules {
+        entries,
+        made,
+        notes,
+        ..
+    } = modules;
 
     let carried = writer.file(&source.file_name, &source.carried)?;
     let found_name = format!("{}.as-found", source.file_name);
@@ -181,7 +154,7 @@ fn make(
         .as_deref()
         .map(|bytes| writer.file(&found_name, bytes));
     if target.is_dir() {
-        carry_over(target, old.as_ref(), staging.content())?;
+        others::carry_over(target, replaced, staging.content())?;
     }
     if !staging.content().join(GIT_ATTRIBUTES_FILE).exists() {
         writer.file(GIT_ATTRIBUTES_FILE, GIT_ATTRIBUTES.as_bytes())?;
@@ -193,13 +166,11 @@ fn make(
         carried,
         found.transpose()?,
         entries,
-        extensions(old.as_ref(), staging.content()),
+        others::extensions(replaced, staging.content()),
     )?;
     let text = canonical::json_string(&document);
     writer.file(ROOT_METADATA, text.as_bytes())?;
-    let changed = !old
-        .as_ref()
-        .is_some_and(|old| is_same(old, &text, &modules));
+    let changed = !replaced.is_some_and(|replaced| is_same(replaced, target, &text, &made));
     settings.cancellation.check()?;
     if changed {
         staging.commit()?;
@@ -208,23 +179,13 @@ fn make(
         robot_name: robot.name.clone(),
         num_links: robot.links.len(),
         num_joints: robot.joints.len(),
-        num_dofs,
+        num_dofs: context.dof.dofs.len(),
         class,
-        modules,
+        modules: made,
         changed,
-        meshes: meshes.unwrap_or_default(),
-        notes,
+        meshes,
+        notes: [source.notes.clone(), notes].concat(),
     })
-}
-
-/// Returns an error if something was assumed and the settings are strict.
-fn check_assumptions(notes: &[Note], settings: &Settings) -> Result<(), GenerateError> {
-    let notes = notes.iter().filter(|note| note.kind.changes_robot());
-    let notes: Vec<Note> = notes.filter(|_| settings.strict).cloned().collect();
-    match notes.is_empty() {
-        true => Ok(()),
-        false => Err(GenerateError::Strict { notes }),
-    }
 }
 
 /// Checks that the source is outside the target.
@@ -245,14 +206,14 @@ fn check_place(path: Option<&Path>, source: &Source, target: &Path) -> Result<()
 /// Checks that the content of the target may be replaced.
 fn check_target(
     target: &Path,
-    old: Option<&Old>,
+    replaced: Option<&Donor>,
     settings: &Settings,
 ) -> Result<(), GenerateError> {
     let Ok(canonical) = target.canonicalize() else {
         return Ok(());
     };
     let is_empty = fs::read_dir(&canonical).is_ok_and(|mut entries| entries.next().is_none());
-    let is_free = is_empty || old.is_some_and(Old::is_ours) || !canonical.is_dir();
+    let is_free = is_empty || replaced.is_some_and(Donor::is_ours) || !canonical.is_dir();
     if !is_free && !settings.force {
         let path = target.to_owned();
         return Err(StagingError::Occupied { path }.into());
@@ -260,60 +221,21 @@ fn check_target(
     Ok(())
 }
 
-/// Builds a module or keeps the old one; `None` if it is of no use. The flag is true for a kept module.
-fn run(
-    stage: &Stage,
-    work: &mut Work,
-    writer: &Writer,
-    old: Option<&Old>,
-    entries: &[Entry],
-) -> Result<Option<(Entry, bool)>, GenerateError> {
-    let kind = stage.kind;
-    let inputs = stage
-        .reuse
-        .inputs(work)
-        .map(|text| metadata::inputs(kind, &text, entries));
-    if let (Some(old), Some(inputs)) = (old, &inputs)
-        && let Some(files) = old.kept(kind, metadata::MODULE_VERSION, inputs)
-    {
-        for file in files {
-            writer.keep(&old.folder.join(&file.path), &file.path)?;
-        }
-        let entry = metadata::entry(kind, files.to_vec(), Some(inputs.clone()));
-        return Ok(Some((entry, true)));
-    }
-    let made = match stage.make {
-        Make::Always(make) => Some(make(work)?),
-        Make::WhereOfUse(make) => make(work)?,
-    };
-    let Some(Made { document, files }) = made else {
-        return Ok(None);
-    };
-    let mut written: Vec<FileEntry> = writer.module(kind, metadata::MODULE_VERSION, &document)?;
-    for file in files {
-        written.push(match file.content {
-            Content::Bytes(bytes) => writer.file(&file.path, &bytes)?,
-            Content::Shared(bytes) => writer.file(&file.path, &bytes)?,
-        });
-    }
-    Ok(Some((metadata::entry(kind, written, inputs), false)))
-}
-
-/// Whether the old URDD is identical to the byte: its metadata, and each file by its hash. The files of kept modules
+/// Whether the replaced URDD is identical to the byte: its metadata, and each file by its hash. The files of kept modules
 /// were checked before.
-fn is_same(old: &Old, text: &str, made: &[MadeModule]) -> bool {
-    let path = old.folder.join(ROOT_METADATA);
+fn is_same(replaced: &Donor, target: &Path, text: &str, made: &[MadeModule]) -> bool {
+    let path = target.join(ROOT_METADATA);
     if fs::read(path).ok().as_deref() != Some(text.as_bytes()) {
         return false;
     }
-    let source = match &old.metadata.source {
-        Some(urdd_format::root_metadata::Source::Urdf(file)) => Some(file),
+    let source = match &replaced.metadata.source {
+        Some(root_metadata::Source::Urdf(file)) => Some(file),
         _ => None,
     };
     let is_kept = |name: &str| made.iter().any(|of| of.kept && of.kind.name() == name);
-    let modules = old.metadata.modules.iter();
+    let modules = replaced.metadata.modules.iter();
     let files = modules
         .filter(|module| !is_kept(&module.name))
         .flat_map(|module| &module.files);
-    files.chain(source).all(|file| old.is_intact(file))
+    files.chain(source).all(|file| replaced.is_intact(file))
 }

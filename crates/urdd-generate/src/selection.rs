@@ -16,7 +16,7 @@ pub struct UnknownModule {
 }
 
 fn known() -> String {
-    let names = kinds().into_iter().map(short);
+    let names = kinds().into_iter().map(ModuleKind::short_name);
     let classes = ["core", "geometry", "shapes", "all"];
     names.chain(classes).collect::<Vec<_>>().join(", ")
 }
@@ -29,11 +29,6 @@ fn kinds() -> Vec<ModuleKind> {
     kinds
         .filter(|kind| *kind != ModuleKind::Composition)
         .collect()
-}
-
-/// A module's name without `_module`.
-fn short(kind: ModuleKind) -> &'static str {
-    kind.name().strip_suffix("_module").unwrap_or(kind.name())
 }
 
 /// The modules to generate: the selected ones, their dependencies, and the core class, which every URDD needs.
@@ -69,7 +64,7 @@ impl Selection {
             let named = kinds
                 .iter()
                 .copied()
-                .find(|kind| word == kind.name() || word == short(*kind));
+                .find(|kind| word == kind.name() || word == kind.short_name());
             match (word, named) {
                 (_, Some(kind)) => asked.push(kind),
                 ("core", _) => asked.extend(up_to(ConformanceClass::Core)),

@@ -39,11 +39,11 @@ pub struct Settings {
     pub drop_edits: bool,
     /// Whether to write into a folder that has other content.
     pub force: bool,
-    /// URDDs of this program from which the meshes, hulls, pieces, boxes and spheres of links are reused. A link's
-    /// results are reused if its geometry is identical to the byte and the settings are the same. The result is the
-    /// same as without reuse, except for the last digits of distances, and takes less time. These URDDs are trusted:
-    /// pass only URDDs that a validator accepts.
-    pub reuse: Vec<Root>,
+    /// URDDs of this program from which the meshes, hulls, pieces, boxes and spheres of links are taken, if the link's
+    /// geometry is identical to the byte and the settings are the same. The result is the same as without donors,
+    /// except for the last digits of distances, and takes less time. Donors are trusted: pass only URDDs that a
+    /// validator accepts.
+    pub donors: Vec<Root>,
     /// The effort for training a self-collision model.
     pub model_effort: Effort,
     /// Cancellation, checked before each module and mesh. A cancelled run returns [`GenerateError::Cancelled`] and
@@ -109,7 +109,7 @@ impl Default for Settings {
             strict: false,
             drop_edits: false,
             force: false,
-            reuse: Vec::new(),
+            donors: Vec::new(),
             model_effort: Effort::default(),
             cancellation: Cancellation::default(),
         }

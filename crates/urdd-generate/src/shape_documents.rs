@@ -12,22 +12,10 @@ use urdd_format::link_shapes_distance_statistics::{
 };
 use urdd_format::link_shapes_simple_skips::LinkShapesSimpleSkipsModule as SimpleSkipsModule;
 use urdd_format::link_shapes_skips::LinkShapesSkipsModule as SkipsModule;
+use urdd_format::shape_kind::{OfKinds, ShapeKind};
 
 /// `link_shapes_distance_statistics_module`.
 pub(super) fn statistics(module: &Arc<StatisticsModule>) -> Result<Document, serde_json::Error> {
-    type OfKind = fn(&StatisticsModule) -> Option<&DistanceStatistics>;
-    let kinds: [(&str, OfKind); 6] = [
-        ("full_convex_hulls", |m| Some(&m.full_convex_hulls)),
-        ("full_obbs", |m| Some(&m.full_obbs)),
-        ("full_bounding_spheres", |m| Some(&m.full_bounding_spheres)),
-        ("decomposition_convex_hulls", |m| {
-            m.decomposition_convex_hulls.as_ref()
-        }),
-        ("decomposition_obbs", |m| m.decomposition_obbs.as_ref()),
-        ("decomposition_bounding_spheres", |m| {
-            m.decomposition_bounding_spheres.as_ref()
-        }),
-    ];
     type Matrix = fn(&DistanceStatistics) -> &Vec<Vec<f64>>;
     let matrices: [(&str, Matrix); 3] = [
         ("mean_distances", |one| &one.mean_distances),
@@ -39,125 +27,71 @@ pub(super) fn statistics(module: &Arc<StatisticsModule>) -> Result<Document, ser
         ("full_shapes", value(&module.full_shapes)?),
         ("decomposition_shapes", value(&module.decomposition_shapes)?),
     ];
-    for (name, of_kind) in kinds {
-        let three = matrices.map(|(name, matrix)| {
-            let rows = Rows::of(module, move |m| {
-                of_kind(m).map_or(&[][..], |one| matrix(one))
-            });
-            (name, Member::Rows(rows))
-        });
-        let member = match of_kind(module) {
-            Some(_) => Member::Object(three.into()),
+    for kind in ShapeKind::ALL {
+        let member = match module.of_kind(kind) {
+            Some(_) => Member::Object(
+                matrices
+                    .map(|(name, matrix)| {
+                        let rows = Rows::of(module, move |m| {
+                            m.of_kind(kind).map_or(&[][..], |one| matrix(one))
+                        });
+                        (name, Member::Rows(rows))
+                    })
+                    .into(),
+            ),
             None => Member::Value(Value::Null),
         };
-        members.push((name, member));
+        members.push((kind.key(), member));
     }
     Ok(Document::Object(members))
 }
 
 /// `link_shapes_simple_skips_module`.
 pub(super) fn simple_skips(module: &Arc<SimpleSkipsModule>) -> Result<Document, serde_json::Error> {
-    let m = module;
-    let reasons = vec![
-        (
-            "full_convex_hulls",
-            matrix(m, |m| Some(&m.reasons.full_convex_hulls)),
-        ),
-        ("full_obbs", matrix(m, |m| Some(&m.reasons.full_obbs))),
-        (
-            "full_bounding_spheres",
-            matrix(m, |m| Some(&m.reasons.full_bounding_spheres)),
-        ),
-        (
-            "decomposition_convex_hulls",
-            matrix(m, |m| m.reasons.decomposition_convex_hulls.as_ref()),
-        ),
-        (
-            "decomposition_obbs",
-            matrix(m, |m| m.reasons.decomposition_obbs.as_ref()),
-        ),
-        (
-            "decomposition_bounding_spheres",
-            matrix(m, |m| m.reasons.decomposition_bounding_spheres.as_ref()),
-        ),
+    let mut members = vec![
+        ("full_shapes", value(&module.full_shapes)?),
+        ("decomposition_shapes", value(&module.decomposition_shapes)?),
     ];
-    Ok(Document::Object(vec![
-        ("full_shapes", value(&m.full_shapes)?),
-        ("decomposition_shapes", value(&m.decomposition_shapes)?),
-        (
-            "full_convex_hulls_simple_skips",
-            matrix(m, |m| Some(&m.full_convex_hulls_simple_skips)),
-        ),
-        (
-            "full_obbs_simple_skips",
-            matrix(m, |m| Some(&m.full_obbs_simple_skips)),
-        ),
-        (
-            "full_bounding_spheres_simple_skips",
-            matrix(m, |m| Some(&m.full_bounding_spheres_simple_skips)),
-        ),
-        (
-            "decomposition_convex_hulls_simple_skips",
-            matrix(m, |m| m.decomposition_convex_hulls_simple_skips.as_ref()),
-        ),
-        (
-            "decomposition_obbs_simple_skips",
-            matrix(m, |m| m.decomposition_obbs_simple_skips.as_ref()),
-        ),
-        (
-            "decomposition_bounding_spheres_simple_skips",
-            matrix(m, |m| {
-                m.decomposition_bounding_spheres_simple_skips.as_ref()
-            }),
-        ),
-        ("reasons", Member::Object(reasons)),
-    ]))
+    members.extend(matrices(module, |m| m));
+    let reasons = matrices(module, |m| &m.reasons).collect();
+    members.push(("reasons", Member::Object(reasons)));
+    Ok(Document::Object(members))
 }
 
 /// `link_shapes_skips_module`.
 pub(super) fn skips(module: &Arc<SkipsModule>) -> Result<Document, serde_json::Error> {
-    let m = module;
-    Ok(Document::Object(vec![
-        ("skipped_reasons", value(&m.skipped_reasons)?),
-        ("edits", value(&m.edits)?),
-        ("full_shapes", value(&m.full_shapes)?),
-        ("decomposition_shapes", value(&m.decomposition_shapes)?),
-        (
-            "full_convex_hulls_skips",
-            matrix(m, |m| Some(&m.full_convex_hulls_skips)),
-        ),
-        ("full_obbs_skips", matrix(m, |m| Some(&m.full_obbs_skips))),
-        (
-            "full_bounding_spheres_skips",
-            matrix(m, |m| Some(&m.full_bounding_spheres_skips)),
-        ),
-        (
-            "decomposition_convex_hulls_skips",
-            matrix(m, |m| m.decomposition_convex_hulls_skips.as_ref()),
-        ),
-        (
-            "decomposition_obbs_skips",
-            matrix(m, |m| m.decomposition_obbs_skips.as_ref()),
-        ),
-        (
-            "decomposition_bounding_spheres_skips",
-            matrix(m, |m| m.decomposition_bounding_spheres_skips.as_ref()),
-        ),
-    ]))
+    let mut members = vec![
+        ("skipped_reasons", value(&module.skipped_reasons)?),
+        ("edits", value(&module.edits)?),
+        ("full_shapes", value(&module.full_shapes)?),
+        ("decomposition_shapes", value(&module.decomposition_shapes)?),
+    ];
+    members.extend(matrices(module, |m| m));
+    Ok(Document::Object(members))
 }
 
 fn value(of: &impl Serialize) -> Result<Member, serde_json::Error> {
     serde_json::to_value(of).map(Member::Value)
 }
 
-/// A matrix of a module; null if it is missing.
-fn matrix<M: Send + Sync + 'static, T: Serialize + 'static>(
+/// The matrices of a module, one for each kind of shape; null if missing.
+fn matrices<M, S, T>(
     module: &Arc<M>,
-    matrix: fn(&M) -> Option<&Vec<Vec<T>>>,
-) -> Member {
-    let rows =
-        matrix(module).map(|_| Rows::of(module, move |m| matrix(m).map_or(&[][..], Vec::as_slice)));
-    Member::rows_or_null(rows)
+    part: fn(&M) -> &S,
+) -> impl Iterator<Item = (&'static str, Member)>
+where
+    M: Send + Sync + 'static,
+    S: OfKinds<Value = Vec<Vec<T>>> + 'static,
+    T: Serialize + 'static,
+{
+    ShapeKind::ALL.into_iter().map(move |kind| {
+        let rows = part(module).of_kind(kind).map(|_| {
+            Rows::of(module, move |m| {
+                part(m).of_kind(kind).map_or(&[][..], Vec::as_slice)
+            })
+        });
+        (S::KEYS[kind as usize], Member::rows_or_null(rows))
+    })
 }
 
 #[cfg(test)]

@@ -1,174 +1,97 @@
-//! How each module is built from the modules before it.
-//!
-//! A slow stage declares its inputs besides other modules. It is skipped if these inputs, and the files of the modules
-//! that it depends on, are unchanged. Later stages then load its results from the files.
+//! Builds the modules of a URDD. Each stage is a function of what it uses: the robot and the settings ([`Context`]), the
+//! products of earlier stages, and what donors have. It returns its module and its product.
 
 use super::connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS, connections_module};
+use super::context::Context;
+use super::donor::links::DonorLinks;
 use super::error::GenerateError;
-use super::geometry_stages as geometry;
-use super::learned;
-use super::made::{Content, Made, MadeFile, document};
-use super::meshes::original::original_meshes;
-use super::reuse::SettingsTexts;
-use super::work::Work;
+use super::made::{Made, made, streamed};
+use super::meshes::MeshCount;
+use super::modules::Modules;
+use super::note::NoteKind;
+use super::shapes::ConvexMeshes;
+use super::{inputs, learned, mesh_stages as meshes, product, shape_stages as shapes};
 use urdd_directory::document::{Document, Member, Rows};
-use urdd_format::registry::ModuleKind;
+use urdd_format::registry::ModuleKind as Kind;
 
-/// When a module of the old URDD is kept instead of built again.
-pub(super) enum Reuse {
-    /// Never: it takes no time to build.
-    Never,
-    /// If the modules that it depends on and the version of the stage are the same. The text changes whenever the stage
-    /// builds something else from the same inputs.
-    SameInputs(&'static str),
-    /// As `SameInputs`, but compares the text that this function returns for the settings.
-    SameSettings(fn(&Work) -> String),
-}
+/// Runs every stage, in the order of the specification. Returns how the mesh references were resolved.
+pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount, GenerateError> {
+    let donors = &DonorLinks::of(&context.settings.donors, &|kind| {
+        inputs::text(kind, context)
+    });
 
-impl Reuse {
-    /// The inputs of the module besides other modules; `None` if it is always built.
-    pub fn inputs(&self, work: &Work) -> Option<String> {
-        match self {
-            Reuse::Never => None,
-            Reuse::SameInputs(version) => Some((*version).to_owned()),
-            Reuse::SameSettings(settings) => Some(settings(work)),
-        }
-    }
-}
+    modules.add(Kind::Urdf, |_| made(&context.source.reading.robot))?;
+    modules.add(Kind::Dof, |_| made(&context.dof))?;
+    modules.add(Kind::Chain, |_| made(&context.chain))?;
+    modules.add(Kind::Connections, |_| connections(context))?;
+    modules.add(Kind::Bounds, |_| made(&context.bounds))?;
+    modules.add(Kind::KinematicsSamples, |_| made(&context.samples))?;
+    modules.add(Kind::Composition, |_| made(&context.composition))?;
 
-/// One stage.
-pub(super) struct Stage {
-    pub kind: ModuleKind,
-    /// When the module of the old URDD is kept.
-    pub reuse: Reuse,
-    /// Builds the module.
-    pub make: Make,
-}
+    let original = modules.add(Kind::OriginalMeshes, |_| meshes::original(context))?;
+    let count = original.as_ref().map(|original| original.count);
+    // Moved: the contents of mesh files are dropped with this stage.
+    let plain = modules.product(Kind::PlainMeshes, product::plain, move |digests| {
+        let taken = donors.plain(context, original.as_ref(), digests);
+        meshes::plain(context, original.as_ref(), &taken)
+    })?;
+    let hulls = modules.product(Kind::ConvexHullMeshes, product::hulls, |digests| {
+        let plain = plain.get()?;
+        meshes::hulls(context, plain, donors.hulls(context, plain, digests))
+    })?;
+    let pieces = modules.product(
+        Kind::ConvexDecompositionMeshes,
+        product::pieces,
+        |digests| {
+            let plain = plain.get()?;
+            meshes::pieces(context, plain, donors.pieces(context, plain, digests))
+        },
+    )?;
 
-/// How a module is built.
-#[derive(Clone, Copy)]
-pub(super) enum Make {
-    /// For every robot.
-    Always(fn(&mut Work) -> Result<Made, GenerateError>),
-    /// For robots for which it is useful.
-    WhereOfUse(fn(&mut Work) -> Result<Option<Made>, GenerateError>),
-}
-
-/// Every stage, in the order of the specification.
-const STAGES: &[Stage] = &[
-    Stage {
-        kind: ModuleKind::Urdf,
-        reuse: Reuse::Never,
-        make: Make::Always(|work| document(&work.source.reading.robot)),
-    },
-    Stage {
-        kind: ModuleKind::Dof,
-        reuse: Reuse::Never,
-        make: Make::Always(|work| document(&work.dof)),
-    },
-    Stage {
-        kind: ModuleKind::Chain,
-        reuse: Reuse::Never,
-        make: Make::Always(|work| document(&work.chain)),
-    },
-    Stage {
-        kind: ModuleKind::Connections,
-        // With hundreds of links this is megabytes of text.
-        reuse: Reuse::SameInputs("2"),
-        make: Make::Always(connections),
-    },
-    Stage {
-        kind: ModuleKind::Bounds,
-        reuse: Reuse::Never,
-        make: Make::Always(|work| document(&work.bounds)),
-    },
-    Stage {
-        kind: ModuleKind::KinematicsSamples,
-        reuse: Reuse::Never,
-        make: Make::Always(|work| document(&work.samples)),
-    },
-    Stage {
-        kind: ModuleKind::Composition,
-        reuse: Reuse::Never,
-        make: Make::Always(|work| document(&work.composition)),
-    },
-    Stage {
-        kind: ModuleKind::OriginalMeshes,
-        reuse: Reuse::Never,
-        make: Make::Always(meshes),
-    },
-    Stage {
-        kind: ModuleKind::PlainMeshes,
-        reuse: Reuse::SameSettings(geometry::plain_settings),
-        make: Make::Always(geometry::plain),
-    },
-    Stage {
-        kind: ModuleKind::ConvexHullMeshes,
-        reuse: Reuse::SameSettings(geometry::hulls_settings),
-        make: Make::Always(geometry::hulls),
-    },
-    Stage {
-        kind: ModuleKind::ConvexDecompositionMeshes,
-        reuse: Reuse::SameSettings(geometry::decomposition_settings),
-        make: Make::Always(geometry::pieces),
-    },
-    Stage {
-        kind: ModuleKind::LinkShapesApproximations,
-        reuse: Reuse::SameInputs(""),
-        make: Make::Always(geometry::boxes_and_spheres),
-    },
-    Stage {
-        kind: ModuleKind::LinkShapesMaxDistanceFromOrigin,
-        reuse: Reuse::SameInputs(""),
-        make: Make::Always(geometry::distances_from_origin),
-    },
-    Stage {
-        kind: ModuleKind::LinkShapesDistanceStatistics,
-        reuse: Reuse::SameSettings(geometry::statistics_settings),
-        make: Make::Always(geometry::distance_statistics),
-    },
-    Stage {
-        kind: ModuleKind::LinkShapesSimpleSkips,
-        reuse: Reuse::SameInputs("2"),
-        make: Make::Always(geometry::skips_by_distance),
-    },
-    Stage {
-        kind: ModuleKind::LinkShapesSkips,
-        reuse: Reuse::SameSettings(geometry::skips_settings),
-        make: Make::Always(geometry::edited_skips),
-    },
-    Stage {
-        kind: ModuleKind::SelfCollisionModel,
-        reuse: Reuse::SameSettings(learned::settings),
-        make: Make::WhereOfUse(learned::self_collision_model),
-    },
-];
-
-/// The stage of a module.
-pub(super) fn of(kind: ModuleKind) -> Option<&'static Stage> {
-    STAGES.iter().find(|stage| stage.kind == kind)
-}
-
-/// The inputs of each module besides other modules.
-pub(super) fn settings_texts(work: &Work) -> SettingsTexts {
-    let texts = STAGES
-        .iter()
-        .filter_map(|stage| Some((stage.kind, stage.reuse.inputs(work)?)));
-    texts.collect()
+    let solids = || -> Result<_, GenerateError> {
+        let (hulls, pieces) = (hulls.get()?, pieces.get()?);
+        Ok(ConvexMeshes { hulls, pieces })
+    };
+    let kind = Kind::LinkShapesApproximations;
+    let approximations = modules.product(kind, product::document, |digests| {
+        let solids = solids()?;
+        shapes::boxes_and_spheres(context, solids, donors.shapes(context, &solids, digests))
+    })?;
+    modules.add(Kind::LinkShapesMaxDistanceFromOrigin, |_| {
+        shapes::distances_from_origin(solids()?, approximations.get()?)
+    })?;
+    let kind = Kind::LinkShapesDistanceStatistics;
+    let statistics = modules.product(kind, product::document, |_| {
+        shapes::distance_statistics(context, solids()?, approximations.get()?)
+    })?;
+    let kind = Kind::LinkShapesSimpleSkips;
+    let simple_skips = modules.product(kind, product::document, |_| {
+        let statistics = statistics.get()?;
+        shapes::skips_by_distance(context, solids()?, approximations.get()?, statistics)
+    })?;
+    let skips = modules.product(Kind::LinkShapesSkips, product::document, |_| {
+        shapes::edited_skips(context, simple_skips.get()?)
+    })?;
+    modules.add(Kind::SelfCollisionModel, |digests| {
+        let (pieces, skips) = (pieces.get()?, skips.get()?);
+        learned::self_collision_model(context, pieces, skips, statistics.get()?, digests)
+    })?;
+    Ok(count.unwrap_or_default())
 }
 
 /// With 180 links in a line these tables have 5 million numbers.
-fn connections(work: &mut Work) -> Result<Made, GenerateError> {
-    let module = connections_module(&work.chain);
-    if module.link_to_link_paths.is_none() {
-        let links = work.chain.links_in_chain.len();
-        work.too_large(
+fn connections(context: &Context) -> Result<Made, GenerateError> {
+    let module = connections_module(&context.chain);
+    let too_large = module.link_to_link_paths.is_none().then(|| {
+        let links = context.chain.links_in_chain.len();
+        context.note(
+            NoteKind::TooLarge,
             format!(
                 "the robot has {links} links, and the paths of all pairs grow too large above {MOST_LINKS_WITH_PAIRS} links, or {MOST_LINKS_IN_PAIRS} links in the paths"
             ),
             "connections_module leaves them out; they follow from its root paths and lowest common ancestors",
-        );
-    }
+        )
+    });
     let pairs = module.link_to_link_paths.map(Rows::new);
     let descents = module.link_connection_paths.map(Rows::new);
     let document = Document::Object(vec![
@@ -180,20 +103,9 @@ fn connections(work: &mut Work) -> Result<Made, GenerateError> {
         ("link_to_link_paths", Member::rows_or_null(pairs)),
         ("link_connection_paths", Member::rows_or_null(descents)),
     ]);
-    let files = Vec::new();
-    Ok(Made { document, files })
-}
-
-fn meshes(work: &mut Work) -> Result<Made, GenerateError> {
-    let mut original = original_meshes(work.source, work.settings)?;
-    work.notes.append(&mut original.notes);
-    let files = std::mem::take(&mut original.files).into_iter();
-    let files = files.map(|(path, bytes)| MadeFile {
-        path,
-        content: Content::Shared(bytes),
-    });
-    let files = files.collect();
-    let made = document(&original.module)?;
-    work.original = Some(original);
-    Ok(Made { files, ..made })
+    let made = streamed(Ok(document), ())?;
+    Ok(Made {
+        notes: too_large.into_iter().collect(),
+        ..made
+    })
 }

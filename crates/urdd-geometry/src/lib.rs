@@ -1,3 +1,5 @@
+//! Internal to urdd; no stability promise.
+//!
 //! Mesh input and output, and geometry computed from meshes. This crate does not know the URDD format.
 //!
 //! - [`mesh`] is the triangle mesh that all modules share. [`clean`] rounds, welds and filters it.
@@ -19,6 +21,7 @@ pub mod oriented_box;
 mod polygon;
 pub mod primitives;
 pub mod read;
+pub mod vector;
 pub mod write;
 
 pub use mesh::Mesh;

@@ -15,6 +15,7 @@
 //! nearly the roundest; a sphere of meridians and parallels crowds its vertices at the poles.
 
 use super::mesh::Mesh;
+use super::vector::{dot, norm};
 
 /// Vertices of a circle.
 pub const SEGMENTS: usize = 32;
@@ -214,12 +215,8 @@ const fn index(at: usize) -> u32 {
 }
 
 fn unit(vector: [f64; 3]) -> [f64; 3] {
-    let length = dot(vector, vector).sqrt();
+    let length = norm(vector);
     vector.map(|coordinate| coordinate / length)
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {

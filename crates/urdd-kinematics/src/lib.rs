@@ -1,3 +1,5 @@
+//! Internal to urdd; no stability promise.
+//!
 //! Kinematics from the modules of a URDD alone, without the URDF, as consumers compute it.
 //!
 //! [`ForwardKinematics`] computes the pose of every link from a configuration. [`ConfigurationSpace`] provides the

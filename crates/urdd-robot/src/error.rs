@@ -5,6 +5,7 @@ use thiserror::Error;
 use urdd_directory::cancellation::Cancelled;
 use urdd_directory::root::ReadError;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::UnknownShapeKind;
 use urdd_kinematics::{ConfigurationError, KinematicsError};
 
 /// Errors of queries on a robot.
@@ -23,7 +24,7 @@ pub enum RobotError {
     #[error("the files of the URDD cannot be listed: {0}")]
     List(ReadError),
     /// A required module is missing.
-    #[error("{} is missing: make it with `urdd generate ROBOT.urdf -o DIR --modules {}`", .0.name(), short(*.0))]
+    #[error("{} is missing: make it with `urdd generate ROBOT.urdf -o DIR --modules {}`", .0.name(), .0.short_name())]
     Missing(ModuleKind),
     /// A required module is unusable.
     #[error("{}: {reason}: `urdd validate` says more", .module.name())]
@@ -117,13 +118,18 @@ pub enum RobotError {
     },
 }
 
+impl From<UnknownShapeKind> for RobotError {
+    fn from(UnknownShapeKind(name): UnknownShapeKind) -> Self {
+        RobotError::Unknown {
+            what: "kind of shapes",
+            name,
+            nearest: None,
+        }
+    }
+}
+
 fn nearest_text(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |name| {
         format!("; did you mean `{}`?", name.escape_debug())
     })
-}
-
-/// A module's name as `--modules` accepts it.
-fn short(kind: ModuleKind) -> &'static str {
-    kind.name().strip_suffix("_module").unwrap_or(kind.name())
 }

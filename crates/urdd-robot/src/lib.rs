@@ -46,6 +46,7 @@ mod space;
 mod statistics;
 pub mod world;
 
+#[doc(hidden)]
 pub use batch::fill;
 pub use description::SourceFile;
 pub use error::RobotError;

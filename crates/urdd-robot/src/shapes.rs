@@ -1,96 +1,15 @@
 //! Shapes of links: convex hulls, convex pieces, and their bounding boxes and spheres.
 
-use std::fmt;
-use std::str::FromStr;
-
 use nalgebra::{Isometry3, Translation3};
 
 use super::Robot;
 use super::error::RobotError;
 use super::mesh::Meshes;
-use urdd_document::shapes::{self, KINDS, Volume, approximations};
+use urdd_document::shapes::{Volume, approximations};
 use urdd_format::registry::ModuleKind;
+pub use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::Mesh;
 use urdd_kinematics::rotation::from_rpy;
-
-/// A kind of shapes that approximate links.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ShapeKind {
-    /// The convex hull of each link.
-    Hulls,
-    /// The bounding box of each hull.
-    Boxes,
-    /// The bounding sphere of each hull.
-    Spheres,
-    /// The convex pieces of each link.
-    Pieces,
-    /// The bounding box of each piece.
-    PieceBoxes,
-    /// The bounding sphere of each piece.
-    PieceSpheres,
-}
-
-impl ShapeKind {
-    /// Every kind, in the order of the specification (8.1).
-    pub const ALL: [ShapeKind; 6] = [
-        ShapeKind::Hulls,
-        ShapeKind::Boxes,
-        ShapeKind::Spheres,
-        ShapeKind::Pieces,
-        ShapeKind::PieceBoxes,
-        ShapeKind::PieceSpheres,
-    ];
-
-    /// Its short name, as used on command lines.
-    pub fn name(self) -> &'static str {
-        match self {
-            ShapeKind::Hulls => "hulls",
-            ShapeKind::Boxes => "boxes",
-            ShapeKind::Spheres => "spheres",
-            ShapeKind::Pieces => "pieces",
-            ShapeKind::PieceBoxes => "piece-boxes",
-            ShapeKind::PieceSpheres => "piece-spheres",
-        }
-    }
-
-    /// Whether a link can have several shapes of this kind.
-    pub fn is_of_pieces(self) -> bool {
-        !self.of_document().full
-    }
-
-    /// The corresponding kind in documents.
-    pub(super) fn of_document(self) -> shapes::ShapeKind {
-        KINDS[self as usize]
-    }
-
-    /// The module that has the shapes.
-    pub(super) fn module(self) -> ModuleKind {
-        match self {
-            ShapeKind::Hulls => ModuleKind::ConvexHullMeshes,
-            ShapeKind::Pieces => ModuleKind::ConvexDecompositionMeshes,
-            _ => ModuleKind::LinkShapesApproximations,
-        }
-    }
-}
-
-impl fmt::Display for ShapeKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl FromStr for ShapeKind {
-    type Err = RobotError;
-
-    fn from_str(name: &str) -> Result<Self, RobotError> {
-        let found = Self::ALL.into_iter().find(|kind| kind.name() == name);
-        found.ok_or_else(|| RobotError::Unknown {
-            what: "kind of shapes",
-            name: name.to_owned(),
-            nearest: None,
-        })
-    }
-}
 
 /// A shape in its link's frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -144,9 +63,7 @@ impl Robot {
             .document(ModuleKind::LinkShapesApproximations)
             .and_then(approximations)
             .ok_or(RobotError::Missing(ModuleKind::LinkShapesApproximations))?;
-        let list = lists
-            .into_iter()
-            .find(|list| list.kind == kind.of_document());
+        let list = lists.into_iter().find(|list| list.kind == kind);
         let links = list.map_or_else(Vec::new, |list| list.links);
         let one = |(link, volumes): (usize, Vec<Volume>)| {
             let shapes = volumes.into_iter().enumerate();

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use sha2::{Digest, Sha256};
-
 use super::Robot;
 use super::error::RobotError;
 use super::robot::usable;
@@ -14,7 +12,6 @@ use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_entry;
 use urdd_directory::json;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::skips::skips_module;
@@ -95,12 +92,7 @@ impl Robot {
         let document =
             json::read(&text).map_err(|error| RobotError::Metadata(error.to_string()))?;
         let mut metadata = document.value;
-        for entry in file_entry::of_modules(&mut metadata) {
-            if let Some(bytes) = file_entry::path(entry).and_then(|path| files.get(path)) {
-                let hash = hexadecimal(&Sha256::digest(bytes));
-                file_entry::update(entry, bytes.len() as u64, &hash);
-            }
-        }
+        file_entry::reseal(&mut metadata, |path| files.get(path).map(Vec::as_slice));
         Ok(canonical::json_string(&metadata).into_bytes())
     }
 }

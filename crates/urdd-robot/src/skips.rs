@@ -66,8 +66,7 @@ impl Robot {
         let shapes = shapes(&part, from, &meshes)?;
         let document = part.document(from).ok_or(RobotError::Missing(from))?;
         let six = skips(document).ok_or(RobotError::Missing(from))?;
-        let own = kind.of_document();
-        let places = (0..shapes.count(own)).filter_map(|shape| shapes.place(own, shape));
+        let places = (0..shapes.count(kind)).filter_map(|shape| shapes.place(kind, shape));
         let rows = Rows::new(kind, places.collect(), &shapes.full);
         let module = match document {
             ModuleDocument::LinkShapesSkips(module) => Some(&**module),

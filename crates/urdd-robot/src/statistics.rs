@@ -4,7 +4,6 @@ use super::Robot;
 use super::error::RobotError;
 use super::shapes::ShapeKind;
 use urdd_document::shape_matrices::{Statistics, at, statistics};
-use urdd_document::shapes::KINDS;
 use urdd_format::registry::ModuleKind;
 
 /// Distance statistics of a pair of shapes over the sampled configurations, in metres.
@@ -50,8 +49,7 @@ impl Robot {
         let module = ModuleKind::LinkShapesDistanceStatistics;
         let part = self.part_as_it_is(&[module])?;
         let six = part.document(module).and_then(statistics);
-        let place = KINDS.iter().position(|other| *other == kind.of_document());
-        let one = six.zip(place).and_then(|(six, place)| six[place]);
+        let one = six.and_then(|six| six[kind as usize]);
         Ok(one.map(AllStatistics::of))
     }
 

@@ -1,12 +1,13 @@
-//! A URDF by itself: judged by the rules that need nothing but the source. What makes it a robot
-//! (one tree, names that lead somewhere), and what is odd about it.
+//! Validates a URDF without a URDD, with the rules that need only the source: whether it describes one tree, whether
+//! its names resolve, and what is unusual about it.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use super::context::Context;
 use super::engine::{Check, Outcomes, run_all};
-use super::examined::{Examined, RobotSize};
+use super::examined::Examined;
+use super::report;
 use super::rule::{Judges, Need, Rule};
 use urdd_directory::discover::Found;
 use urdd_directory::root::{Listing, ReadError, Root};
@@ -14,17 +15,19 @@ use urdd_document::carried_urdf::{self, CarriedUrdf};
 use urdd_document::load::Loaded;
 use urdd_document::module::{JsonFile, MetadataFile};
 use urdd_document::urdd::Urdd;
+use urdd_format::index::Count;
 use urdd_format::registry::Profile;
+use urdd_format::report::{self as format, Kind, Size};
 
-/// Whether a path is a URDF, by its name.
+/// Whether a path is a file with the extension of a URDF.
 pub fn is_urdf(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     extension.eq_ignore_ascii_case("urdf") && path.is_file()
 }
 
-/// The URDF at a path, as what is to be examined: found in its folder, by its own name.
+/// The URDF at a path: its folder, and its file name.
 pub(super) fn found(path: &Path) -> Found {
-    // What a link leads to lies in another folder.
+    // The target of a symbolic link can be in another folder.
     let target = match path.is_symlink() {
         true => path.canonicalize().unwrap_or_default(),
         false => path.to_owned(),
@@ -42,7 +45,7 @@ pub(super) fn found(path: &Path) -> Found {
     }
 }
 
-/// Examines a URDF with the rules that are for it.
+/// Examines a URDF with the rules that apply to it.
 pub(super) fn examine(found: &Found, rules: &[&'static Rule]) -> Result<Examined, ReadError> {
     let root = Root::open(&found.path)?;
     let urdf = carried_urdf::read_file(&root, &found.name)?;
@@ -54,21 +57,19 @@ pub(super) fn examine(found: &Found, rules: &[&'static Rule]) -> Result<Examined
     let mut checks: Vec<Check> = run_all(judged, rules.collect(), &mut outcomes);
     checks.sort_by_key(|check| check.rule.code);
     let robot = judged.robot();
-    Ok(Examined {
-        name: found.name.clone(),
-        crashed: None,
-        robot_name: robot.map(|robot| robot.name.clone()),
-        size: RobotSize {
-            links: robot.map(|robot| robot.links.len()),
-            joints: robot.map(|robot| robot.joints.len()),
+    let report = format::Urdd {
+        name: robot.map(|robot| robot.name.clone()),
+        size: Size {
+            links: robot.map(|robot| Count::saturating(robot.links.len())),
+            joints: robot.map(|robot| Count::saturating(robot.joints.len())),
             dofs: None,
         },
-        modules: Vec::new(),
-        checks,
-    })
+        ..report::blank(Kind::Urdf, &found.name)
+    };
+    Ok(Examined { report, checks })
 }
 
-/// Whether a rule needs nothing but the source.
+/// Whether a rule needs only the source.
 fn is_for_urdf(rule: &Rule) -> bool {
     let module = |need: &Need| {
         matches!(
@@ -84,7 +85,7 @@ fn is_for_urdf(rule: &Rule) -> bool {
     }
 }
 
-/// A URDD that holds a URDF and nothing else.
+/// A URDD with a URDF and no modules.
 fn alone(root: Root, urdf: CarriedUrdf) -> Urdd {
     Urdd::new(Arc::new(Loaded {
         root,

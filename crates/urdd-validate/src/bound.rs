@@ -1,33 +1,52 @@
-//! How much of what was found is kept of a run of many URDDs: places beyond a bound are counted, and
-//! not kept. What is kept depends on the URDDs alone, not on the order in which they were examined.
+//! Bounds the memory of a run of many URDDs: places beyond a limit are counted and dropped. The result depends on the
+//! URDDs alone, not on the order of their examination.
 
-use super::examined::Examined;
-use super::finding::Occurrence;
+use super::engine::Check;
+use urdd_format::report::Place;
 
-/// About how many bytes of places are kept of a run, and of each URDD where there are very many.
+/// Approximate memory limit for the places of a run, in bytes, and the lower limit for each URDD.
 const KEPT_OF_RUN: usize = 256 << 20;
 const LEAST_OF_URDD: usize = 256 << 10;
 
-/// How many bytes of places are kept of each URDD of a run.
+/// Memory limit for the places of each URDD of a run, in bytes.
 pub(super) fn of_each(urdds: usize) -> usize {
     (KEPT_OF_RUN / urdds.max(1)).max(LEAST_OF_URDD)
 }
 
-/// Keeps at most so many bytes of places: of each finding the worst ones, of each rule one finding
-/// at least. What is left out stays in the counts.
-pub(super) fn trim(examined: &mut Examined, bytes: usize) {
-    let mut left = bytes;
-    for check in &mut examined.checks {
+/// Approximate memory of a place and of a finding without their texts, in bytes. Constants, so that a report is the
+/// same on every machine.
+const PLACE: usize = 184;
+const FINDING: usize = 256;
+
+/// Approximate memory of a place, in bytes.
+pub(super) fn bytes(place: &Place) -> usize {
+    let texts = [
+        &place.file,
+        &place.pointer,
+        &place.subject,
+        &place.message,
+        &place.expected,
+        &place.actual,
+    ];
+    let texts = texts.into_iter().flatten().map(String::len);
+    PLACE + texts.sum::<usize>()
+}
+
+/// Drops places beyond `most` bytes. Keeps the worst places of each finding and at least one finding of each rule.
+/// Counts include what is dropped.
+pub(super) fn trim(checks: &mut [Check], most: usize) {
+    let mut left = most;
+    for check in checks {
         let mut kept = 0;
         for finding in &mut check.findings {
-            let first = finding.message.len() + size_of_val(finding);
+            let first = finding.message.len() + FINDING;
             if left < first && kept > 0 {
                 break;
             }
             kept += 1;
             left = left.saturating_sub(first);
-            let fits = |other: &&Occurrence| {
-                let bytes = other.bytes();
+            let fits = |other: &&Place| {
+                let bytes = bytes(other);
                 let fits = bytes <= left;
                 left = left.saturating_sub(bytes);
                 fits
@@ -48,43 +67,31 @@ mod tests {
     use super::*;
     use crate::engine::Outcome;
     use crate::finding::Finding;
-    use crate::{RobotSize, rules};
+    use crate::rules;
 
     #[test]
     fn what_is_cut_stays_in_the_counts() {
         let flood = |rule: &&'static crate::rule::Rule| {
             let finding = |k: usize| {
                 let mut finding = Finding::at("a.json", format!("/{k}"), "wrong").count(1001);
-                finding.more = vec![Occurrence::default(); 1000];
+                finding.more = vec![Place::default(); 1000];
                 finding
             };
             let findings = (0..100).map(finding).collect();
-            crate::engine::Check::new(rule, Outcome::Failed, findings)
+            Check::new(rule, Outcome::Failed, findings)
         };
-        let mut examined = Examined {
-            name: "a".to_owned(),
-            crashed: None,
-            robot_name: None,
-            size: RobotSize::default(),
-            modules: Vec::new(),
-            checks: rules::all().iter().take(5).map(flood).collect(),
-        };
+        let mut checks: Vec<Check> = rules::all().iter().take(5).map(flood).collect();
         const BYTES: usize = 1 << 20;
-        trim(&mut examined, BYTES);
-        let all = || examined.checks.iter().flat_map(|check| &check.findings);
+        trim(&mut checks, BYTES);
+        let all = || checks.iter().flat_map(|check| &check.findings);
         assert_eq!(
             all().map(|finding| finding.count).sum::<usize>(),
             5 * 100 * 1001
         );
         let places = all().flat_map(|finding| &finding.more);
-        let bytes: usize = places.map(Occurrence::bytes).sum();
+        let bytes: usize = places.map(super::bytes).sum();
         assert!((BYTES / 2..=BYTES).contains(&bytes), "{bytes}");
-        assert!(
-            examined
-                .checks
-                .iter()
-                .all(|check| !check.findings.is_empty())
-        );
+        assert!(checks.iter().all(|check| !check.findings.is_empty()));
         // However many URDDs there are, each keeps something.
         assert_eq!(of_each(1), KEPT_OF_RUN);
         assert_eq!(of_each(1_000_000), LEAST_OF_URDD);

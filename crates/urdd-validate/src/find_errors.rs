@@ -1,4 +1,4 @@
-//! Whether something is wrong with a URDD, in a few words.
+//! A short list of the errors of a URDD.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -9,11 +9,11 @@ use super::settings::Settings;
 use super::{ValidateError, validate};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 
-/// The rules that find errors in a URDD, and how many findings each has, in words; none where it passes. One that
-/// cannot be examined says why.
+/// The rules that find errors in a URDD, each with its number of findings, as text; empty if there are none. For a URDD
+/// that cannot be examined, the reason.
 ///
 /// # Errors
-/// Where it is asked to stop.
+/// If cancelled.
 pub fn find_errors(path: &Path, cancellation: &Cancellation) -> Result<Vec<String>, Cancelled> {
     let usual = Settings {
         cancellation: cancellation.clone(),
@@ -24,19 +24,20 @@ pub fn find_errors(path: &Path, cancellation: &Cancellation) -> Result<Vec<Strin
         Err(ValidateError::Cancelled(cancelled)) => return Err(cancelled),
         Err(error) => return Ok(vec![error.to_string()]),
     };
-    let mut codes: BTreeMap<Code, usize> = BTreeMap::new();
-    for subject in &run.subjects {
-        let examined = match &subject.result {
-            Ok(examined) => examined,
-            Err(error) => return Ok(vec![error.to_string()]),
-        };
-        let errors = examined.checks.iter();
-        let errors = errors.filter(|check| check.severity == Severity::Error);
-        for check in errors.filter(|check| !check.findings.is_empty()) {
-            *codes.entry(check.rule.code).or_default() += check.findings.len();
+    let mut codes: BTreeMap<Option<Code>, usize> = BTreeMap::new();
+    for urdd in run.report.urdds {
+        if let Some(reason) = urdd.reason {
+            return Ok(vec![reason]);
+        }
+        let errors = urdd.findings.iter();
+        for finding in errors.filter(|finding| finding.severity == Severity::Error) {
+            *codes.entry(Code::parse(&finding.code)).or_default() += 1;
         }
     }
-    let told = codes.iter().map(|(code, count)| match count {
+    let codes = codes
+        .into_iter()
+        .filter_map(|(code, count)| Some((code?, count)));
+    let told = codes.map(|(code, count)| match count {
         1 => format!("{code} (1 finding)"),
         _ => format!("{code} ({count} findings)"),
     });

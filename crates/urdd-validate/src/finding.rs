@@ -2,12 +2,15 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::bound::bytes;
 use super::part::{Part, Why};
 use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
 use urdd_directory::position::Position;
+use urdd_format::index::Count;
+use urdd_format::report::Magnitude;
 
-pub use super::place::{Magnitude, Occurrence, Place};
+pub use urdd_format::report::Place;
 
 /// How many places of a folded finding are kept; the rest is counted.
 pub const KEPT_PLACES: usize = 10_000;
@@ -19,25 +22,19 @@ const KEPT_BYTES: usize = 2 << 20;
 /// Something that a rule found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// Where.
+    /// Where, and what is expected and found there.
     pub place: Place,
     /// What is wrong, and what to do, for a person.
     pub message: String,
-    /// What should be there.
-    pub expected: Option<String>,
-    /// What is there.
-    pub actual: Option<String>,
     /// Where numbers were compared: the tolerance, in the unit of the numbers.
     pub tolerance: Option<f64>,
-    /// Where numbers were compared: by how much they differ.
-    pub magnitude: Option<Magnitude>,
     /// The meshes that are at fault, where it is about meshes of single links. Those of findings that
     /// were folded into this one are not among them.
     pub parts: Vec<Part>,
     /// How many findings this one stands for.
     pub count: usize,
     /// The next few of these, after this one.
-    pub more: Vec<Occurrence>,
+    pub more: Vec<Place>,
 }
 
 impl Finding {
@@ -64,10 +61,7 @@ impl Finding {
         Finding {
             place: Place::default(),
             message: message.into(),
-            expected: None,
-            actual: None,
             tolerance: None,
-            magnitude: None,
             parts: Vec::new(),
             count: 1,
             more: Vec::new(),
@@ -76,19 +70,20 @@ impl Finding {
 
     /// With the line and column of the place.
     pub fn position(mut self, position: Option<Position>) -> Self {
-        self.place.position = position;
+        self.place.line = position.map(|position| Count(position.line));
+        self.place.column = position.map(|position| Count(position.column));
         self
     }
 
     /// With what should be there.
     pub fn expected(mut self, expected: impl ToString) -> Self {
-        self.expected = Some(expected.to_string());
+        self.place.expected = Some(expected.to_string());
         self
     }
 
     /// With what is there.
     pub fn actual(mut self, actual: impl ToString) -> Self {
-        self.actual = Some(actual.to_string());
+        self.place.actual = Some(actual.to_string());
         self
     }
 
@@ -100,9 +95,9 @@ impl Finding {
 
     /// With how much the numbers differ, and their unit: of findings alike, the worst comes first.
     pub fn off_by(mut self, value: f64, unit: &'static str) -> Self {
-        self.magnitude = Some(Magnitude {
-            value: value.abs(),
-            unit,
+        self.place.magnitude = Some(Magnitude {
+            value: Some(value.abs()).filter(|value| value.is_finite()),
+            unit: unit.to_owned(),
         });
         self
     }
@@ -229,14 +224,11 @@ impl Findings {
                 let first = &mut self.findings[first];
                 first.count += finding.count;
                 if first.more.len() + 1 < KEPT_PLACES && self.kept < KEPT_BYTES {
-                    let other = Occurrence {
-                        place: finding.place,
-                        message: (finding.message != first.message).then_some(finding.message),
-                        expected: finding.expected,
-                        actual: finding.actual,
-                        magnitude: finding.magnitude,
-                    };
-                    self.kept += other.bytes();
+                    let mut other = finding.place;
+                    if finding.message != first.message {
+                        other.message = Some(finding.message);
+                    }
+                    self.kept += bytes(&other);
                     first.more.push(other);
                 }
             }
@@ -320,7 +312,7 @@ mod tests {
         let counts: usize = findings.iter().map(|finding| finding.count).sum();
         assert_eq!(counts, 2 * KEPT_FINDINGS + 25 * KEPT_PLACES);
         let more = findings.iter().flat_map(|finding| &finding.more);
-        let bytes: usize = more.map(Occurrence::bytes).sum();
+        let bytes: usize = more.map(bytes).sum();
         assert!((KEPT_BYTES..KEPT_BYTES + 1000).contains(&bytes), "{bytes}");
     }
 
@@ -338,7 +330,7 @@ mod tests {
         assert!(!both.is_empty());
         let both = both.take();
         assert_eq!(both.iter().map(|f| f.count).collect::<Vec<_>>(), [2]);
-        assert_eq!(both[0].actual.as_deref(), Some("8"));
+        assert_eq!(both[0].place.actual.as_deref(), Some("8"));
     }
 
     #[test]

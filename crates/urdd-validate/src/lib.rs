@@ -1,44 +1,68 @@
 //! The validator: checks a URDD from any producer against the specification.
 //!
 //! [`validate`] finds URDDs and runs every rule over each; what comes out is a [`Run`], plain
-//! data. Rules are one file each, in [`rules`].
+//! data. Rules are one file each, in `rules/`.
+//!
+//! ```
+//! use urdd_format::report::Severity;
+//! use urdd_validate::{settings::Settings, validate};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("toy");
+//! # urdd_testkit::fixture::Fixture::toy().write_to(&path);
+//! let run = validate(&[path], &Settings::default())?; // URDDs, and folders with URDDs at any depth
+//! let report = run.report(Severity::Error);
+//! for finding in report.urdds.iter().flat_map(|urdd| &urdd.findings) {
+//!     println!("{}: {}", finding.code, finding.message);
+//! }
+//! assert_eq!(report.urdds[0].findings, []);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
-pub mod bare_urdf;
+mod bare_urdf;
 mod bound;
 pub mod code;
-pub mod context;
-pub mod distances;
+mod context;
+mod distances;
+#[doc(hidden)]
 pub mod engine;
 mod examined;
 mod find_errors;
+#[doc(hidden)]
 pub mod finding;
-pub mod fold;
+mod fold;
+#[doc(hidden)]
 pub mod learned;
 mod locate;
 mod model_verified;
 mod names;
-pub mod needs;
+mod needs;
+#[doc(hidden)]
 pub mod part;
-pub mod place;
 pub mod reference;
 pub mod report;
+#[doc(hidden)]
 pub mod rule;
+#[doc(hidden)]
 pub mod rules;
-pub mod scope;
+mod scope;
 pub mod selection;
 pub mod settings;
+#[doc(hidden)]
 pub mod skip;
+#[doc(hidden)]
 pub mod solids;
-pub mod tolerance;
+mod tolerance;
 mod two_robots;
 mod unverified;
+#[doc(hidden)]
 pub mod urdf_text;
-pub mod views;
+mod views;
 mod worst;
 
-pub use examined::{Examined, ExaminedModule, RobotSize};
+pub use examined::Examined;
 pub use find_errors::find_errors;
-pub use model_verified::{ModelVerdict, verify_model};
+use model_verified::{ModelVerdict, verify_model};
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -48,50 +72,33 @@ use thiserror::Error;
 
 use self::context::Context;
 use self::rule::Rule;
-use self::settings::{Settings, StaleIgnore};
+use self::settings::Settings;
 use urdd_directory::cancellation::Cancelled;
-use urdd_directory::discover::{DiscoverError, Found, discover};
+use urdd_directory::discover::{DiscoverError, discover};
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::Source;
 use urdd_document::urdd::Urdd;
+use urdd_format::index::Count;
+use urdd_format::report::{self as format, Kind, Module, Report, Size, Verdict};
 
-/// What was examined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// A URDD.
-    Urdd,
-    /// A URDF by itself.
-    Urdf,
-}
-
-/// A URDD that was found, and what came of examining it.
-pub struct Subject {
-    /// What it is.
-    pub kind: Kind,
-    /// Where it was found.
-    pub found: Found,
-    /// What was found, or why it could not be examined.
-    pub result: Result<Examined, ReadError>,
-}
-
-/// What came of a run.
+/// The result of a run.
 pub struct Run {
-    /// Every URDD, in the order of the paths given, then by name.
-    pub subjects: Vec<Subject>,
-    /// How many URDDs the settings exclude.
+    /// The report.
+    pub report: Report,
+    /// The folder of each URDD of the report. The report itself has no absolute paths.
+    pub folders: Vec<PathBuf>,
+    /// Number of URDDs that the settings exclude.
     pub excluded: usize,
-    /// Ignores of the settings that matched nothing.
-    pub stale_ignores: Vec<StaleIgnore>,
 }
 
-/// Why nothing came of a run.
+/// Why a run has no result.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ValidateError {
-    /// Under one of the paths there is nothing to examine.
+    /// One of the paths has nothing to examine.
     #[error(transparent)]
     Discover(#[from] DiscoverError),
-    /// It was asked to stop: [`Settings::cancellation`].
+    /// Cancelled through [`Settings::cancellation`].
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
@@ -99,12 +106,12 @@ pub enum ValidateError {
 /// Examines every URDD at or below each of the paths, in parallel, with every rule.
 ///
 /// # Errors
-/// Where under one of the paths there is nothing to examine, and where it is asked to stop.
+/// If one of the paths has nothing to examine, or the run is cancelled.
 pub fn validate<P: AsRef<Path>>(paths: &[P], settings: &Settings) -> Result<Run, ValidateError> {
     validate_with(paths, settings, &rules::all())
 }
 
-/// As [`validate`], with rules of your choice.
+/// As [`validate`], with the given rules.
 ///
 /// # Errors
 /// As [`validate`].
@@ -128,145 +135,109 @@ pub fn validate_with<P: AsRef<Path>>(
         let mut excludes = settings.excludes.iter();
         !excludes.any(|exclude| exclude.matches(&found.name))
     });
-    let excluded = all - found.len();
     let kept = bound::of_each(found.len());
-    let mut subjects: Vec<Subject> = found
-        .into_par_iter()
-        .map(|(kind, found)| {
-            let mut result = caught(&found, || match kind {
-                Kind::Urdd => examine(&found, settings, rules),
-                Kind::Urdf => bare_urdf::examine(&found, rules),
-            });
-            if let Ok(examined) = &mut result {
-                bound::trim(examined, kept);
-            }
-            Subject {
-                kind,
-                found,
-                result,
-            }
-        })
-        .collect();
+    let examined = found.par_iter().map(|(kind, found)| {
+        let mut examined = caught(*kind, &found.name, || match (kind, &found.closed) {
+            (Kind::Urdf, _) => bare_urdf::examine(found, rules),
+            (Kind::Urdd, Some(error)) => Err(error.clone()),
+            (Kind::Urdd, None) => Ok(examine(
+                Urdd::read(&found.path)?,
+                &found.name,
+                settings,
+                rules,
+            )),
+        });
+        bound::trim(&mut examined.checks, kept);
+        examined
+    });
+    let examined = examined.collect();
     settings.cancellation.check()?;
-    let stale_ignores = settings.apply(
-        subjects
-            .iter_mut()
-            .filter_map(|subject| subject.result.as_mut().ok()),
-    );
-    for subject in &mut subjects {
-        if let Ok(examined) = &mut subject.result {
-            settings.selection.apply(&mut examined.checks);
-        }
-    }
     Ok(Run {
-        subjects,
-        excluded,
-        stale_ignores,
+        report: report::fill(examined, settings),
+        excluded: all - found.len(),
+        folders: found.into_iter().map(|(_, found)| found.path).collect(),
     })
 }
 
-/// Examines the URDD whose files a source holds, with every rule. `name` is what it is called in the report. Excludes do
-/// not count.
+/// Examines the URDD of a source with every rule. `name` is its name in the report. Ignores [`Settings::excludes`].
 ///
 /// # Errors
-/// [`ValidateError::Cancelled`] where it is asked to stop.
+/// [`ValidateError::Cancelled`] if the run is cancelled.
 pub fn validate_source(
     source: impl Source + 'static,
     name: &str,
     settings: &Settings,
 ) -> Result<Run, ValidateError> {
-    let found = Found {
-        path: PathBuf::from(name),
-        name: name.to_owned(),
-        closed: None,
-    };
     let root = Root::of(source);
-    let examine = || examine_urdd(Urdd::of(root)?, &found, settings, &rules::all());
-    let mut result = caught(&found, examine);
+    let mut examined = caught(Kind::Urdd, name, || {
+        Ok(examine(Urdd::of(root)?, name, settings, &rules::all()))
+    });
     settings.cancellation.check()?;
-    let mut stale_ignores = Vec::new();
-    if let Ok(examined) = &mut result {
-        bound::trim(examined, bound::of_each(1));
-        stale_ignores = settings.apply(std::iter::once(&mut *examined));
-        settings.selection.apply(&mut examined.checks);
-    }
+    bound::trim(&mut examined.checks, bound::of_each(1));
     Ok(Run {
-        subjects: vec![Subject {
-            kind: Kind::Urdd,
-            found,
-            result,
-        }],
+        report: report::fill(vec![examined], settings),
+        folders: vec![PathBuf::from(name)],
         excluded: 0,
-        stale_ignores,
     })
 }
 
-/// Examines, and where that crashes outside of any rule says so of this URDD: the others have their
-/// reports all the same.
+/// Examines a URDD. Where it cannot be read, or where the program crashes outside of a rule, its report says so; the
+/// other URDDs have their reports regardless.
 fn caught(
-    found: &Found,
+    kind: Kind,
+    name: &str,
     examine: impl FnOnce() -> Result<Examined, ReadError>,
-) -> Result<Examined, ReadError> {
-    catch_unwind(AssertUnwindSafe(examine)).unwrap_or_else(|panic| {
-        Ok(Examined {
-            name: found.name.clone(),
-            crashed: Some(engine::panic_message(&*panic)),
-            robot_name: None,
-            size: RobotSize::default(),
-            modules: Vec::new(),
+) -> Examined {
+    let without_checks = |verdict, reason| {
+        let mut report = report::blank(kind, name);
+        (report.verdict, report.reason) = (verdict, Some(reason));
+        Examined {
+            report,
             checks: Vec::new(),
-        })
-    })
-}
-
-fn examine(
-    found: &Found,
-    settings: &Settings,
-    rules: &[&'static Rule],
-) -> Result<Examined, ReadError> {
-    if let Some(error) = &found.closed {
-        return Err(error.clone());
+        }
+    };
+    match catch_unwind(AssertUnwindSafe(examine)) {
+        Ok(Ok(examined)) => examined,
+        Ok(Err(error)) => without_checks(Verdict::Unreadable, error.to_string()),
+        Err(panic) => {
+            let message = engine::panic_message(&*panic);
+            let reason = format!(
+                "the program crashed: {message}; this is a fault of the program, please report it"
+            );
+            without_checks(Verdict::Incomplete, reason)
+        }
     }
-    examine_urdd(Urdd::read(&found.path)?, found, settings, rules)
 }
 
-fn examine_urdd(
-    urdd: Urdd,
-    found: &Found,
-    settings: &Settings,
-    rules: &[&'static Rule],
-) -> Result<Examined, ReadError> {
+/// Runs the rules over a URDD. `name` is its name in the report. Of the settings, only those that change what the rules
+/// compute apply here.
+pub fn examine(urdd: Urdd, name: &str, settings: &Settings, rules: &[&'static Rule]) -> Examined {
     let context = Context::new(urdd, settings.class)
         .deep(settings.deep)
         .until(&settings.cancellation);
     let checks = two_robots::run(&context, rules);
-    let modules = context
-        .modules()
-        .iter()
-        .map(|module| ExaminedModule {
-            name: module.name().to_owned(),
-            path: module.folder.clone(),
-            version: module.version.clone(),
-            profile: module.spec.map(|spec| spec.profile),
-        })
-        .collect();
+    let modules = context.modules().iter().map(|module| Module {
+        name: module.name().to_owned(),
+        path: module.folder.clone(),
+        version: module.version.clone(),
+        profile: module.spec.map(|spec| spec.profile.as_str().to_owned()),
+    });
     let robot = context.robot();
-    let size = RobotSize {
-        links: robot.map(|robot| robot.links.len()),
-        joints: robot.map(|robot| robot.joints.len()),
-        dofs: context.dofs().map(|dofs| dofs.num_dofs.get()),
+    let metadata = context.metadata();
+    let report = format::Urdd {
+        name: robot
+            .map(|robot| &robot.name)
+            .or(metadata.map(|metadata| &metadata.robot_name))
+            .cloned(),
+        size: Size {
+            links: robot.map(|robot| Count::saturating(robot.links.len())),
+            joints: robot.map(|robot| Count::saturating(robot.joints.len())),
+            dofs: context.dofs().map(|dofs| dofs.num_dofs),
+        },
+        modules: modules.collect(),
+        ..report::blank(Kind::Urdd, name)
     };
-    let robot_name = robot
-        .map(|robot| robot.name.clone())
-        .or_else(|| context.metadata().map(|m| m.robot_name.clone()));
-    Ok(Examined {
-        name: found.name.clone(),
-        crashed: None,
-        robot_name,
-        size,
-        modules,
-        checks,
-    })
+    Examined { report, checks }
 }
 
 #[cfg(test)]
@@ -275,13 +246,9 @@ mod tests {
 
     #[test]
     fn a_crash_outside_of_any_rule_is_said_of_its_urdd() {
-        let found = Found {
-            path: "a".into(),
-            name: "a".to_owned(),
-            closed: None,
-        };
-        let examined = caught(&found, || panic!("at index {}", 7)).expect("examined");
-        assert!(examined.incomplete());
-        assert_eq!(examined.crashed.as_deref(), Some("at index 7"));
+        let examined = caught(Kind::Urdd, "a", || panic!("at index {}", 7));
+        assert_eq!(examined.report.verdict, Verdict::Incomplete);
+        let reason = examined.report.reason.expect("a reason");
+        assert!(reason.starts_with("the program crashed: at index 7;"));
     }
 }

@@ -1,5 +1,5 @@
-//! Line, column and names for places that only have a pointer. Done for what is kept of the
-//! findings, and in one walk through each text.
+//! Adds line, column and subject to places that only have a pointer: for the findings that are kept, in one pass
+//! through each text.
 
 use std::collections::BTreeMap;
 
@@ -7,16 +7,16 @@ use super::context::Context;
 use super::finding::{Finding, Place};
 use super::names::Names;
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::position::{self, LineIndex};
+use urdd_directory::position::{self, LineIndex, Position};
+use urdd_format::index::Count;
 use urdd_format::registry::ModuleKind;
 
 /// Completes the places of findings.
 pub(super) fn locate(context: &Context, findings: &mut [Finding]) {
     let mut by_file: BTreeMap<String, Vec<&mut Place>> = BTreeMap::new();
-    let places = findings.iter_mut().flat_map(|finding| {
-        let more = finding.more.iter_mut().map(|other| &mut other.place);
-        std::iter::once(&mut finding.place).chain(more)
-    });
+    let places = findings
+        .iter_mut()
+        .flat_map(|finding| std::iter::once(&mut finding.place).chain(&mut finding.more));
     for place in places {
         if let (Some(file), Some(_)) = (&place.file, &place.pointer) {
             by_file.entry(file.clone()).or_default().push(place);
@@ -30,16 +30,16 @@ pub(super) fn locate(context: &Context, findings: &mut [Finding]) {
             let pointers: Vec<&str> = pointers.iter().map(String::as_str).collect();
             let positions = position::locate_all(text, &pointers);
             for (place, found) in places.iter_mut().zip(positions) {
-                place.position = place.position.or(found);
+                put_position(place, found);
                 place.subject = kind.and_then(|kind| names.subject(kind, &pointer(place)));
             }
         } else if let (Some(urdf), Some(reading)) = (urdf, context.urdf_text()) {
             let lines = LineIndex::new(&urdf.text);
             for place in places {
                 place.subject = names.subject(ModuleKind::Urdf, &pointer(place));
-                if place.position.is_none() {
-                    // The pointer is that of the value in urdf_module, and leads nowhere in XML.
-                    place.position = reading.position(&lines, &pointer(place));
+                if place.line.is_none() {
+                    // The pointer is into urdf_module, not into the XML.
+                    put_position(place, reading.position(&lines, &pointer(place)));
                     place.pointer = None;
                 }
             }
@@ -47,11 +47,19 @@ pub(super) fn locate(context: &Context, findings: &mut [Finding]) {
     }
 }
 
+/// Sets line and column if the place has none.
+fn put_position(place: &mut Place, position: Option<Position>) {
+    if let (None, Some(position)) = (place.line, position) {
+        place.line = Some(Count(position.line));
+        place.column = Some(Count(position.column));
+    }
+}
+
 fn pointer(place: &Place) -> String {
     place.pointer.clone().unwrap_or_default()
 }
 
-/// The text of a document, and the module that it is of.
+/// The text of a document, and its module.
 fn json_text<'a>(context: &'a Context, file: &str) -> Option<(&'a str, Option<ModuleKind>)> {
     if file == ROOT_METADATA {
         return Some((context.metadata_file().json.text()?, None));

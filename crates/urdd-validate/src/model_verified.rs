@@ -1,26 +1,26 @@
-//! Whether the rates of a URDD's self-collision model are true, without judging the rest.
+//! Verifies the rates of a URDD's self-collision model, without validating the rest.
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::code::Code;
-use super::engine::Outcome;
 use super::rule::Rule;
 use super::settings::Settings;
 use super::{rules, validate_with};
+use urdd_format::report::Status;
 
-/// What came of counting again how often a model is right (SPEC 8.8.9 to 8.8.12).
+/// The result of recounting the rates of a model (SPEC 8.8.9 to 8.8.12).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ModelVerdict {
-    /// The rates that it states are true.
+    /// The stated rates are right.
     Verified,
-    /// They are not: the rules that say so.
-    Refuted(Vec<Code>),
-    /// It was not found out, for these reasons.
+    /// The stated rates are wrong: the codes of the rules that found it.
+    Refuted(Vec<String>),
+    /// The rates were not verified, for these reasons.
     NotVerified(Vec<String>),
 }
 
-/// Runs the rules that verify the self-collision model of the URDD at `path`, and those that they need.
+/// Runs the rules that verify the self-collision model of the URDD at `path`, and the rules that they need.
 pub fn verify_model(path: &Path) -> ModelVerdict {
     let all = rules::all();
     let mut wanted = BTreeSet::from([Code::LRN010, Code::LRN011]);
@@ -36,31 +36,25 @@ pub fn verify_model(path: &Path) -> ModelVerdict {
         .into_iter()
         .filter(|rule| wanted.contains(&rule.code))
         .collect();
-    let run = match validate_with(&[path], &Settings::default(), &wanted) {
-        Ok(run) => run,
+    let urdd = match validate_with(&[path], &Settings::default(), &wanted) {
+        Ok(run) => run.report.urdds.into_iter().next(),
         Err(error) => return ModelVerdict::NotVerified(vec![error.to_string()]),
     };
-    let examined = match run
-        .subjects
-        .into_iter()
-        .next()
-        .map(|subject| subject.result)
-    {
-        Some(Ok(examined)) => examined,
-        Some(Err(error)) => return ModelVerdict::NotVerified(vec![error.to_string()]),
-        None => return ModelVerdict::NotVerified(Vec::new()),
+    let Some(urdd) = urdd else {
+        return ModelVerdict::NotVerified(Vec::new());
     };
-    let failed = examined.checks.iter();
-    let failed = failed.filter(|check| check.outcome == Outcome::Failed);
-    let failed = failed.map(|check| check.rule.code);
-    let refuted: Vec<Code> = failed.filter(|code| code.family() == "LRN").collect();
+    let failed = urdd.checks.iter();
+    let failed = failed.filter(|check| check.status == Status::Failed);
+    let failed = failed.map(|check| check.code.clone());
+    let refuted: Vec<String> = failed.filter(|code| code.starts_with("LRN")).collect();
     if !refuted.is_empty() {
         return ModelVerdict::Refuted(refuted);
     }
-    let whys = examined.model_not_verified();
-    if whys.is_empty() && examined.crashed.is_none() {
-        return ModelVerdict::Verified;
+    let open = urdd.model_not_verified;
+    let reasons = open.into_iter().flat_map(|open| open.reasons);
+    let reasons: Vec<String> = reasons.chain(urdd.reason).collect();
+    match reasons.is_empty() {
+        true => ModelVerdict::Verified,
+        false => ModelVerdict::NotVerified(reasons),
     }
-    let reasons: BTreeSet<String> = whys.into_iter().map(|(_, why)| why).collect();
-    ModelVerdict::NotVerified(reasons.into_iter().chain(examined.crashed).collect())
 }

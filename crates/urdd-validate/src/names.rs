@@ -1,8 +1,9 @@
 //! What a pointer into a module leads to, by the names that people know: links, joints, DOFs.
 
 use super::context::Context;
-use urdd_document::shapes::{KINDS, Shapes};
+use urdd_document::shapes::Shapes;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::shape_kind::ShapeKind;
 
 /// Longest part of a name that is shown, characters.
 const LONGEST: usize = 60;
@@ -70,11 +71,11 @@ impl<'a> Names<'a> {
     fn shapes(&self, pointer: &str) -> Option<String> {
         let shapes = self.shapes.as_ref()?;
         let parts = || pointer.split('/').skip(1);
-        let kind = KINDS
+        let kind = ShapeKind::ALL
             .into_iter()
-            .find(|kind| parts().any(|part| part.starts_with(kind.name)))?;
+            .find(|kind| parts().any(|part| part.starts_with(kind.key())))?;
         let mut indices = parts().filter_map(|part| part.parse::<usize>().ok());
-        let shape = |index: usize| match kind.full {
+        let shape = |index: usize| match kind.is_of_links() {
             true => self.link_name(*shapes.full.get(index)?),
             false => {
                 let (link, piece) = *shapes.pieces.get(index)?;

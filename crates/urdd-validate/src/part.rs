@@ -2,8 +2,8 @@
 //! the others judged.
 
 use super::code::Code;
-use urdd_document::shapes::ShapeKind;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 
 /// A mesh of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -65,7 +65,7 @@ impl Part {
 
     /// The hull or piece that a shape is, or is about.
     pub fn of_shape(kind: ShapeKind, link: usize, piece: usize) -> Part {
-        match kind.full {
+        match kind.is_of_links() {
             true => Part::Hull(link),
             false => Part::Piece { link, piece },
         }

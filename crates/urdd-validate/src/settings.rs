@@ -13,6 +13,7 @@ use super::rule::Severity;
 use super::selection::Selection;
 use super::skip::SkipReason;
 use urdd_directory::cancellation::Cancellation;
+use urdd_format::report::StaleIgnore;
 use urdd_format::root_metadata::ConformanceClass;
 
 /// Settings of a run.
@@ -78,15 +79,6 @@ pub struct Ignore {
     pub pattern: String,
     /// Why.
     pub reason: String,
-}
-
-/// An ignore that matched nothing: the fault is gone, or the path is wrong.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct StaleIgnore {
-    /// The rule; `None` for all.
-    pub code: Option<Code>,
-    /// The pattern.
-    pub path: String,
 }
 
 /// What is wrong with a settings file.
@@ -173,18 +165,18 @@ impl Settings {
         Ok(settings)
     }
 
-    /// Applies severities and ignores, and tells which ignores matched nothing.
-    pub fn apply<'a>(&self, examined: impl Iterator<Item = &'a mut Examined>) -> Vec<StaleIgnore> {
+    /// Applies severities, ignores and the selection. Returns the ignores that match nothing.
+    pub fn apply(&self, examined: &mut [Examined]) -> Vec<StaleIgnore> {
         let mut used = vec![false; self.ignores.len()];
-        for urdd in examined {
-            for check in &mut urdd.checks {
+        for Examined { report, checks } in examined {
+            for check in &mut *checks {
                 if let Some(severity) = self.severities.get(&check.rule.code) {
                     check.severity = *severity;
                 }
                 let mut reason = None;
                 check.findings.retain(|finding| {
                     let file = finding.place.file.as_deref().unwrap_or("");
-                    let path = format!("{}/{file}", urdd.name);
+                    let path = format!("{}/{file}", report.path);
                     let ignore = self.ignores.iter().position(|ignore| {
                         ignore.code.is_none_or(|code| code == check.rule.code)
                             && ignore.path.is_match(&path)
@@ -199,13 +191,12 @@ impl Settings {
                     check.outcome = Outcome::Skipped(SkipReason::Ignored(reason.clone()));
                 }
             }
+            self.selection.apply(checks);
         }
-        self.ignores
-            .iter()
-            .zip(used)
-            .filter(|(_, used)| !used)
+        let stale = self.ignores.iter().zip(used).filter(|(_, used)| !used);
+        stale
             .map(|(ignore, _)| StaleIgnore {
-                code: ignore.code,
+                code: ignore.code.map(|code| code.to_string()),
                 path: ignore.pattern.clone(),
             })
             .collect()

@@ -1,4 +1,4 @@
-//! What was not verified of a URDD's geometry, and of its self-collision model.
+//! What a run did not verify: geometry, and the rates of the self-collision model.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,12 @@ use super::engine::{Check, Outcome};
 use super::part::{Part, Why};
 use super::rule::Phase;
 use super::skip::SkipReason;
+use urdd_format::index::Count;
 use urdd_format::registry::ModuleKind;
+use urdd_format::report::{LinkNotVerified, ModelNotVerified};
+
+/// Rules, and their reasons.
+type Whys = BTreeSet<(Code, String)>;
 
 impl Examined {
     /// Every part that some rule did not verify: which rules, and why not.
@@ -23,10 +28,10 @@ impl Examined {
         parts
     }
 
-    /// The links of which some mesh was not verified: which rules, and why not. All of them where a
-    /// rule about geometry did not run because of a fault.
-    pub fn links_not_verified(&self) -> BTreeMap<usize, BTreeSet<(Code, String)>> {
-        let mut links: BTreeMap<usize, BTreeSet<(Code, String)>> = BTreeMap::new();
+    /// The links with a mesh or shape that was not verified. All links if a fault kept a rule about geometry from
+    /// running.
+    pub fn links_not_verified(&self) -> Vec<LinkNotVerified> {
+        let mut links: BTreeMap<usize, Whys> = BTreeMap::new();
         for (part, whys) in self.not_verified() {
             let whys = whys.into_iter().map(|(code, why)| (code, why.to_string()));
             links.entry(part.link()).or_default().extend(whys);
@@ -38,18 +43,26 @@ impl Examined {
                 _ => continue,
             };
             if check.rule.phase == Phase::Geometry {
-                for link in 0..self.size.links.unwrap_or_default() {
+                for link in 0..self.report.size.links.map_or(0, Count::get) {
                     let whys = links.entry(link).or_default();
                     whys.insert((check.rule.code, why.clone()));
                 }
             }
         }
-        links
+        let link = |(link, whys)| {
+            let (codes, reasons) = codes_and_reasons(whys);
+            LinkNotVerified {
+                link: Count::saturating(link),
+                codes,
+                reasons,
+            }
+        };
+        links.into_iter().map(link).collect()
     }
 
-    /// Which rules did not verify the rates of the self-collision model, and why not. Empty where they did or found them
-    /// wrong, and where there is no model.
-    pub fn model_not_verified(&self) -> BTreeSet<(Code, String)> {
+    /// Why the rates of the self-collision model were not verified. `None` if a rule verified them or found them wrong,
+    /// and without a model.
+    pub fn model_not_verified(&self) -> Option<ModelNotVerified> {
         let name = ModuleKind::SelfCollisionModel.name();
         let counting = [Code::LRN010, Code::LRN011];
         let checks = self.checks.iter();
@@ -57,10 +70,11 @@ impl Examined {
             .filter(|check| counting.contains(&check.rule.code))
             .collect();
         let mut failed = checks.iter().map(|check| &check.outcome);
+        let mut modules = self.report.modules.iter();
         if failed.any(|outcome| *outcome == Outcome::Failed)
-            || self.modules.iter().all(|module| module.name != name)
+            || modules.all(|module| module.name != name)
         {
-            return BTreeSet::new();
+            return None;
         }
         let why = |check: &&Check| match &check.outcome {
             Outcome::Skipped(SkipReason::Ignored(_)) => None,
@@ -72,6 +86,14 @@ impl Examined {
             }
             Outcome::Passed | Outcome::Failed => None,
         };
-        checks.iter().filter_map(why).collect()
+        let (codes, reasons) = codes_and_reasons(checks.iter().filter_map(why).collect());
+        (!codes.is_empty()).then_some(ModelNotVerified { codes, reasons })
     }
+}
+
+/// The codes and the reasons, each once and in order.
+fn codes_and_reasons(whys: Whys) -> (Vec<String>, Vec<String>) {
+    let (codes, reasons): (BTreeSet<Code>, BTreeSet<String>) = whys.into_iter().unzip();
+    let codes = codes.iter().map(ToString::to_string).collect();
+    (codes, reasons.into_iter().collect())
 }

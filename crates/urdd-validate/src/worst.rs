@@ -1,27 +1,21 @@
-//! Which of many places of a finding comes first.
+//! Orders the places of a finding.
 
-use super::finding::{Finding, Magnitude};
+use super::finding::{Finding, Place};
 
-/// Puts the worst place of a finding first, where its places say how bad they are.
+/// Puts the worst place of a finding first, by magnitude.
 pub(super) fn worst_first(finding: &mut Finding) {
-    let size = |magnitude: Option<Magnitude>| match magnitude {
+    // A magnitude that is not finite is the worst.
+    let size = |place: &Place| match &place.magnitude {
         None => f64::NEG_INFINITY,
-        // What is not a number at all is as bad as it gets.
-        Some(Magnitude { value, .. }) if value.is_nan() => f64::INFINITY,
-        Some(Magnitude { value, .. }) => value,
+        Some(magnitude) => magnitude.value.unwrap_or(f64::INFINITY),
     };
-    finding
-        .more
-        .sort_by(|a, b| size(b.magnitude).total_cmp(&size(a.magnitude)));
+    finding.more.sort_by(|a, b| size(b).total_cmp(&size(a)));
     let Some(worst) = finding.more.first_mut() else {
         return;
     };
-    if size(worst.magnitude) > size(finding.magnitude) {
-        std::mem::swap(&mut finding.place, &mut worst.place);
-        std::mem::swap(&mut finding.expected, &mut worst.expected);
-        std::mem::swap(&mut finding.actual, &mut worst.actual);
-        std::mem::swap(&mut finding.magnitude, &mut worst.magnitude);
-        if let Some(message) = worst.message.take() {
+    if size(worst) > size(&finding.place) {
+        std::mem::swap(&mut finding.place, worst);
+        if let Some(message) = finding.place.message.take() {
             let first = std::mem::replace(&mut finding.message, message);
             for other in &mut finding.more {
                 match &other.message {
@@ -31,10 +25,8 @@ pub(super) fn worst_first(finding: &mut Finding) {
                 }
             }
         }
-        // The one that was first goes to its place among the others.
-        finding
-            .more
-            .sort_by(|a, b| size(b.magnitude).total_cmp(&size(a.magnitude)));
+        // Sorts the former first place in among the others.
+        finding.more.sort_by(|a, b| size(b).total_cmp(&size(a)));
     }
 }
 

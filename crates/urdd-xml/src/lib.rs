@@ -1,3 +1,5 @@
+//! Internal to urdd; no stability promise.
+//!
 //! Parses untrusted XML. This crate does not know the URDD format.
 //!
 //! Before parsing, this crate limits what a small file can use to exhaust time or memory: nesting depth, elements,

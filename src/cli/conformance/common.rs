@@ -19,6 +19,7 @@ use crate::conformance::skips::{self, Skip};
 use urdd_directory::regular;
 use urdd_format::escape;
 use urdd_generate::process;
+use urdd_validate::report;
 
 /// Maximum size of a skip list, in bytes.
 const MAX_SKIP_BYTES: u64 = 1 << 20;
@@ -30,8 +31,6 @@ const MAX_LOG_LINE: u64 = 1 << 20;
 const PASSED: u8 = 0;
 /// Exit status: something failed, or a skip is stale.
 const FAILED: u8 = 1;
-/// Exit status: usage error, or nothing could be run.
-const USAGE: u8 = 2;
 
 /// Arguments of both commands.
 #[derive(Args)]
@@ -156,8 +155,7 @@ impl RunArguments {
 
     /// Prints a result, and writes it to the file of `--output`.
     pub fn print(&self, result: &impl Serialize, human: &str) -> Result<(), String> {
-        let json = serde_json::to_string_pretty(result).map_err(|error| error.to_string())? + "\n";
-        let json = escape::json(&json);
+        let json = report::json(result).map_err(|error| error.to_string())?;
         if let Some(file) = &self.output {
             output::write_file(file, &json)?;
         }
@@ -186,10 +184,7 @@ fn is_log(file: &Path) -> bool {
 pub fn run(result: impl FnOnce(&Signals) -> Result<bool, String>) -> ExitCode {
     let signals = match Signals::listen() {
         Ok(signals) => signals,
-        Err(error) => {
-            output::error(&error.to_string());
-            return ExitCode::from(USAGE);
-        }
+        Err(error) => return output::ended(Err(error.to_string())),
     };
     process::adopt_orphans();
     let result = result(&signals);
@@ -197,14 +192,7 @@ pub fn run(result: impl FnOnce(&Signals) -> Result<bool, String>) -> ExitCode {
         output::error("stopped by a signal; all that was started has ended");
         return ExitCode::from(status);
     }
-    match result {
-        Ok(true) => ExitCode::from(PASSED),
-        Ok(false) => ExitCode::from(FAILED),
-        Err(message) => {
-            output::error(&message);
-            ExitCode::from(USAGE)
-        }
-    }
+    output::ended(result.map(|passed| if passed { PASSED } else { FAILED }))
 }
 
 fn cannot_write(file: &Path, error: &std::io::Error) -> String {

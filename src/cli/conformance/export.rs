@@ -19,13 +19,8 @@ pub struct ExportArguments {
 
 /// Runs `urdd conformance export`.
 pub fn run(arguments: &ExportArguments) -> ExitCode {
-    match export(&arguments.folder) {
-        Ok(exported) => output::printed(output::print(&told(&exported))),
-        Err(error) => {
-            output::error(&error.to_string());
-            ExitCode::from(2)
-        }
-    }
+    let exported = export(&arguments.folder).map_err(|error| error.to_string());
+    output::printed(exported.and_then(|exported| output::print(&told(&exported))))
 }
 
 fn told(exported: &Exported) -> String {

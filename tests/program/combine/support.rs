@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use urdd_generate::combine::{CombineError, Combined, Recipe, combine};
 use urdd_generate::{Selection, Settings};
-use urdd_validate::rule::Severity;
 
 /// The path of one of our robots.
 pub fn ours(name: &str) -> PathBuf {
@@ -45,7 +44,7 @@ pub fn put_together(
 pub fn findings(urdd: &Path) -> Vec<String> {
     let settings = urdd_validate::settings::Settings::default();
     let run = urdd_validate::validate(&[urdd], &settings).expect("a URDD");
-    let report = run.report(Severity::Error);
+    let report = run.report;
     let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
     let told = findings
         .filter(|finding| !finding.code.starts_with("SRC"))

@@ -8,7 +8,7 @@ use urdd::conformance::judge;
 use urdd::conformance::suite::Suite;
 use urdd::conformance::tree::TreeError;
 use urdd::conformance::valid;
-use urdd_validate::report::Report;
+use urdd_format::report::Report;
 use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 use urdd_validate::{rules, validate};
@@ -30,7 +30,7 @@ fn report(case: &Case, suite: &Suite) -> Option<Report> {
         Err(error) => panic!("{}: {error}", case.id()),
     }
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
-    Some(run.report(Severity::Error))
+    Some(run.report)
 }
 
 #[test]

@@ -75,9 +75,8 @@ fn pairs_become_edits_and_nothing_is_lost() {
         [(0, 1), (0, 3), (1, 2), (2, 3), (2, 4), (3, 4)]
     );
     // Whoever reads it finds hashes and matrices as they should be.
-    let run_of = urdd_validate::validate(&[&urdd], &Default::default()).expect("a URDD");
-    let report = run_of.report(urdd_validate::rule::Severity::Warning);
-    let found: Vec<_> = report.urdds[0]
+    let validated = urdd_validate::validate(&[&urdd], &Default::default()).expect("a URDD");
+    let found: Vec<_> = validated.report.urdds[0]
         .findings
         .iter()
         .map(|of| &of.code)

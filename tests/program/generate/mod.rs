@@ -22,7 +22,6 @@ use std::process::Command;
 use serde_json::Value;
 pub use testkit::files::below as bytes_below;
 pub use testkit::robots::our_robots;
-use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 use urdd_validate::{rules, validate_with};
 
@@ -42,7 +41,7 @@ pub fn read_json(path: &Path) -> Value {
 /// What the validator finds: code, severity, message.
 pub fn findings_of(urdd: &Path) -> Vec<(String, String, String)> {
     let run = validate_with(&[urdd.to_owned()], &Settings::default(), &rules::all()).unwrap();
-    let report = serde_json::to_value(run.report(Severity::Error)).unwrap();
+    let report = serde_json::to_value(run.report).unwrap();
     let findings = report["urdds"][0]["findings"].as_array().unwrap().iter();
     let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     findings

@@ -56,8 +56,8 @@ fn a_stage_that_makes_something_else_has_another_version() {
         };
         assert!(
             now["inputs"] != before["inputs"] || now["made"] == before["made"],
-            "{key}: the stage makes something else of the same inputs. Change its text in src/generate/stages.rs \
-             (or its settings in geometry_stages.rs), so that nobody keeps what it made before; \
+            "{key}: the stage makes something else of the same inputs. Change its text in \
+             crates/urdd-generate/src/inputs.rs, so that nobody keeps what it made before; \
              then URDD_UPDATE=1 cargo test --test program stage_versions"
         );
     }

@@ -22,6 +22,6 @@ pub fn settings(bytes: &[u8]) {
         ignore.path.is_match("");
     }
     // No URDD was examined, so no ignore matched.
-    let stale = settings.apply(std::iter::empty());
+    let stale = settings.apply(&mut []);
     assert_eq!(stale.len(), settings.ignores.len());
 }

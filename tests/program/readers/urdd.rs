@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use tempfile::TempDir;
+use urdd_format::report::Status;
 use urdd_generate::{Settings as Generation, generate};
-use urdd_validate::engine::Outcome;
-use urdd_validate::report::{self};
-use urdd_validate::rule::Severity;
+use urdd_validate::report;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 
@@ -118,17 +117,11 @@ pub fn urdd(bytes: &[u8]) {
         Some(content) => fs::write(&path, content).expect("the file is put back"),
         None => fs::remove_file(&path).expect("the file is removed"),
     }
-    for subject in &run.subjects {
-        let Ok(examined) = &subject.result else {
-            continue;
-        };
-        for check in &examined.checks {
-            let crashed = matches!(check.outcome, Outcome::Crashed(_));
-            assert!(!crashed, "{}: {:?}", check.rule.code, check.outcome);
-        }
+    for check in run.report.urdds.iter().flat_map(|urdd| &urdd.checks) {
+        let crashed = check.status == Status::Crashed;
+        assert!(!crashed, "{}: {:?}", check.code, check.reason);
     }
-    let report = run.report(Severity::Error);
-    report::json(&report).expect("a report");
+    report::json(&run.report).expect("a report");
 }
 
 /// A file with a piece of it replaced.

@@ -183,14 +183,11 @@ fn inertia() {
         );
         let folder = tempfile::tempdir().unwrap();
         let target = generated(&urdf, folder.path());
-        let report = validate(&[target], &Settings::default()).unwrap();
-        let examined = report.subjects[0].result.as_ref().unwrap();
+        let run = validate(&[target], &Settings::default()).unwrap();
+        let urdd = &run.report.urdds[0];
         let found = |code: &str| {
-            let check = examined
-                .checks
-                .iter()
-                .find(|check| check.rule.code.as_str() == code);
-            check.unwrap().findings.first()
+            assert!(urdd.checks.iter().any(|check| check.code == code));
+            urdd.findings.iter().find(|finding| finding.code == code)
         };
         let (definite, triangle) = (found("SRC004"), found("SRC005"));
         assert_eq!(definite.is_none(), case.positive_definite, "{}", case.name);

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 use urdd::view::{Collection, Making, Shown};
-use urdd_format::report::Severity;
 use urdd_validate::settings::Settings;
 
 use super::asking::{Running, made};
@@ -53,8 +52,7 @@ fn a_generated_urdd_is_saved_once_and_passes() {
     let answer = server.post("/robots/gripper/keep", &wish);
     assert_eq!(answer.status, 200, "{}", answer.text());
     let run = urdd_validate::validate(&[&target], &Settings::default()).expect("a run");
-    let report = run.report(Severity::Info);
-    assert_eq!(report.urdds[0].findings.len(), 0);
+    assert_eq!(run.report.urdds[0].findings.len(), 0);
     let revision = || server.json("/robots/gripper/files.json")["revision"].clone();
     let saved: Value = serde_json::from_slice(&answer.body).expect("JSON");
     assert_eq!(saved["revision"], revision());

@@ -5,7 +5,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use urdd_format::report::Severity;
 use urdd_validate::settings::Settings;
 
 use super::asking::{Running, made};
@@ -33,8 +32,11 @@ fn content(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 
 fn findings(path: &Path) -> usize {
     let run = urdd_validate::validate(&[path], &Settings::default()).expect("a run");
-    let report = run.report(Severity::Info);
-    report.urdds.iter().map(|urdd| urdd.findings.len()).sum()
+    run.report
+        .urdds
+        .iter()
+        .map(|urdd| urdd.findings.len())
+        .sum()
 }
 
 fn edits() -> Value {

@@ -2,7 +2,6 @@
 
 use std::fs;
 
-use urdd_format::report::Severity;
 use urdd_validate::settings::Settings;
 
 use super::asking::{Running, made};
@@ -74,7 +73,7 @@ fn files_and_the_report_are_those_on_disk() {
         );
     }
     let run = urdd_validate::validate(&[&path], &Settings::default()).expect("a run");
-    let report = urdd_validate::report::json(&run.report(Severity::Error)).expect("a report");
+    let report = urdd_validate::report::json(&run.report).expect("a report");
     let served = server.get("/robots/welding_arm/report.json");
     assert_eq!(served.text(), report);
 }

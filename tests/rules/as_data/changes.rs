@@ -6,9 +6,9 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 use urdd::conformance::change::{Action, Change, Yes, mirror_of, text_of};
-use urdd::conformance::seal::{entries_mut, rehash, size_and_hash};
+use urdd::conformance::seal::rehash;
 use urdd::conformance::tree::{FilePath, Node, Tree};
-use urdd_directory::{canonical, json as json_text};
+use urdd_directory::{canonical, digest, file_entry, json as json_text};
 
 use super::patch::patch;
 use testkit::fixture::ROOT;
@@ -85,7 +85,7 @@ fn same(ours: &Tree, theirs: &Tree, path: &FilePath) -> bool {
 
 /// Entries with the right size and hash lose both.
 fn mark_right(tree: &Tree, metadata: &mut Value) {
-    for entry in entries_mut(metadata) {
+    for entry in file_entry::all(metadata) {
         if is_right(tree, entry) == Some(true) {
             entry["size"] = Value::Null;
             entry["sha256"] = Value::Null;
@@ -95,8 +95,8 @@ fn mark_right(tree: &Tree, metadata: &mut Value) {
 
 /// Entries that are as they were lose size and hash: where these are not right any more, they are kept.
 fn leave_out_kept(before: &mut Value, after: &mut Value) {
-    let before = entries_mut(before);
-    for entry in entries_mut(after) {
+    let before: Vec<_> = file_entry::all(before).collect();
+    for entry in file_entry::all(after) {
         if before.contains(&entry) {
             entry["size"] = Value::Null;
             entry["sha256"] = Value::Null;
@@ -107,14 +107,14 @@ fn leave_out_kept(before: &mut Value, after: &mut Value) {
 /// Whether an entry is true of its file; `None` where there is no such file.
 fn is_right(tree: &Tree, entry: &Value) -> Option<bool> {
     let bytes = tree.file(entry["path"].as_str()?)?;
-    let (size, sha256) = size_and_hash(bytes);
+    let (size, sha256) = digest::of_bytes(bytes);
     Some(entry["size"] == json!(size) && entry["sha256"] == json!(sha256))
 }
 
 /// Files with an entry that is not true of them.
 fn untrue_entries(tree: &Tree) -> BTreeSet<String> {
     let mut metadata = document(tree, &ROOT.into()).unwrap_or_default();
-    let entries = entries_mut(&mut metadata).into_iter();
+    let entries = file_entry::all(&mut metadata);
     let untrue = entries.filter(|entry| is_right(tree, entry) == Some(false));
     untrue
         .filter_map(|entry| entry["path"].as_str().map(str::to_owned))
@@ -148,10 +148,9 @@ impl Work {
                 mark_right(old, &mut before);
                 mark_right(new, &mut after);
                 // Files that are new to `urdd.json` get an entry to be filled in.
-                for entry in entries_mut(&mut after) {
-                    let known = entries_mut(&mut before)
-                        .iter()
-                        .any(|old| old["path"] == entry["path"]);
+                for entry in file_entry::all(&mut after) {
+                    let known =
+                        file_entry::all(&mut before).any(|old| old["path"] == entry["path"]);
                     if entry["size"].is_null() && !known {
                         entry["size"] = json!(0);
                         entry["sha256"] = json!("");

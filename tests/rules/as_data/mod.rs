@@ -166,7 +166,7 @@ fn found(case: &Case) -> Vec<Expected> {
     fs::create_dir(&root).expect("the URDD's folder");
     case.make.write(&root);
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
-    let report = run.report(Severity::Error);
+    let report = run.report;
     let found = judge::found(case.code.as_str(), &report);
     let codes: BTreeSet<&str> = found.iter().map(|finding| finding.code.as_str()).collect();
     let right = case.caught.then_some(case.code.as_str());

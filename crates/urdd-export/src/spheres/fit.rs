@@ -6,7 +6,7 @@
 //! that contribute least and splits those with the largest share in wrong contacts, so that spheres concentrate where
 //! links approach each other. The algorithm is deterministic, with a fixed order of summation.
 
-use super::frame::{Point, add, length, scaled, sub};
+use super::frame::{Point, add, norm, scaled, sub};
 pub(super) use super::loss::Goal;
 use super::loss::{Looked, Slope, middle, nearest};
 use super::model::{Sphere, Spheres, count};
@@ -118,7 +118,7 @@ pub(super) fn fit(
 /// One sphere for all points of a link: centred at their mean, with their mean distance as radius.
 fn one_sphere(points: &[Point]) -> Vec<Sphere> {
     let sphere = |centre: Point| {
-        let far = points.iter().map(|p| length(sub(*p, centre))).sum::<f64>();
+        let far = points.iter().map(|p| norm(sub(*p, centre))).sum::<f64>();
         let radius = far / points.len() as f64;
         Sphere { centre, radius }
     };

@@ -2,6 +2,8 @@
 
 use nalgebra::Isometry3;
 
+pub(super) use urdd_geometry::vector::{cross, dot, norm, sub};
+
 /// A point or a vector, in metres.
 pub(super) type Point = [f64; 3];
 
@@ -11,23 +13,8 @@ pub(super) fn add(a: Point, b: Point) -> Point {
 }
 
 #[inline]
-pub(super) fn sub(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline]
 pub(super) fn scaled(a: Point, by: f64) -> Point {
     [a[0] * by, a[1] * by, a[2] * by]
-}
-
-#[inline]
-pub(super) fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline]
-pub(super) fn length(a: Point) -> f64 {
-    dot(a, a).sqrt()
 }
 
 /// A pose: the columns of the rotation matrix, and the translation.

@@ -8,7 +8,7 @@
 
 use rayon::prelude::*;
 
-use super::frame::{Point, add, length, scaled, sub};
+use super::frame::{Point, add, norm, scaled, sub};
 use super::model::{Placeable, Placed, Spheres};
 use super::samples::Sample;
 
@@ -109,7 +109,7 @@ impl Goal<'_> {
                     break;
                 };
                 let between = sub(*p, own[nearest].centre);
-                let toward = scaled(between, 1.0 / length(between).max(f64::MIN_POSITIVE));
+                let toward = scaled(between, 1.0 / norm(between).max(f64::MIN_POSITIVE));
                 // The distance decreases as the centre moves towards the point, and as the radius grows.
                 slope.add(nearest, scaled(toward, -1.0), 2.0 * weight * off);
                 slope.blame[nearest] += weight * off * off;
@@ -272,7 +272,7 @@ impl Goal<'_> {
         let margin = MARGIN * self.size;
         // Two spheres, by link and index, and the vector from the second centre to the first.
         let mut push = |[(a, i), (b, j)]: [(usize, usize); 2], between: Point, by_gap: f64| {
-            let toward = scaled(between, 1.0 / length(between).max(f64::MIN_POSITIVE));
+            let toward = scaled(between, 1.0 / norm(between).max(f64::MIN_POSITIVE));
             let (first, second) = (firsts[a] + i, firsts[b] + j);
             slope.add(first, sample.poses[a].turn_back(toward), by_gap);
             slope.add(
@@ -290,7 +290,7 @@ impl Goal<'_> {
             let [p, q] = [(both[0].0, of_a), (both[1].0, of_b)]
                 .map(|(link, sphere)| sample.poses[link].place(sphere.centre));
             let between = sub(p, q);
-            let gap = length(between) - of_a.radius - of_b.radius;
+            let gap = norm(between) - of_a.radius - of_b.radius;
             if !sample.collides() && gap < margin {
                 push(*both, between, -active.weight);
             } else if sample.collides() && gap < least {

@@ -1,6 +1,6 @@
 //! Spheres of links, and their placement in sampled configurations.
 
-use super::frame::{Point, Pose, add, dot, length, scaled, sub};
+use super::frame::{Point, Pose, add, dot, norm, scaled, sub};
 use super::samples::Sample;
 
 /// A sphere in its link's frame, metres.
@@ -13,7 +13,7 @@ pub(super) struct Sphere {
 impl Sphere {
     /// Signed distance of a point; negative inside.
     pub fn to(&self, p: Point) -> f64 {
-        length(sub(p, self.centre)) - self.radius
+        norm(sub(p, self.centre)) - self.radius
     }
 }
 
@@ -35,7 +35,7 @@ fn about(own: &[Sphere]) -> Option<Sphere> {
         }
     }
     let centre = scaled(add(low, high), 0.5);
-    let reach = |sphere: &Sphere| length(sub(sphere.centre, centre)) + sphere.radius;
+    let reach = |sphere: &Sphere| norm(sub(sphere.centre, centre)) + sphere.radius;
     Some(Sphere {
         centre,
         radius: own.iter().map(reach).fold(0.0, f64::max),
@@ -122,7 +122,7 @@ impl<'a> Placeable<'a> {
             for (j, (q, of_b)) in placed.centres[b].iter().zip(&self.spheres[b]).enumerate() {
                 let reach = of_a.radius + of_b.radius;
                 if is_nearer(*p, *q, reach + limit) {
-                    limit = found(length(sub(*p, *q)) - reach, [i, j]);
+                    limit = found(norm(sub(*p, *q)) - reach, [i, j]);
                 }
             }
         }
@@ -143,7 +143,7 @@ pub(super) fn part(spheres: &mut Spheres, pairs: &[[usize; 2]], sample: &Sample,
                 let (of_a, of_b) = (spheres[a][i], spheres[b][j]);
                 let p = sample.poses[a].place(of_a.centre);
                 let q = sample.poses[b].place(of_b.centre);
-                let excess = of_a.radius + of_b.radius + apart - length(sub(p, q));
+                let excess = of_a.radius + of_b.radius + apart - norm(sub(p, q));
                 // Each sphere shrinks by half of the shortfall, but keeps at least half of its radius.
                 if excess > 0.0 {
                     spheres[a][i].radius = (of_a.radius - 0.5 * excess).max(0.5 * of_a.radius);

@@ -1,6 +1,6 @@
 //! Points on the surface of a link, the target of its spheres' surface.
 
-use super::frame::{Point, add, dot, length, scaled, sub};
+use super::frame::{Point, add, cross, dot, norm, scaled, sub};
 use urdd_geometry::Mesh;
 
 /// Minimum depth below the faces of another piece for a point to count as inside, in metres.
@@ -23,7 +23,7 @@ pub(super) fn points(pieces: &[Mesh], count: usize) -> Vec<Point> {
         for triangle in &mesh.triangles {
             let corners = mesh.corners(*triangle);
             let normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]));
-            let twice = length(normal);
+            let twice = norm(normal);
             if twice > 0.0 {
                 area += 0.5 * twice;
                 triangles.push((area, piece, corners));
@@ -62,14 +62,6 @@ pub(super) fn points(pieces: &[Mesh], count: usize) -> Vec<Point> {
             .collect(),
         false => found,
     }
-}
-
-fn cross(a: Point, b: Point) -> Point {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 #[cfg(test)]

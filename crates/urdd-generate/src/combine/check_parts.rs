@@ -23,14 +23,14 @@ pub fn check_parts(
     let mut distrusted = BTreeSet::new();
     let mut known: BTreeMap<PathBuf, Vec<String>> = BTreeMap::new();
     for part in &recipe.parts {
-        settings.cancellation.check().map_err(super::cancelled)?;
+        settings.cancellation.check()?;
         let source = recipe.source(part, settings)?;
         if source.kind != SourceKind::Urdd {
             continue;
         }
         let codes = match known.get(&source.path) {
             Some(codes) => codes.clone(),
-            None => find_errors(&source.path).map_err(super::cancelled)?,
+            None => find_errors(&source.path)?,
         };
         known.insert(source.path, codes.clone());
         if codes.is_empty() {

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::recipe_fault::{Place, RecipeFault};
 use crate::GenerateError;
+use urdd_directory::cancellation::Cancelled;
 use urdd_directory::position::Position;
 use urdd_format::escape;
 
@@ -58,6 +59,15 @@ pub enum CombineError {
         /// Why.
         error: GenerateError,
     },
+}
+
+impl From<Cancelled> for CombineError {
+    fn from(cancelled: Cancelled) -> Self {
+        CombineError::Generate {
+            id: None,
+            error: cancelled.into(),
+        }
+    }
 }
 
 struct About<'a>(&'a Option<String>);

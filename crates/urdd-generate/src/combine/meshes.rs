@@ -55,7 +55,7 @@ impl<'a> Meshes<'a> {
             .iter()
             .filter(|(name, _)| used.contains(*name))
         {
-            self.cancellation.check().map_err(super::cancelled)?;
+            self.cancellation.check()?;
             let read = |path: &String| {
                 let bytes = loaded.root.read(path, MAX_DOCUMENT_BYTES);
                 bytes.map_err(|error| CombineError::Part {

@@ -36,8 +36,8 @@ use self::meshes::Meshes;
 use self::rewrite::{Rewrite, Rewritten};
 use crate::note::{self as generated, NoteKind};
 use crate::{
-    Composed, GenerateError, Generated, MAX_SOURCE_BYTES, MOST_LINKS, Progress, Settings,
-    generate_composed, has_quaternions, read_urdf,
+    Composed, GenerateError, Generated, MOST_LINKS, Progress, Settings, generate_composed,
+    has_quaternions, read_urdf,
 };
 use urdd_format::composition::{CompositionModule, PartSource};
 use urdd_format::registry::ModuleKind;
@@ -117,7 +117,7 @@ pub fn combine(
     let quaternions = has_quaternions(compose::version(&parts).as_deref());
     let (mut rewritten, mut length) = (Vec::new(), 0);
     for ((taken, placed), repeated) in parts.iter().zip(placed).zip(&repeated) {
-        settings.cancellation.check().map_err(cancelled)?;
+        settings.cancellation.check()?;
         let carried = placed.into_iter();
         let carried = carried.map(|(name, place)| (name, meshes::carried(&place, &shared)));
         let text = Rewrite {
@@ -132,11 +132,11 @@ pub fn combine(
         let text = text.run().map_err(internal)?;
         said_of_text(taken, &text, &mut notes);
         length += text.inner.len();
-        check_length(recipe, taken.part, "the URDFs", length)?;
+        recipe.check_length(taken.part, "the URDFs", length)?;
         rewritten.push(text);
     }
     let urdf = compose::urdf(recipe, &parts, &rewritten)?;
-    settings.cancellation.check().map_err(cancelled)?;
+    settings.cancellation.check()?;
     let robot = read_urdf(urdf.as_bytes(), &recipe.name.text);
     let robot = robot.map_err(|error| CombineError::Generate { id: None, error })?;
     let composition = record::composition(recipe, &parts, &robot.robot)?;
@@ -148,7 +148,7 @@ pub fn combine(
     });
     let mut reused = BTreeSet::new();
     let trusted = trusted.filter(|taken| reused.insert(Rc::as_ptr(&taken.loaded)));
-    settings.reuse = trusted.map(|taken| taken.loaded.root.clone()).collect();
+    settings.donors = trusted.map(|taken| taken.loaded.root.clone()).collect();
     let composed = Composed {
         shown: format!("{}.urdf", recipe.name.text),
         folder,
@@ -178,7 +178,7 @@ fn take_up<'a>(
     let mut known: BTreeMap<PathBuf, Rc<part::Loaded>> = BTreeMap::new();
     let (mut links, mut length, mut composition_length) = (0, 0, 0);
     for (idx, part) in recipe.parts.iter().enumerate() {
-        settings.cancellation.check().map_err(cancelled)?;
+        settings.cancellation.check()?;
         let source = recipe.source(part, settings)?;
         let loaded = match known.get(&source.path) {
             Some(loaded) => loaded.clone(),
@@ -200,34 +200,13 @@ fn take_up<'a>(
             return Err(recipe.refused(&part.id, fault));
         }
         length += loaded.text.len();
-        check_length(recipe, part, "the URDFs", length)?;
+        recipe.check_length(part, "the URDFs", length)?;
         composition_length += loaded.composition_length;
         let what = "the composition modules";
-        check_length(recipe, part, what, composition_length)?;
+        recipe.check_length(part, what, composition_length)?;
         parts.push(Taken { part, loaded, trim });
     }
     Ok(parts)
-}
-
-/// Refuses parts whose total text is longer than a URDF may be.
-fn check_length(
-    recipe: &Recipe,
-    part: &Part,
-    what: &'static str,
-    length: usize,
-) -> Result<(), CombineError> {
-    let limit = MAX_SOURCE_BYTES;
-    match length as u64 > limit {
-        true => Err(recipe.refused(&part.id, RecipeFault::TooLong { what, limit })),
-        false => Ok(()),
-    }
-}
-
-fn cancelled(error: urdd_directory::cancellation::Cancelled) -> CombineError {
-    CombineError::Generate {
-        id: None,
-        error: error.into(),
-    }
 }
 
 /// The meshes of the kept links.

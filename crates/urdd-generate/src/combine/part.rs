@@ -98,7 +98,7 @@ pub(super) fn load(
     let mut settings = settings.clone();
     // Derived modules are only generated for the combined robot.
     settings.selection = Selection::parse(["original_meshes"]).unwrap_or_else(|_| Selection::all());
-    settings.reuse.clear();
+    settings.donors.clear();
     let (made, digest, plain_meshes) = match source.kind {
         SourceKind::Legacy => {
             let carried = legacy::read(&source.path).map_err(refused)?;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::CombineError;
 use super::recipe_fault::RecipeFault;
+use crate::MAX_SOURCE_BYTES;
 use urdd_directory::path::portable;
 use urdd_directory::position::Position;
 use urdd_format::nearest::nearest;
@@ -177,6 +178,20 @@ impl Recipe {
             file: self.shown.clone(),
             at: at.at,
             fault: Box::new(fault),
+        }
+    }
+
+    /// Refuses parts whose total text is longer than a URDF may be.
+    pub(super) fn check_length(
+        &self,
+        part: &Part,
+        what: &'static str,
+        length: usize,
+    ) -> Result<(), CombineError> {
+        let limit = MAX_SOURCE_BYTES;
+        match length as u64 > limit {
+            true => Err(self.refused(&part.id, RecipeFault::TooLong { what, limit })),
+            false => Ok(()),
         }
     }
 

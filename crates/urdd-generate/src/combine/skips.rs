@@ -35,7 +35,7 @@ pub(super) fn decisions(
         };
         for edit in &skips.edits {
             length += edit.link_a.len() + edit.link_b.len() + edit.reason.len();
-            super::check_length(recipe, taken.part, "the edits of skips", length)?;
+            recipe.check_length(taken.part, "the edits of skips", length)?;
             if kept(&edit.link_a) && kept(&edit.link_b) {
                 edits.push(SkipEdit {
                     link_a: taken.renamed(&edit.link_a),

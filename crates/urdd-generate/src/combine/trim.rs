@@ -6,6 +6,7 @@ use super::error::CombineError;
 use super::part::Loaded;
 use super::recipe::{Part, Recipe, Word};
 use super::recipe_fault::RecipeFault;
+use crate::urdf::num_dofs;
 use urdd_format::nearest::nearest;
 use urdd_format::urdf::{Joint, JointType};
 
@@ -216,16 +217,6 @@ impl Trimmer<'_> {
             };
             self.recipe.refused(word, fault)
         })
-    }
-}
-
-/// Number of values that define a joint's position.
-fn num_dofs(joint_type: JointType) -> usize {
-    match joint_type {
-        JointType::Fixed => 0,
-        JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
-        JointType::Planar | JointType::Spherical => 3,
-        JointType::Floating => 6,
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::error::GenerateError;
-use crate::made::{Content, MadeFile};
+use crate::made::MadeFile;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;
 use urdd_format::meshes::MeshFiles;
@@ -18,11 +18,6 @@ pub(crate) struct WrittenMesh {
     /// The colour with the largest area.
     pub color: Option<[f64; 4]>,
 }
-
-/// The mesh of each link.
-pub(crate) type LinkMeshes = Arc<Vec<Option<WrittenMesh>>>;
-/// The pieces of each link.
-pub(crate) type LinkPieces = Arc<Vec<Vec<WrittenMesh>>>;
 
 impl WrittenMesh {
     /// Merges parts of several colours.
@@ -81,7 +76,7 @@ pub(crate) fn files_of(
     };
     let file = |path: &String, bytes: Vec<u8>| MadeFile {
         path: path.clone(),
-        content: Content::Bytes(bytes),
+        bytes: Arc::new(bytes),
     };
     let mut made = Vec::with_capacity(3);
     if let Some(stl) = &files.stl {
@@ -95,17 +90,17 @@ pub(crate) fn files_of(
 }
 
 /// Reads a mesh from the files of an earlier run.
-pub(crate) fn take_up(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, GenerateError> {
+pub(crate) fn read_mesh(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, GenerateError> {
     let bytes = root.read(&files.glb, MAX_DOCUMENT_BYTES);
     let bytes = bytes.map_err(|error| GenerateError::Internal {
         file: files.glb.clone(),
         reason: error.to_string(),
     })?;
-    take_up_bytes(&bytes, &files.glb)
+    read_glb(&bytes, &files.glb)
 }
 
 /// Reads a mesh from the bytes of its .glb.
-pub(crate) fn take_up_bytes(bytes: &[u8], path: &str) -> Result<WrittenMesh, GenerateError> {
+pub(crate) fn read_glb(bytes: &[u8], path: &str) -> Result<WrittenMesh, GenerateError> {
     let options = Options {
         gltf_up: GltfUp::Keep,
         ..Options::default()

@@ -8,19 +8,21 @@ use std::process::{Child, ChildStderr, ChildStdout, Command, ExitStatus};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
+use std::time::Duration;
 
 use rustix::process::{
     Pid, Signal, WaitOptions, getpid, kill_process, kill_process_group, set_child_subreaper,
     waitpid,
 };
 
-use super::PAUSE;
-
 /// Maximum number of bytes of an environment to search; Linux allows 6 MiB for it and the arguments.
 const MAX_ENVIRONMENT: u64 = 8 << 20;
 
 /// Maximum number of rounds that search for remaining processes. After that, processes that cannot be ended are left.
 const MAX_ROUNDS: usize = 400;
+
+/// Time between two rounds.
+const PAUSE: Duration = Duration::from_millis(5);
 
 /// Whether orphans are reparented to this process.
 static ADOPTS: AtomicBool = AtomicBool::new(false);

@@ -1,8 +1,7 @@
 //! `link_shapes_approximations_module`: SPEC 8.2.
 
-use super::ConvexMeshes;
+use super::{ConvexMeshes, Shape};
 use crate::distinct::for_each_content;
-use crate::reuse::Shape;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,

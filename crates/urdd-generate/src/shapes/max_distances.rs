@@ -17,10 +17,10 @@ pub(crate) fn max_distances(
     of: &LinkShapesApproximationsModule,
 ) -> LinkShapesMaxDistanceFromOriginModule {
     LinkShapesMaxDistanceFromOriginModule {
-        full_convex_hulls_maximum_distances: maybe(&solids.hulls, of_mesh),
+        full_convex_hulls_maximum_distances: maybe(solids.hulls, of_mesh),
         full_obbs_maximum_distances: maybe(&of.full_obbs, of_box),
         full_bounding_spheres_maximum_distances: maybe(&of.full_bounding_spheres, of_sphere),
-        decomposition_convex_hulls_maximum_distances: each(&solids.pieces, of_mesh),
+        decomposition_convex_hulls_maximum_distances: each(solids.pieces, of_mesh),
         decomposition_obbs_maximum_distances: each(&of.decomposition_obbs, of_box),
         decomposition_bounding_spheres_maximum_distances: each(
             &of.decomposition_bounding_spheres,

@@ -6,22 +6,27 @@ mod rounding;
 pub(crate) mod simple_skips;
 pub(crate) mod statistics;
 
-use crate::meshes::written::{LinkMeshes, LinkPieces};
+use crate::meshes::written::WrittenMesh;
 use urdd_format::index::{LinkIdx, PieceIdx};
+use urdd_format::link_shapes_approximations::{BoundingSphere, Obb};
 use urdd_format::shapes::PieceShape;
 
 /// Maximum number of pieces with matrices over pieces, which grow with the square of that number.
 pub(crate) const MOST_PIECES_WITH_MATRICES: usize = 500;
 
 /// The convex meshes from which shapes are built.
-pub(crate) struct ConvexMeshes {
+#[derive(Clone, Copy)]
+pub(crate) struct ConvexMeshes<'a> {
     /// The hull of each link.
-    pub hulls: LinkMeshes,
+    pub hulls: &'a [Option<WrittenMesh>],
     /// The pieces of each link.
-    pub pieces: LinkPieces,
+    pub pieces: &'a [Vec<WrittenMesh>],
 }
 
-impl ConvexMeshes {
+/// The oriented bounding box and the bounding sphere of a hull or a piece.
+pub(crate) type Shape = (Obb, BoundingSphere);
+
+impl ConvexMeshes<'_> {
     /// The links at the indices of a matrix over links.
     pub fn full_shapes(&self) -> Vec<LinkIdx> {
         let links = (0..)

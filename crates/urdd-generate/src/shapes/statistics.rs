@@ -135,12 +135,12 @@ fn over(
     chain: &ChainModule,
     cancellation: &Cancellation,
 ) -> Result<Kinds<PairStatistics>, String> {
-    let hulls = placed(&solids.hulls, chain, of_mesh)?;
+    let hulls = placed(solids.hulls, chain, of_mesh)?;
     let boxes = placed(&of.full_obbs, chain, of_box)?;
     let spheres = placed(&of.full_bounding_spheres, chain, of_sphere)?;
     let with_pieces = solids.decomposition_shapes().len() <= MOST_PIECES_WITH_MATRICES;
     let pieces = with_pieces.then(|| {
-        let pieces = placed(&solids.pieces, chain, of_mesh)?;
+        let pieces = placed(solids.pieces, chain, of_mesh)?;
         let boxes = placed(&of.decomposition_obbs, chain, of_box)?;
         let spheres = placed(&of.decomposition_bounding_spheres, chain, of_sphere)?;
         Ok::<_, String>((pieces, boxes, spheres))

@@ -4,7 +4,7 @@ use nalgebra::Isometry3;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use super::{NoModel, Subject, Useless};
+use super::subject::{NoModel, Subject, Useless};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::self_collision_model::{
     CONFIRMATION_SECOND, EVALUATION_FIRST, EVALUATION_MIN, ModelEvaluation, NEAR_CONTACT_STEP,

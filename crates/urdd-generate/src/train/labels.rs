@@ -3,9 +3,10 @@
 use nalgebra::Isometry3;
 use rayon::prelude::*;
 
-use super::{NoModel, Subject, Useless, rows, settings};
+use super::settings;
+use super::subject::{NoModel, Subject, Useless};
 use urdd_directory::cancellation::Cancellation;
-use urdd_kinematics::learn::inputs::Input;
+use urdd_kinematics::learn::inputs::{self, Input};
 
 /// Sampled configurations and the distances of all pairs.
 pub(super) struct Labels {
@@ -140,4 +141,15 @@ impl Labels {
             collides,
         }
     }
+}
+
+/// The network's input values of all configurations, one row per configuration.
+fn rows(configurations: &[f64], num_dofs: usize, inputs: &[Input]) -> Vec<f64> {
+    let width: usize = inputs.iter().map(Input::width).sum();
+    let mut rows = vec![0.0; configurations.len() / num_dofs.max(1) * width];
+    let each = rows
+        .par_chunks_exact_mut(width.max(1))
+        .zip(configurations.par_chunks_exact(num_dofs.max(1)));
+    each.for_each(|(row, configuration)| inputs::tell(inputs, configuration, row));
+    rows
 }

@@ -3,58 +3,21 @@
 //! A deviation from SPEC 6.1.8 with one meaning that any reader would agree on is repaired in the text: [`read`]
 //! returns the edits with the remarks. The source in the URDD thus says the same as its modules.
 
+mod check;
 mod joint;
 mod link;
 mod materials;
 mod numbers;
 mod reader;
+mod reading;
 mod tree;
 mod xml;
 
 use super::fault::{Fault, PlacedFault};
-use super::note::Remark;
 use urdd_directory::position;
-use urdd_format::urdf::UrdfModule;
 
-pub(crate) use tree::{Tree, has_axis, written_axis};
-pub(crate) use urdd_xml::element::Edit;
-
-/// The result of reading a URDF.
-#[derive(Debug)]
-pub(crate) struct Reading {
-    /// The robot.
-    pub robot: UrdfModule,
-    /// The link tree; valid if there are no faults.
-    pub tree: Tree,
-    /// Deviations, in the order of the text.
-    pub remarks: Vec<Remark>,
-    /// Edits that repair the text where it differs from what was read.
-    pub edits: Vec<Edit>,
-    /// Byte offset of each mesh element: links ascending, visual before collision, elements ascending.
-    pub mesh_offsets: Vec<usize>,
-    /// Whether there are xacro elements.
-    pub has_xacro: bool,
-}
-
-impl Default for Reading {
-    fn default() -> Self {
-        Reading {
-            robot: UrdfModule {
-                name: String::new(),
-                version: None,
-                links: Vec::new(),
-                joints: Vec::new(),
-                materials: Vec::new(),
-                unknown_elements: Vec::new(),
-            },
-            tree: Tree::default(),
-            remarks: Vec::new(),
-            edits: Vec::new(),
-            mesh_offsets: Vec::new(),
-            has_xacro: false,
-        }
-    }
-}
+pub(crate) use reading::Reading;
+pub(crate) use tree::{Tree, has_axis, num_dofs, written_axis};
 
 /// Reads a URDF. A robot without a name is named `file_stem`.
 ///
@@ -65,7 +28,7 @@ pub(crate) fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFau
         .map_err(|error| vec![xml::fault(&error, text)])?;
     let mut reader = reader::read(&document, file_stem);
     if reader.faults.is_empty() {
-        tree::check(&mut reader, document.root_element().range().start);
+        check::check(&mut reader, document.root_element().range().start);
     }
     materials::check(&mut reader);
     let (reading, faults) = reader.finish();

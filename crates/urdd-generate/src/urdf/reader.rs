@@ -6,12 +6,13 @@ use std::ops::Range;
 use roxmltree::Document;
 
 use super::numbers::{self, Numbers};
+use super::reading::Reading;
 use super::xml::{self, Element};
-use super::{Edit, Reading};
 use crate::fault::Fault;
 use crate::note::{NoteKind, Remark};
 use crate::pose::{from_xyzw, has_quaternions};
 use urdd_format::urdf as v1;
+use urdd_xml::element::Edit;
 
 /// Maximum number of links, and of joints: indices have 32 bits.
 const MOST: usize = 10_000_000;

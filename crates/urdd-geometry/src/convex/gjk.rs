@@ -23,9 +23,12 @@ pub(crate) const MAX_ROUNDS: usize = 64;
 /// Bit set of all lanes.
 pub(crate) const ALL: u64 = (1 << LANES) - 1;
 
-/// Upper bounds of distances.
+/// What a descent found.
 struct Bounds<S: Simd> {
+    /// Upper bounds of the distances.
     upper: Num<S>,
+    /// Lanes that touch or overlap.
+    contact: Mask<S>,
     /// Lanes whose bounds differ by more than the tolerance, because rounding stopped the descent.
     unsure: Mask<S>,
 }
@@ -40,7 +43,7 @@ pub(crate) fn distances<S: Simd, T: Support>(
     pose: &Pose<S>,
     lanes: u64,
 ) -> [f64; LANES] {
-    let bounds = descend(simd, a, b, pose, -pose.shift, lanes);
+    let bounds = descend::<S, T, false>(simd, a, b, pose, -pose.shift, lanes);
     let mut distances = bounds.upper.to_array();
     let mut unsure = bounds.unsure.to_bitmask();
     while unsure != 0 {
@@ -66,7 +69,7 @@ fn from_other_sides<S: Simd, T: Support>(
         #[inline(always)]
         || {
             let pose = Pose::same(simd, pose);
-            let bounds = descend(simd, a, b, &pose, octants(simd), ALL);
+            let bounds = descend::<S, T, false>(simd, a, b, &pose, octants(simd), ALL);
             let unsure = bounds.unsure.to_bitmask() & ALL;
             if unsure != ALL {
                 return bounds.upper[(!unsure).trailing_zeros() as usize & (LANES - 1)];
@@ -92,9 +95,10 @@ pub(crate) fn octants<S: Simd>(simd: S) -> Vec3<S> {
     Vec3::load(simd, [&octants[0], &octants[1], &octants[2]])
 }
 
-/// Runs the descent. It starts from the point of the difference A - B that is farthest against `start`.
+/// Runs the descent. It starts from the point of the difference A - B that is farthest against `start`. A descent for
+/// contact alone (`CONTACT_ALONE`) stops in a lane as soon as it finds a separating plane.
 #[inline(always)]
-fn descend<S: Simd, T: Support>(
+fn descend<S: Simd, T: Support, const CONTACT_ALONE: bool>(
     simd: S,
     a: &T,
     b: &T,
@@ -117,8 +121,13 @@ fn descend<S: Simd, T: Support>(
         }
         let w = farthest(simd, a, b, pose, v, !done.to_bitmask() & ALL);
         // The distance is between v . w / |v| and |v|.
-        let gap = squared - v.dot(w);
-        done |= gap.simd_le(zero) | (gap * gap).simd_le(squared * tolerance2);
+        let along = v.dot(w);
+        let gap = squared - along;
+        let decided = match CONTACT_ALONE {
+            true => along.simd_gt(zero) & (along * along).simd_gt(contact2 * squared),
+            false => (gap * gap).simd_le(squared * tolerance2),
+        };
+        done |= decided | gap.simd_le(zero);
         if done.all_true() {
             break;
         }
@@ -144,6 +153,7 @@ fn descend<S: Simd, T: Support>(
     }
     Bounds {
         upper: select(contact, zero, squared.sqrt()),
+        contact,
         unsure: unsure | !done,
     }
 }
@@ -158,48 +168,9 @@ pub(crate) fn touching<S: Simd, T: Support>(
     pose: &Pose<S>,
     lanes: u64,
 ) -> u64 {
-    let contact2 = splat(simd, CONTACT * CONTACT);
-    let zero = splat(simd, 0.0);
-    let mut v = farthest(simd, a, b, pose, -pose.shift, lanes);
-    let mut s = [v; 3];
-    let mut squared = v.dot(v);
-    let mut contact = squared.simd_le(contact2) & Mask::from_bitmask(simd, lanes);
-    let mut done = contact | Mask::from_bitmask(simd, !lanes & ALL);
-    let mut unsure = Mask::splat(simd, false);
-    for round in 1..=MAX_ROUNDS {
-        if done.all_true() {
-            break;
-        }
-        let w = farthest(simd, a, b, pose, v, !done.to_bitmask() & ALL);
-        let along = v.dot(w);
-        // The distance is at least v . w / |v|.
-        let apart = along.simd_gt(zero) & (along * along).simd_gt(contact2 * squared);
-        done |= apart | (squared - along).simd_le(zero);
-        if done.all_true() {
-            break;
-        }
-        let Nearest {
-            point,
-            vertices,
-            inside,
-        } = match round {
-            1 => segment(simd, w, s[0]),
-            2 => triangle(simd, w, [s[0], s[1]]),
-            _ => tetrahedron(simd, w, s),
-        };
-        let least = point.dot(point);
-        let now = (inside | least.simd_le(contact2)) & !done;
-        contact |= now;
-        done |= now;
-        let stuck = !least.simd_lt(squared) & !done;
-        unsure |= stuck;
-        done |= stuck;
-        v = Vec3::select(done, v, point);
-        squared = select(done, squared, least);
-        s = vertices;
-    }
-    let mut found = contact.to_bitmask() & lanes;
-    let mut unsure = (unsure | !done).to_bitmask() & lanes;
+    let bounds = descend::<S, T, true>(simd, a, b, pose, -pose.shift, lanes);
+    let mut found = bounds.contact.to_bitmask() & lanes;
+    let mut unsure = bounds.unsure.to_bitmask() & lanes;
     while unsure != 0 {
         let lane = unsure.trailing_zeros() as usize & (LANES - 1);
         unsure &= unsure - 1;

@@ -17,7 +17,7 @@
 //!    Cutting far and merging back finds what one greedy pass does not.
 //! 6. `assign`: clips the surface itself by the same planes and assigns it to the groups.
 //! 7. `choose`: selects few points of each group whose hull contains the rest; `ConvexHull` makes the piece. Drops flat
-//!    pieces that another piece contains (`held`).
+//!    pieces that another piece contains, and joins splinters to the piece beside them (`held`).
 //!
 //! The quality measure is the *standoff*: the mean distance of the decomposition's outside from the surface. It is the
 //! integral of that distance over the pieces' faces, without faces inside other pieces or in cuts, where another piece
@@ -191,7 +191,7 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
         .filter_map(|points| ConvexHull::new(&choose::choose(points, tolerance)).ok())
         .collect();
     Decomposition {
-        pieces: held::without_held(pieces, HELD * tolerance),
+        pieces: held::without_held(pieces, HELD * tolerance, tolerance),
         surface_tolerance: tolerance,
         ignored_triangles: surface.ignored,
     }

@@ -16,15 +16,15 @@ use self::shape_set::ShapeSet;
 use super::skip::{NoStatistics, SkipReason};
 use super::solids::Solids;
 use urdd_document::shape_matrices::statistics;
-use urdd_document::shapes::KINDS;
 use urdd_document::shapes::Shapes;
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::convex::{Motion, PairStatistics};
 
 /// The distances of all kinds of shapes.
 pub struct Distances {
-    /// In the order of [`KINDS`]; `None` for a kind without statistics.
+    /// In the order of [`ShapeKind::ALL`]; `None` for a kind without statistics.
     kinds: [Option<KindDistances>; 6],
     /// Where links are in the first configurations.
     first: Motion,
@@ -71,8 +71,8 @@ impl Distances {
         }
         let poses = Poses::new(urdd)?;
         let shapes = Shapes::new(urdd).ok_or(SkipReason::NoStatistics(NoStatistics::NoShapes))?;
-        let mut sets: Vec<Option<ShapeSet>> = Vec::with_capacity(KINDS.len());
-        for (kind, recorded) in KINDS.into_iter().zip(&recorded) {
+        let mut sets: Vec<Option<ShapeSet>> = Vec::with_capacity(ShapeKind::ALL.len());
+        for (kind, recorded) in ShapeKind::ALL.into_iter().zip(&recorded) {
             let set = recorded.map(|_| ShapeSet::new(urdd, solids, &shapes, kind, true));
             sets.push(set);
         }
@@ -105,7 +105,7 @@ impl Distances {
         })
     }
 
-    /// The kinds in the order of [`KINDS`]; `None` for one without statistics.
+    /// The kinds in the order of [`ShapeKind::ALL`]; `None` for one without statistics.
     pub fn kinds(&self) -> &[Option<KindDistances>; 6] {
         &self.kinds
     }

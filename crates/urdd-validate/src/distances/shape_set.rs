@@ -6,9 +6,10 @@ use super::plan::{self, Work};
 use super::poses::Poses;
 use crate::solids::Solids;
 use crate::views::enclosure::Fit;
-use urdd_document::shapes::{ShapeKind, Shapes, Volume, approximations};
+use urdd_document::shapes::{Shapes, Volume, approximations};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::convex::{
     ConvexShape, Motion, OrientedBox, PairStatistics, PlacedShape, Shape, Sphere, pair_distances,
     pair_statistics,
@@ -50,13 +51,9 @@ impl ShapeSet {
             .document(ModuleKind::LinkShapesApproximations)
             .and_then(approximations)
             .and_then(|lists| lists.into_iter().find(|list| list.kind == kind));
-        let meshes = match kind.full {
-            true => ModuleKind::ConvexHullMeshes,
-            false => ModuleKind::ConvexDecompositionMeshes,
-        };
         let make = |link: usize, piece: usize| -> Option<Made> {
-            let mesh = solids.sound(meshes, link, piece);
-            if kind.hulls {
+            let mesh = solids.sound(kind.meshes(), link, piece);
+            if kind.is_convex_mesh() {
                 return ConvexShape::new(mesh?).ok().map(Made::Hull);
             }
             let volume = volumes.as_ref()?.links.get(link)?.get(piece)?;

@@ -2,9 +2,10 @@
 
 use crate::solids::Solids;
 use crate::tolerance::{distance_tolerance, reach};
-use urdd_document::shapes::{ShapeKind, Shapes, approximations};
+use urdd_document::shapes::{Shapes, approximations};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::farthest;
 
 /// The tolerances of one kind of shapes.
@@ -22,15 +23,11 @@ impl Tolerances {
             .document(ModuleKind::LinkShapesApproximations)
             .and_then(approximations)
             .and_then(|lists| lists.into_iter().find(|list| list.kind == kind));
-        let meshes = match kind.full {
-            true => ModuleKind::ConvexHullMeshes,
-            false => ModuleKind::ConvexDecompositionMeshes,
-        };
         let of_shape = |shape: usize| -> Option<f64> {
             let (link, piece) = shapes.place(kind, shape)?;
-            match kind.hulls {
+            match kind.is_convex_mesh() {
                 true => {
-                    let mesh = solids.sound(meshes, link, piece)?;
+                    let mesh = solids.sound(kind.meshes(), link, piece)?;
                     Some(farthest::of_mesh(mesh))
                 }
                 false => Some(volumes.as_ref()?.links.get(link)?.get(piece)?.reach()),

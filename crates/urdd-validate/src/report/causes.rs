@@ -1,31 +1,30 @@
-//! What is behind the findings of many URDDs: findings of one rule that say the same are one cause,
-//! whatever the module, link or URDD.
+//! Groups the findings of many URDDs by cause: findings of one rule with the same meaning have one cause, regardless of
+//! module, link and URDD.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::model::{Consequence, Finding, Place, Report, Severity};
 use super::place::file_in;
+use urdd_format::report::{Consequence, Finding, Place, Report, Severity};
 
-/// One cause.
+/// A cause of findings.
 pub(super) struct Cause<'a> {
     /// Its first finding.
     pub first: &'a Finding,
-    /// How bad it is, at its worst.
+    /// Severity of its worst finding.
     pub severity: Severity,
-    /// How often it was found: what several URDDs name, such as a file of a part that they are put
-    /// together of, counts once.
+    /// Number of occurrences. A place that several URDDs name, such as a file of a part that they share, counts once.
     pub times: usize,
-    /// Links, joints, pairs of links at which it was found; 0 where that is not known.
+    /// Number of links, joints or pairs of links with an occurrence; 0 if unknown.
     pub subjects: usize,
-    /// The URDDs in which it was found.
+    /// Paths of the URDDs with an occurrence.
     pub urdds: Vec<&'a str>,
-    /// How many of them only name what another one holds.
+    /// Number of these URDDs whose occurrences are all in files of other URDDs.
     pub borrowed: usize,
 }
 
 impl Cause<'_> {
-    /// What it does.
+    /// Consequence of the fault.
     pub fn consequence(&self) -> Consequence {
         self.first.consequence
     }
@@ -42,7 +41,7 @@ struct Gathered<'a> {
     urdds: BTreeMap<usize, bool>,
 }
 
-/// The causes of all findings: errors first, then by consequence, then by how many URDDs have them.
+/// The causes of all findings: by severity, then by consequence, then by number of URDDs, each in descending order.
 pub(super) fn causes(report: &Report) -> Vec<Cause<'_>> {
     let roots: BTreeSet<&str> = report.urdds.iter().map(|urdd| urdd.path.as_str()).collect();
     let mut all: BTreeMap<(&str, String), Gathered> = BTreeMap::new();
@@ -99,8 +98,8 @@ pub(super) fn causes(report: &Report) -> Vec<Cause<'_>> {
     causes
 }
 
-/// The links or joints of a place, pieces taken together, in alphabetical order: a pair is the same
-/// pair either way round.
+/// The links or joints of a place, without piece numbers, in alphabetical order, so that the order within a pair does
+/// not matter.
 fn subject(place: &Place) -> Option<String> {
     let subject = place.subject.as_deref()?;
     let part = |part: &str| match part.find("` piece ") {
@@ -122,8 +121,8 @@ fn inside(file: &str, roots: &BTreeSet<&str>) -> bool {
     parents.into_iter().any(|folder| roots.contains(folder))
 }
 
-/// What a message means: without names, numbers, pointers and what stands in parentheses, and with
-/// a piece or a hull of a link taken for the link.
+/// The meaning of a message: the message without names, numbers, pointers and parentheses, with pieces and hulls of a
+/// link replaced by the link.
 fn meaning(message: &str) -> String {
     let mut depth = 0_usize;
     let outside = |c: &char| {
@@ -148,7 +147,7 @@ fn meaning(message: &str) -> String {
         .replace("the hull of link", "link")
 }
 
-/// A message without names (in backticks or quotes) and numbers.
+/// Removes names (in backticks or quotes) and numbers from a message.
 fn without_particulars(message: &str) -> String {
     let mut out = String::new();
     let mut chars = message.chars().peekable();
@@ -206,15 +205,8 @@ mod tests {
     #[test]
     fn a_pair_is_the_same_either_way_round() {
         let at = |subject: &str| Place {
-            file: None,
-            pointer: None,
-            line: None,
-            column: None,
-            expected: None,
-            actual: None,
             subject: Some(subject.to_owned()),
-            message: None,
-            magnitude: None,
+            ..Place::default()
         };
         let one = subject(&at("`b` piece 3, `a` piece 1"));
         assert_eq!(one.as_deref(), Some("`a`, `b`"));

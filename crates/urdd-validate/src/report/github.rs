@@ -1,16 +1,16 @@
-//! The report as workflow commands of GitHub Actions: a line for each finding, which Actions shows at
-//! the file in the pull request. It needs no upload and no permissions.
+//! The report as workflow commands of GitHub Actions: one line per finding, which Actions shows at the file in the pull
+//! request. Needs no upload and no permissions.
 
 use std::fmt::{self, Write};
 
-use super::model::{Report, Severity, Status};
 use super::place::file_in;
 use urdd_format::escape;
+use urdd_format::report::{Report, Severity, Status};
 
-/// Writes the report. `places` says where its URDDs lie (see [`super::place::places`]).
+/// Writes the report. `places` are the folders of its URDDs (see [`super::place::places`]).
 ///
 /// # Errors
-/// Where writing fails.
+/// If writing fails.
 pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::Result {
     for (urdd, place) in report.urdds.iter().zip(places) {
         if let Some(reason) = &urdd.reason {
@@ -63,7 +63,7 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
 
 /// The text of a command.
 fn data(text: &str) -> String {
-    // Line breaks are escaped already; a percent sign begins an escape of Actions.
+    // Line breaks are already escaped. A percent sign starts an escape sequence of Actions.
     escape::line(text).replace('%', "%25")
 }
 

@@ -1,7 +1,7 @@
-//! The report for a person: by URDD, then by module; what is wrong, where, and what to do. Of many
-//! URDDs the summary comes alone: see `summary`.
+//! The report for people: by URDD, then by module; what is wrong, where, and what to do. For many URDDs, only the
+//! summary is written: see `summary`.
 //!
-//! Whatever came from a file is escaped here, field by field: see [`urdd_format::escape`].
+//! Text from files is escaped here, field by field: see [`urdd_format::escape`].
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -10,20 +10,20 @@ use std::fmt::{self, Write};
 use urdd_format::escape::{self, line as safe};
 use urdd_format::readable::number;
 
-use super::model::{
-    CheckStatus, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict,
-};
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::words::{list, plural};
 use super::{summary, unverified};
+use urdd_format::report::{
+    CheckStatus, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict,
+};
 
-/// More URDDs than these are summed up, not shown one by one.
+/// Maximum number of URDDs that are shown one by one. More are summarized.
 pub const FEW: usize = 3;
 
 /// Writes the report.
 ///
 /// # Errors
-/// Where writing fails.
+/// If writing fails.
 pub fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     let many = report.urdds.len() > FEW;
     for urdd in &report.urdds {
@@ -48,7 +48,7 @@ pub fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result
     write_totals(report, style, out)
 }
 
-/// Writes one URDD; where it is `brief`, only why it was not examined in full.
+/// Writes one URDD; if `brief`, only why it was not fully examined.
 fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> fmt::Result {
     let verdict = match urdd.verdict {
         Verdict::Pass => style.paint(GREEN, "pass"),
@@ -109,7 +109,7 @@ fn write_findings(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Resul
     Ok(())
 }
 
-/// The robot's name and size, and the formats of its modules.
+/// The robot's name and size, and the number and family of its modules.
 fn describe(urdd: &Urdd) -> String {
     let mut parts = Vec::new();
     if let Some(name) = &urdd.name {
@@ -160,7 +160,7 @@ pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Writ
     if let Some(expected) = &finding.expected {
         line("expected", expected)?;
     }
-    // What the message says already is not said again.
+    // Skips what the message already contains.
     const WORDS: usize = 8;
     let repeats = |actual: &&String| {
         let said = finding.message.contains(*actual);
@@ -195,7 +195,7 @@ pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Writ
     Ok(())
 }
 
-/// Whether what was found is numbers only, which do not say by how much they are off.
+/// Whether the value found consists of numbers only, which do not show the difference.
 fn is_bare(actual: &Option<String>) -> bool {
     let bare =
         |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | ',' | ' ' | '[' | ']');
@@ -204,7 +204,7 @@ fn is_bare(actual: &Option<String>) -> bool {
         .is_none_or(|actual| actual.chars().all(bare))
 }
 
-/// By how much numbers differ, to four digits.
+/// The difference of numbers, to four digits.
 pub(super) fn off_by(magnitude: &Magnitude) -> String {
     let number = magnitude
         .value
@@ -215,8 +215,8 @@ pub(super) fn off_by(magnitude: &Magnitude) -> String {
     }
 }
 
-/// File, line and column, pointer, and what that is by name. A column of the one line of a
-/// file helps nobody: the pointer and the names say it.
+/// File, line and column, pointer, and subject. Line and column are omitted within the first line of a file: in a file of
+/// one line, the pointer and the subject are more useful.
 fn place(found: &Place, with_file: bool) -> String {
     let file = found.file.as_deref().filter(|_| with_file);
     let mut place = safe(file.unwrap_or_default()).into_owned();
@@ -241,8 +241,8 @@ fn place(found: &Place, with_file: bool) -> String {
     place
 }
 
-/// What was not checked, by reason. Rules that are for another kind of URDD are not worth a word,
-/// and those about modules that are not here no more than one line.
+/// What was not checked, by reason. Rules for other formats are not mentioned, and rules about absent modules take one
+/// line.
 fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
     let label = style.paint(DIM, "not checked:");
     for open in &urdd.not_checked {
@@ -264,7 +264,7 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
     for (reason, codes) in by_reason {
         writeln!(out, "  {label} {}: {}", list(&codes), safe(reason))?;
     }
-    // Most robots are not put together from others, and miss nothing.
+    // Most robots are not composed of others: the absence of that module is normal.
     let is_of_parts = |check: &CheckStatus| check.code.starts_with("CMP");
     let absent =
         |check: &&CheckStatus| check.skipped == Some(Skipped::Absent) && !is_of_parts(check);

@@ -1,4 +1,4 @@
-//! What a URDD holds, told without judging it.
+//! The contents of a URDD, without validation.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -16,18 +16,18 @@ use urdd_format::rate::Rate;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::self_collision_model::ModelEvaluation;
 
-/// What a URDD holds.
+/// The contents of a URDD.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Info {
-    /// How the URDD is called.
+    /// Name of the URDD in reports.
     pub path: String,
     /// Name of the robot.
     pub robot_name: Option<String>,
-    /// Version of the specification that it states.
+    /// Version of the specification that the root metadata states.
     pub urdd_version: Option<String>,
-    /// The conformance class that it claims.
+    /// The claimed conformance class.
     pub conformance_class: Option<String>,
-    /// The carried source URDF.
+    /// Path of the carried source URDF.
     pub urdf: Option<String>,
     /// Number of links.
     pub links: Option<usize>,
@@ -35,11 +35,11 @@ pub struct Info {
     pub joints: BTreeMap<String, usize>,
     /// The degrees of freedom.
     pub dofs: Vec<DofInfo>,
-    /// The link that carries the parts of a robot that was put together, and is of none.
+    /// Name of the base link of a composed robot: the link that carries parts and belongs to none.
     pub base: Option<String>,
-    /// The parts of a robot that was put together, as a tree.
+    /// The parts of a composed robot, as a tree.
     pub parts: Vec<PartInfo>,
-    /// How often the self-collision model is right.
+    /// The rates of the self-collision model.
     pub collision_model: Option<ModelInfo>,
     /// The modules.
     pub modules: Vec<ModuleInfo>,
@@ -48,31 +48,31 @@ pub struct Info {
 /// A degree of freedom.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DofInfo {
-    /// Its name; for legacy modules that of its joint.
+    /// Its name; for legacy modules, the name of its joint.
     pub name: String,
-    /// `rad` or `m`, where the module says it.
+    /// `rad` or `m`, if the module states it.
     pub unit: Option<&'static str>,
     /// Lower and upper bound.
     pub bounds: Option<[f64; 2]>,
 }
 
-/// How often a self-collision model is right, as its module states.
+/// The rates of a self-collision model, as its module states them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModelInfo {
-    /// The share of collisions that it misses.
+    /// Share of collisions that it misses.
     pub miss_rate: Rate,
-    /// The share of collisions near contact that it misses.
+    /// Share of collisions near contact that it misses.
     pub near_contact_miss_rate: Rate,
-    /// The share of free configurations that it clears.
+    /// Share of free configurations that it clears.
     pub clear_rate: Rate,
-    /// Whether counting again gives these rates; null where that was not found out.
+    /// Whether a recount gives these rates; null if they were not verified.
     pub verified: Option<bool>,
-    /// Why they are wrong, or were not verified.
+    /// Why the rates are wrong or were not verified.
     pub reasons: Vec<String>,
 }
 
 impl ModelInfo {
-    /// Counts again.
+    /// Verifies the stated rates with a recount.
     fn new(evaluation: &ModelEvaluation, path: &Path) -> Self {
         let (verified, reasons) = match verify_model(path) {
             ModelVerdict::Verified => (Some(true), Vec::new()),
@@ -122,23 +122,23 @@ impl ModelInfo {
 /// A module.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModuleInfo {
-    /// Its folder.
+    /// Path of its folder.
     pub path: String,
     /// Its version.
     pub version: Option<String>,
     /// Number of its files.
     pub files: usize,
-    /// Their size, bytes.
+    /// Total size of its files, in bytes.
     pub bytes: u64,
-    /// Why its document cannot be used, where it cannot.
+    /// Why its document is unusable, if it is.
     pub unusable: Option<String>,
 }
 
 impl Info {
-    /// What the URDD at `path` holds; `name` is how it is called.
+    /// Reads the URDD at `path`. `name` is its name in reports.
     ///
     /// # Errors
-    /// Where its folder cannot be read.
+    /// If its folder cannot be read.
     pub fn read(path: &Path, name: &str) -> Result<Info, ReadError> {
         let urdd = Urdd::read(path)?;
         let robot = urdd.robot();
@@ -232,10 +232,10 @@ fn safe(text: &str) -> String {
     escape::line(text).into_owned()
 }
 
-/// Writes what a URDD holds, for a person.
+/// Writes the contents of a URDD for people.
 ///
 /// # Errors
-/// Where writing fails.
+/// If writing fails.
 pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
     let unknown = || "not known".to_owned();
     writeln!(out, "{}", escape::line(&info.path))?;

@@ -1,4 +1,4 @@
-//! The parts of a robot that was put together, as a tree.
+//! The parts of a composed robot, as a tree.
 
 use std::fmt::{self, Write};
 
@@ -8,37 +8,37 @@ use urdd_document::robot::Robot;
 use urdd_format::composition::{CompositionBase, CompositionPart};
 use urdd_format::escape;
 
-/// A part of a robot that was put together.
+/// A part of a composed robot.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PartInfo {
-    /// By what name the recipe knows it.
+    /// Its id in the recipe.
     pub id: String,
-    /// Name of the robot that the part was.
+    /// Name of the robot that it was made from.
     pub robot: String,
-    /// What stands before its names.
+    /// Prefix of its names.
     pub prefix: String,
     /// Number of its links.
     pub links: usize,
-    /// Number of its links that were left out.
+    /// Number of its links that were dropped.
     pub dropped_links: usize,
     /// Number of its joints that were made fixed.
     pub frozen_joints: usize,
-    /// The part that carries it; null for the base, or for nothing.
+    /// Id of the part that carries it; null if the base or nothing does.
     pub on_part: Option<String>,
-    /// The link that carries it, where its name is known.
+    /// Name of the link that carries it, if known.
     pub on_link: Option<String>,
-    /// The joint between the two, where its name is known.
+    /// Name of the joint that attaches it, if known.
     pub by_joint: Option<String>,
-    /// How that moves, where it is known.
+    /// Type of that joint, if known.
     pub joint_type: Option<String>,
-    /// The parts that hang on it.
+    /// The parts attached to it.
     pub carries: Vec<PartInfo>,
-    /// The parts that it was put together from itself.
+    /// The parts that it was itself composed of.
     pub parts: Vec<PartInfo>,
 }
 
-/// The parts of a composition: those that hang on nothing or on the base, with what hangs on them. `robot` is the robot that
-/// its indices are of, where that is at hand.
+/// The parts of a composition that no other part carries, each with the parts attached to it. `robot` is the robot that
+/// the indices refer to, if available.
 pub(super) fn tree(parts: &[CompositionPart], robot: Option<&Robot>) -> Vec<PartInfo> {
     let on = |part: &CompositionPart| Some(part.attachment.as_ref()?.part_idx?.get());
     let tops = (0..parts.len()).filter(|idx| on(&parts[*idx]).is_none());
@@ -46,7 +46,7 @@ pub(super) fn tree(parts: &[CompositionPart], robot: Option<&Robot>) -> Vec<Part
         .collect()
 }
 
-/// `depth` ends what hangs on itself, in a document that is wrong.
+/// `depth` bounds the recursion for invalid documents, in which a part can be attached to itself.
 fn part(parts: &[CompositionPart], idx: usize, robot: Option<&Robot>, depth: usize) -> PartInfo {
     let of = &parts[idx];
     let attachment = of.attachment.as_ref();
@@ -92,10 +92,10 @@ pub(super) fn base(base: Option<&CompositionBase>, robot: Option<&Robot>) -> Opt
     Some(link.name.clone())
 }
 
-/// Writes the tree, for a person.
+/// Writes the tree for people.
 ///
 /// # Errors
-/// Where writing fails.
+/// If writing fails.
 pub(super) fn write(parts: &[PartInfo], margin: &str, out: &mut impl Write) -> fmt::Result {
     for part in parts {
         write!(out, "{margin}{}", escape::line(&part.id))?;

@@ -1,8 +1,8 @@
-//! The report as JUnit XML, for GitLab, Jenkins, GitHub actions and others that show tests: a suite
-//! for each URDD, a case for each rule.
+//! The report as JUnit XML, for GitLab, Jenkins, GitHub Actions and other viewers of test results: one suite per URDD,
+//! one case per rule.
 //!
-//! A case fails as the run does: on findings at or above the severity at which runs fail. What is
-//! below that stands in the output of a case that passes.
+//! A case fails on findings at or above the severity at which the run fails. Lesser findings are in the output of a
+//! passed case.
 
 use std::cmp::Reverse;
 use std::io;
@@ -10,28 +10,21 @@ use std::io;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 
-use super::human;
-use super::model::{CheckStatus, Finding, Report, Severity, Status, Urdd};
-use crate::rule::Rule;
-use crate::{Run, Subject};
+use super::{human, rule};
 use urdd_format::escape;
+use urdd_format::report::{CheckStatus, Finding, Report, Severity, Status, Urdd};
 
 type Out = Writer<Vec<u8>>;
 
-/// Writes the report of a run that fails on findings of `fail_on` and worse. `places` says where its
-/// URDDs lie (see [`super::place::places`]).
+/// Writes the report of a run that fails on findings of `fail_on` and worse. `places` are the folders of its URDDs (see
+/// [`super::place::places`]).
 ///
 /// # Errors
 /// Never: it is written to memory.
-pub fn junit(
-    run: &Run,
-    report: &Report,
-    places: &[String],
-    fail_on: Severity,
-) -> io::Result<String> {
-    let urdds = run.subjects.iter().zip(&report.urdds).zip(places);
+pub fn junit(report: &Report, places: &[String], fail_on: Severity) -> io::Result<String> {
+    let urdds = report.urdds.iter().zip(places);
     let suites: Vec<Suite> = urdds
-        .map(|((subject, urdd), place)| Suite::new(subject, urdd, place, fail_on))
+        .map(|(urdd, place)| Suite::new(urdd, place, fail_on))
         .collect();
     let sum = |count: fn(&Suite) -> usize| suites.iter().map(count).sum::<usize>().to_string();
     let mut out = Writer::new_with_indent(Vec::new(), b' ', 2);
@@ -55,19 +48,16 @@ struct Suite {
 
 struct Case {
     name: String,
-    /// The element that says what came of it, with its type, message and text; none where it passed.
+    /// The result element, with its type, message and text; `None` for a passed case.
     outcome: Option<(&'static str, String, String, String)>,
-    /// Findings with which a case passes.
+    /// Findings of a passed case.
     output: String,
 }
 
 impl Suite {
-    fn new(subject: &Subject, urdd: &Urdd, place: &str, fail_on: Severity) -> Suite {
-        let ran = subject.result.iter().flat_map(|examined| &examined.checks);
-        let mut cases: Vec<Case> = ran
-            .zip(&urdd.checks)
-            .map(|(ran, check)| case(urdd, ran.rule, check, fail_on))
-            .collect();
+    fn new(urdd: &Urdd, place: &str, fail_on: Severity) -> Suite {
+        let checks = urdd.checks.iter();
+        let mut cases: Vec<Case> = checks.map(|check| case(urdd, check, fail_on)).collect();
         if let Some(reason) = &urdd.reason {
             let kind = urdd.verdict.as_str().to_owned();
             let outcome = ("error", kind, allowed(reason), String::new());
@@ -139,7 +129,7 @@ impl Case {
     }
 }
 
-fn case(urdd: &Urdd, rule: &Rule, check: &CheckStatus, fail_on: Severity) -> Case {
+fn case(urdd: &Urdd, check: &CheckStatus, fail_on: Severity) -> Case {
     let findings: Vec<&Finding> = urdd
         .findings
         .iter()
@@ -162,9 +152,10 @@ fn case(urdd: &Urdd, rule: &Rule, check: &CheckStatus, fail_on: Severity) -> Cas
         (Status::Skipped, _) => plain("skipped", "skipped"),
         (Status::Crashed, _) => plain("error", "crashed"),
     };
+    let name = rule(&check.code).map_or("", |rule| rule.name);
     Case {
-        // The same on every run, or nobody can follow a case through runs.
-        name: format!("{} {}", rule.code, rule.name),
+        // The same on every run, so that a case can be followed through runs.
+        name: format!("{} {name}", check.code),
         output: match outcome {
             None => text,
             Some(_) => String::new(),
@@ -173,17 +164,17 @@ fn case(urdd: &Urdd, rule: &Rule, check: &CheckStatus, fail_on: Severity) -> Cas
     }
 }
 
-/// A finding as the report for people has it, but for the margin.
+/// A finding as in the report for people, without the margin.
 fn described(finding: &Finding) -> String {
     let mut text = String::new();
-    // Writing to a string does not fail.
+    // Writing to a string cannot fail.
     let _ = human::write_finding(finding, super::style::Style::default(), &mut text);
     let lines = text.lines();
     let lines = lines.map(|line| line.strip_prefix("    ").unwrap_or(line));
     escape::lines(&(lines.collect::<Vec<_>>().join("\n") + "\n")).into_owned()
 }
 
-/// With escapes for what XML 1.0 cannot say at all, and for what readers would show raw.
+/// Escapes characters that XML 1.0 cannot represent, and those that viewers would interpret.
 fn allowed(text: &str) -> String {
     escape::line(text).into_owned()
 }

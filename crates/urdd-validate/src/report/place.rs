@@ -1,22 +1,23 @@
-//! Where a URDD lies, seen from the folder in which the program runs: what tools that show a report
-//! beside the files need. Reports hold no absolute path.
+//! Paths of URDDs relative to the working directory, for tools that show a report beside the files. Reports contain no
+//! absolute paths.
 
 use std::path::{Component, Path, PathBuf};
 
-use crate::{Run, Subject};
+use crate::Run;
+use urdd_format::report::Urdd;
 
-/// The folder of every URDD of a run, relative to `current`, with forward slashes: empty where it is
-/// that folder. A URDD outside of `current` goes by its name.
+/// The folder of every URDD of a run, relative to `current`, with forward slashes: empty if it is `current` itself. For
+/// a URDD outside of `current`, its name.
 pub fn places(run: &Run, current: &Path) -> Vec<String> {
-    let place = |subject: &Subject| {
-        let found = &subject.found;
-        relative(&found.path, current).unwrap_or_else(|| found.name.clone())
+    let urdds = run.report.urdds.iter().zip(&run.folders);
+    let place = |(urdd, folder): (&Urdd, &PathBuf)| {
+        relative(folder, current).unwrap_or_else(|| urdd.path.clone())
     };
-    run.subjects.iter().map(place).collect()
+    urdds.map(place).collect()
 }
 
-/// A file of a URDD, seen from where its place is seen; the URDD's folder where there is no file, or
-/// the file is out of what can be seen.
+/// Path of a file of the URDD at `place`, relative to the same folder as `place`. The URDD's folder if `file` is `None`
+/// or leads outside of that folder.
 pub fn file_in(place: &str, file: Option<&str>) -> String {
     let folder = |place: &str| match place {
         "" => "./".to_owned(),
@@ -53,7 +54,7 @@ fn relative(path: &Path, current: &Path) -> Option<String> {
     Some(parts.join("/"))
 }
 
-/// A path without `.` and `..`.
+/// Resolves `.` and `..` in a path.
 fn plain(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for part in path.components() {

@@ -1,8 +1,7 @@
 //! The report as SARIF 2.1.0, for GitHub code scanning, editors and other readers of that format.
 //!
-//! Only the rules that a result or a notification names are written. Of GitHub's limits, 25,000
-//! results in a run is the one that can be met: findings alike are one result with a count, and
-//! results come in the order of the URDDs.
+//! Contains only the rules that a result or a notification names. The limit of GitHub that a report can reach is 25,000
+//! results per run: equal findings are one result with a count, and results are in the order of the URDDs.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -10,25 +9,24 @@ use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
-use super::model::{Finding, Place, Report, Severity, Status, Urdd, Verdict};
 use super::place::file_in;
-use super::unverified;
-use crate::Run;
+use super::{rule, unverified};
 use crate::code::Code;
 use crate::rule::Rule;
 use urdd_format::escape;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::index::Count;
 use urdd_format::readable::number;
+use urdd_format::report::{CheckStatus, Finding, Place, Report, Severity, Status, Urdd, Verdict};
 
-/// What paths are relative to: the folder in which the program ran, by the name that readers of
-/// SARIF have for the root of a repository.
+/// Base of relative paths: the working directory, under the name that readers of SARIF use for the root of a
+/// repository.
 const BASE: &str = "%SRCROOT%";
 
-/// Most further places of a result: GitHub takes 1,000 locations a result.
+/// Maximum number of related locations of a result: GitHub accepts 1,000 locations per result.
 const MOST_LOCATIONS: usize = 999;
 
-/// What may stand in a URI reference as it is.
+/// Characters to percent-encode in a URI reference: all except letters, digits and those removed here.
 const KEPT: &AsciiSet = &NON_ALPHANUMERIC
     .remove(b'/')
     .remove(b'-')
@@ -36,18 +34,13 @@ const KEPT: &AsciiSet = &NON_ALPHANUMERIC
     .remove(b'_')
     .remove(b'~');
 
-/// Writes the report of a run. `places` says where its URDDs lie (see [`super::place::places`]), and
-/// `exit_code` the status with which the program ends.
+/// Writes the report of a run. `places` are the folders of its URDDs (see [`super::place::places`]), `exit_code` is the
+/// exit status of the program.
 ///
 /// # Errors
-/// Never for a report that [`Run::report`](crate::Run::report) made.
-pub fn sarif(
-    run: &Run,
-    report: &Report,
-    places: &[String],
-    exit_code: u8,
-) -> serde_json::Result<String> {
-    let rules = Rules::used(run, report);
+/// Never for the report of a [`Run`](crate::Run).
+pub fn sarif(report: &Report, places: &[String], exit_code: u8) -> serde_json::Result<String> {
+    let rules = Rules::used(report);
     let placed = || report.urdds.iter().zip(places);
     let results: Vec<Value> = placed()
         .flat_map(|(urdd, place)| results(urdd, place, &rules))
@@ -67,7 +60,7 @@ pub fn sarif(
             json!({"level": "warning", "message": message(&text)})
         })
         .collect();
-    // What was not verified is no failure of the run.
+    // Geometry or rates that were not verified do not make the run a failure.
     let failed = !notifications.is_empty();
     let unverified = placed().flat_map(|(urdd, place)| {
         unverified::describe(urdd).into_iter().map(move |text| {
@@ -106,27 +99,19 @@ pub fn sarif(
             "results": results,
         }],
     });
-    let text = serde_json::to_string_pretty(&log)?;
-    Ok(escape::json(&text).into_owned() + "\n")
+    super::json(&log)
 }
 
 /// The rules that the report names, in order of code.
 struct Rules(BTreeMap<Code, &'static Rule>);
 
 impl Rules {
-    fn used(run: &Run, report: &Report) -> Rules {
-        let mut rules = BTreeMap::new();
-        for (subject, urdd) in run.subjects.iter().zip(&report.urdds) {
-            let Ok(examined) = &subject.result else {
-                continue;
-            };
-            for (check, status) in examined.checks.iter().zip(&urdd.checks) {
-                if matches!(status.status, Status::Failed | Status::Crashed) {
-                    rules.insert(check.rule.code, check.rule);
-                }
-            }
-        }
-        Rules(rules)
+    fn used(report: &Report) -> Rules {
+        let checks = report.urdds.iter().flat_map(|urdd| &urdd.checks);
+        let used = checks
+            .filter(|check| matches!(check.status, Status::Failed | Status::Crashed))
+            .filter_map(|check| rule(&check.code));
+        Rules(used.map(|rule| (rule.code, rule)).collect())
     }
 
     fn index(&self, code: &str) -> Option<usize> {
@@ -198,7 +183,7 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
     urdd.findings.iter().map(result).collect()
 }
 
-/// All that a stranger needs in one text: few readers show more of a result.
+/// The whole finding as one text: few readers show other fields of a result.
 fn text(finding: &Finding) -> String {
     let mut text = escape::line(&finding.message).into_owned();
     let mut line = |label: &str, value: &str| {
@@ -222,13 +207,13 @@ fn text(finding: &Finding) -> String {
     text
 }
 
-/// A message. What looks like a link in it is no link: names in a URDD are anybody's words.
+/// A message, with link syntax broken up: names in a URDD are untrusted text.
 fn message(text: &str) -> Value {
     json!({"text": escape::lines(text).replace("](", "] (")})
 }
 
-/// What tells a finding from others: nothing that changes when lines move, when an element is put
-/// before the one that is meant, or when a message is worded otherwise.
+/// Identity of a finding. Does not change when lines move, when an element is inserted before, or when the wording of
+/// the message changes.
 fn kind(finding: &Finding, place: &str) -> [String; 3] {
     let what = match &finding.pointer {
         Some(pointer) => {
@@ -248,7 +233,7 @@ fn fingerprint(kind: &[String; 3], nth: u32) -> String {
     hexadecimal(&digest[..16])
 }
 
-/// A further place of a result, with what is there.
+/// A related location of a result, with the value found there.
 fn related(urdd: &str, other: &Place) -> Value {
     let mut location = location(urdd, other);
     let parts = [
@@ -288,7 +273,7 @@ fn artifact(urdd: &str, file: Option<&str>) -> Value {
     json!({"uri": utf8_percent_encode(&path, KEPT).to_string(), "uriBaseId": BASE})
 }
 
-/// What kept the program from examining a URDD, or all of it.
+/// The errors that prevented a full examination of a URDD.
 fn notifications(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
     let locations = json!([{"physicalLocation": {"artifactLocation": artifact(place, None)}}]);
     let mut notifications = Vec::new();
@@ -300,7 +285,7 @@ fn notifications(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
         notifications
             .push(json!({"level": "error", "message": message(&text), "locations": locations}));
     }
-    let crashed = |check: &&super::model::CheckStatus| check.status == Status::Crashed;
+    let crashed = |check: &&CheckStatus| check.status == Status::Crashed;
     for check in urdd.checks.iter().filter(crashed) {
         let text = format!(
             "{} ran into a fault of its own and checked nothing: {}. Please report this.",

@@ -1,21 +1,21 @@
-//! How reports for people look.
+//! Appearance of reports for people.
 
 use std::fmt;
 
-use super::model::Severity;
+use urdd_format::report::Severity;
 
-/// How the human report looks.
+/// Appearance of the report for people.
 #[derive(Debug, Clone, Copy)]
 pub struct Style {
-    /// With colours, for a terminal.
+    /// Whether to use colours.
     pub color: bool,
-    /// Only what has findings, and the summary.
+    /// Whether to leave out URDDs without findings.
     pub quiet: bool,
-    /// Every URDD in full, however many they are.
+    /// Whether to write every URDD in full, regardless of their number.
     pub full: bool,
-    /// How many places of a finding are shown.
+    /// Maximum number of places per finding.
     pub max_places: usize,
-    /// How long lines of the summary may be, characters.
+    /// Maximum line length of the summary, in characters.
     pub width: usize,
 }
 
@@ -39,7 +39,7 @@ pub(super) const YELLOW: &str = "\x1b[33m";
 pub(super) const BLUE: &str = "\x1b[34m";
 const PLAIN: &str = "\x1b[0m";
 
-/// Every escape sequence that a report may hold.
+/// Every escape sequence that a report can contain.
 pub const STYLES: &[&str] = &[BOLD, DIM, RED, GREEN, YELLOW, BLUE, PLAIN];
 
 impl Style {

@@ -1,18 +1,18 @@
-//! The report on many URDDs, for whoever looks after them: a table of URDDs by family of rules, and
-//! what is behind the findings, in the order in which to mend it.
+//! The report on many URDDs: a table of URDDs by family of rules, and the causes of the findings, in the order in which
+//! to fix them.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
 use super::causes::{Cause, causes};
-use super::model::{Consequence, Report, Severity, Status, Urdd, Verdict};
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::unverified::{self, not_verified};
 use super::words::plural;
 use urdd_format::escape::line as safe;
+use urdd_format::report::{Consequence, Report, Severity, Status, Urdd, Verdict};
 
-/// Families of rules, as columns: a title, and the families.
+/// Columns of the table: a title, and the families of rules.
 const COLUMNS: &[(&str, &[&str])] = &[
     ("DIR", &["DIR"]),
     ("TXT", &["JSN", "YML", "SCH", "EXT"]),
@@ -28,11 +28,11 @@ const COLUMNS: &[(&str, &[&str])] = &[
     ("LEG", &["LEG"]),
 ];
 
-/// Most rows of the table, and most causes of errors and of what is less, unless all are asked for.
+/// Maximum number of table rows, of causes of errors, and of causes of warnings and infos, without `--full`.
 const ROWS: usize = 60;
 const CAUSES: usize = 10;
 const LESSER: usize = 5;
-/// Longest name of a URDD in the table, characters.
+/// Maximum length of a URDD's name in the table, in characters.
 const NAME: usize = 28;
 
 /// Writes the table and the causes.
@@ -126,7 +126,7 @@ fn write_cause(cause: &Cause<'_>, style: Style, out: &mut impl Write) -> fmt::Re
     writeln!(out, "{}", style.paint(DIM, shorten(&example, style.width)))
 }
 
-/// What a cause was found at, more than one of them.
+/// The kind of subjects of a cause, in the plural.
 fn kinds(cause: &Cause<'_>) -> &'static str {
     let subject = cause.first.subject.as_deref().unwrap_or_default();
     if subject.contains(", ") {
@@ -140,7 +140,7 @@ fn kinds(cause: &Cause<'_>) -> &'static str {
     }
 }
 
-/// What could not be checked, by reason.
+/// Writes what could not be checked, by reason.
 fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     let mut by_reason: BTreeMap<&str, (usize, BTreeSet<&str>)> = BTreeMap::new();
     for open in report.urdds.iter().flat_map(|urdd| &urdd.not_checked) {
@@ -263,7 +263,7 @@ enum Cell {
     Absent,
 }
 
-/// What families of rules say of a URDD.
+/// The result of families of rules for a URDD.
 fn cell(urdd: &Urdd, families: &[&str]) -> (Cell, String) {
     let of_family = |code: &str| families.iter().any(|family| code.starts_with(family));
     let times = |severity: Severity| -> usize {

@@ -1,23 +1,23 @@
-//! What was not verified of a URDD's geometry, link by link, and of its self-collision model.
+//! Describes which links and which self-collision model were not verified.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::model::{LinkNotVerified, Urdd};
 use super::words::{list, plural};
 use urdd_format::escape::line as safe;
+use urdd_format::report::{LinkNotVerified, Urdd};
 
-/// Most links that are named for a reason.
+/// Maximum number of links listed per reason.
 const LINKS: usize = 8;
 
-/// How many links were not verified, in words.
+/// States how many links were not verified.
 pub(super) fn not_verified(links: usize) -> String {
     format!("the geometry of {} was not verified", plural(links, "link"))
 }
 
-/// A self-collision model that was not verified, in words.
+/// States that a self-collision model was not verified.
 pub(super) const MODEL: &str = "the rates of the self-collision model were not verified";
 
-/// A line for each of what was not verified: links, and the self-collision model.
+/// One line for the links that were not verified, and one for the self-collision model.
 pub(super) fn describe(urdd: &Urdd) -> Vec<String> {
     let model = urdd.model_not_verified.as_ref().map(|model| {
         let reasons = model.reasons.join(", ");
@@ -26,7 +26,7 @@ pub(super) fn describe(urdd: &Urdd) -> Vec<String> {
     describe_links(urdd).into_iter().chain(model).collect()
 }
 
-/// One line that says how many links were not verified, and which, by reason; no line where all were.
+/// The number of links that were not verified, and their indices by reason; `None` if all were verified.
 fn describe_links(urdd: &Urdd) -> Option<String> {
     let links = &urdd.geometry_not_verified;
     if links.is_empty() {

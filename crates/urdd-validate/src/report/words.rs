@@ -1,6 +1,6 @@
-//! Words that several reports use.
+//! Wording shared by several renderers.
 
-/// Codes, or where they are many, how many of which families.
+/// A list of codes; if there are many, their number and families.
 pub(super) fn list(codes: &[String]) -> String {
     const MOST: usize = 8;
     if codes.len() <= MOST {
@@ -15,7 +15,7 @@ pub(super) fn list(codes: &[String]) -> String {
     format!("{} ({})", plural(codes.len(), "rule"), families.join(", "))
 }
 
-/// A number of things.
+/// A count with its unit.
 pub(super) fn plural(count: usize, unit: &str) -> String {
     format!("{count} {unit}{}", if count == 1 { "" } else { "s" })
 }

@@ -36,12 +36,8 @@ pub fn of_link(
     kind: GeometryKind,
 ) -> Option<Expected> {
     let named = urdd.robot()?.links.get(link)?;
-    let elements = match kind {
-        GeometryKind::Visual => &named.visual,
-        GeometryKind::Collision => &named.collision,
-    };
     let mut expected = Expected::default();
-    for (at, element) in elements.iter().enumerate() {
+    for (at, element) in named.elements(kind).iter().enumerate() {
         if !usable.is_usable(link, kind, at) {
             continue;
         }

@@ -5,9 +5,10 @@ use nalgebra::{Point3, Rotation3, Vector3};
 use crate::part::Part;
 use crate::solids::Solids;
 use crate::tolerance::HULL_IN_VOLUME;
-use urdd_document::shapes::{ShapeKind, Volume, approximations};
+use urdd_document::shapes::{Volume, approximations};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::{Mesh, farthest};
 
 /// A box or sphere, with the hull or piece that it is there for.
@@ -134,7 +135,7 @@ impl Enclosure<'_> {
     /// What it is there for.
     pub fn of_what(&self, urdd: &Urdd) -> String {
         let link = urdd.link_label(self.link);
-        match self.kind.full {
+        match self.kind.is_of_links() {
             true => format!("the hull of {link}"),
             false => format!("piece {} of {link}", self.piece),
         }
@@ -149,13 +150,9 @@ pub fn enclosures<'a>(urdd: &Urdd, solids: &'a Solids) -> Vec<Enclosure<'a>> {
     };
     let mut enclosures = Vec::new();
     for list in lists {
-        let meshes = match list.kind.full {
-            true => ModuleKind::ConvexHullMeshes,
-            false => ModuleKind::ConvexDecompositionMeshes,
-        };
         for (link, entry) in list.links.iter().enumerate() {
             for (piece, volume) in entry.iter().enumerate() {
-                let Some(mesh) = solids.sound(meshes, link, piece) else {
+                let Some(mesh) = solids.sound(list.kind.meshes(), link, piece) else {
                     continue;
                 };
                 enclosures.push(Enclosure {

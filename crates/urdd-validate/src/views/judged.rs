@@ -6,8 +6,9 @@ use crate::code::Code;
 use crate::context::Context;
 use crate::finding::Findings;
 use crate::part::{Part, Why};
-use urdd_document::shapes::{ShapeKind, Shapes};
+use urdd_document::shapes::Shapes;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 
 /// Whether to judge a part, by itself or by others.
 pub fn judged(context: &Context, findings: &mut Findings, part: Part, by: &[Part]) -> bool {

@@ -1,11 +1,12 @@
 //! Faults of the text of documents, as they were noted when the documents were read.
 
 use super::super::context::Context;
-use super::super::finding::{Finding, Findings, KEPT_PLACES, Occurrence, Place};
+use super::super::finding::{Finding, Findings, KEPT_PLACES, Place};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::text_fault::{TextFault, TextFaultKind, TextFaults};
 use urdd_document::entries;
 use urdd_document::module::Mirror;
+use urdd_format::index::Count;
 
 /// Reports the faults of these kinds in `urdd.json` and every `module.json`: one finding for each
 /// file and kind, with the number of them.
@@ -49,17 +50,10 @@ fn report(file: &str, faults: &TextFaults, kinds: &[TextFaultKind], findings: &m
         };
         let mut finding = Finding::in_file(file, first.message.clone());
         finding.place = place(file, first);
-        finding.expected.clone_from(&first.expected);
-        finding.actual.clone_from(&first.found);
         finding.count = faults.total(*kind);
         finding.more = kept
             .take(KEPT_PLACES - 1)
-            .map(|fault| Occurrence {
-                place: place(file, fault),
-                expected: fault.expected.clone(),
-                actual: fault.found.clone(),
-                ..Occurrence::default()
-            })
+            .map(|fault| place(file, fault))
             .collect();
         findings.report(finding);
     }
@@ -69,7 +63,10 @@ fn place(file: &str, fault: &TextFault) -> Place {
     Place {
         file: Some(file.to_owned()),
         pointer: fault.pointer.clone(),
-        position: fault.position,
-        subject: None,
+        line: fault.position.map(|position| Count(position.line)),
+        column: fault.position.map(|position| Count(position.column)),
+        expected: fault.expected.clone(),
+        actual: fault.found.clone(),
+        ..Place::default()
     }
 }

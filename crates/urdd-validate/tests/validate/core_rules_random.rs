@@ -9,8 +9,8 @@ use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use urdd_format::registry::{self, ModuleKind};
+use urdd_format::report::{Status, Verdict};
 use urdd_validate::code::Code;
-use urdd_validate::engine::Outcome;
 use urdd_validate::settings::Settings;
 
 use testkit::dice::Dice;
@@ -29,21 +29,22 @@ const MODULES: [&str; 5] = [
 
 /// The codes of what is found in a URDD, each with its first message; but for oddities of the robot.
 fn found(urdd: &Fixture, folder: &mut Folder) -> BTreeMap<Code, String> {
-    let report = urdd_validate::validate(&[folder.put(urdd)], &Settings::default()).unwrap();
-    let examined = report.subjects[0].result.as_ref().unwrap();
+    let run = urdd_validate::validate(&[folder.put(urdd)], &Settings::default()).unwrap();
+    let [urdd] = &run.report.urdds[..] else {
+        panic!("one URDD")
+    };
+    assert_ne!(urdd.verdict, Verdict::Unreadable);
+    for check in &urdd.checks {
+        let crashed = check.status == Status::Crashed;
+        assert!(!crashed, "{} crashed: {:?}", check.code, check.reason);
+    }
     let mut found = BTreeMap::new();
-    for check in &examined.checks {
-        assert!(
-            !matches!(check.outcome, Outcome::Crashed(_)),
-            "{} crashed: {:?}",
-            check.rule.code,
-            check.outcome
-        );
-        if let Some(first) = check.findings.first()
-            && check.rule.code.family() != "SRC"
-        {
-            let place = first.place.pointer.as_deref().unwrap_or_default();
-            found.insert(check.rule.code, format!("{place}: {}", first.message));
+    for finding in &urdd.findings {
+        let code = Code::parse(&finding.code).expect("a code");
+        if code.family() != "SRC" {
+            let place = finding.pointer.as_deref().unwrap_or_default();
+            let first = || format!("{place}: {}", finding.message);
+            found.entry(code).or_insert_with(first);
         }
     }
     found

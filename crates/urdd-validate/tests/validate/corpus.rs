@@ -4,8 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use urdd_validate::report::model::Verdict;
-use urdd_validate::rule::Severity;
+use urdd_format::report::Verdict;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 
@@ -15,7 +14,7 @@ fn published_urdds_have_the_findings_that_were_judged_true() {
     let corpus = std::env::var_os("URDD_CORPUS").map(PathBuf::from);
     let corpus = corpus.unwrap_or_else(|| PathBuf::from("../shared/corpus"));
     let run = validate(&[corpus], &Settings::default()).expect("the published URDDs");
-    let report = run.report(Severity::Error);
+    let report = run.report;
     let mut lines = String::new();
     for urdd in &report.urdds {
         assert_eq!(urdd.verdict, Verdict::Fail, "{}", urdd.path);

@@ -7,10 +7,9 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use testkit::documents::{Choices, instance};
 use urdd_format::registry::{self, ModuleKind, ModuleSpec};
+use urdd_format::report::{Status, Verdict};
 use urdd_format::root_metadata::RootMetadata;
 use urdd_format::schema::{Subject, Variant};
-use urdd_validate::engine::Outcome;
-use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 
 use testkit::dice::Dice;
@@ -101,8 +100,11 @@ fn try_all(
 /// Whether the URDD is found wrong.
 fn examine(urdd: &Fixture, folder: &mut Folder, trial: u64) -> bool {
     let run = urdd_validate::validate(&[folder.put(urdd)], &Settings::default()).unwrap();
-    let examined = run.subjects[0].result.as_ref().unwrap();
-    for check in &examined.checks {
+    let [urdd_report] = &run.report.urdds[..] else {
+        panic!("one URDD")
+    };
+    assert_ne!(urdd_report.verdict, Verdict::Unreadable);
+    for check in &urdd_report.checks {
         let changed = || {
             let toy = Fixture::toy();
             let documents = urdd.documents.iter();
@@ -112,15 +114,14 @@ fn examine(urdd: &Fixture, folder: &mut Folder, trial: u64) -> bool {
             serde_json::to_string(&text).unwrap()
         };
         assert!(
-            !matches!(check.outcome, Outcome::Crashed(_)),
+            check.status != Status::Crashed,
             "trial {trial}: {} crashed: {:?} on {}",
-            check.rule.code,
-            check.outcome,
+            check.code,
+            check.reason,
             changed()
         );
     }
-    let report = run.report(Severity::Error);
-    report.urdds.iter().any(|urdd| !urdd.findings.is_empty())
+    !urdd_report.findings.is_empty()
 }
 
 /// Replaces a value of a document, such that it still fits its schema.

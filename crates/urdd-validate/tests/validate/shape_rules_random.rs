@@ -6,9 +6,8 @@ use std::path::Path;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use serde_json::{Value, json};
+use urdd_format::report::Report;
 use urdd_format::report::Status;
-use urdd_validate::report::Report;
-use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 
@@ -18,7 +17,7 @@ use testkit::robot::arbitrary_box_robot;
 fn report(fixture: &Fixture, root: &Path) -> Report {
     fixture.write_to(root);
     let run = validate(&[root], &Settings::default()).expect("something to examine");
-    run.report(Severity::Error)
+    run.report
 }
 
 /// Whether a rule is of the families at hand.

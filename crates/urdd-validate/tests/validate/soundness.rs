@@ -8,6 +8,7 @@ use testkit::fixture::Fixture;
 use testkit::folder::Folder;
 use testkit::meshes::{Point, glb, obj, stl};
 use testkit::robot::*;
+use urdd_document::urdd::Urdd;
 use urdd_format::urdf::{Joint, JointType, Link};
 use urdd_validate::code::Code;
 use urdd_validate::code::Code::*;
@@ -15,7 +16,7 @@ use urdd_validate::engine::{Check, Outcome};
 use urdd_validate::part::{NotVerified, Part, Why};
 use urdd_validate::settings::Settings;
 use urdd_validate::skip::SkipReason;
-use urdd_validate::{Examined, validate};
+use urdd_validate::{Examined, rules};
 
 const PLAIN: &str = "plain_meshes_module";
 const HULLS: &str = "convex_hull_meshes_module";
@@ -81,8 +82,8 @@ fn examine(mut urdd: Fixture) -> Examined {
     urdd.seal();
     let mut folder = Folder::new();
     let path = folder.put(&urdd).to_path_buf();
-    let mut report = validate(&[path], &Settings::default()).expect("a URDD");
-    report.subjects.remove(0).result.expect("examined")
+    let urdd = Urdd::read(&path).expect("a URDD");
+    urdd_validate::examine(urdd, "robot", &Settings::default(), &rules::all())
 }
 
 fn check(examined: &Examined, code: Code) -> &Check {
@@ -108,19 +109,15 @@ fn pointers(examined: &Examined, code: Code) -> Vec<String> {
     let mut pointers = Vec::new();
     for finding in &check.findings {
         pointers.extend(finding.place.pointer.clone());
-        pointers.extend(
-            finding
-                .more
-                .iter()
-                .filter_map(|more| more.place.pointer.clone()),
-        );
+        pointers.extend(finding.more.iter().filter_map(|more| more.pointer.clone()));
     }
     pointers
 }
 
 /// The links of which some mesh was not verified.
 fn links_left(examined: &Examined) -> BTreeSet<usize> {
-    examined.links_not_verified().into_keys().collect()
+    let links = examined.links_not_verified().into_iter();
+    links.map(|link| link.link.get()).collect()
 }
 
 fn left_out(examined: &Examined, code: Code) -> BTreeSet<NotVerified> {

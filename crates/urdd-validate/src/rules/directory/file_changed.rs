@@ -3,7 +3,7 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use crate::context::Context;
-use crate::finding::{Finding, Findings, KEPT_PLACES, Occurrence, Place};
+use crate::finding::{Finding, Findings, KEPT_PLACES, Place};
 use crate::rule::declare_rule;
 use urdd_directory::digest::{Change, compare};
 use urdd_directory::discover::ROOT_METADATA;
@@ -172,12 +172,9 @@ fn report_cause(
         .iter()
         .skip(1)
         .take(KEPT_PLACES - 1)
-        .map(|listed| Occurrence {
-            place: Place {
-                file: Some(listed.file.path.clone()),
-                ..Place::default()
-            },
-            ..Occurrence::default()
+        .map(|listed| Place {
+            file: Some(listed.file.path.clone()),
+            ..Place::default()
         })
         .collect();
     findings.report(finding);

@@ -44,7 +44,7 @@ fn check(context: &Context, findings: &mut Findings) {
             let actual = document.value.pointer(&pointer).map(schema_check::excerpt);
             let message = format!("the value does not fit schema.json: {message}{more}");
             let mut finding = Finding::at(module.file("module.json"), pointer, message);
-            finding.actual = actual;
+            finding.place.actual = actual;
             findings.report(finding);
         }
     }

@@ -49,7 +49,7 @@ fn check(context: &Context, findings: &mut Findings) {
             continue;
         };
         for list in entry_counts(document) {
-            if !list.kind.full {
+            if !list.kind.is_of_links() {
                 lists.push(Counted {
                     kind: *kind,
                     key: list.key,

@@ -34,8 +34,8 @@ fn check(context: &Context, findings: &mut Findings) {
 fn report(file: &str, violations: &[SchemaViolation], findings: &mut Findings) {
     for violation in violations {
         let mut finding = Finding::at(file, violation.place(), violation.message.clone());
-        finding.expected.clone_from(&violation.expected);
-        finding.actual.clone_from(&violation.actual);
+        finding.place.expected.clone_from(&violation.expected);
+        finding.place.actual.clone_from(&violation.actual);
         findings.report(finding);
     }
 }

@@ -7,7 +7,6 @@ use crate::views::tangled::symmetric_at;
 use urdd_document::shape_matrices::{
     Elements, MATRIX_MODULES, Matrix, Rows, at, matrices, reasons, skips,
 };
-use urdd_document::shapes::KINDS;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 
 declare_rule! {
@@ -121,7 +120,7 @@ fn edited_half(
         return None;
     };
     let simple = context.document(ModuleKind::LinkShapesSimpleSkips)?;
-    let place = KINDS.iter().position(|kind| *kind == matrix.kind)?;
+    let place = matrix.kind as usize;
     let before = match context.document(module)? {
         ModuleDocument::LinkShapesSkips(skips) => {
             let reason = same_both_ways(reasons(simple)?[place], i, j)?;

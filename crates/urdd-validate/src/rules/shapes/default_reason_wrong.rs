@@ -6,10 +6,10 @@ use crate::rule::declare_rule;
 use crate::views::shape_pair::CONTACT;
 use crate::views::tangled::Tangled;
 use urdd_document::shape_matrices::{Elements, at, reasons};
-use urdd_document::shapes::KINDS;
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::readable::metres;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 
 declare_rule! {
     /// A pair of shapes is in contact in the default configuration and its reason is not `Default`, or
@@ -62,7 +62,7 @@ fn check(context: &Context, findings: &mut Findings) {
         Ok(distances) => distances,
         Err(reason) => return findings.skip(reason.clone()),
     };
-    for ((kind, rows), found) in KINDS.into_iter().zip(six).zip(distances.kinds()) {
+    for ((kind, rows), found) in ShapeKind::ALL.into_iter().zip(six).zip(distances.kinds()) {
         let (Some(rows), Some(found)) = (rows, found) else {
             continue;
         };
@@ -99,7 +99,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 fold.add(|| {
                     Finding::at(
                         module.file("module.json"),
-                        format!("/reasons/{}/{i}/{j}", kind.name),
+                        format!("/reasons/{}/{i}/{j}", kind.key()),
                         format!(
                             "shapes {} and {} are {} apart in the default configuration, and {CONTACT} m or less is contact",
                             shapes.describe(context, kind, i),

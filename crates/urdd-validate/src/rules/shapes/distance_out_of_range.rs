@@ -6,8 +6,8 @@ use crate::rule::declare_rule;
 use crate::views::judged;
 use crate::views::shape_pair::{Pair, Pairs};
 use urdd_document::shape_matrices::statistics;
-use urdd_document::shapes::KINDS;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 
 declare_rule! {
     /// In one of the sampled configurations two shapes are at a distance that the statistics rule out.
@@ -50,7 +50,7 @@ fn check(context: &Context, findings: &mut Findings) {
         Ok(distances) => distances,
         Err(reason) => return findings.skip(reason.clone()),
     };
-    for ((kind, one), found) in KINDS.into_iter().zip(six).zip(distances.kinds()) {
+    for ((kind, one), found) in ShapeKind::ALL.into_iter().zip(six).zip(distances.kinds()) {
         // What was computed in full is SHP024's.
         let (Some(one), Some(found)) = (one, found.as_ref().filter(|found| !found.complete)) else {
             continue;
@@ -81,7 +81,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     let (sample, distance) = at.unwrap_or((0, range.min));
                     Finding::at(
                         module.file("module.json"),
-                        format!("/{}/{key}/{i}/{j}", kind.name),
+                        format!("/{}/{key}/{i}/{j}", kind.key()),
                         format!(
                             "in sampled configuration {sample} the distance of shapes {} and {} is not within what is stated",
                             shapes.describe(context, kind, i),

@@ -54,7 +54,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 if (value - expected).abs() <= tolerance {
                     continue;
                 }
-                let what = match list.kind.full {
+                let what = match list.kind.is_of_links() {
                     true => "the hull".to_owned(),
                     false => format!("piece {piece}"),
                 };

@@ -76,7 +76,7 @@ struct Wrong {
 fn wrong_size(matrix: &Matrix, shapes: &Shapes) -> Option<Wrong> {
     let rows = matrix.elements?.row_lengths();
     let size = shapes.count(matrix.kind);
-    let what = match matrix.kind.full {
+    let what = match matrix.kind.is_of_links() {
         true => "links with a hull",
         false => "convex pieces",
     };

@@ -3,8 +3,8 @@ use crate::finding::{Finding, Findings};
 use crate::fold::Fold;
 use crate::rule::declare_rule;
 use urdd_document::shape_matrices::{at, statistics};
-use urdd_document::shapes::KINDS;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 
 declare_rule! {
     /// A distance between two shapes is negative.
@@ -28,7 +28,7 @@ fn check(context: &Context, findings: &mut Findings) {
         return;
     };
     let six = context.document(kind).and_then(statistics);
-    for (kind, one) in KINDS.into_iter().zip(six.into_iter().flatten()) {
+    for (kind, one) in ShapeKind::ALL.into_iter().zip(six.into_iter().flatten()) {
         // Those of a legacy module may be negative.
         let Some(one) = one.filter(|one| one.num_samples.is_some()) else {
             continue;
@@ -45,7 +45,7 @@ fn check(context: &Context, findings: &mut Findings) {
                         fold.add(|| {
                             Finding::at(
                                 module.file("module.json"),
-                                format!("/{}/{key}/{i}/{j}", kind.name),
+                                format!("/{}/{key}/{i}/{j}", kind.key()),
                                 "a distance is never negative: it is 0 in contact",
                             )
                             .expected("0 or more")

@@ -5,8 +5,8 @@ use crate::fold::Fold;
 use crate::rule::declare_rule;
 use crate::views::shape_pair::{Pair, Pairs};
 use urdd_document::shape_matrices::statistics;
-use urdd_document::shapes::KINDS;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 
 declare_rule! {
     /// The distance of two shapes that fixed joints hold together is not the same at all times.
@@ -41,7 +41,7 @@ fn check(context: &Context, findings: &mut Findings) {
     ) else {
         return;
     };
-    for (kind, one) in KINDS.into_iter().zip(six) {
+    for (kind, one) in ShapeKind::ALL.into_iter().zip(six) {
         let Some(one) = one else {
             continue;
         };
@@ -66,7 +66,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 fold.add(|| {
                     Finding::at(
                         module.file("module.json"),
-                        format!("/{}/{min_key}/{i}/{j}", kind.name),
+                        format!("/{}/{min_key}/{i}/{j}", kind.key()),
                         format!(
                             "shapes {} and {} do not move against each other, and have more than one distance",
                             shapes.describe(context, kind, i),

@@ -31,7 +31,7 @@ fn check(context: &Context, findings: &mut Findings) {
             continue;
         };
         let mut lists = entry_counts(document);
-        lists.retain(|list| list.kind.full);
+        lists.retain(|list| list.kind.is_of_links());
         for link in 0..hulls.num_links() {
             let hull = hulls.count(link) > 0;
             let wrong: Vec<_> = lists

@@ -5,9 +5,9 @@ use crate::rule::declare_rule;
 use crate::views::shape_pair::{Pair, Pairs};
 use crate::views::tangled::Tangled;
 use urdd_document::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
-use urdd_document::shapes::KINDS;
 use urdd_format::readable::metres;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 
 declare_rule! {
     /// A simple skip is not what the distance statistics say.
@@ -42,7 +42,7 @@ fn check(context: &Context, findings: &mut Findings) {
     let (Some(six), Some(skips)) = (six, skips(document)) else {
         return;
     };
-    for ((kind, statistics), rows) in KINDS.into_iter().zip(six).zip(skips) {
+    for ((kind, statistics), rows) in ShapeKind::ALL.into_iter().zip(six).zip(skips) {
         let Some(rows) = rows else {
             continue;
         };

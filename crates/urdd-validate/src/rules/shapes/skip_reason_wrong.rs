@@ -7,9 +7,9 @@ use crate::rule::declare_rule;
 use crate::views::shape_pair::{Pair, Pairs};
 use crate::views::tangled::Tangled;
 use urdd_document::shape_matrices::{Elements, at, reasons, skips, statistics};
-use urdd_document::shapes::KINDS;
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 
 declare_rule! {
     /// The reason given for a pair of shapes is not the first that applies.
@@ -54,7 +54,9 @@ fn check(context: &Context, findings: &mut Findings) {
         .iter()
         .map(|joint| ordered(joint.parent_link_idx.get(), joint.child_link_idx.get()))
         .collect();
-    for (((kind, statistics), skips), rows) in KINDS.into_iter().zip(six).zip(skips).zip(reasons) {
+    for (((kind, statistics), skips), rows) in
+        ShapeKind::ALL.into_iter().zip(six).zip(skips).zip(reasons)
+    {
         let Some(rows) = rows else {
             continue;
         };
@@ -96,7 +98,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 fold.add(|| {
                     Finding::at(
                         module.file("module.json"),
-                        format!("/reasons/{}/{i}/{j}", kind.name),
+                        format!("/reasons/{}/{i}/{j}", kind.key()),
                         format!(
                             "for shapes {} and {} this is not the first reason that applies",
                             shapes.describe(context, kind, i),

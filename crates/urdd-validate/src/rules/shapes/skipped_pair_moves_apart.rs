@@ -14,9 +14,10 @@ use crate::views::judged;
 use crate::views::shape_pair::CONTACT;
 use crate::views::tangled::Tangled;
 use urdd_document::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
-use urdd_document::shapes::{KINDS, ShapeKind, Shapes};
+use urdd_document::shapes::Shapes;
 use urdd_format::readable::metres;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::shape_kind::ShapeKind;
 
 declare_rule! {
     /// A pair of shapes is skipped, and is in contact in some configurations and apart in others.
@@ -78,7 +79,7 @@ fn check(context: &Context, findings: &mut Findings) {
         .and_then(statistics);
     let sampled = statistics.and_then(|six| six.iter().flatten().find_map(|one| one.num_samples));
     let mut skipped = Vec::new();
-    for (kind, rows) in KINDS.into_iter().zip(six) {
+    for (kind, rows) in ShapeKind::ALL.into_iter().zip(six) {
         let Some(rows) = rows else {
             continue;
         };

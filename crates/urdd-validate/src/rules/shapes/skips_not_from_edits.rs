@@ -6,8 +6,8 @@ use crate::fold::Fold;
 use crate::rule::declare_rule;
 use crate::views::tangled::Tangled;
 use urdd_document::shape_matrices::{Elements, at, reasons, skips, skips_pointer};
-use urdd_document::shapes::KINDS;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::shape_kind::ShapeKind;
 
 declare_rule! {
     /// A skip does not follow from the reason of the pair and the edits.
@@ -56,7 +56,7 @@ fn check(context: &Context, findings: &mut Findings) {
             last.insert((a.min(b), a.max(b)), (place, edit.skip));
         }
     }
-    for ((kind, simple), rows) in KINDS.into_iter().zip(simple).zip(six) {
+    for ((kind, simple), rows) in ShapeKind::ALL.into_iter().zip(simple).zip(six) {
         let (Some(simple), Some(rows)) = (simple, rows) else {
             continue;
         };

@@ -7,9 +7,9 @@ use crate::skip::SkipReason;
 use crate::views::judged;
 use crate::views::shape_pair::{Pair, Pairs};
 use urdd_document::shape_matrices::statistics;
-use urdd_document::shapes::KINDS;
 use urdd_format::readable::number;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 
 declare_rule! {
     /// The mean, smallest or largest distance of two shapes is not that of the sampled configurations.
@@ -55,12 +55,12 @@ fn check(context: &Context, findings: &mut Findings) {
         Err(reason) => return findings.skip(reason.clone()),
     };
     let mut left = Vec::new();
-    for ((kind, one), found) in KINDS.into_iter().zip(six).zip(distances.kinds()) {
+    for ((kind, one), found) in ShapeKind::ALL.into_iter().zip(six).zip(distances.kinds()) {
         let (Some(one), Some(found)) = (one, found) else {
             continue;
         };
         if !found.complete {
-            left.push(kind.name);
+            left.push(kind.key());
             continue;
         }
         let pairs = Pairs::new(&one);
@@ -112,7 +112,7 @@ fn check(context: &Context, findings: &mut Findings) {
                     };
                     Finding::at(
                         module.file("module.json"),
-                        format!("/{}/{key}/{i}/{j}", kind.name),
+                        format!("/{}/{key}/{i}/{j}", kind.key()),
                         format!(
                             "for shapes {} and {} this is not what the sampled configurations give{which}",
                             shapes.describe(context, kind, i),

@@ -4,8 +4,8 @@ use crate::fold::Fold;
 use crate::rule::declare_rule;
 use crate::views::shape_pair::Pairs;
 use urdd_document::shape_matrices::statistics;
-use urdd_document::shapes::KINDS;
 use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
 
 declare_rule! {
     /// A mean distance does not lie between the smallest and the largest.
@@ -26,7 +26,7 @@ fn check(context: &Context, findings: &mut Findings) {
         return;
     };
     let six = context.document(kind).and_then(statistics);
-    for (kind, one) in KINDS.into_iter().zip(six.into_iter().flatten()) {
+    for (kind, one) in ShapeKind::ALL.into_iter().zip(six.into_iter().flatten()) {
         let Some(one) = one else {
             continue;
         };
@@ -45,7 +45,7 @@ fn check(context: &Context, findings: &mut Findings) {
                 fold.add(|| {
                     Finding::at(
                         module.file("module.json"),
-                        format!("/{}/{mean_key}/{i}/{j}", kind.name),
+                        format!("/{}/{mean_key}/{i}/{j}", kind.key()),
                         "the mean distance lies outside the smallest and the largest",
                     )
                     .expected(format!("from {} to {}", pair.min, pair.max))

@@ -1,5 +1,5 @@
-//! Carries files over from the folder that is replaced: every file that the old URDD does not list and that does not
-//! belong to a module. A README, a `.git` folder, extension modules and notes in a module's folder survive a new run.
+//! All other files of the folder that is replaced: every file that its URDD does not list and that does not belong to a
+//! module. A README, a `.git` folder, extension modules and notes in a module's folder survive a new run.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -7,8 +7,8 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::metadata::FOUND_KEY;
-use super::old::Old;
+use super::Donor;
+use crate::metadata::FOUND_KEY;
 use urdd_directory::digest;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_entry;
@@ -24,22 +24,22 @@ const MODULE_FILES: [&str; 3] = ["VERSION", "module.json", "module.yaml"];
 ///
 /// # Errors
 /// If something cannot be read or written, or a user's file has a name that the URDD needs.
-pub(super) fn carry_over(
+pub(crate) fn carry_over(
     folder: &Path,
-    old: Option<&Old>,
+    replaced: Option<&Donor>,
     root: &Path,
 ) -> Result<(), StagingError> {
-    let listed = old.map(listed).unwrap_or_default();
+    let listed = replaced.map(listed).unwrap_or_default();
     merge(folder, root, "", &listed)
 }
 
-/// Every path that the old URDD lists, except those of extension modules.
-fn listed(old: &Old) -> BTreeSet<String> {
-    let source = &old.value["source"];
+/// Every path that the replaced URDD lists, except those of extension modules.
+fn listed(replaced: &Donor) -> BTreeSet<String> {
+    let source = &replaced.value["source"];
     let sources = [&source["Urdf"]["path"], &source[FOUND_KEY]["path"]];
     let sources = sources.iter().filter_map(|path| path.as_str());
     let known = |name: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == name);
-    let modules = old.metadata.modules.iter();
+    let modules = replaced.metadata.modules.iter();
     let files = modules
         .filter(|module| known(&module.name))
         .flat_map(|module| &module.files);
@@ -112,7 +112,7 @@ fn is_of_modules(path: &str) -> bool {
     folders.any(|folder| begins(path, folder) || begins(folder, path))
 }
 
-/// Whether a file belongs to the old URDD: `urdd.json`, a listed file, or a module's own file.
+/// Whether a file belongs to the replaced URDD: `urdd.json`, a listed file, or a module's own file.
 fn is_ours(path: &str, listed: &BTreeSet<String>) -> bool {
     let of_a_module = || {
         let (folder, file) = path.rsplit_once('/')?;
@@ -128,8 +128,8 @@ fn is_same(one: &Path, other: &Path) -> bool {
 }
 
 /// The entries of extension modules that were carried over, with updated sizes and hashes.
-pub(super) fn extensions(old: Option<&Old>, root: &Path) -> Vec<Value> {
-    let modules = old.and_then(|old| old.value["modules"].as_array());
+pub(crate) fn extensions(replaced: Option<&Donor>, root: &Path) -> Vec<Value> {
+    let modules = replaced.and_then(|replaced| replaced.value["modules"].as_array());
     let Ok(root) = Root::open(root) else {
         return Vec::new();
     };

@@ -1,4 +1,4 @@
-//! The user's edits of the skip matrix (MoveIt's allowed collision matrix), which are kept when a URDD is regenerated.
+//! The user's edits of the skip matrix (MoveIt's allowed collision matrix), which a new URDD takes over.
 //!
 //! They are read before any module is built. If they cannot be read, generation fails: a syntax error must not discard
 //! a user's work.
@@ -8,9 +8,9 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::error::{EditsFault, GenerateError};
-use super::old::Old;
-use super::selection::Selection;
+use super::Donor;
+use crate::error::{EditsFault, GenerateError};
+use crate::selection::Selection;
 use urdd_directory::json;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::position::{self, Position};
@@ -28,7 +28,7 @@ const SKIPPED_REASONS: &str = "skipped_reasons";
 
 /// The user's decisions about the skips of a URDD.
 #[derive(Debug, Clone)]
-pub(super) struct Decisions {
+pub(crate) struct Decisions {
     /// The reasons for which pairs are skipped.
     pub skipped_reasons: Vec<SkippedReason>,
     /// The edits.
@@ -47,7 +47,7 @@ impl Default for Decisions {
 
 /// The user's decisions about the skips, checked against the links of a robot.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Edits {
+pub(crate) struct Edits {
     /// The reasons for which pairs are skipped.
     pub skipped_reasons: Vec<SkippedReason>,
     /// Edits whose links the robot has.
@@ -79,10 +79,10 @@ impl Edits {
 ///
 /// # Errors
 /// If there may be edits and they cannot be read, or if the selected modules would not hold them.
-pub(super) fn read(
+pub(crate) fn read(
     folder: &Path,
     selection: &Selection,
-    old: Option<&Old>,
+    replaced: Option<&Donor>,
 ) -> Result<Decisions, GenerateError> {
     let Ok(root) = Root::open(folder) else {
         return Ok(Decisions::default());
@@ -131,7 +131,7 @@ pub(super) fn read(
         return Err(refused(&json_path, at, EditsFault::UnknownLink(link)));
     }
     // The user may have edited only the YAML file. A YAML file that is still as generated is merely out of date.
-    if !is_as_made(old, &yaml_path)
+    if !is_as_made(replaced, &yaml_path)
         && let Ok(bytes) = root.read(&yaml_path, MAX_DOCUMENT_BYTES)
     {
         let faults = yaml::check_mirror(&bytes, &document.value);
@@ -180,14 +180,18 @@ fn unknown_link(root: &Root, edits: &[SkipEdit]) -> Option<(usize, String)> {
 }
 
 /// Whether a file matches the metadata of its URDD.
-fn is_as_made(old: Option<&Old>, path: &str) -> bool {
-    let Some(old) = old else {
+fn is_as_made(replaced: Option<&Donor>, path: &str) -> bool {
+    let Some(replaced) = replaced else {
         return false;
     };
-    let mut files = old.metadata.modules.iter().flat_map(|module| &module.files);
+    let mut files = replaced
+        .metadata
+        .modules
+        .iter()
+        .flat_map(|module| &module.files);
     files
         .find(|file| file.path == path)
-        .is_some_and(|file| old.is_intact(file))
+        .is_some_and(|file| replaced.is_intact(file))
 }
 
 fn is_of_edits(pointer: &str) -> bool {

@@ -1,0 +1,109 @@
+//! What all stages may use. It is complete before the first stage, and no stage changes it.
+
+use super::donor::edits::{Decisions, Edits};
+use super::error::GenerateError;
+use super::fault::Fault;
+use super::meshes::names::mesh_files;
+use super::note::{Note, NoteKind};
+use super::progress::Progress;
+use super::settings::Settings;
+use super::shapes::statistics::Kinematics;
+use super::source::Source;
+use super::{bounds, chain, dof, kinematics_samples};
+use urdd_format::bounds::BoundsModule;
+use urdd_format::chain::ChainModule;
+use urdd_format::composition::CompositionModule;
+use urdd_format::dof::DofModule;
+use urdd_format::kinematics_samples::KinematicsSamplesModule;
+use urdd_format::link_shapes_skips::SkippedReason;
+use urdd_format::meshes::MeshFiles;
+use urdd_format::registry::ModuleKind;
+
+/// What all stages may use.
+pub(crate) struct Context<'a> {
+    pub source: &'a Source,
+    pub settings: &'a Settings,
+    /// How the robot was composed, if it was.
+    pub composition: Option<&'a CompositionModule>,
+    /// Receives the progress.
+    pub progress: &'a dyn Progress,
+    pub dof: DofModule,
+    pub chain: ChainModule,
+    pub bounds: BoundsModule,
+    pub samples: KinematicsSamplesModule,
+    /// The user's edits of the skips.
+    pub edits: Edits,
+}
+
+impl<'a> Context<'a> {
+    /// Builds what nearly every stage needs and takes no time.
+    ///
+    /// # Errors
+    /// If mimic joints or poses overflow binary64.
+    pub fn new(
+        source: &'a Source,
+        settings: &'a Settings,
+        composition: Option<&'a CompositionModule>,
+        decisions: Decisions,
+        progress: &'a dyn Progress,
+    ) -> Result<Self, GenerateError> {
+        let reading = &source.reading;
+        let refused = |fault| source.refused(fault);
+        let dof = dof::dof_module(&reading.robot, &reading.tree).map_err(refused)?;
+        let chain = chain::chain_module(&reading.robot, &reading.tree);
+        let bounds = bounds::bounds_module(&reading.robot, &dof);
+        let samples = kinematics_samples::kinematics_samples_module(&dof, &chain, &bounds)
+            .map_err(|error| refused(Fault::NoPoses(error.to_string())))?;
+        Ok(Context {
+            edits: Edits::of(decisions, &chain),
+            source,
+            settings,
+            composition,
+            progress,
+            dof,
+            chain,
+            bounds,
+            samples,
+        })
+    }
+
+    /// The modules from which configurations and link poses are computed.
+    pub fn kinematics(&self) -> Kinematics<'_> {
+        (&self.dof, &self.chain, &self.bounds)
+    }
+
+    /// The skip reasons of the settings, otherwise those of the user's decisions; sorted, without duplicates.
+    pub fn skipped_reasons(&self) -> Vec<SkippedReason> {
+        let asked = self.settings.skipped_reasons.as_deref();
+        let mut reasons = asked.unwrap_or(&self.edits.skipped_reasons).to_vec();
+        reasons.sort();
+        reasons.dedup();
+        reasons
+    }
+
+    /// The file names of a link's mesh, or of one of its pieces.
+    pub fn mesh_files(&self, kind: ModuleKind, link: usize, piece: Option<usize>) -> MeshFiles {
+        let name = &self.chain.links_in_chain[link].name;
+        mesh_files(kind, link, name, piece, self.settings.mesh_formats)
+    }
+
+    /// A note about the whole robot.
+    pub fn note(&self, kind: NoteKind, problem: String, assumed: &str) -> Note {
+        Note {
+            kind,
+            file: self.source.shown.clone(),
+            line: 0,
+            column: 0,
+            problem,
+            assumed: assumed.to_owned(),
+        }
+    }
+
+    /// The error for geometry out of the range that can be computed.
+    pub fn unmeasurable(&self, reason: String) -> GenerateError {
+        GenerateError::Geometry {
+            file: self.source.shown.clone(),
+            reason,
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! The meshes and shapes of links, taken from donors by content: a link's plain mesh, hull, pieces, boxes and spheres
+//! depend on nothing but its geometry and the settings.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+
+use super::Donor;
+use super::link_keys::link_keys;
+use crate::context::Context;
+use crate::made::{Digests, MadeFile};
+use crate::meshes::original::OriginalMeshes;
+use crate::meshes::written::{WrittenMesh, read_glb};
+use crate::shapes::{ConvexMeshes, Shape};
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::root::Root;
+use urdd_directory::writer::sha256;
+use urdd_format::convex_decomposition_meshes::ConvexDecompositionMeshesModule;
+use urdd_format::convex_hull_meshes::ConvexHullMeshesModule;
+use urdd_format::link_shapes_approximations::LinkShapesApproximationsModule;
+use urdd_format::meshes::{GeometryKind, MeshFiles};
+use urdd_format::original_meshes::OriginalMeshesModule;
+use urdd_format::plain_meshes::PlainMeshesModule;
+use urdd_format::registry::ModuleKind;
+use urdd_format::root_metadata;
+use urdd_format::urdf::UrdfModule;
+
+/// A mesh of a donor.
+pub(crate) struct TakenMesh {
+    pub mesh: WrittenMesh,
+    pub files: TakenFiles,
+}
+
+/// The bytes of the files of a mesh.
+pub(crate) struct TakenFiles {
+    stl: Option<Arc<Vec<u8>>>,
+    obj: Option<Arc<Vec<u8>>>,
+    glb: Arc<Vec<u8>>,
+}
+
+impl TakenFiles {
+    /// The files under these names.
+    pub fn named(&self, names: &MeshFiles) -> Vec<MadeFile> {
+        let stl = names.stl.as_ref().zip(self.stl.as_ref());
+        let obj = names.obj.as_ref().zip(self.obj.as_ref());
+        let all = stl.into_iter().chain(obj).chain([(&names.glb, &self.glb)]);
+        let made = all.map(|(path, bytes)| MadeFile {
+            path: path.clone(),
+            bytes: Arc::clone(bytes),
+        });
+        made.collect()
+    }
+}
+
+/// The files of a donor.
+struct Files {
+    root: Root,
+    digests: HashMap<String, root_metadata::Sha256>,
+}
+
+/// A mesh or the meshes of a link, and the number of the donor that has them.
+type Place<T> = (usize, T);
+
+/// The meshes and shapes of all donors. Of equal ones, those of the first donor count.
+#[derive(Default)]
+pub(crate) struct DonorLinks {
+    donors: Vec<Files>,
+    /// By the key of a link's geometry.
+    plain: HashMap<String, Place<(GeometryKind, MeshFiles)>>,
+    /// By the SHA-256 of a plain mesh's .glb.
+    hulls: HashMap<String, Place<Vec<MeshFiles>>>,
+    pieces: HashMap<String, Place<Vec<MeshFiles>>>,
+    /// By the SHA-256 of the .glb of a hull or piece.
+    shapes: HashMap<String, Shape>,
+}
+
+impl DonorLinks {
+    /// Collects the meshes and shapes of URDDs; ignores what cannot be read. `text` returns the input of a module besides
+    /// other modules.
+    pub fn of(roots: &[Root], text: &dyn Fn(ModuleKind) -> Option<String>) -> Self {
+        let mut all = DonorLinks::default();
+        for root in roots {
+            all.add(root, text);
+        }
+        all
+    }
+
+    fn add(&mut self, root: &Root, text: &dyn Fn(ModuleKind) -> Option<String>) -> Option<()> {
+        use ModuleKind as Kind;
+        let donor = Donor::open(root.clone())?;
+        let plain: PlainMeshesModule =
+            donor.same_document(Kind::PlainMeshes, &text(Kind::PlainMeshes)?)?;
+        let robot: UrdfModule = donor.current_document(Kind::Urdf)?;
+        let original: OriginalMeshesModule = donor.current_document(Kind::OriginalMeshes)?;
+        let kind = Kind::ConvexHullMeshes;
+        let hulls: Option<ConvexHullMeshesModule> = donor.same_document(kind, &text(kind)?);
+        let kind = Kind::ConvexDecompositionMeshes;
+        let pieces: Option<ConvexDecompositionMeshesModule> =
+            donor.same_document(kind, &text(kind)?);
+        let kind = Kind::LinkShapesApproximations;
+        let shapes: Option<LinkShapesApproximationsModule> =
+            donor.same_document(kind, &text(kind)?);
+        let hulls = hulls.map_or_else(Vec::new, |module| module.link_hulls);
+        let pieces = pieces.map_or_else(Vec::new, |module| module.link_pieces);
+
+        let listed = donor.metadata.modules.into_iter();
+        let listed = listed.flat_map(|module| module.files);
+        let digests: HashMap<_, _> = listed.map(|file| (file.path, file.sha256)).collect();
+        let digest = |path: &str| Some(digests.get(path)?.as_str().to_owned());
+        let number = self.donors.len();
+        let keys = link_keys(&robot, &original, &digest);
+        for (link, (key, mesh)) in keys.into_iter().zip(plain.link_meshes).enumerate() {
+            let Some(mesh) = mesh else { continue };
+            if let Some(of) = digest(&mesh.files.glb) {
+                if let Some(Some(hull)) = hulls.get(link) {
+                    let entry = self.hulls.entry(of.clone());
+                    entry.or_insert((number, vec![hull.clone()]));
+                }
+                if let Some(pieces) = pieces.get(link) {
+                    let entry = self.pieces.entry(of);
+                    entry.or_insert((number, pieces.clone()));
+                }
+            }
+            if let Some(key) = key {
+                let entry = self.plain.entry(key);
+                entry.or_insert((number, (mesh.geometry, mesh.files)));
+            }
+        }
+        if let Some(found) = shapes {
+            let hulls = hulls.iter().map(Option::as_ref);
+            let pieces = pieces.iter().flatten().map(Some);
+            let obbs = found.decomposition_obbs.into_iter().flatten().map(Some);
+            let spheres = found.decomposition_bounding_spheres.into_iter().flatten();
+            let of_hulls = hulls.zip(found.full_obbs.into_iter().zip(found.full_bounding_spheres));
+            let of_pieces = pieces.zip(obbs.zip(spheres.map(Some)));
+            for (files, (obb, sphere)) in of_hulls.chain(of_pieces) {
+                let of = files.and_then(|files| digest(&files.glb));
+                if let (Some(of), Some(obb), Some(sphere)) = (of, obb, sphere) {
+                    self.shapes.entry(of).or_insert((obb, sphere));
+                }
+            }
+        }
+        let root = donor.root;
+        self.donors.push(Files { root, digests });
+        Some(())
+    }
+
+    /// The plain mesh of each link, if a donor has it. Empty without donors.
+    pub fn plain(
+        &self,
+        context: &Context,
+        original: Option<&OriginalMeshes>,
+        digests: &Digests,
+    ) -> Vec<Option<(GeometryKind, TakenMesh)>> {
+        let Some(original) = original.filter(|_| !self.donors.is_empty()) else {
+            return Vec::new();
+        };
+        let digest = |path: &str| digests.get(path).cloned();
+        let keys = link_keys(&context.source.reading.robot, &original.module, &digest);
+        let taken = keys.into_par_iter().enumerate().map(|(link, key)| {
+            let (donor, (geometry, files)) = self.plain.get(&key?)?;
+            let wanted = context.mesh_files(ModuleKind::PlainMeshes, link, None);
+            Some((*geometry, self.donors[*donor].take(files, &wanted)?))
+        });
+        taken.collect()
+    }
+
+    /// The hull of each link, if a donor has it for the same plain mesh.
+    pub fn hulls(
+        &self,
+        context: &Context,
+        plain: &[Option<WrittenMesh>],
+        digests: &Digests,
+    ) -> Vec<Option<Vec<TakenMesh>>> {
+        self.of_plain(&self.hulls, context, plain, digests)
+    }
+
+    /// The pieces of each link, if a donor has them for the same plain mesh.
+    pub fn pieces(
+        &self,
+        context: &Context,
+        plain: &[Option<WrittenMesh>],
+        digests: &Digests,
+    ) -> Vec<Option<Vec<TakenMesh>>> {
+        self.of_plain(&self.pieces, context, plain, digests)
+    }
+
+    fn of_plain(
+        &self,
+        known: &HashMap<String, Place<Vec<MeshFiles>>>,
+        context: &Context,
+        plain: &[Option<WrittenMesh>],
+        digests: &Digests,
+    ) -> Vec<Option<Vec<TakenMesh>>> {
+        let taken = plain.par_iter().enumerate().map(|(link, plain)| {
+            plain.as_ref().filter(|_| !known.is_empty())?;
+            // All meshes have the same formats.
+            let wanted = context.mesh_files(ModuleKind::PlainMeshes, link, None);
+            let (donor, files) = known.get(digests.get(&wanted.glb)?)?;
+            let donor = &self.donors[*donor];
+            files
+                .iter()
+                .map(|files| donor.take(files, &wanted))
+                .collect()
+        });
+        taken.collect()
+    }
+
+    /// The boxes and spheres of all hulls, then of all pieces, where a donor has them.
+    pub fn shapes(
+        &self,
+        context: &Context,
+        solids: &ConvexMeshes,
+        digests: &Digests,
+    ) -> Vec<Option<Shape>> {
+        let hulls = solids.hulls.iter().enumerate();
+        let hulls = hulls
+            .filter(|(_, hull)| hull.is_some())
+            .map(|(link, _)| context.mesh_files(ModuleKind::ConvexHullMeshes, link, None));
+        let pieces = solids.decomposition_shapes().into_iter().map(|piece| {
+            let (link, piece) = (piece.link_idx.get(), piece.piece_idx.get());
+            context.mesh_files(ModuleKind::ConvexDecompositionMeshes, link, Some(piece))
+        });
+        let all = hulls.chain(pieces);
+        all.map(|files| self.shapes.get(digests.get(&files.glb)?).cloned())
+            .collect()
+    }
+}
+
+impl Files {
+    /// A mesh with the wanted files, if all of them are unchanged.
+    fn take(&self, files: &MeshFiles, wanted: &MeshFiles) -> Option<TakenMesh> {
+        let beside = |there: &Option<String>, wanted: &Option<String>| match (there, wanted) {
+            (_, None) => Some(None),
+            (Some(path), Some(_)) => self.intact(path).map(Some),
+            (None, Some(_)) => None,
+        };
+        let glb = self.intact(&files.glb)?;
+        Some(TakenMesh {
+            mesh: read_glb(&glb, &files.glb).ok()?,
+            files: TakenFiles {
+                stl: beside(&files.stl, &wanted.stl)?,
+                obj: beside(&files.obj, &wanted.obj)?,
+                glb,
+            },
+        })
+    }
+
+    fn intact(&self, path: &str) -> Option<Arc<Vec<u8>>> {
+        let bytes = self.root.read(path, MAX_DOCUMENT_BYTES).ok()?;
+        let is_same = sha256(&Sha256::digest(&bytes)) == *self.digests.get(path)?;
+        is_same.then(|| Arc::new(bytes))
+    }
+}

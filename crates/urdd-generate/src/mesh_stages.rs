@@ -1,0 +1,229 @@
+//! The stages that build the meshes of links: plain meshes, hulls and pieces. `taken` are the meshes that a donor has.
+
+use rayon::prelude::*;
+
+use super::context::Context;
+use super::distinct::for_each_content;
+use super::donor::links::{TakenFiles, TakenMesh};
+use super::error::GenerateError;
+use super::made::{Made, MadeFile, made_with};
+use super::meshes::original::{OriginalMeshes, original_meshes};
+use super::meshes::plain::link_geometries;
+use super::meshes::written::{Shading, WrittenMesh, files_of};
+use super::settings::Settings;
+use urdd_format::convex_decomposition_meshes::{
+    ConvexDecompositionMeshesModule, DecompositionMethod,
+};
+use urdd_format::convex_hull_meshes::ConvexHullMeshesModule;
+use urdd_format::meshes::{GeometryKind, MeshFiles};
+use urdd_format::plain_meshes::{PlainMesh, PlainMeshesModule};
+use urdd_format::registry::ModuleKind;
+use urdd_geometry::Mesh;
+use urdd_geometry::decompose;
+use urdd_geometry::hull::ConvexHull;
+
+pub(super) fn original(context: &Context) -> Result<Made<OriginalMeshes>, GenerateError> {
+    let mut original = original_meshes(context.source, context.settings)?;
+    let files = std::mem::take(&mut original.files).into_iter();
+    let files = files.map(|(path, bytes)| MadeFile { path, bytes });
+    let made = made_with(&original.module, files.collect(), ())?;
+    Ok(Made {
+        document: made.document,
+        files: made.files,
+        notes: std::mem::take(&mut original.notes),
+        product: original,
+    })
+}
+
+pub(super) fn plain(
+    context: &Context,
+    original: Option<&OriginalMeshes>,
+    taken: &[Option<(GeometryKind, TakenMesh)>],
+) -> Result<Made<Vec<Option<WrittenMesh>>>, GenerateError> {
+    let preferred = context.settings.preferred_geometry;
+    let robot = &context.source.reading.robot;
+    let have = |link: usize| taken.get(link).is_some_and(Option::is_some);
+    let geometries = match original {
+        Some(original) => {
+            let (module, scenes) = (&original.module, &original.scenes);
+            link_geometries(robot, module, scenes, preferred, &have)
+                .map_err(|fault| context.source.refused(fault))?
+        }
+        None => Vec::new(),
+    };
+    let written: Vec<_> = geometries
+        .into_par_iter()
+        .enumerate()
+        .map(|(link, geometry)| {
+            let files = context.mesh_files(ModuleKind::PlainMeshes, link, None);
+            if let Some((geometry, taken)) = taken.get(link).and_then(Option::as_ref) {
+                let contents = taken.files.named(&files);
+                let plain = PlainMesh {
+                    geometry: *geometry,
+                    files,
+                };
+                return Ok((Some(plain), contents, Some(taken.mesh.clone())));
+            }
+            let Some(geometry) = geometry else {
+                return Ok((None, Vec::new(), None));
+            };
+            let contents = files_of(&geometry.parts, &files, Shading::Smooth)?;
+            let mesh = WrittenMesh::of(&geometry.parts);
+            let geometry = geometry.geometry;
+            Ok((Some(PlainMesh { geometry, files }), contents, Some(mesh)))
+        })
+        .collect::<Result<_, GenerateError>>()?;
+    let (mut link_meshes, mut files, mut meshes) = (Vec::new(), Vec::new(), Vec::new());
+    for (plain, contents, mesh) in written {
+        link_meshes.push(plain);
+        files.extend(contents);
+        meshes.push(mesh);
+    }
+    let module = PlainMeshesModule {
+        preferred_geometry: preferred,
+        link_meshes,
+    };
+    made_with(&module, files, meshes)
+}
+
+pub(super) fn hulls(
+    context: &Context,
+    plain: &[Option<WrittenMesh>],
+    taken: Vec<Option<Vec<TakenMesh>>>,
+) -> Result<Made<Vec<Option<WrittenMesh>>>, GenerateError> {
+    // A plain mesh has a triangle with positive area. It therefore has a convex hull.
+    let hull = |mesh: &Mesh| {
+        ConvexHull::new(&mesh.vertices)
+            .ok()
+            .map(ConvexHull::into_mesh)
+    };
+    let meshes = not_taken(plain, &taken);
+    let built = for_each_content(&meshes, &context.settings.cancellation, hull)?;
+    let built = built.into_iter().map(Option::into_iter);
+    let links = solids(plain, taken, built.map(Iterator::collect));
+    let (names, files) = write(context, ModuleKind::ConvexHullMeshes, &links)?;
+    let link_hulls = names.into_iter().map(|hull| hull.into_iter().next());
+    let module = ConvexHullMeshesModule {
+        link_hulls: link_hulls.collect(),
+    };
+    let hulls = links.into_iter().map(|hull| hull.into_iter().next());
+    let hulls = hulls.map(|hull| hull.map(|hull| hull.mesh));
+    made_with(&module, files, hulls.collect())
+}
+
+/// Name of the decomposition method; changed whenever its results change.
+pub(super) const DECOMPOSITION: &str = "urdd cut and merge 2";
+
+pub(super) fn decomposition(settings: &Settings) -> decompose::Settings {
+    decompose::Settings {
+        max_pieces: usize::from(settings.pieces.most.clamp(1, 64)),
+        standoff_tolerance: settings.pieces.tolerance.unwrap_or(0.0),
+        ..decompose::Settings::default()
+    }
+}
+
+pub(super) fn pieces(
+    context: &Context,
+    plain: &[Option<WrittenMesh>],
+    taken: Vec<Option<Vec<TakenMesh>>>,
+) -> Result<Made<Vec<Vec<WrittenMesh>>>, GenerateError> {
+    let settings = decomposition(context.settings);
+    let decompose = |mesh: &Mesh| decompose::decompose(mesh, &settings);
+    let meshes = not_taken(plain, &taken);
+    let built = for_each_content(&meshes, &context.settings.cancellation, decompose)?;
+    let of_taken = plain
+        .iter()
+        .zip(&taken)
+        .filter(|(_, taken)| taken.is_some());
+    let of_taken = of_taken.filter_map(|(plain, _)| plain.as_ref());
+    let of_taken = of_taken.map(|plain| settings.surface_tolerance_of(&plain.mesh));
+    let tolerances = built.iter().map(|built| built.surface_tolerance);
+    let tolerance = tolerances.chain(of_taken).fold(0.0, f64::max);
+    let links = solids(plain, taken, built.into_iter().map(|built| built.pieces));
+    let (link_pieces, files) = write(context, ModuleKind::ConvexDecompositionMeshes, &links)?;
+    let module = ConvexDecompositionMeshesModule {
+        method: DecompositionMethod {
+            name: DECOMPOSITION.to_owned(),
+            surface_tolerance: Some(tolerance),
+        },
+        link_pieces,
+    };
+    let pieces = links.into_iter();
+    let pieces = pieces.map(|pieces| pieces.into_iter().map(|piece| piece.mesh).collect());
+    made_with(&module, files, pieces.collect())
+}
+
+/// A hull or a piece, with its files if a donor has them.
+struct Solid {
+    mesh: WrittenMesh,
+    files: Option<TakenFiles>,
+}
+
+/// The plain meshes for which nothing is taken, in order.
+fn not_taken<'a>(
+    plain: &'a [Option<WrittenMesh>],
+    taken: &[Option<Vec<TakenMesh>>],
+) -> Vec<&'a Mesh> {
+    let to_do = plain.iter().zip(taken).filter(|(_, taken)| taken.is_none());
+    let to_do = to_do.filter_map(|(plain, _)| plain.as_ref());
+    to_do.map(|plain| &plain.mesh).collect()
+}
+
+/// The solids of each link: those that are taken, or the next of those that were built, in the colour of the link.
+fn solids(
+    plain: &[Option<WrittenMesh>],
+    taken: Vec<Option<Vec<TakenMesh>>>,
+    mut built: impl Iterator<Item = Vec<Mesh>>,
+) -> Vec<Vec<Solid>> {
+    let links = plain.iter().zip(taken).map(|(plain, taken)| {
+        let Some(plain) = plain else {
+            return Vec::new();
+        };
+        if let Some(taken) = taken {
+            let solid = |TakenMesh { mesh, files }| Solid {
+                mesh,
+                files: Some(files),
+            };
+            return taken.into_iter().map(solid).collect();
+        }
+        let color = plain.color;
+        let solid = |mesh| Solid {
+            mesh: WrittenMesh { mesh, color },
+            files: None,
+        };
+        let built = built.next().unwrap_or_default();
+        built.into_iter().map(solid).collect()
+    });
+    links.collect()
+}
+
+/// Names and writes the solids of each link.
+fn write(
+    context: &Context,
+    kind: ModuleKind,
+    links: &[Vec<Solid>],
+) -> Result<(Vec<Vec<MeshFiles>>, Vec<MadeFile>), GenerateError> {
+    let are_pieces = kind == ModuleKind::ConvexDecompositionMeshes;
+    let written: Vec<Vec<(MeshFiles, Vec<MadeFile>)>> = links
+        .par_iter()
+        .enumerate()
+        .map(|(link, solids)| {
+            let solids = solids.iter().enumerate().map(|(idx, solid)| {
+                let files = context.mesh_files(kind, link, are_pieces.then_some(idx));
+                let contents = match &solid.files {
+                    Some(taken) => taken.named(&files),
+                    None => files_of(&[solid.mesh.part()], &files, Shading::Flat)?,
+                };
+                Ok((files, contents))
+            });
+            solids.collect()
+        })
+        .collect::<Result<_, GenerateError>>()?;
+    let (mut names, mut contents) = (Vec::new(), Vec::new());
+    for link in written {
+        let (of_link, files): (Vec<_>, Vec<_>) = link.into_iter().unzip();
+        names.push(of_link);
+        contents.extend(files.into_iter().flatten());
+    }
+    Ok((names, contents))
+}

@@ -1,0 +1,147 @@
+//! The modules of the new URDD. Each is built and written, or kept from the URDD that is replaced. What a stage returns is
+//! dropped as soon as it is written, except its product, which later stages use.
+
+use std::collections::BTreeSet;
+
+use super::context::Context;
+use super::donor::Donor;
+use super::error::GenerateError;
+use super::inputs;
+use super::made::{Digests, Made};
+use super::metadata::{self, Entry, MODULE_VERSION};
+use super::note::Note;
+use super::product::{Load, Product};
+use super::settings::Settings;
+use urdd_directory::root::Root;
+use urdd_directory::writer::Writer;
+use urdd_format::registry::ModuleKind;
+use urdd_format::root_metadata::FileEntry;
+
+/// A module of a generated URDD.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MadeModule {
+    /// Which module.
+    pub kind: ModuleKind,
+    /// Whether it was kept from the old URDD because none of its inputs changed.
+    pub kept: bool,
+}
+
+/// The modules so far.
+pub(super) struct Modules<'a> {
+    context: &'a Context<'a>,
+    selected: BTreeSet<ModuleKind>,
+    replaced: Option<&'a Donor>,
+    writer: &'a Writer,
+    /// The new URDD.
+    root: Root,
+    num_started: usize,
+    digests: Digests,
+    pub entries: Vec<Entry>,
+    pub made: Vec<MadeModule>,
+    pub notes: Vec<Note>,
+}
+
+impl<'a> Modules<'a> {
+    /// No modules yet. `writer` writes into the folder `root`.
+    pub fn new(
+        context: &'a Context<'a>,
+        replaced: Option<&'a Donor>,
+        writer: &'a Writer,
+        root: Root,
+    ) -> Self {
+        let composition = context.composition.map(|_| ModuleKind::Composition);
+        Modules {
+            context,
+            selected: context
+                .settings
+                .selection
+                .kinds()
+                .chain(composition)
+                .collect(),
+            replaced,
+            writer,
+            root,
+            num_started: 0,
+            digests: Digests::new(),
+            entries: Vec::new(),
+            made: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// Adds a module, if it is selected. Returns the product of its stage; `None` if the stage did not run.
+    pub fn add<T>(
+        &mut self,
+        kind: ModuleKind,
+        stage: impl FnOnce(&Digests) -> Result<Made<T>, GenerateError>,
+    ) -> Result<Option<T>, GenerateError> {
+        if !self.selected.contains(&kind) {
+            return Ok(None);
+        }
+        let Settings { cancellation, .. } = self.context.settings;
+        cancellation.check()?;
+        let total = self.selected.len();
+        self.context.progress.module(kind, self.num_started, total);
+        self.num_started += 1;
+        let inputs = inputs::text(kind, self.context).map(|text| {
+            let modules = self.entries.iter().map(|entry| &entry.module);
+            metadata::inputs(kind, &text, modules)
+        });
+        let kept = inputs
+            .as_deref()
+            .and_then(|inputs| self.replaced?.kept(kind, inputs));
+        if let Some((folder, files)) = kept {
+            for file in files {
+                self.writer.keep(&folder.join(&file.path), &file.path)?;
+            }
+            self.enter(kind, files.to_vec(), inputs, true);
+            return Ok(None);
+        }
+        let made = stage(&self.digests)?;
+        if let Some(document) = made.document {
+            let mut written = self.writer.module(kind, MODULE_VERSION, &document)?;
+            for file in made.files {
+                written.push(self.writer.file(&file.path, &file.bytes)?);
+            }
+            self.enter(kind, written, inputs, false);
+        }
+        self.notes.extend(made.notes);
+        check_assumptions(&self.notes, self.context.settings)?;
+        Ok(Some(made.product))
+    }
+
+    /// As [`Modules::add`], for a product that `load` can read from the files of a kept module.
+    pub fn product<T>(
+        &mut self,
+        kind: ModuleKind,
+        load: Load<T>,
+        stage: impl FnOnce(&Digests) -> Result<Made<T>, GenerateError>,
+    ) -> Result<Product<T>, GenerateError> {
+        let made = self.add(kind, stage)?;
+        Ok(Product::new(made, kind, self.root.clone(), load))
+    }
+
+    fn enter(
+        &mut self,
+        kind: ModuleKind,
+        files: Vec<FileEntry>,
+        inputs: Option<String>,
+        kept: bool,
+    ) {
+        let digests = files.iter();
+        let digests = digests.map(|file| (file.path.clone(), file.sha256.as_str().to_owned()));
+        self.digests.extend(digests);
+        self.entries.push(metadata::entry(kind, files, inputs));
+        self.made.push(MadeModule { kind, kept });
+    }
+}
+
+/// Returns an error if something was assumed and the settings are strict.
+pub(super) fn check_assumptions(notes: &[Note], settings: &Settings) -> Result<(), GenerateError> {
+    let notes = notes.iter().filter(|note| note.kind.changes_robot());
+    let notes: Vec<Note> = notes.filter(|_| settings.strict).cloned().collect();
+    match notes.is_empty() {
+        true => Ok(()),
+        false => Err(GenerateError::Strict { notes }),
+    }
+}

@@ -1,0 +1,106 @@
+//! The stages that build the shapes of links, and the distances and skips between them.
+
+use std::sync::Arc;
+
+use super::context::Context;
+use super::error::GenerateError;
+use super::made::{Made, made, made_with, streamed};
+use super::note::NoteKind;
+use super::shape_documents;
+use super::shapes::approximations::approximations;
+use super::shapes::max_distances::max_distances;
+use super::shapes::statistics::{at_default_configuration, statistics};
+use super::shapes::{ConvexMeshes, MOST_PIECES_WITH_MATRICES, Shape, simple_skips};
+use urdd_format::link_shapes_approximations::LinkShapesApproximationsModule as Approximations;
+use urdd_format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule as Statistics;
+use urdd_format::link_shapes_simple_skips::LinkShapesSimpleSkipsModule as SimpleSkips;
+use urdd_format::link_shapes_skips::LinkShapesSkipsModule as Skips;
+use urdd_format::skips::skips_module;
+use urdd_geometry::hull::HullError;
+
+/// `known` are the boxes and spheres that a donor has: of the hulls, then of the pieces.
+pub(super) fn boxes_and_spheres(
+    context: &Context,
+    solids: ConvexMeshes,
+    known: Vec<Option<Shape>>,
+) -> Result<Made<Arc<Approximations>>, GenerateError> {
+    let internal = |error: HullError| GenerateError::Internal {
+        file: context.source.shown.clone(),
+        reason: error.to_string(),
+    };
+    let module = approximations(&solids, known, &context.settings.cancellation)?;
+    let module = Arc::new(module.map_err(internal)?);
+    made_with(&*module, Vec::new(), Arc::clone(&module))
+}
+
+pub(super) fn distances_from_origin(
+    solids: ConvexMeshes,
+    approximations: &Approximations,
+) -> Result<Made, GenerateError> {
+    made(&max_distances(&solids, approximations))
+}
+
+pub(super) fn distance_statistics(
+    context: &Context,
+    solids: ConvexMeshes,
+    approximations: &Approximations,
+) -> Result<Made<Arc<Statistics>>, GenerateError> {
+    let module = statistics(
+        &solids,
+        approximations,
+        context.kinematics(),
+        context.settings.num_samples,
+        &context.settings.cancellation,
+    )?;
+    let module = Arc::new(module.map_err(|reason| context.unmeasurable(reason))?);
+    let mut made = streamed(shape_documents::statistics(&module), Arc::clone(&module))?;
+    if module.decomposition_convex_hulls.is_none() {
+        let pieces = module.decomposition_shapes.len();
+        made.notes.push(context.note(
+            NoteKind::TooLarge,
+            format!(
+                "the robot has {pieces} convex pieces, and matrices over more than {MOST_PIECES_WITH_MATRICES} grow too large"
+            ),
+            "distances and skips between pieces are left out; those between links are there",
+        ));
+    }
+    Ok(made)
+}
+
+pub(super) fn skips_by_distance(
+    context: &Context,
+    solids: ConvexMeshes,
+    approximations: &Approximations,
+    statistics: &Statistics,
+) -> Result<Made<Arc<SimpleSkips>>, GenerateError> {
+    let default = at_default_configuration(&solids, approximations, context.kinematics())
+        .map_err(|reason| context.unmeasurable(reason))?;
+    let module = simple_skips::simple_skips(statistics, &default, &context.chain);
+    let module = Arc::new(module);
+    streamed(shape_documents::simple_skips(&module), module)
+}
+
+pub(super) fn edited_skips(
+    context: &Context,
+    simple: &SimpleSkips,
+) -> Result<Made<Arc<Skips>>, GenerateError> {
+    let links = context.chain.links_in_chain.iter();
+    let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
+    let edits = context.edits.kept.clone();
+    let module = Arc::new(skips_module(
+        simple,
+        context.skipped_reasons(),
+        edits,
+        &names,
+    ));
+    let mut made = streamed(shape_documents::skips(&module), module)?;
+    let lost = context.edits.lost.iter().map(|edit| {
+        let problem = format!(
+            "the URDD that was there has an edit of the skips between `{}` and `{}`, and the robot has no longer both links",
+            edit.link_a, edit.link_b
+        );
+        context.note(NoteKind::LeftOut, problem, "the edit is left out")
+    });
+    made.notes.extend(lost);
+    Ok(made)
+}

@@ -1,0 +1,332 @@
+//! Checks that links and joints form a valid kinematic tree (SPEC 6.1.3 to 6.1.6).
+
+use std::collections::HashMap;
+
+use super::reader::{Reader, shortened};
+use super::tree::{has_axis, num_dofs, written_axis};
+use crate::fault::Fault;
+use crate::note::NoteKind;
+use urdd_format::urdf::{Joint, JointType, UrdfModule};
+use urdd_kinematics::rotation::unit_axis;
+
+/// Checks the robot and fills in its tree. `robot_at` is the byte offset of `<robot>`.
+pub(super) fn check(reader: &mut Reader, robot_at: usize) {
+    same_names(reader);
+    if reader.faults.is_empty() {
+        ends(reader);
+    }
+    if reader.faults.is_empty() {
+        one_root(reader, robot_at);
+    }
+    if reader.faults.is_empty() {
+        axes(reader);
+        mimics(reader);
+        missing_limits(reader);
+    }
+}
+
+fn same_names(reader: &mut Reader) {
+    let robot = &reader.reading.robot;
+    let links = robot.links.iter().map(|link| link.name.as_str());
+    let joints = robot.joints.iter().map(|joint| joint.name.as_str());
+    let joint_offsets: Vec<usize> = reader
+        .joint_places
+        .iter()
+        .map(|place| place.joint)
+        .collect();
+    let twice = [
+        (twice(links), &reader.link_places, true),
+        (twice(joints), &joint_offsets, false),
+    ];
+    let mut faults = Vec::new();
+    for (found, offsets, are_links) in twice {
+        for (first, again, name) in found {
+            let name = name.to_owned();
+            faults.push((offsets[again], offsets[first], name, are_links));
+        }
+    }
+    for (offset, first_offset, name, are_links) in faults {
+        // Holds the byte offset until `read` in `mod.rs` replaces it by the line.
+        let first = u32::try_from(first_offset).unwrap_or(u32::MAX);
+        let fault = match are_links {
+            true => Fault::TwoLinks { name, first },
+            false => Fault::TwoJoints { name, first },
+        };
+        reader.fault(offset, fault);
+    }
+}
+
+/// Repeated names: index of the first, index of the repetition.
+fn twice<'a>(names: impl Iterator<Item = &'a str>) -> Vec<(usize, usize, &'a str)> {
+    let mut seen: HashMap<&str, usize> = HashMap::new();
+    let mut found = Vec::new();
+    for (idx, name) in names.enumerate() {
+        match seen.get(name) {
+            Some(first) => found.push((*first, idx, name)),
+            None => {
+                seen.insert(name, idx);
+            }
+        }
+    }
+    found
+}
+
+fn ends(reader: &mut Reader) {
+    let robot = &reader.reading.robot;
+    let names = robot.links.iter().enumerate();
+    let links: HashMap<&str, usize> = names.map(|(idx, link)| (link.name.as_str(), idx)).collect();
+    let mut moved_by: HashMap<usize, usize> = HashMap::new();
+    let (mut tree, mut faults) = (Vec::new(), Vec::new());
+    let mut plain_names = None;
+    for (idx, (joint, place)) in robot.joints.iter().zip(&reader.joint_places).enumerate() {
+        let sides = [
+            ("parent", &joint.parent.link, place.parent),
+            ("child", &joint.child.link, place.child),
+        ];
+        let found = sides.map(|(end, link, offset)| {
+            let found = links.get(link.as_str()).copied();
+            if found.is_none() {
+                let fault = Fault::UnknownLink {
+                    joint: shortened(&joint.name),
+                    end,
+                    link: shortened(link),
+                    hint: plain_names
+                        .get_or_insert_with(|| plain_names_of(robot))
+                        .get(&plain(link))
+                        .map_or_else(String::new, |meant| {
+                            format!(" (there is `{}`)", shortened(meant))
+                        }),
+                };
+                faults.push((offset, fault));
+            }
+            found
+        });
+        let [Some(parent), Some(child)] = found else {
+            continue;
+        };
+        if let Some(first) = moved_by.insert(child, idx) {
+            let fault = Fault::TwoParents {
+                link: shortened(&joint.child.link),
+                joint: shortened(&joint.name),
+                first: shortened(&robot.joints[first].name),
+            };
+            faults.push((place.child, fault));
+        }
+        tree.push([parent, child]);
+    }
+    reader.reading.tree.ends = tree;
+    reader.faults.extend(faults);
+}
+
+/// The first link for each name, with case and surrounding white space ignored.
+fn plain_names_of(robot: &UrdfModule) -> HashMap<String, &str> {
+    let mut names = HashMap::new();
+    for link in &robot.links {
+        names.entry(plain(&link.name)).or_insert(link.name.as_str());
+    }
+    names
+}
+
+fn plain(name: &str) -> String {
+    name.trim().to_lowercase()
+}
+
+fn one_root(reader: &mut Reader, robot_at: usize) {
+    let robot = &reader.reading.robot;
+    let ends = &reader.reading.tree.ends;
+    if robot.links.is_empty() {
+        let fault = match reader.reading.has_xacro {
+            true => Fault::OnlyMacros,
+            false => Fault::NoLinks,
+        };
+        reader.fault(robot_at, fault);
+        return;
+    }
+    let mut parent = vec![None; robot.links.len()];
+    for [above, below] in ends {
+        parent[*below] = Some(*above);
+    }
+    let roots: Vec<usize> = (0..parent.len())
+        .filter(|link| parent[*link].is_none())
+        .collect();
+    let named = |links: &[usize]| {
+        let names = links
+            .iter()
+            .map(|link| format!("`{}`", shortened(&robot.links[*link].name)));
+        names.collect::<Vec<_>>()
+    };
+    if let Some(ring) = ring(&parent) {
+        let mut names = named(&ring[..ring.len().min(8)]);
+        if ring.len() > 8 {
+            names.push(format!("… ({} links)", ring.len()));
+        } else {
+            names.extend(named(&ring[..1]));
+        }
+        let at = ends.iter().position(|[_, below]| *below == ring[0]);
+        let offset = at.map_or(robot_at, |joint| reader.joint_places[joint].joint);
+        reader.fault(offset, Fault::Cycle(names.join(" – ")));
+    } else if roots.len() > 1 {
+        let mut names = named(&roots[..roots.len().min(5)]);
+        if roots.len() > 5 {
+            names.push("…".to_owned());
+        }
+        let fault = Fault::ManyRoots {
+            count: roots.len(),
+            names: names.join(", "),
+        };
+        reader.fault(reader.link_places[roots[1]], fault);
+    } else {
+        reader.reading.tree.root = roots[0];
+    }
+}
+
+/// Links in a cycle, each the parent of the next, starting with the one that comes first in the file.
+fn ring(parent: &[Option<usize>]) -> Option<Vec<usize>> {
+    // For each link, the walk that visited it first. A walk that meets itself has found a cycle.
+    let mut walk_of = vec![usize::MAX; parent.len()];
+    for start in 0..parent.len() {
+        let mut link = start;
+        while walk_of[link] == usize::MAX {
+            walk_of[link] = start;
+            match parent[link] {
+                Some(above) => link = above,
+                None => break,
+            }
+        }
+        if walk_of[link] == start && parent[link].is_some() {
+            let mut ring = vec![link];
+            let mut above = parent[link];
+            while let Some(next) = above.filter(|next| *next != link) {
+                ring.push(next);
+                above = parent[next];
+            }
+            ring.reverse();
+            let first = (0..ring.len())
+                .min_by_key(|at| ring[*at])
+                .unwrap_or_default();
+            ring.rotate_left(first);
+            return Some(ring);
+        }
+    }
+    None
+}
+
+fn axes(reader: &mut Reader) {
+    let mut faults = Vec::new();
+    for (joint, place) in reader.reading.robot.joints.iter().zip(&reader.joint_places) {
+        let axis = written_axis(joint);
+        // As in SPEC 6.1.6: its squared length is finite and not 0.
+        let square: f64 = axis.iter().map(|x| x * x).sum();
+        let fine = square > 0.0 && square.is_finite() && unit_axis(axis).is_some();
+        if has_axis(joint.joint_type) && !fine {
+            let fault = Fault::ZeroAxis {
+                joint: shortened(&joint.name),
+                joint_type: joint.joint_type.as_str().to_ascii_lowercase(),
+                axis: axis.map(|x| x.to_string()).join(" "),
+            };
+            faults.push((place.axis, fault));
+        }
+    }
+    reader.faults.extend(faults);
+}
+
+/// Finds the joint that each mimic joint follows. A mimic element that cannot be resolved is dropped.
+fn mimics(reader: &mut Reader) {
+    let robot = &reader.reading.robot;
+    let names = robot.joints.iter().enumerate();
+    let joints: HashMap<&str, usize> = names
+        .map(|(idx, joint)| (joint.name.as_str(), idx))
+        .collect();
+    let mut drivers = vec![None; robot.joints.len()];
+    let mut dropped = Vec::new();
+    for (idx, joint) in robot.joints.iter().enumerate() {
+        let Some(mimic) = &joint.mimic else { continue };
+        let (name, driver) = (shortened(&joint.name), shortened(&mimic.joint));
+        let found = joints.get(mimic.joint.as_str()).copied();
+        let many = |idx: usize| num_dofs(robot.joints[idx].joint_type) > 1;
+        let problem = match found {
+            None => format!("joint `{name}` mimics `{driver}`, and there is no such joint"),
+            Some(_) if many(idx) => {
+                let kind = joint.joint_type.as_str().to_ascii_lowercase();
+                format!(
+                    "joint `{name}` is {kind} and mimics another: its position is not one number"
+                )
+            }
+            Some(found) if many(found) => {
+                format!("joint `{name}` mimics `{driver}`, whose position is not one number")
+            }
+            Some(found) => {
+                drivers[idx] = Some(found);
+                continue;
+            }
+        };
+        dropped.push((idx, problem));
+    }
+    for (idx, problem) in dropped {
+        let place = reader.joint_places[idx].mimic.clone();
+        let assumed = "the mimic is left out: the joint moves by itself";
+        reader.remark(NoteKind::Mimic, place.start, problem, assumed);
+        reader.edit(place, "");
+        reader.reading.robot.joints[idx].mimic = None;
+    }
+    for idx in in_circles(&drivers) {
+        let name = shortened(&reader.reading.robot.joints[idx].name);
+        let place = reader.joint_places[idx].mimic.start;
+        reader.fault(place, Fault::MimicCircle(name));
+    }
+    reader.reading.tree.drivers = drivers;
+}
+
+/// The joints that are part of a mimic cycle, ascending; without those that only lead into one.
+fn in_circles(drivers: &[Option<usize>]) -> Vec<usize> {
+    // For each joint, the walk that visited it first. A walk that meets itself has found a cycle.
+    let mut walk_of = vec![usize::MAX; drivers.len()];
+    let mut found = Vec::new();
+    for start in 0..drivers.len() {
+        let mut joint = start;
+        while walk_of[joint] == usize::MAX {
+            walk_of[joint] = start;
+            match drivers[joint] {
+                Some(driver) => joint = driver,
+                None => break,
+            }
+        }
+        if walk_of[joint] == start && drivers[joint].is_some() {
+            found.push(joint);
+            let around = std::iter::successors(drivers[joint], |joint| drivers[*joint]);
+            found.extend(around.take_while(|other| *other != joint));
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+fn missing_limits(reader: &mut Reader) {
+    let mut found = Vec::new();
+    for (joint, place) in reader.reading.robot.joints.iter().zip(&reader.joint_places) {
+        let is_limited = |joint: &Joint| {
+            let limit = joint.limit.as_ref();
+            limit.is_some_and(|limit| limit.lower.is_some() || limit.upper.is_some())
+        };
+        let bounds = match joint.joint_type {
+            JointType::Revolute => "[-pi, pi] rad",
+            JointType::Prismatic => "[-1, 1] m",
+            _ => continue,
+        };
+        if joint.mimic.is_none() && !is_limited(joint) {
+            let kind = joint.joint_type.as_str().to_ascii_lowercase();
+            let problem = format!(
+                "joint `{}` is {kind} and has no limits",
+                shortened(&joint.name)
+            );
+            found.push((
+                place.joint,
+                problem,
+                format!("taken as not limited; its bounds are {bounds}"),
+            ));
+        }
+    }
+    for (offset, problem, assumed) in found {
+        reader.remark(NoteKind::NoLimits, offset, problem, assumed);
+    }
+}

@@ -1,0 +1,72 @@
+//! Why a producer or a validator cannot be run.
+
+use std::path::PathBuf;
+
+use super::data::DataError;
+use super::export::ExportError;
+use super::skips::SkipError;
+use super::suite::{CaseError, SuiteError};
+use super::tree::TreeError;
+use super::workplace::WorkplaceError;
+use urdd_directory::cancellation::Cancelled;
+
+/// Why a producer or a validator cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The suite's files cannot be read.
+    #[error(transparent)]
+    Data(#[from] DataError),
+    /// The suite is damaged.
+    #[error("the suite is damaged: {0}")]
+    Suite(#[from] SuiteError),
+    /// A case of the suite is damaged.
+    #[error("the suite is damaged: {0}")]
+    Case(#[from] CaseError),
+    /// The robot does not exist.
+    #[error("there is no robot `{0}`; the robots are {1}")]
+    UnknownRobot(String, String),
+    /// No case matches the version and the ids.
+    #[error("there is no case to run; `urdd conformance export` writes them all, and their list")]
+    NoCase,
+    /// The skip list names something that does not exist.
+    #[error("the skip list: {0}")]
+    Skip(#[from] SkipError),
+    /// The working folder cannot be created.
+    #[error(transparent)]
+    Folder(#[from] WorkplaceError),
+    /// The thread pool cannot be created.
+    #[error("{0} commands at a time cannot be run: {1}")]
+    Jobs(usize, rayon::ThreadPoolBuildError),
+    /// A robot or a case cannot be written to the working folder.
+    #[error(transparent)]
+    Tree(#[from] TreeError),
+    /// A valid URDD cannot be generated.
+    #[error(transparent)]
+    Valid(#[from] ExportError),
+    /// A URDD cannot be removed.
+    #[error("{}: cannot be removed: {error}", path.display())]
+    Remove {
+        /// Its path.
+        path: PathBuf,
+        /// Reason.
+        error: std::io::Error,
+    },
+    /// The run was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Runs `work` with a number of threads.
+///
+/// # Errors
+/// If the threads cannot be created, or `work` fails.
+pub fn with_threads<T: Send>(
+    jobs: usize,
+    work: impl FnOnce() -> Result<T, RunError> + Send,
+) -> Result<T, RunError> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(jobs)
+        .build()
+        .map_err(|error| RunError::Jobs(jobs, error))?
+        .install(work)
+}
