@@ -175,7 +175,7 @@ fn room_of(root: &Path, family: &str) -> Result<String, String> {
     Err(format!("no rule in {RULES} is of the family {family}"))
 }
 
-/// Adds the rule to the family's `mod.rs`: to the sorted modules, and at the end of the rules.
+/// Adds the rule to the sorted modules and the sorted rules of the family's `mod.rs`.
 fn register(text: &str, module: &str, path: &str) -> Result<String, String> {
     let unexpected = || format!("{path} is not as expected: no list of modules and rules");
     let line = format!("pub mod {module};");
@@ -190,13 +190,20 @@ fn register(text: &str, module: &str, path: &str) -> Result<String, String> {
         (None, Some(first)) => text.replacen(first, &format!("{line}\n{first}"), 1),
         (None, None) => return Err(unexpected()),
     };
-    let list = text.find("RULES: &[&Rule] = &[").ok_or_else(unexpected)?;
-    let end = list + text[list..].find("];").ok_or_else(unexpected)?;
-    let (head, tail) = text.split_at(end);
-    let head = head.trim_end();
-    // rustfmt writes short lists on one line.
-    let comma = if head.ends_with([',', '[']) { "" } else { "," };
-    Ok(format!("{head}{comma}\n    &{module}::RULE,\n{tail}"))
+    let (head, rest) = text.split_once("rules! {").ok_or_else(unexpected)?;
+    let (list, tail) = rest.split_once('}').ok_or_else(unexpected)?;
+    let mut rules: Vec<&str> = list.split(',').map(str::trim).collect();
+    rules.push(module);
+    rules.retain(|rule| !rule.is_empty());
+    rules.sort_unstable();
+    let mut lines = vec![String::from("   ")];
+    for rule in rules {
+        match lines.last_mut() {
+            Some(line) if line.len() + rule.len() < 96 => *line += &format!(" {rule},"),
+            _ => lines.push(format!("    {rule},")),
+        }
+    }
+    Ok(format!("{head}rules! {{\n{}\n}}{tail}", lines.join("\n")))
 }
 
 /// Appends a placeholder sentence to the clause in SPEC.md.
@@ -215,37 +222,34 @@ fn mark_clause(text: &str, clause: &str, code: &str) -> Result<String, String> {
 }
 
 fn rule(code: &str, name: &str, severity: &str, clause: &str) -> String {
-    // Rules about odd robots judge the source.
-    let judges = if code.starts_with("SRC") {
-        "judges Source, "
-    } else {
-        ""
+    // Rules about unusual robots judge the source.
+    let (judges, need) = match code.starts_with("SRC") {
+        true => ("judges Source, ", "SourceRobot"),
+        false => ("", "Module(Kind::Urdf)"),
     };
     format!(
-        r#"use crate::context::Context;
-use crate::finding::{{Finding, Findings}};
-use crate::rule::declare_rule;
+        r#"use crate::rules::prelude::*;
 
 declare_rule! {{
     /// TODO: what is wrong, in one sentence.
     ///
     /// TODO: why it matters, and what to do.
     {code} "{name}", {severity}, clause "{clause}", since "0.2.0",
-    phase References, {judges}needs [],
-    check check,
+    phase References, {judges}needs [{need}],
 }}
 
-fn check(context: &Context, findings: &mut Findings) {{
-    // TODO: look, and report each place. `crates/urdd-validate/src/context.rs` says what there is to look at,
-    // `crates/urdd-validate/src/tolerance.rs` how numbers are compared.
-    let wrong = context.modules().is_empty();
-    if wrong {{
-        findings.report(
-            Finding::at("urdf_module/module.json", "/links/0", "TODO: what is wrong here, and what to do")
-                .expected("TODO")
-                .actual("TODO"),
-        );
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {{
+    // TODO: report each place. `context.rs` shows the available data, `tolerance.rs` how to compare numbers (both in
+    // `crates/urdd-validate/src/`). Declare in `needs` what you take with `?`.
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
+    if robot.links.is_empty() {{
+        Finding::at(file, "/links/0", "TODO: what is wrong here, and what to do")
+            .expected("TODO")
+            .actual("TODO")
+            .report(findings);
     }}
+    Some(())
 }}
 "#
     )

@@ -135,6 +135,18 @@ impl<T> ShapeList<T> {
         }
     }
 
+    /// Its entries, each with its link and its index within the link.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, T)>
+    where
+        T: Copy,
+    {
+        let links = self.links.iter().enumerate();
+        links.flat_map(|(link, entries)| {
+            let entries = entries.iter().enumerate();
+            entries.map(move |(piece, entry)| (link, piece, *entry))
+        })
+    }
+
     /// A list of the document: an option or a list for each link.
     fn new<'a, S: 'a, L>(
         kind: ShapeKind,
@@ -156,7 +168,7 @@ impl<T> ShapeList<T> {
 }
 
 /// The lists of `link_shapes_approximations_module`: boxes and spheres.
-pub fn approximations(document: &ModuleDocument) -> Option<Vec<ShapeList<Volume>>> {
+pub fn approximations(document: &ModuleDocument) -> Option<[ShapeList<Volume>; 4]> {
     macro_rules! lists {
         ($module:expr, $types:ident) => {{
             let of_box = |b: &$types::Obb| Volume::Box {
@@ -173,7 +185,7 @@ pub fn approximations(document: &ModuleDocument) -> Option<Vec<ShapeList<Volume>
                 PieceSpheres decomposition_bounding_spheres of_sphere)
         }};
         ($module:expr; $($kind:ident $field:ident $read:ident),*) => {
-            vec![$(ShapeList::new(ShapeKind::$kind, stringify!($field), &$module.$field, $read)),*]
+            [$(ShapeList::new(ShapeKind::$kind, stringify!($field), &$module.$field, $read)),*]
         };
     }
     match document {

@@ -74,7 +74,11 @@ fn is_for_urdf(rule: &Rule) -> bool {
     let module = |need: &Need| {
         matches!(
             need,
-            Need::Module(_) | Need::AnyModule(_) | Need::RootMetadata | Need::Legacy
+            Need::Module(_)
+                | Need::ModuleV1(_)
+                | Need::AnyModule(_)
+                | Need::RootMetadata
+                | Need::Legacy
         )
     };
     match rule.judges {

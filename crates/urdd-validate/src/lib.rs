@@ -102,7 +102,7 @@ pub enum ValidateError {
     Cancelled(#[from] Cancelled),
 }
 
-/// Examines every URDD at or below each of the paths, in parallel, with every rule.
+/// Examines every URDD at or below each path, in parallel, with every rule.
 ///
 /// # Errors
 /// If one of the paths has nothing to examine, or the run is cancelled.
@@ -113,7 +113,7 @@ pub fn validate<P: AsRef<Path>>(paths: &[P], settings: &Settings) -> Result<Run,
 /// As [`validate`], with the given rules.
 ///
 /// # Errors
-/// As [`validate`].
+/// Like [`validate`].
 pub fn validate_with<P: AsRef<Path>>(
     paths: &[P],
     settings: &Settings,

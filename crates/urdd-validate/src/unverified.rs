@@ -16,7 +16,7 @@ use urdd_format::report::{LinkNotVerified, ModelNotVerified};
 type Whys = BTreeSet<(Code, String)>;
 
 impl Examined {
-    /// Every part that some rule did not verify: which rules, and why not.
+    /// Every part that some rule did not verify, with the rules and reasons.
     pub fn not_verified(&self) -> BTreeMap<Part, Vec<(Code, Why)>> {
         let mut parts: BTreeMap<Part, Vec<(Code, Why)>> = BTreeMap::new();
         for check in &self.checks {

@@ -1,7 +1,7 @@
-//! The carried URDF, read by the validator's own short path.
+//! The carried URDF, read by a small reader of the validator's own.
 //!
-//! The XML is read as it stands, so that what is absent can be told from what is zero, and every
-//! value has its place in the file. What a URDF library would fill in, drop or repair is neither.
+//! It reads the XML literally, so that missing values differ from zeros, and every value has its place in the file. It
+//! does not fill in, drop or repair values, as a URDF library would.
 
 pub mod compare;
 mod joint;
