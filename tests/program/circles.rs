@@ -17,8 +17,11 @@ const KNOWN: &[&str] = &[
     "crates/urdd-validate/src/rules/bounds",
     "crates/urdd-validate/src/rules/chain",
     "crates/urdd-validate/src/rules/composition",
-    "crates/urdd-validate/src/rules/connections",
+    "crates/urdd-validate/src/rules/directory",
+    "crates/urdd-validate/src/rules/extensions",
     "crates/urdd-validate/src/rules/learned",
+    "crates/urdd-validate/src/rules/meshes",
+    "crates/urdd-validate/src/rules/source",
 ];
 
 /// Files that all reach each other.
