@@ -2,6 +2,7 @@
 //! URDDs alone, not on the order of their examination.
 
 use super::engine::Check;
+use super::finding::bytes;
 use urdd_format::report::Place;
 
 /// Approximate memory limit for the places of a run, in bytes, and the lower limit for each URDD.
@@ -13,24 +14,9 @@ pub(super) fn of_each(urdds: usize) -> usize {
     (KEPT_OF_RUN / urdds.max(1)).max(LEAST_OF_URDD)
 }
 
-/// Approximate memory of a place and of a finding without their texts, in bytes. Constants, so that a report is the
-/// same on every machine.
-const PLACE: usize = 184;
+/// Approximate memory of a finding without its texts, in bytes. A constant, so that a report is the same on every
+/// machine.
 const FINDING: usize = 256;
-
-/// Approximate memory of a place, in bytes.
-pub(super) fn bytes(place: &Place) -> usize {
-    let texts = [
-        &place.file,
-        &place.pointer,
-        &place.subject,
-        &place.message,
-        &place.expected,
-        &place.actual,
-    ];
-    let texts = texts.into_iter().flatten().map(String::len);
-    PLACE + texts.sum::<usize>()
-}
 
 /// Drops places beyond `most` bytes. Keeps the worst places of each finding and at least one finding of each rule.
 /// Counts include what is dropped.

@@ -63,7 +63,6 @@ mod worst;
 
 pub use examined::Examined;
 pub use find_errors::find_errors;
-use model_verified::{ModelVerdict, verify_model};
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};

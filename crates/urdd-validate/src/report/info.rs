@@ -7,7 +7,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::info_parts::{self, PartInfo};
-use crate::{ModelVerdict, verify_model};
+use crate::model_verified::{ModelVerdict, verify_model};
 use urdd_directory::root::ReadError;
 use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
