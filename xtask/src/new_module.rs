@@ -23,6 +23,9 @@ pub fn make(root: &Path, name: &str) -> Result<String, String> {
     edits.insert_module(&format!("{TYPES}/lib.rs"), &format!("pub mod {stem};"))?;
     // The modules of version 1 come first; then those that are legacy only.
     let registry = format!("{TYPES}/registry.rs");
+    if edits.read(&registry)?.contains(&format!("= \"{name}\" in")) {
+        return Err(format!("{name} is there already: {registry}"));
+    }
     edits.insert_before(
         &registry,
         "    /// Error of linearised distances. Legacy only.",

@@ -242,6 +242,7 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
     for (name, words) in [
         ("battery_pack", "is there already"),
         ("bounds_module", "is there already"),
+        ("creator", "is there already"),
         ("Battery", "is not a name"),
         ("3d", "is not a name"),
     ] {
