@@ -64,7 +64,11 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
     edits.set(CODES, add_code(&edits.read(CODES)?, code)?);
     let module = name.replace('-', "_");
     let rule_path = format!("{RULES}/{room}/{module}.rs");
-    edits.create(&rule_path, rule(code, name, severity, clause))?;
+    // Of a module as it was scaffolded, the rule can already read the values.
+    let types = edits.read(&format!("crates/urdd-format/src/{room}.rs"));
+    let has_values = types.is_ok_and(|text| text.contains("pub values: Vec<f64>,"));
+    let about = has_values.then_some(room.as_str());
+    edits.create(&rule_path, rule(code, name, severity, clause, about))?;
     let list = format!("{RULES}/{room}/mod.rs");
     edits.set(&list, register(&edits.read(&list)?, &module, &list)?);
     let mut steps = Vec::new();
@@ -244,25 +248,29 @@ fn room_of(root: &Path, family: &str) -> Result<Option<String>, String> {
     Ok(None)
 }
 
-/// Adds the rule to the family's `mod.rs`: to the sorted modules, and at the end of the rules.
+/// Adds the rule to the sorted modules and the sorted rules of the family's `mod.rs`.
 fn register(text: &str, module: &str, path: &str) -> Result<String, String> {
-    let unexpected = || format!("{path} is not as expected: no list of modules and rules");
-    let line = format!("pub mod {module};");
-    let text = with_module(text, &line, path)?;
-    let list = text.find("RULES: &[&Rule] = &[").ok_or_else(unexpected)?;
-    let end = list + text[list..].find("];").ok_or_else(unexpected)?;
-    let (head, tail) = text.split_at(end);
-    let head = head.trim_end();
-    // rustfmt writes short lists on one line.
-    let comma = if head.ends_with([',', '[']) { "" } else { "," };
-    Ok(format!("{head}{comma}\n    &{module}::RULE,\n{tail}"))
+    let text = with_module(text, &format!("pub mod {module};"), path)?;
+    let unexpected = || format!("{path} is not as expected: no list of rules");
+    let (head, rest) = text.split_once("rules! {").ok_or_else(unexpected)?;
+    let (list, tail) = rest.split_once('}').ok_or_else(unexpected)?;
+    let mut rules: Vec<&str> = list.split(',').map(str::trim).collect();
+    rules.push(module);
+    rules.retain(|rule| !rule.is_empty());
+    rules.sort_unstable();
+    let mut lines = vec![String::from("   ")];
+    for rule in rules {
+        match lines.last_mut() {
+            Some(line) if line.len() + rule.len() < 96 => *line += &format!(" {rule},"),
+            _ => lines.push(format!("    {rule},")),
+        }
+    }
+    Ok(format!("{head}rules! {{\n{}\n}}{tail}", lines.join("\n")))
 }
 
 /// The `mod.rs` of a family without rules.
 fn family_list(family: &str, about: &str) -> String {
-    format!(
-        "//! {family}: {about}.\n\nuse crate::rule::Rule;\n\n/// The rules of this family.\npub const RULES: &[&Rule] = &[];\n"
-    )
+    format!("//! {family}: {about}.\n\nuse crate::rule::rules;\n\nrules! {{}}\n")
 }
 
 /// Appends a placeholder sentence to the clause in SPEC.md.
@@ -280,38 +288,46 @@ fn mark_clause(text: &str, clause: &str, code: &str) -> Result<String, String> {
     ))
 }
 
-fn rule(code: &str, name: &str, severity: &str, clause: &str) -> String {
-    // Rules about odd robots judge the source.
-    let judges = if code.starts_with("SRC") {
-        "judges Source, "
-    } else {
-        ""
+fn rule(code: &str, name: &str, severity: &str, clause: &str, module: Option<&str>) -> String {
+    // Rules about unusual robots judge the source.
+    let (judges, need) = match (module, code.starts_with("SRC")) {
+        (Some(room), _) => ("", format!("ModuleV1(Kind::{})", camel(room))),
+        (None, true) => ("judges Source, ", "SourceRobot".to_owned()),
+        (None, false) => ("", "Module(Kind::Urdf)".to_owned()),
+    };
+    let look = match module {
+        Some(room) => format!(
+            r#"    let module = document!(context, {})?;
+    if module.values.is_empty() {{
+        Finding::at("{room}_module/module.json", "/values", "TODO: what is wrong here, and what to do")"#,
+            camel(room)
+        ),
+        None => r#"    let robot = context.robot()?;
+    let file = context.robot_file()?;
+    if robot.links.is_empty() {
+        Finding::at(file, "/links/0", "TODO: what is wrong here, and what to do")"#
+            .to_owned(),
     };
     format!(
-        r#"use crate::context::Context;
-use crate::finding::{{Finding, Findings}};
-use crate::rule::declare_rule;
+        r#"use crate::rules::prelude::*;
 
 declare_rule! {{
     /// TODO: what is wrong, in one sentence.
     ///
     /// TODO: why it matters, and what to do.
     {code} "{name}", {severity}, clause "{clause}", since "0.2.0",
-    phase References, {judges}needs [],
-    check check,
+    phase References, {judges}needs [{need}],
 }}
 
-fn check(context: &Context, findings: &mut Findings) {{
-    // TODO: look, and report each place. `crates/urdd-validate/src/context.rs` says what there is to look at,
-    // `crates/urdd-validate/src/tolerance.rs` how numbers are compared.
-    let wrong = context.modules().is_empty();
-    if wrong {{
-        findings.report(
-            Finding::at("urdf_module/module.json", "/links/0", "TODO: what is wrong here, and what to do")
-                .expected("TODO")
-                .actual("TODO"),
-        );
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {{
+    // TODO: report each place. `context.rs` shows the available data, `tolerance.rs` how to compare numbers (both in
+    // `crates/urdd-validate/src/`). Declare in `needs` what you take with `?`.
+{look}
+            .expected("TODO")
+            .actual("TODO")
+            .report(findings);
     }}
+    Some(())
 }}
 "#
     )

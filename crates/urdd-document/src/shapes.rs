@@ -159,6 +159,18 @@ impl<T> ShapeList<T> {
         }
     }
 
+    /// Its entries, each with its link and its index within the link.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, T)>
+    where
+        T: Copy,
+    {
+        let links = self.links.iter().enumerate();
+        links.flat_map(|(link, entries)| {
+            let entries = entries.iter().enumerate();
+            entries.map(move |(piece, entry)| (link, piece, *entry))
+        })
+    }
+
     fn full<S>(
         kind: ShapeKind,
         key: &'static str,
@@ -189,7 +201,7 @@ impl<T> ShapeList<T> {
 }
 
 /// The lists of `link_shapes_approximations_module`: boxes and spheres.
-pub fn approximations(document: &ModuleDocument) -> Option<Vec<ShapeList<Volume>>> {
+pub fn approximations(document: &ModuleDocument) -> Option<[ShapeList<Volume>; 4]> {
     let [_, boxes, spheres, _, piece_boxes, piece_spheres] = KINDS;
     macro_rules! lists {
         ($module:expr, $types:ident) => {{
@@ -202,7 +214,7 @@ pub fn approximations(document: &ModuleDocument) -> Option<Vec<ShapeList<Volume>
                 radius: s.radius,
                 offset: s.offset_xyz,
             };
-            vec![
+            [
                 ShapeList::full(boxes, "full_obbs", &$module.full_obbs, read_box),
                 ShapeList::full(
                     spheres,

@@ -1,5 +1,5 @@
-//! A URDF by itself: judged by the rules that need nothing but the source. What makes it a robot
-//! (one tree, names that lead somewhere), and what is odd about it.
+//! A URDF on its own, checked by the rules that need only the source: whether it is a valid robot (one tree, existing
+//! names), and what is unusual about it.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,15 +16,15 @@ use urdd_document::module::{JsonFile, MetadataFile};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::Profile;
 
-/// Whether a path is a URDF, by its name.
+/// Whether a path has the name of a URDF.
 pub fn is_urdf(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     extension.eq_ignore_ascii_case("urdf") && path.is_file()
 }
 
-/// The URDF at a path, as what is to be examined: found in its folder, by its own name.
+/// The URDF at a path, found in its folder under its own name.
 pub(super) fn found(path: &Path) -> Found {
-    // What a link leads to lies in another folder.
+    // The target of a link is in another folder.
     let target = match path.is_symlink() {
         true => path.canonicalize().unwrap_or_default(),
         false => path.to_owned(),
@@ -42,7 +42,7 @@ pub(super) fn found(path: &Path) -> Found {
     }
 }
 
-/// Examines a URDF with the rules that are for it.
+/// Examines a URDF with the rules that apply to it.
 pub(super) fn examine(found: &Found, rules: &[&'static Rule]) -> Result<Examined, ReadError> {
     let root = Root::open(&found.path)?;
     let urdf = carried_urdf::read_file(&root, &found.name)?;
@@ -68,12 +68,16 @@ pub(super) fn examine(found: &Found, rules: &[&'static Rule]) -> Result<Examined
     })
 }
 
-/// Whether a rule needs nothing but the source.
+/// Whether a rule needs only the source.
 fn is_for_urdf(rule: &Rule) -> bool {
     let module = |need: &Need| {
         matches!(
             need,
-            Need::Module(_) | Need::AnyModule(_) | Need::RootMetadata | Need::Legacy
+            Need::Module(_)
+                | Need::ModuleV1(_)
+                | Need::AnyModule(_)
+                | Need::RootMetadata
+                | Need::Legacy
         )
     };
     match rule.judges {
@@ -84,7 +88,7 @@ fn is_for_urdf(rule: &Rule) -> bool {
     }
 }
 
-/// A URDD that holds a URDF and nothing else.
+/// A URDD that contains only a URDF.
 fn alone(root: Root, urdf: CarriedUrdf) -> Urdd {
     Urdd::new(Arc::new(Loaded {
         root,

@@ -1,20 +1,20 @@
-//! How much of what was found is kept of a run of many URDDs: places beyond a bound are counted, and
-//! not kept. What is kept depends on the URDDs alone, not on the order in which they were examined.
+//! Bounds the places kept from a run of many URDDs: places beyond the bound are only counted. What is kept depends on
+//! the URDDs alone, not on the order in which they were examined.
 
 use super::Examined;
 use super::finding::Occurrence;
 
-/// About how many bytes of places are kept of a run, and of each URDD where there are very many.
+/// Approximate number of bytes of places kept of a run, and at least of each URDD.
 const KEPT_OF_RUN: usize = 256 << 20;
 const LEAST_OF_URDD: usize = 256 << 10;
 
-/// How many bytes of places are kept of each URDD of a run.
+/// Number of bytes of places kept of each URDD of a run.
 pub(super) fn of_each(urdds: usize) -> usize {
     (KEPT_OF_RUN / urdds.max(1)).max(LEAST_OF_URDD)
 }
 
-/// Keeps at most so many bytes of places: of each finding the worst ones, of each rule one finding
-/// at least. What is left out stays in the counts.
+/// Keeps at most this many bytes of places: the worst ones of each finding, and at least one finding of each rule. What
+/// is removed remains in the counts.
 pub(super) fn trim(examined: &mut Examined, bytes: usize) {
     let mut left = bytes;
     for check in &mut examined.checks {
@@ -85,7 +85,7 @@ mod tests {
                 .iter()
                 .all(|check| !check.findings.is_empty())
         );
-        // However many URDDs there are, each keeps something.
+        // However many URDDs there are, something of each is kept.
         assert_eq!(of_each(1), KEPT_OF_RUN);
         assert_eq!(of_each(1_000_000), LEAST_OF_URDD);
     }

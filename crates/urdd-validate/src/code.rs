@@ -1,5 +1,4 @@
-//! The code of every rule there is or was. A code is never used again for something else: a rule
-//! that goes leaves its code in [`RETIRED`].
+//! The codes of all present and past rules. A code is never reused: a removed rule leaves its code in [`RETIRED`].
 
 macro_rules! codes {
     ($($code:ident)*) => {
@@ -11,7 +10,7 @@ macro_rules! codes {
             /// Every code, family by family in the order of the specification.
             pub const ALL: &[Code] = &[$(Code::$code),*];
 
-            /// As it is written: `DOF003`.
+            /// The code as text: `DOF003`.
             pub fn as_str(self) -> &'static str {
                 match self { $(Code::$code => stringify!($code),)* }
             }
@@ -47,23 +46,23 @@ codes! {
     TST001
 }
 
-/// A code that was taken back. It is never used again.
+/// A retired code. It is never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RetiredCode {
-    /// The code, as it was written.
+    /// The code as text.
     pub code: &'static str,
-    /// What became of it.
+    /// Why it was retired.
     pub reason: &'static str,
 }
 
-/// Every code that was taken back.
+/// Every retired code.
 pub const RETIRED: &[RetiredCode] = &[RetiredCode {
     code: "LEG005",
     reason: "it was given up before the first release, and no report ever held it",
 }];
 
 impl RetiredCode {
-    /// The retired code written as `text`, in either case.
+    /// The retired code written as `text`, in upper or lower case.
     pub fn parse(text: &str) -> Option<&'static RetiredCode> {
         RETIRED
             .iter()
@@ -72,7 +71,7 @@ impl RetiredCode {
 }
 
 impl Code {
-    /// The code written as `text`, in either case.
+    /// The code written as `text`, in upper or lower case.
     pub fn parse(text: &str) -> Option<Code> {
         Code::ALL
             .iter()
@@ -96,7 +95,7 @@ impl std::fmt::Display for Code {
 mod tests {
     use super::*;
 
-    /// Between the first code of a family and its last, each number is a rule's or was one's.
+    /// Between the first and the last code of a family, each number belongs to a present or past rule.
     #[test]
     fn no_number_is_missing() {
         for pair in Code::ALL.windows(2) {

@@ -1,4 +1,4 @@
-//! What a rule sees of a URDD.
+//! A URDD as rules see it.
 
 use std::ops::Deref;
 use std::sync::{Arc, OnceLock};
@@ -11,17 +11,20 @@ use super::solids::Solids;
 use super::solids::placed::{self, Misplaced, Placed};
 use super::urdf_text;
 use urdd_directory::cancellation::Cancellation;
+use urdd_document::meshes::Meshes;
+use urdd_document::module::Module;
 use urdd_document::robot;
+use urdd_document::shape_matrices::{self, Statistics};
 use urdd_document::shapes::Shapes;
 use urdd_document::urdd::{RobotFrom, Urdd};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::root_metadata::ConformanceClass;
 
-/// A URDD as rules see it: what was loaded, and what the validator works out once for all rules. A
-/// rule may count on what it says that it needs.
+/// A loaded URDD, with data that the validator computes once for all rules. A rule's needs guarantee which of it is
+/// available.
 ///
-/// A URDD describes its robot twice, in `urdf_module` and in the carried URDF. By which of them
-/// rules judge is the context's choice: see [`Context::by_urdf`].
+/// A URDD describes its robot twice, in `urdf_module` and in the carried URDF. The context decides which of them rules
+/// use: see [`Context::by_urdf`].
 pub struct Context {
     urdd: Urdd,
     class: Option<ConformanceClass>,
@@ -43,8 +46,7 @@ impl Deref for Context {
 }
 
 impl Context {
-    /// For a URDD that was read. `class` is the conformance class to hold it to, where that is
-    /// not the one that it claims.
+    /// A context of a loaded URDD. `class` replaces the conformance class that the URDD claims.
     pub fn new(urdd: Urdd, class: Option<ConformanceClass>) -> Self {
         Context {
             urdd,
@@ -59,8 +61,8 @@ impl Context {
         }
     }
 
-    /// The same URDD with the robot as the carried URDF has it, instead of `urdf_module`; `None`
-    /// where none is carried, or it cannot be read (URD011).
+    /// The same URDD with the robot of the carried URDF instead of that of `urdf_module`; `None` if there is no
+    /// carried URDF or it cannot be read (URD011).
     pub fn by_urdf(&self) -> Option<Context> {
         let utf8 = self.urdf().is_ok_and(|urdf| urdf.not_utf8_at.is_none());
         let reading = self.urdf_text().filter(|_| utf8)?;
@@ -74,67 +76,71 @@ impl Context {
         })
     }
 
-    /// Whether to take all the time that complete checks of sampled data need.
+    /// Whether to check sampled data completely, however long that takes.
     pub fn deep(mut self, deep: bool) -> Self {
         self.deep = deep;
         self
     }
 
-    /// With a wish to stop, after which no rule is begun.
+    /// Sets the cancellation: once cancelled, no further rule starts.
     pub fn until(mut self, cancellation: &Cancellation) -> Self {
         self.cancellation = cancellation.clone();
         self
     }
 
-    /// Whether to begin no rule any more.
+    /// Whether validation was cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.cancellation.is_cancelled()
     }
 
-    /// Whether sampled data is recomputed in full.
+    /// Whether sampled data is checked completely.
     pub fn is_deep(&self) -> bool {
         self.deep
     }
 
-    /// What was loaded.
+    /// The loaded URDD.
     pub fn urdd(&self) -> &Urdd {
         &self.urdd
     }
 
-    /// Whether the robot is the carried URDF's.
+    /// Whether the robot is that of the carried URDF.
     pub fn is_by_urdf(&self) -> bool {
         self.urdd.robot_from() == RobotFrom::CarriedUrdf
     }
 
-    /// The conformance class to hold the URDD to: the one that was asked for, or that it claims.
+    /// The conformance class that the URDD must meet: the requested one, otherwise the one it claims.
     pub fn class(&self) -> Option<ConformanceClass> {
         self.class
             .or_else(|| self.metadata().map(|metadata| metadata.conformance_class))
     }
 
-    /// The source URDF, read; `None` where none is carried. What it says counts only where URD011
-    /// found nothing.
+    /// The parsed source URDF; `None` if none is carried. Only meaningful if URD011 passed.
     pub fn urdf_text(&self) -> Option<&urdf_text::Reading> {
         self.urdf_text
             .get_or_init(|| Some(urdf_text::read(&self.urdf().ok()?.text)))
             .as_ref()
     }
 
-    /// What the mesh files hold: all are read when this is first asked for.
+    /// The contents of the mesh files, all read on first use.
     pub fn solids(&self) -> &Solids {
         self.solids.get_or_init(|| Solids::read(&self.urdd))
     }
 
-    /// The distances between shapes, computed again when this is first asked for; or why they cannot
-    /// be.
-    pub fn distances(&self) -> Result<&Distances, &SkipReason> {
+    /// The distances between shapes, recomputed on first use.
+    ///
+    /// # Errors
+    /// Why they cannot be computed.
+    pub fn distances(&self) -> Result<&Distances, SkipReason> {
         let make = || Distances::new(&self.urdd, self.solids(), self.deep);
-        self.distances.get_or_init(make).as_ref()
+        let distances = self.distances.get_or_init(make);
+        distances.as_ref().map_err(Clone::clone)
     }
 
-    /// What compares the self-collision model with exact geometry, prepared when this is first asked for; or why that
-    /// cannot be. For rules that need LRN003 to have found no fault.
-    pub fn model_judge(&self) -> Result<&Judge, &SkipReason> {
+    /// Compares the self-collision model with exact geometry; prepared on first use. For rules that need LRN003 passed.
+    ///
+    /// # Errors
+    /// Why the model cannot be compared.
+    pub fn model_judge(&self) -> Result<&Judge, SkipReason> {
         let kind = ModuleKind::SelfCollisionModel;
         let make = || match self.document(kind) {
             Some(ModuleDocument::SelfCollisionModel(model)) => {
@@ -142,15 +148,16 @@ impl Context {
             }
             _ => Err(SkipReason::Absent(kind)),
         };
-        self.model_judge.get_or_init(make).as_ref()
+        let judge = self.model_judge.get_or_init(make);
+        judge.as_ref().map_err(Clone::clone)
     }
 
-    /// The links whose plain mesh is not what the robot shows there.
+    /// The links whose plain mesh differs from the robot's geometry.
     pub fn misplaced(&self) -> &[Misplaced] {
         &self.placed().wrong
     }
 
-    /// The links of which it cannot be said whether their plain mesh is what the robot shows there.
+    /// The links whose plain mesh could not be compared with the robot's geometry, with the reason.
     pub fn unplaced(&self) -> &[(usize, Why)] {
         &self.placed().unknown
     }
@@ -160,13 +167,39 @@ impl Context {
             .get_or_init(|| placed::all(&self.urdd, self.solids()))
     }
 
-    /// Whether a link's plain mesh is not what the robot shows there: nothing is held to it then.
+    /// Whether a link's plain mesh differs from the robot's geometry, so that nothing is compared with it.
     pub fn is_misplaced(&self, link: usize) -> bool {
         self.misplaced().iter().any(|wrong| wrong.link == link)
     }
 
-    /// What shape indices stand for, as follows from the hulls and the convex pieces.
+    /// The meaning of shape indices, from the hulls and the convex pieces.
     pub fn shapes(&self) -> Option<Shapes> {
         Shapes::new(&self.urdd)
+    }
+
+    /// The distance statistics of the six kinds of shape.
+    pub fn statistics(&self) -> Option<[Option<Statistics<'_>>; 6]> {
+        shape_matrices::statistics(self.document(ModuleKind::LinkShapesDistanceStatistics)?)
+    }
+
+    /// Those of the modules whose documents are usable.
+    pub fn documents(
+        &self,
+        kinds: &[ModuleKind],
+    ) -> impl Iterator<Item = (ModuleKind, &Module, &ModuleDocument)> {
+        kinds.iter().filter_map(|kind| {
+            let module = self.module(*kind)?;
+            Some((*kind, module, module.document.as_ref()?))
+        })
+    }
+
+    /// Those of the mesh modules that list meshes by link.
+    pub fn mesh_modules(
+        &self,
+        kinds: &[ModuleKind],
+    ) -> impl Iterator<Item = (ModuleKind, &Module, Meshes<'_>)> {
+        kinds
+            .iter()
+            .filter_map(|kind| Some((*kind, self.module(*kind)?, self.meshes(*kind)?)))
     }
 }

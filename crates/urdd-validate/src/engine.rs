@@ -1,5 +1,4 @@
-//! Runs the rules over a URDD: phase by phase, each rule only when what it needs is sound, a rule
-//! that crashes caught.
+//! Runs the rules on a URDD, phase by phase. A rule runs only if its needs are met; a rule that crashes is caught.
 
 use std::any::Any;
 use std::collections::HashMap;
@@ -16,32 +15,32 @@ use super::skip::SkipReason;
 use super::worst::worst_first;
 use urdd_format::registry::{ModuleKind, Profile};
 
-/// What became of a rule on one URDD.
+/// The outcome of a rule on a URDD.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Outcome {
     /// It ran and found nothing.
     Passed,
     /// It ran and found something.
     Failed,
-    /// It did not run, for this reason.
+    /// It did not run to its end, for this reason.
     Skipped(SkipReason),
-    /// It ran into a fault of its own, with this message.
+    /// The rule itself is faulty; the message says how.
     Crashed(String),
 }
 
-/// A rule and what became of it.
+/// A rule and its outcome.
 pub struct Check {
     /// The rule.
     pub rule: &'static Rule,
-    /// How bad its findings are: the rule's word, unless settings have another.
+    /// Severity of its findings: the rule's, unless settings change it.
     pub severity: Severity,
-    /// What became of it.
+    /// Its outcome.
     pub outcome: Outcome,
-    /// What it found.
+    /// Its findings.
     pub findings: Vec<Finding>,
     /// The parts of the robot that it did not verify.
     pub not_verified: Vec<NotVerified>,
-    /// The parts in which it found a fault.
+    /// The parts with findings.
     pub(super) faulted: Faulted,
     /// The parts that it was to judge.
     pub(super) scope: Scope,
@@ -61,18 +60,18 @@ impl Check {
     }
 }
 
-/// What became of a rule, and where it found a fault.
+/// The outcome of a rule, and the parts with findings.
 #[derive(Debug, Clone)]
 pub(super) struct Ran {
     pub outcome: Outcome,
     pub faulted: Faulted,
 }
 
-/// What became of rules, by code.
+/// Outcomes by code.
 pub(super) type Outcomes = HashMap<Code, Ran>;
 
-/// Runs rules by one description of the robot. `outcomes` says what became of rules that ran
-/// before, and takes what becomes of these.
+/// Runs rules for one description of the robot. `outcomes` has the outcomes of rules that ran before; those of these
+/// rules are added.
 pub(super) fn run_all(
     context: &Context,
     mut rules: Vec<&'static Rule>,
@@ -80,14 +79,14 @@ pub(super) fn run_all(
 ) -> Vec<Check> {
     rules.sort_by_key(|rule| (rule.phase, rule.code));
     let mut checks = Vec::with_capacity(rules.len());
-    // A rule may need one of the same phase with a higher code: those that wait go round again.
+    // A rule may need one of the same phase with a higher code: it waits for the next round.
     let mut waiting = rules;
     while !waiting.is_empty() {
         let codes: Vec<Code> = waiting.iter().map(|rule| rule.code).collect();
         let before = waiting.len();
         let mut later = Vec::new();
         for rule in waiting {
-            // Whoever runs the rules sees it too, and takes no notice of what there is.
+            // The caller checks as well, and discards partial results.
             if context.is_cancelled() {
                 return checks;
             }
@@ -109,7 +108,7 @@ pub(super) fn run_all(
             checks.push(check);
         }
         if later.len() == before {
-            // Rules that wait for each other: a fault of the rules, not of the URDD.
+            // Rules that wait for each other are a fault of the rules, not of the URDD.
             for rule in later.drain(..) {
                 let outcome = Outcome::Crashed("its needs go in a circle".to_owned());
                 checks.push(Check::new(rule, outcome, Vec::new()));
@@ -139,7 +138,7 @@ fn run_rule(context: &Context, rule: &'static Rule, outcomes: &Outcomes) -> Chec
     )
 }
 
-/// The parts that a need leaves out, and the rule that found each at fault.
+/// Adds the parts that a need leaves out, each with the rule that it failed.
 fn unsound_parts(
     context: &Context,
     need: Need,
@@ -168,20 +167,33 @@ fn applies(context: &Context, parts: Parts) -> bool {
     !parts.in_version_1_only || context.profile() == Profile::V1
 }
 
-/// Lets a rule look, with findings to report to.
+/// Runs a rule's check with these findings.
 pub(super) fn judge(context: &Context, rule: &'static Rule, findings: Findings) -> Check {
     judge_into(context, rule, &mut { findings })
 }
 
-/// The same; the findings are left to the caller, without those that are in the check.
+/// The same, but leaves `findings` to the caller, without the findings that are returned.
 pub(super) fn judge_into(context: &Context, rule: &'static Rule, findings: &mut Findings) -> Check {
     let ran = catch_unwind(AssertUnwindSafe(|| (rule.check)(context, findings)));
-    if let Err(panic) = ran {
-        let message = panic_message(&*panic);
+    let completed = match ran {
+        Ok(completed) => completed.is_some(),
+        Err(panic) => {
+            let message = panic_message(&*panic);
+            return Check::new(rule, Outcome::Crashed(message), Vec::new());
+        }
+    };
+    let undeclared = !completed && findings.skipped().is_none();
+    if undeclared && cfg!(debug_assertions) {
+        let message = format!(
+            "{} takes something that it does not declare in `needs`",
+            rule.code
+        );
         return Check::new(rule, Outcome::Crashed(message), Vec::new());
     }
+    let undeclared = || undeclared.then_some(SkipReason::UndeclaredNeed);
     let nothing_left = || findings.scope().nothing_left().map(SkipReason::Failed);
-    let skipped = findings.skipped().cloned().or_else(nothing_left);
+    let skipped = findings.skipped().cloned();
+    let skipped = skipped.or_else(undeclared).or_else(nothing_left);
     let not_verified = findings.scope().not_verified();
     let (scope, faulted) = (findings.scope().afresh(), findings.faulted().clone());
     let mut found = findings.take();
@@ -200,23 +212,28 @@ pub(super) fn judge_into(context: &Context, rule: &'static Rule, findings: &mut 
     }
 }
 
-/// What a panic said.
+/// The message of a panic.
 pub(super) fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned())
         .unwrap_or_else(|| "unknown".to_owned())
 }
 
-/// Why a need is not met, if it is not.
+/// Why a need is not met; `None` if it is.
 fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReason> {
     match need {
-        // What the module should say, the carried URDF says.
+        // The carried URDF takes the module's place.
         Need::Module(ModuleKind::Urdf) | Need::SourceRobot if context.is_by_urdf() => None,
         Need::SourceRobot => unmet(context, Need::Module(ModuleKind::Urdf), outcomes),
         Need::Module(kind) => match context.module(kind) {
             None => Some(SkipReason::Absent(kind)),
             Some(module) => module.unusable().map(SkipReason::Unusable),
         },
+        Need::ModuleV1(kind) => unmet(context, Need::Module(kind), outcomes).or_else(|| {
+            let spec = context.module(kind)?.spec;
+            let of_v1 = spec.is_some_and(|spec| spec.profile == Profile::V1);
+            (!of_v1).then_some(SkipReason::NotInThisVersion(kind))
+        }),
         Need::AnyModule(kinds) => {
             let usable = |kind: &ModuleKind| context.document(*kind).is_some();
             (!kinds.iter().any(usable)).then_some(SkipReason::NoneUsable(kinds))
@@ -254,7 +271,7 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
     }
 }
 
-/// Why another rule stands in the way, where it failed or crashed.
+/// Why another rule prevents this one, if it failed or crashed.
 fn obstacle(ran: Option<&Ran>, code: Code) -> Option<SkipReason> {
     match ran?.outcome {
         Outcome::Failed => Some(SkipReason::Failed(code)),
@@ -263,7 +280,7 @@ fn obstacle(ran: Option<&Ran>, code: Code) -> Option<SkipReason> {
     }
 }
 
-/// Why another rule stands in the way, where it crashed.
+/// Why another rule prevents this one, if it crashed.
 fn crashed(ran: Option<&Ran>, code: Code) -> Option<SkipReason> {
     matches!(ran?.outcome, Outcome::Crashed(_)).then_some(SkipReason::Crashed(code))
 }

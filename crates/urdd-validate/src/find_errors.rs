@@ -1,4 +1,4 @@
-//! Whether something is wrong with a URDD, in a few words.
+//! Finds the errors of a URDD, in a few words.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -9,11 +9,11 @@ use super::settings::Settings;
 use super::{ValidateError, validate};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 
-/// The rules that find errors in a URDD, and how many findings each has, in words; none where it passes. One that
-/// cannot be examined says why.
+/// The rules that find errors in a URDD, with their numbers of findings, in words; empty if it passes. The reason, if
+/// it cannot be examined.
 ///
 /// # Errors
-/// Where it is asked to stop.
+/// If it is cancelled.
 pub fn find_errors(path: &Path, cancellation: &Cancellation) -> Result<Vec<String>, Cancelled> {
     let usual = Settings {
         cancellation: cancellation.clone(),

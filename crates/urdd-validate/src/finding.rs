@@ -1,47 +1,59 @@
-//! Findings, and how many of the same are folded into one.
+//! Findings, and folding of similar ones.
 
 use std::collections::{HashMap, HashSet};
 
 use super::part::{Part, Why};
 use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
+use super::tolerance::number_tolerance;
+use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::position::Position;
+use urdd_document::entries::Entry;
+use urdd_document::module::Module;
 
 pub use super::place::{Magnitude, Occurrence, Place};
 
-/// How many places of a folded finding are kept; the rest is counted.
+/// Maximum number of places kept of a folded finding; the rest are counted.
 pub const KEPT_PLACES: usize = 10_000;
-/// How many findings a rule keeps in one URDD, and how many bytes of further places of all of them;
-/// the rest is counted.
+/// Maximum number of findings of a rule in a URDD, and of bytes of their further places; the rest are counted.
 const KEPT_FINDINGS: usize = 10_000;
 const KEPT_BYTES: usize = 2 << 20;
 
-/// Something that a rule found.
+/// A fault found by a rule.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// Where.
+    /// Its place.
     pub place: Place,
-    /// What is wrong, and what to do, for a person.
+    /// What is wrong and what to do, for people.
     pub message: String,
-    /// What should be there.
+    /// The expected value.
     pub expected: Option<String>,
-    /// What is there.
+    /// The actual value.
     pub actual: Option<String>,
-    /// Where numbers were compared: the tolerance, in the unit of the numbers.
+    /// Tolerance of a comparison of numbers, in their unit.
     pub tolerance: Option<f64>,
-    /// Where numbers were compared: by how much they differ.
+    /// Difference of the compared numbers.
     pub magnitude: Option<Magnitude>,
-    /// The meshes that are at fault, where it is about meshes of single links. Those of findings that
-    /// were folded into this one are not among them.
+    /// The faulty meshes, if it is about meshes of single links. Excludes those of findings folded into this one.
     pub parts: Vec<Part>,
-    /// How many findings this one stands for.
+    /// Number of findings that it stands for.
     pub count: usize,
-    /// The next few of these, after this one.
+    /// Further places, without the first.
     pub more: Vec<Occurrence>,
 }
 
 impl Finding {
     /// A finding about a value of a document.
+    pub fn of(
+        document: &impl Document,
+        pointer: impl Into<String>,
+        message: impl Into<String>,
+    ) -> Self {
+        let (file, pointer) = document.locate(pointer.into());
+        Finding::at(file, pointer, message)
+    }
+
+    /// A finding about a value of a document in a file.
     pub fn at(
         file: impl Into<String>,
         pointer: impl Into<String>,
@@ -74,31 +86,39 @@ impl Finding {
         }
     }
 
-    /// With the line and column of the place.
+    /// Sets the line and column.
     pub fn position(mut self, position: Option<Position>) -> Self {
         self.place.position = position;
         self
     }
 
-    /// With what should be there.
+    /// Sets the expected value.
     pub fn expected(mut self, expected: impl ToString) -> Self {
         self.expected = Some(expected.to_string());
         self
     }
 
-    /// With what is there.
+    /// Sets the actual value.
     pub fn actual(mut self, actual: impl ToString) -> Self {
         self.actual = Some(actual.to_string());
         self
     }
 
-    /// With the tolerance of the comparison.
+    /// Sets a number and the copy of it that differs, with tolerance and difference.
+    pub fn numbers(self, expected: f64, actual: f64) -> Self {
+        self.expected(format!("{expected:?}"))
+            .actual(format!("{actual:?}"))
+            .tolerance(number_tolerance(expected, actual))
+            .off_by(expected - actual, "")
+    }
+
+    /// Sets the tolerance of the comparison.
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = Some(tolerance);
         self
     }
 
-    /// With how much the numbers differ, and their unit: of findings alike, the worst comes first.
+    /// Sets the difference of the numbers and its unit. Among folded findings, the worst comes first.
     pub fn off_by(mut self, value: f64, unit: &'static str) -> Self {
         self.magnitude = Some(Magnitude {
             value: value.abs(),
@@ -107,27 +127,51 @@ impl Finding {
         self
     }
 
-    /// About a mesh of a link.
+    /// Adds a faulty mesh.
     pub fn part(mut self, part: impl Into<Option<Part>>) -> Self {
         self.parts.extend(part.into());
         self
     }
 
-    /// Standing for several that were counted elsewhere.
+    /// Sets the number of findings that it stands for.
     pub fn count(mut self, count: usize) -> Self {
         self.count = count;
         self
     }
+
+    /// Adds it to a rule's findings.
+    pub fn report(self, findings: &mut Findings) {
+        findings.report(self);
+    }
 }
 
-/// A point for people, metres.
+/// A document that findings are about.
+pub trait Document {
+    /// The file that holds it, and the pointer of a value in that file.
+    fn locate(&self, pointer: String) -> (String, String);
+}
+
+/// `module.json`.
+impl Document for Module {
+    fn locate(&self, pointer: String) -> (String, String) {
+        (self.file("module.json"), pointer)
+    }
+}
+
+/// An entry of `modules` in `urdd.json`. Pointers are relative to the entry, without a leading slash.
+impl Document for Entry<'_> {
+    fn locate(&self, pointer: String) -> (String, String) {
+        (ROOT_METADATA.to_owned(), self.pointer(&pointer))
+    }
+}
+
+/// A point in messages, metres.
 pub fn point([x, y, z]: [f64; 3]) -> String {
     format!("({x:.4}, {y:.4}, {z:.4})")
 }
 
-/// What one rule found in one URDD. Findings at the same kind of place (the same file, and the
-/// same pointer but for list indices) are folded into one with a count, so that a million of them
-/// cost no more memory than a few.
+/// The findings of a rule in a URDD. Findings at the same kind of place (same file, and same pointer apart from list
+/// indices) are folded into one with a count, so that a million of them take no more memory than a few.
 #[derive(Debug, Default)]
 pub struct Findings {
     findings: Vec<Finding>,
@@ -141,11 +185,11 @@ pub struct Findings {
     scope: Scope,
 }
 
-/// What tells one finding of a rule from another: the file, and the pointer or else the message.
+/// Identifies a finding of a rule: the file, and the pointer or, without one, the message.
 pub type Spot = (Option<String>, String);
 
 impl Findings {
-    /// Remembers the spot of every finding, folded or not.
+    /// Findings that record the spot of every finding, folded or not.
     pub fn remembering_spots() -> Self {
         Findings {
             spots: Some(HashSet::new()),
@@ -153,35 +197,34 @@ impl Findings {
         }
     }
 
-    /// Judging the parts of a scope.
+    /// Sets the parts to judge.
     pub fn within(mut self, scope: Scope) -> Self {
         self.scope = scope;
         self
     }
 
-    /// Whether to judge a part, by itself or by others: not where a rule that this one needs found a
-    /// fault in one of them ([`super::rule::Need::Each`]). What is not judged is noted as not
-    /// verified.
+    /// Whether to judge a part against other parts: not if one of them failed a needed rule
+    /// ([`super::rule::Need::Each`]). Records a part that is not judged as not verified.
     pub fn judges(&mut self, part: Part, by: &[Part]) -> bool {
         self.scope.judges(part, by)
     }
 
-    /// Notes that a part was not verified.
+    /// Records that a part was not verified.
     pub fn not_verified(&mut self, part: Part, why: Why) {
         self.scope.leave_out(part, why);
     }
 
-    /// The parts that were and were not judged.
+    /// The parts to judge, and those not verified.
     pub fn scope(&self) -> &Scope {
         &self.scope
     }
 
-    /// The parts that were found at fault.
+    /// The parts with findings.
     pub fn faulted(&self) -> &Faulted {
         &self.faulted
     }
 
-    /// Takes findings at these spots, and drops others.
+    /// Findings that keep only those at the given spots.
     pub fn only_at(spots: HashSet<Spot>) -> Self {
         Findings {
             only: Some(spots),
@@ -189,17 +232,17 @@ impl Findings {
         }
     }
 
-    /// Whether each finding counts by itself, so that none may be left unbuilt.
+    /// Whether every finding must be reported on its own.
     pub fn wants_each(&self) -> bool {
         self.spots.is_some() || self.only.is_some()
     }
 
-    /// The spots that were remembered.
+    /// The recorded spots.
     pub fn into_spots(self) -> HashSet<Spot> {
         self.spots.unwrap_or_default()
     }
 
-    /// Takes a finding.
+    /// Adds a finding.
     pub fn report(&mut self, finding: Finding) {
         self.reported += 1;
         if self.wants_each() {
@@ -243,12 +286,18 @@ impl Findings {
         }
     }
 
-    /// Says that the rule cannot be checked after all, and why.
-    pub fn skip(&mut self, reason: SkipReason) {
+    /// Records why the rule cannot be checked. Returns `None`, with which the check ends.
+    pub fn skip(&mut self, reason: SkipReason) -> Option<()> {
         self.skipped = Some(reason);
+        None
     }
 
-    /// Why the rule could not be checked, where it said so.
+    /// The value; otherwise skips the rule for the reason given.
+    pub fn or_skip<T>(&mut self, result: Result<T, SkipReason>) -> Option<T> {
+        result.map_err(|reason| self.skip(reason)).ok()
+    }
+
+    /// The reason given to [`Findings::skip`].
     pub fn skipped(&self) -> Option<&SkipReason> {
         self.skipped.as_ref()
     }
@@ -258,7 +307,7 @@ impl Findings {
         self.reported == 0
     }
 
-    /// The findings, in the order in which the first of each was reported; none are left.
+    /// Removes the findings, in the order in which the first of each was reported.
     pub fn take(&mut self) -> Vec<Finding> {
         self.by_place.clear();
         self.kept = 0;
@@ -266,7 +315,7 @@ impl Findings {
     }
 }
 
-/// A JSON Pointer with every list index replaced by `*`.
+/// A JSON Pointer with each list index replaced by `*`.
 fn without_indices(pointer: &str) -> String {
     let parts: Vec<&str> = pointer
         .split('/')

@@ -1,9 +1,9 @@
-//! Reporting many findings alike without building each of them.
+//! Reports many similar findings without building each of them.
 
 use super::finding::{Finding, Findings, KEPT_PLACES};
 
-/// Takes findings at one kind of place: builds the first few, and counts the rest. For tables in
-/// which every element may be wrong.
+/// Reports findings at one kind of place: builds the first few and counts the rest. For tables in which every element
+/// may be wrong. When dropped, it reports the count of those that were not built.
 pub struct Fold<'a> {
     findings: &'a mut Findings,
     seen: usize,
@@ -20,7 +20,7 @@ impl<'a> Fold<'a> {
         }
     }
 
-    /// Takes one more.
+    /// Adds a finding.
     pub fn add(&mut self, make: impl FnOnce() -> Finding) {
         self.seen += 1;
         if self.seen <= KEPT_PLACES || self.findings.wants_each() {
@@ -29,10 +29,11 @@ impl<'a> Fold<'a> {
             self.last = Some(make());
         }
     }
+}
 
-    /// Counts those that were not built.
-    pub fn finish(self) {
-        if let Some(last) = self.last {
+impl Drop for Fold<'_> {
+    fn drop(&mut self) {
+        if let Some(last) = self.last.take() {
             self.findings.report(last.count(self.seen - KEPT_PLACES));
         }
     }
@@ -53,7 +54,7 @@ mod tests {
                 Finding::at("a.json", format!("/m/{i}/0"), "wrong").actual(i)
             });
         }
-        fold.finish();
+        drop(fold);
         let findings = findings.take();
         assert_eq!(findings.len(), 1);
         assert_eq!(findings[0].count, 2 * KEPT_PLACES);

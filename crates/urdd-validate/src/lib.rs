@@ -1,7 +1,7 @@
 //! The validator: checks a URDD from any producer against the specification.
 //!
-//! [`validate`] finds URDDs and runs every rule over each; what comes out is a [`Run`], plain
-//! data. Rules are one file each, in [`rules`].
+//! [`validate`] finds URDDs and runs every rule on each. The result is a [`Run`], plain data. Rules are one file each,
+//! in [`rules`].
 
 pub mod bare_urdf;
 mod bound;
@@ -62,38 +62,38 @@ pub struct ExaminedModule {
     pub name: String,
     /// Its folder, relative to the URDD's root.
     pub path: String,
-    /// Its version; `None` where it has none.
+    /// Its version; `None` if it has none.
     pub version: Option<String>,
-    /// The family of formats it is of; `None` for extensions and unknown modules.
+    /// Its format family; `None` for extensions and unknown modules.
     pub profile: Option<Profile>,
 }
 
-/// What was examined.
+/// The kinds of subject.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A URDD.
     Urdd,
-    /// A URDF by itself.
+    /// A URDF on its own.
     Urdf,
 }
 
-/// A URDD, or a URDF by itself, that was examined.
+/// An examined URDD, or an examined URDF on its own.
 pub struct Examined {
-    /// How it is called: its path from the folder that was searched.
+    /// Its name: the path from the folder that was searched.
     pub name: String,
-    /// How the program crashed outside of any rule, where it did.
+    /// How the program crashed outside of any rule, if it did.
     pub crashed: Option<String>,
-    /// The robot's name, where a module says it.
+    /// The robot's name, if a module states it.
     pub robot_name: Option<String>,
-    /// Number of links, joints and DOFs, where modules say them.
+    /// Number of links, joints and DOFs, if modules state them.
     pub size: RobotSize,
     /// Its modules.
     pub modules: Vec<ExaminedModule>,
-    /// Every rule and what became of it, in order of code; settings applied.
+    /// Every rule with its outcome, by code; settings applied.
     pub checks: Vec<Check>,
 }
 
-/// How large a robot is.
+/// The size of a robot.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct RobotSize {
     /// Number of links.
@@ -104,50 +104,50 @@ pub struct RobotSize {
     pub dofs: Option<usize>,
 }
 
-/// A URDD that was found, and what came of examining it.
+/// A URDD that was found, and the result of examining it.
 pub struct Subject {
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
     /// Where it was found.
     pub found: Found,
-    /// What was found, or why it could not be examined.
+    /// The result, or why it could not be examined.
     pub result: Result<Examined, ReadError>,
 }
 
-/// What came of a run.
+/// The result of a run.
 pub struct Run {
     /// Every URDD, in the order of the paths given, then by name.
     pub subjects: Vec<Subject>,
-    /// How many URDDs the settings exclude.
+    /// Number of URDDs that the settings exclude.
     pub excluded: usize,
     /// Ignores of the settings that matched nothing.
     pub stale_ignores: Vec<StaleIgnore>,
 }
 
-/// Why nothing came of a run.
+/// Why a run has no result.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ValidateError {
-    /// Under one of the paths there is nothing to examine.
+    /// A path contains nothing to examine.
     #[error(transparent)]
     Discover(#[from] DiscoverError),
-    /// It was asked to stop: [`Settings::cancellation`].
+    /// The run was cancelled: [`Settings::cancellation`].
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-/// Examines every URDD at or below each of the paths, in parallel, with every rule.
+/// Examines every URDD at or below each path, in parallel, with every rule.
 ///
 /// # Errors
-/// Where under one of the paths there is nothing to examine, and where it is asked to stop.
+/// If a path contains nothing to examine, or the run is cancelled.
 pub fn validate<P: AsRef<Path>>(paths: &[P], settings: &Settings) -> Result<Run, ValidateError> {
     validate_with(paths, settings, &rules::all())
 }
 
-/// As [`validate`], with rules of your choice.
+/// Like [`validate`], with the given rules.
 ///
 /// # Errors
-/// As [`validate`].
+/// Like [`validate`].
 pub fn validate_with<P: AsRef<Path>>(
     paths: &[P],
     settings: &Settings,
@@ -205,11 +205,10 @@ pub fn validate_with<P: AsRef<Path>>(
     })
 }
 
-/// Examines the URDD whose files a source holds, with every rule. `name` is what it is called in the report. Excludes do
-/// not count.
+/// Examines the URDD in a source, with every rule. `name` is its name in the report. Excludes do not apply.
 ///
 /// # Errors
-/// [`ValidateError::Cancelled`] where it is asked to stop.
+/// [`ValidateError::Cancelled`] if it is cancelled.
 pub fn validate_source(
     source: impl Source + 'static,
     name: &str,
@@ -241,8 +240,7 @@ pub fn validate_source(
     })
 }
 
-/// Examines, and where that crashes outside of any rule says so of this URDD: the others have their
-/// reports all the same.
+/// Runs an examination. A crash outside of any rule is recorded for this URDD, and the others are still reported.
 fn caught(
     found: &Found,
     examine: impl FnOnce() -> Result<Examined, ReadError>,
@@ -310,7 +308,7 @@ fn examine_urdd(
 }
 
 impl Examined {
-    /// Whether the program crashed, so that the URDD was not fully examined.
+    /// Whether a crash prevented a complete examination.
     pub fn incomplete(&self) -> bool {
         let mut checks = self.checks.iter();
         self.crashed.is_some() || checks.any(|check| matches!(check.outcome, Outcome::Crashed(_)))

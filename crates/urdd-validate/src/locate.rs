@@ -1,5 +1,5 @@
-//! Line, column and names for places that only have a pointer. Done for what is kept of the
-//! findings, and in one walk through each text.
+//! Adds line, column and names to places that only have a pointer. Only for the findings that are kept, and in a single
+//! pass over each text.
 
 use std::collections::BTreeMap;
 
@@ -38,7 +38,7 @@ pub(super) fn locate(context: &Context, findings: &mut [Finding]) {
             for place in places {
                 place.subject = names.subject(ModuleKind::Urdf, &pointer(place));
                 if place.position.is_none() {
-                    // The pointer is that of the value in urdf_module, and leads nowhere in XML.
+                    // The pointer is that of the value in urdf_module, which does not exist in XML.
                     place.position = reading.position(&lines, &pointer(place));
                     place.pointer = None;
                 }
@@ -51,7 +51,7 @@ fn pointer(place: &Place) -> String {
     place.pointer.clone().unwrap_or_default()
 }
 
-/// The text of a document, and the module that it is of.
+/// The text of a document, and its module.
 fn json_text<'a>(context: &'a Context, file: &str) -> Option<(&'a str, Option<ModuleKind>)> {
     if file == ROOT_METADATA {
         return Some((context.metadata_file().json.text()?, None));

@@ -1,4 +1,4 @@
-//! Whether the rates of a URDD's self-collision model are true, without judging the rest.
+//! Verifies the rates of a URDD's self-collision model, and nothing else.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -9,18 +9,18 @@ use super::rule::Rule;
 use super::settings::Settings;
 use super::{rules, validate_with};
 
-/// What came of counting again how often a model is right (SPEC 8.8.9 to 8.8.12).
+/// Result of counting again how often a model is right (SPEC 8.8.9 to 8.8.12).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ModelVerdict {
-    /// The rates that it states are true.
+    /// The stated rates are confirmed.
     Verified,
-    /// They are not: the rules that say so.
+    /// They are not: the rules that found it.
     Refuted(Vec<Code>),
-    /// It was not found out, for these reasons.
+    /// They could not be verified, for these reasons.
     NotVerified(Vec<String>),
 }
 
-/// Runs the rules that verify the self-collision model of the URDD at `path`, and those that they need.
+/// Runs the rules that verify the self-collision model of the URDD at `path`, and the rules that those need.
 pub fn verify_model(path: &Path) -> ModelVerdict {
     let all = rules::all();
     let mut wanted = BTreeSet::from([Code::LRN010, Code::LRN011]);

@@ -1,10 +1,10 @@
-//! What a pointer into a module leads to, by the names that people know: links, joints, DOFs.
+//! Describes the target of a pointer into a module by the names of links, joints and DOFs.
 
 use super::context::Context;
 use urdd_document::shapes::{KINDS, Shapes};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 
-/// Longest part of a name that is shown, characters.
+/// Maximum length of a name in messages, characters.
 const LONGEST: usize = 60;
 
 /// The names of a robot.
@@ -14,13 +14,13 @@ pub(super) struct Names<'a> {
 }
 
 impl<'a> Names<'a> {
-    /// Those of the robot that is judged.
+    /// The names of the robot that is judged.
     pub(super) fn new(context: &'a Context) -> Self {
         let shapes = context.shapes();
         Names { context, shapes }
     }
 
-    /// What a pointer into a module's document leads to; `None` where that has no name.
+    /// The target of a pointer into a module's document; `None` if it has no name.
     pub(super) fn subject(&self, kind: ModuleKind, pointer: &str) -> Option<String> {
         let mut parts = pointer.split('/').skip(1);
         let key = parts.next()?;

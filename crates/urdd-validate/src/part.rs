@@ -1,5 +1,4 @@
-//! Parts of a robot's geometry that rules judge one by one, so that a fault in one of them leaves
-//! the others judged.
+//! Parts of a robot's geometry that rules judge one by one, so that a fault in one part leaves the others judged.
 
 use super::code::Code;
 use urdd_document::shapes::ShapeKind;
@@ -16,12 +15,12 @@ pub enum Part {
     Piece {
         /// The link.
         link: usize,
-        /// Which of its pieces.
+        /// Its index among the link's pieces.
         piece: usize,
     },
 }
 
-/// Which of a link's meshes.
+/// The kinds of meshes of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PartKind {
     /// Plain meshes.
@@ -35,11 +34,11 @@ pub enum PartKind {
 /// Why a part was not verified by a rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Why {
-    /// This rule found a fault in it, or in what it is judged by.
+    /// This rule found a fault in it, or in something it is compared with.
     Failed(Code),
-    /// Its files, or those of what it is judged by, cannot be read or do not agree.
+    /// Its files, or files it is compared with, cannot be read or differ.
     Unreadable,
-    /// A mesh that the URDF names for it is not carried, or cannot be read.
+    /// A mesh that the URDF names for it is not carried or cannot be read.
     SourceMissing,
 }
 
@@ -48,12 +47,12 @@ pub enum Why {
 pub struct NotVerified {
     /// The part.
     pub part: Part,
-    /// Why not.
+    /// The reason.
     pub why: Why,
 }
 
 impl Part {
-    /// A mesh of a module of derived meshes.
+    /// A part of a module of derived meshes.
     pub fn of(module: ModuleKind, link: usize, piece: usize) -> Option<Part> {
         match module {
             ModuleKind::PlainMeshes => Some(Part::Plain(link)),
@@ -63,7 +62,7 @@ impl Part {
         }
     }
 
-    /// The hull or piece that a shape is, or is about.
+    /// The hull or piece that a shape is or bounds.
     pub fn of_shape(kind: ShapeKind, link: usize, piece: usize) -> Part {
         match kind.full {
             true => Part::Hull(link),
@@ -71,7 +70,7 @@ impl Part {
         }
     }
 
-    /// The module that it is in, the link, and the piece (0 where links have one mesh).
+    /// Its module, link and piece (0 if links have one mesh).
     pub fn place(self) -> (ModuleKind, usize, usize) {
         match self {
             Part::Plain(link) => (ModuleKind::PlainMeshes, link, 0),
@@ -119,12 +118,11 @@ impl std::fmt::Display for Why {
     }
 }
 
-/// Rules that say which parts are unsound.
+/// Rules that find unsound parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Parts {
     /// The rules.
     pub codes: &'static [Code],
-    /// Whether this counts in URDDs of version 1 only: what these rules find in legacy ones is often
-    /// a convention, and no obstacle.
+    /// Whether this applies to URDDs of version 1 only: in legacy URDDs, these rules often report a convention.
     pub in_version_1_only: bool,
 }

@@ -1,8 +1,8 @@
-//! Where a finding is, and by how much something is off there.
+//! The place of a finding, and the size of a difference.
 
 use urdd_directory::position::Position;
 
-/// Where a finding is.
+/// The place of a finding.
 #[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Place {
     /// File relative to the URDD's root, with forward slashes.
@@ -11,36 +11,36 @@ pub struct Place {
     pub pointer: Option<String>,
     /// Line and column in the file.
     pub position: Option<Position>,
-    /// What the pointer leads to, by the names of links, joints or DOFs.
+    /// The target of the pointer, by names of links, joints or DOFs.
     pub subject: Option<String>,
 }
 
-/// By how much something is off.
+/// The size of a difference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Magnitude {
-    /// How much; not a number where it cannot be said.
+    /// Its value; NaN if it is unknown.
     pub value: f64,
     /// Its unit; empty for a ratio.
     pub unit: &'static str,
 }
 
-/// Another place of a folded finding.
+/// A further place of a folded finding.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Occurrence {
-    /// Where.
+    /// The place.
     pub place: Place,
-    /// What is wrong there, where that is not what the finding says.
+    /// What is wrong there, if it differs from the finding's message.
     pub message: Option<String>,
-    /// What should be there.
+    /// The expected value.
     pub expected: Option<String>,
-    /// What is there.
+    /// The actual value.
     pub actual: Option<String>,
-    /// By how much it is off.
+    /// The size of the difference.
     pub magnitude: Option<Magnitude>,
 }
 
 impl Occurrence {
-    /// About how much memory it takes.
+    /// Approximate memory that it takes.
     pub fn bytes(&self) -> usize {
         let texts = [
             &self.place.file,

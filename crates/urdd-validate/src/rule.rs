@@ -1,4 +1,4 @@
-//! What a rule is: what it says, what it needs, and how it checks.
+//! What a rule is: its documentation, its needs and its check.
 
 use super::code::Code;
 use super::context::Context;
@@ -10,7 +10,7 @@ pub use urdd_format::report::{Consequence, Severity};
 /// When a rule runs. Phases run in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Phase {
-    /// What lies in the directory.
+    /// The files of the URDD.
     Files,
     /// JSON and YAML as text.
     Syntax,
@@ -18,39 +18,41 @@ pub enum Phase {
     Schema,
     /// Values against each other, within and across modules.
     References,
-    /// Meshes, and the boxes and spheres about them.
+    /// Meshes, and their bounding boxes and bounding spheres.
     Geometry,
     /// Poses.
     Kinematics,
-    /// Distances of shapes in many configurations.
+    /// Distances between shapes in sampled configurations.
     Statistics,
 }
 
-/// What a rule needs before it can say anything.
+/// A precondition of a rule. The rule does not run unless all its needs are met, so its check may take with `?`
+/// whatever they guarantee.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Need {
-    /// The module is there, and its document fits its schema.
+    /// The module exists and its document fits its schema. `urdf_module` may be missing where the carried URDF is the
+    /// robot's description.
     Module(ModuleKind),
-    /// At least one of the modules is there, and its document fits its schema.
+    /// The same, and the document is of version 1.
+    ModuleV1(ModuleKind),
+    /// At least one of the modules exists and its document fits its schema.
     AnyModule(&'static [ModuleKind]),
-    /// The robot as its source has it: the carried URDF where one is carried and reads, otherwise
-    /// `urdf_module`.
+    /// The robot of the source: of the carried URDF if it exists and is readable, otherwise of `urdf_module`.
     SourceRobot,
-    /// `urdd.json` is there and fits its schema.
+    /// `urdd.json` exists and fits its schema.
     RootMetadata,
-    /// The source URDF is carried. (Whether it can be read as one: URD011.)
+    /// The source URDF is carried. (URD011 checks whether it can be read.)
     CarriedUrdf,
     /// The other rule ran and found nothing.
     Passed(Code),
-    /// The other rule found nothing, or had nothing to look at.
+    /// The other rule found nothing, or did not apply.
     NotFailed(Code),
-    /// The same, but in a URDD of version 1 only: what the other rule finds in legacy ones is often
-    /// a convention, and no obstacle.
+    /// The same, in a URDD of version 1 only: in legacy URDDs the other rule often reports a convention.
     NotFailedInV1(Code),
-    /// Each of these.
+    /// All of these.
     All(&'static [Need]),
-    /// The part is sound by these rules. One that is not is left out ([`Findings::judges`]); a fault
-    /// that is not of single parts leaves out the whole rule.
+    /// Each part passed these rules. Parts that failed one are left out ([`Findings::judges`]). A fault that does not
+    /// belong to single parts skips the whole rule.
     Each(Parts),
     /// In a URDD of version 1: the other rule found no fault in parts of this kind.
     NoPartInV1(Code, PartKind),
@@ -61,7 +63,7 @@ pub enum Need {
 }
 
 impl Need {
-    /// The rules that have to run before it is known whether it is met.
+    /// The rules that decide whether it is met.
     pub fn codes(&self) -> Vec<Code> {
         match self {
             Need::Passed(code)
@@ -75,22 +77,22 @@ impl Need {
     }
 }
 
-/// What a rule judges, which decides by which of the two descriptions of the robot it does so.
+/// What a rule judges. This decides which of the two descriptions of the robot it uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Judges {
-    /// Files, texts, a module by itself, or a module beside the URDF: one run says all.
+    /// Files, texts, a module on its own, or a module against the URDF. Runs once.
     AsItStands,
-    /// Whether the robot is one at all: a tree of links, mimics that can be resolved. Others count on
-    /// it by either description.
+    /// Whether the robot is valid: a tree of links, mimics that can be resolved. Runs for both descriptions, because
+    /// other rules depend on it.
     Robot,
-    /// The robot, whatever the modules say of it: by its source, where that can be read.
+    /// The robot itself, whatever the modules contain. Uses the source if it is readable.
     Source,
-    /// What follows from the robot: at fault where it is so by both descriptions.
+    /// Data derived from the robot. A fault counts only if both descriptions give it.
     Derived,
 }
 
 impl Judges {
-    /// What rules of a phase judge that do not say it.
+    /// The default for rules of a phase.
     pub const fn by_phase(phase: Phase) -> Judges {
         match phase {
             Phase::Files | Phase::Syntax | Phase::Schema => Judges::AsItStands,
@@ -99,19 +101,19 @@ impl Judges {
     }
 }
 
-/// A rule: one fault that a URDD can have.
+/// A rule: one kind of fault in a URDD.
 pub struct Rule {
     /// Its code.
     pub code: Code,
     /// Its name, which states the fault.
     pub name: &'static str,
-    /// How bad a finding is, unless settings say otherwise.
+    /// Severity of its findings, unless settings change it.
     pub severity: Severity,
     /// The clause of SPEC.md that it checks.
     pub clause: &'static str,
-    /// The version of urdd that it came in.
+    /// The first version of urdd that has it.
     pub since: &'static str,
-    /// What the fault does to whoever uses the URDD.
+    /// Effect of the fault on users of the URDD.
     pub consequence: Consequence,
     /// When it runs.
     pub phase: Phase,
@@ -119,14 +121,15 @@ pub struct Rule {
     pub judges: Judges,
     /// What it needs.
     pub needs: &'static [Need],
-    /// Its documentation, in Markdown, line by line: first what is wrong, then why and what to do.
+    /// Its documentation in Markdown, line by line: what is wrong, why it matters, what to do.
     pub doc: &'static [&'static str],
-    /// Looks, and reports what it finds.
-    pub check: fn(&Context, &mut Findings),
+    /// Reports what it finds. `None`: the check stopped early, either for a reason given to [`Findings::skip`] or,
+    /// without one, because it takes something that its needs do not guarantee. The second is a fault of the rule.
+    pub check: fn(&Context, &mut Findings) -> Option<()>,
 }
 
 impl Rule {
-    /// Its documentation as one text.
+    /// Its documentation as a single text.
     pub fn explanation(&self) -> String {
         let lines: Vec<&str> = self
             .doc
@@ -136,7 +139,7 @@ impl Rule {
         lines.join("\n").trim().to_owned()
     }
 
-    /// The first sentence of its documentation.
+    /// The first paragraph of its documentation.
     pub fn summary(&self) -> String {
         let text = self.explanation();
         text.split("\n\n")
@@ -146,7 +149,7 @@ impl Rule {
     }
 }
 
-/// What faults of a family do, unless a rule says otherwise.
+/// The consequence of a family's faults, unless a rule declares another.
 pub const fn of_family(code: &str) -> Consequence {
     match code.as_bytes() {
         [b'U', b'R', b'D', ..]
@@ -162,13 +165,14 @@ pub const fn of_family(code: &str) -> Consequence {
     }
 }
 
-/// Declares the rule of a file as `RULE`. Its documentation is what `urdd explain` prints.
+/// Declares the rule of a file as `RULE`, checked by the file's function `check`. `urdd explain` prints its
+/// documentation.
 macro_rules! declare_rule {
     (
         $(#[doc = $doc:literal])+
         $code:ident $name:literal, $severity:ident, clause $clause:literal, since $since:literal,
         phase $phase:ident, $(judges $judges:ident,)? $(consequence $consequence:ident,)?
-        needs [$($need:expr),* $(,)?], check $check:path $(,)?
+        needs [$($need:expr),* $(,)?] $(,)?
     ) => {
         $(#[doc = $doc])+
         pub static RULE: $crate::rule::Rule = {
@@ -201,9 +205,18 @@ macro_rules! declare_rule {
                 ][0],
                 needs: &[$($need),*],
                 doc: &[$($doc),+],
-                check: $check,
+                check,
             }
         };
     };
 }
 pub(crate) use declare_rule;
+
+/// Lists the rules of a family, one file each, as `RULES`.
+macro_rules! rules {
+    ($($file:ident),+ $(,)?) => {
+        /// The rules of this family.
+        pub const RULES: &[&$crate::rule::Rule] = &[$(&$file::RULE),+];
+    };
+}
+pub(crate) use rules;

@@ -1,11 +1,11 @@
-//! Which parts of a robot a rule judges, and what it did not verify.
+//! The parts of a robot that a rule judges, and those that it did not verify.
 
 use std::collections::{BTreeSet, HashMap};
 
 use super::code::Code;
 use super::part::{NotVerified, Part, PartKind, Why};
 
-/// The parts that a rule found at fault.
+/// The parts in which a rule found a fault.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Faulted {
     parts: BTreeSet<Part>,
@@ -13,7 +13,7 @@ pub struct Faulted {
 }
 
 impl Faulted {
-    /// Takes what a finding is about; of none, the fault is not one of single parts.
+    /// Adds the parts of a finding. Without parts, the fault does not belong to single parts.
     pub fn add(&mut self, parts: &[Part]) {
         self.parts.extend(parts);
         self.elsewhere |= parts.is_empty();
@@ -29,13 +29,13 @@ impl Faulted {
         self.elsewhere
     }
 
-    /// Whether a part of this kind is at fault, or something besides single parts.
+    /// Whether a part of this kind, or something besides single parts, is faulty.
     pub fn any(&self, kind: PartKind) -> bool {
         self.elsewhere || self.parts.iter().any(|part| part.kind() == kind)
     }
 }
 
-/// What a rule judges of a robot's parts.
+/// The parts that a rule judges.
 #[derive(Debug, Clone, Default)]
 pub struct Scope {
     unsound: HashMap<Part, Code>,
@@ -44,7 +44,7 @@ pub struct Scope {
 }
 
 impl Scope {
-    /// All parts but those in which other rules found a fault: which rule, in which part.
+    /// All parts except those in which other rules found a fault, given with the rule.
     pub fn without(unsound: HashMap<Part, Code>) -> Self {
         Scope {
             unsound,
@@ -52,13 +52,12 @@ impl Scope {
         }
     }
 
-    /// The same parts, before any of them was judged.
+    /// The same parts, none of them judged yet.
     pub fn afresh(&self) -> Self {
         Scope::without(self.unsound.clone())
     }
 
-    /// Whether to judge a part, by itself or by others: not where one of them is unsound. What is not
-    /// judged is noted.
+    /// Whether to judge a part against other parts: not if one of them is unsound. Records what is not judged.
     pub fn judges(&mut self, part: Part, by: &[Part]) -> bool {
         let mut needed = std::iter::once(&part).chain(by);
         match needed.find_map(|needed| self.unsound.get(needed)) {
@@ -73,12 +72,12 @@ impl Scope {
         }
     }
 
-    /// Notes that a part was not verified.
+    /// Records that a part was not verified.
     pub fn leave_out(&mut self, part: Part, why: Why) {
         self.not_verified.insert(NotVerified { part, why });
     }
 
-    /// Which fault of others left nothing to judge, where that is so.
+    /// The rule whose fault left nothing to judge, if so.
     pub fn nothing_left(&self) -> Option<Code> {
         if self.judged > 0 {
             return None;
@@ -89,7 +88,7 @@ impl Scope {
         })
     }
 
-    /// What was not verified, part by part.
+    /// The parts that were not verified.
     pub fn not_verified(&self) -> Vec<NotVerified> {
         self.not_verified.iter().copied().collect()
     }

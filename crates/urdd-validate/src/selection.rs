@@ -1,4 +1,4 @@
-//! Which rules are reported: some, or all but some. All run, since rules count on others.
+//! Selects the rules to report. All rules run, because rules need others.
 
 use std::str::FromStr;
 
@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::code::Code;
 use super::engine::{Check, Outcome};
 
-/// A rule, or a family of rules.
+/// A rule or a family of rules.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Codes {
     /// One rule.
@@ -16,7 +16,7 @@ pub enum Codes {
     Family(&'static str),
 }
 
-/// Not the code of a rule, nor a family.
+/// Neither the code of a rule nor a family.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("there is no rule and no family of rules `{0}`; `urdd explain` lists them")]
 pub struct UnknownCodes(String);
@@ -36,7 +36,7 @@ impl FromStr for Codes {
 }
 
 impl Codes {
-    /// Whether a rule is meant.
+    /// Whether it includes a rule.
     pub fn holds(self, code: Code) -> bool {
         match self {
             Codes::One(one) => one == code,
@@ -45,17 +45,17 @@ impl Codes {
     }
 }
 
-/// Which rules are reported.
+/// The rules to report.
 #[derive(Debug, Clone, Default)]
 pub struct Selection {
-    /// Only these; all where there is none.
+    /// Only these; all if empty.
     pub select: Vec<Codes>,
-    /// But not these.
+    /// Except these.
     pub ignore: Vec<Codes>,
 }
 
 impl Selection {
-    /// Takes out what is not reported; a rule that crashed always is.
+    /// Removes what is not reported. A crashed rule is always reported.
     pub(super) fn apply(&self, checks: &mut Vec<Check>) {
         let holds = |list: &[Codes], code| list.iter().any(|codes| codes.holds(code));
         checks.retain(|check| {

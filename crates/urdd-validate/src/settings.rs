@@ -1,4 +1,4 @@
-//! Settings: what `urdd.toml` may say, and how it changes what is reported.
+//! Settings: the contents of `urdd.toml`, and how they change what is reported.
 
 use std::collections::BTreeMap;
 
@@ -18,39 +18,38 @@ use urdd_format::root_metadata::ConformanceClass;
 /// Settings of a run.
 #[derive(Debug, Clone, Default)]
 pub struct Settings {
-    /// The conformance class to hold every URDD to, instead of the one that it claims.
+    /// The conformance class that every URDD must meet, instead of the one that it claims.
     pub class: Option<ConformanceClass>,
-    /// Whether to recompute sampled data in full (`--deep`).
+    /// Whether to recompute sampled data completely (`--deep`).
     pub deep: bool,
-    /// From which severity on a run fails; `None` means from errors on.
+    /// The lowest severity at which a run fails; `None` for errors.
     pub fail_on: Option<Severity>,
-    /// Severities that replace those of the rules.
+    /// Severities that replace those of rules.
     pub severities: BTreeMap<Code, Severity>,
-    /// Findings that are not wanted.
+    /// Findings to ignore.
     pub ignores: Vec<Ignore>,
-    /// Folders in which no URDD is looked for.
+    /// Folders that are not searched for URDDs.
     pub excludes: Vec<Exclude>,
-    /// Which rules are reported.
+    /// The rules to report.
     pub selection: Selection,
-    /// Where it is asked to stop: before the next rule, with [`ValidateError::Cancelled`](super::ValidateError).
+    /// Cancellation: checked before each rule, with [`ValidateError::Cancelled`](super::ValidateError).
     pub cancellation: Cancellation,
 }
 
-/// Folders in which no URDD is looked for.
+/// Folders that are not searched for URDDs.
 #[derive(Debug, Clone)]
 pub struct Exclude {
-    /// Which: matched against the path of a URDD's folder, and of each folder that it lies in, from
-    /// the path that was given.
+    /// Matches the path of a URDD's folder, or of a folder above it, relative to the given path.
     pub path: GlobSet,
-    /// The same as it was written.
+    /// The pattern as written.
     pub pattern: String,
 }
 
 impl Exclude {
-    /// Reads a pattern.
+    /// Parses a pattern.
     ///
     /// # Errors
-    /// Where it cannot be read.
+    /// If it is not a valid pattern.
     pub fn new(pattern: &str) -> Result<Exclude, SettingsError> {
         let path = matcher(pattern.strip_suffix('/').unwrap_or(pattern))?;
         Ok(Exclude {
@@ -59,7 +58,7 @@ impl Exclude {
         })
     }
 
-    /// Whether a folder, or one that it lies in, is meant; paths with forward slashes.
+    /// Whether it matches a folder or a folder above it; paths with forward slashes.
     pub fn matches(&self, path: &str) -> bool {
         let parents = path.match_indices('/').map(|(end, _)| &path[..end]);
         let mut folders = parents.chain([path]);
@@ -67,20 +66,20 @@ impl Exclude {
     }
 }
 
-/// A kind of finding that is not wanted in some files.
+/// Findings to ignore in some files.
 #[derive(Debug, Clone)]
 pub struct Ignore {
     /// The rule; `None` for all.
     pub code: Option<Code>,
-    /// Which files: matched against the URDD's name, a slash, and the file's path.
+    /// Matches the URDD's name, a slash, and the file's path.
     pub path: GlobSet,
-    /// The same as it was written.
+    /// The pattern as written.
     pub pattern: String,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
-/// An ignore that matched nothing: the fault is gone, or the path is wrong.
+/// An ignore that matched nothing: the fault was fixed, or the path is wrong.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct StaleIgnore {
     /// The rule; `None` for all.
@@ -89,13 +88,13 @@ pub struct StaleIgnore {
     pub path: String,
 }
 
-/// What is wrong with a settings file.
+/// A fault of a settings file.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum SettingsError {
     /// Not TOML, or with unknown keys.
     #[error("{0}")]
     Syntax(String),
-    /// A code that no rule has.
+    /// A code without a rule.
     #[error("there is no rule {0}; `urdd explain` lists them")]
     UnknownCode(String),
     /// Not a severity.
@@ -104,12 +103,12 @@ pub enum SettingsError {
     /// Not a conformance class.
     #[error("`{0}` is no conformance class; write \"core\", \"geometry\" or \"shapes\"")]
     UnknownClass(String),
-    /// A pattern that cannot be read.
+    /// An invalid pattern.
     #[error("the pattern `{pattern}` cannot be read: {reason}")]
     Pattern {
         /// The pattern.
         pattern: String,
-        /// What is wrong with it.
+        /// The fault.
         reason: String,
     },
     /// An ignore without a reason.
@@ -136,10 +135,10 @@ struct FileIgnore {
 }
 
 impl Settings {
-    /// Reads settings from the text of a `urdd.toml`.
+    /// Parses the text of a `urdd.toml`.
     ///
     /// # Errors
-    /// Where it is not TOML, has keys or codes that do not exist, or patterns that cannot be read.
+    /// If it is not TOML, or has unknown keys, unknown codes or invalid patterns.
     pub fn from_toml(text: &str) -> Result<Settings, SettingsError> {
         let file: File =
             toml::from_str(text).map_err(|error| SettingsError::Syntax(error.to_string()))?;
@@ -173,7 +172,7 @@ impl Settings {
         Ok(settings)
     }
 
-    /// Applies severities and ignores, and tells which ignores matched nothing.
+    /// Applies severities and ignores. Returns the ignores that matched nothing.
     pub fn apply<'a>(&self, examined: impl Iterator<Item = &'a mut Examined>) -> Vec<StaleIgnore> {
         let mut used = vec![false; self.ignores.len()];
         for urdd in examined {
@@ -212,7 +211,7 @@ impl Settings {
     }
 }
 
-/// Longest pattern, bytes: one that nests a hundred thousand alternatives exhausts the stack.
+/// Maximum length of a pattern, bytes: a hundred thousand nested alternatives exhaust the stack.
 const LONGEST_PATTERN: usize = 1000;
 
 fn matcher(pattern: &str) -> Result<GlobSet, SettingsError> {
@@ -225,17 +224,17 @@ fn matcher(pattern: &str) -> Result<GlobSet, SettingsError> {
             "it is longer than {LONGEST_PATTERN} bytes; write several ignores"
         )));
     }
-    // A set of one: a pattern that is beyond the bounds of the regex that it becomes is an error
-    // here, and a panic of `Glob::compile_matcher`.
+    // A set of one pattern: exceeding the limits of its regular expression is an error here, and a panic in
+    // `Glob::compile_matcher`.
     Glob::new(pattern)
         .and_then(|glob| GlobSet::builder().add(glob).build())
         .map_err(|error| refused(error.kind().to_string()))
 }
 
-/// A severity by its word.
+/// A severity by its name.
 ///
 /// # Errors
-/// Where there is none of that name.
+/// If there is no such severity.
 pub fn parse_severity(text: &str) -> Result<Severity, SettingsError> {
     [Severity::Error, Severity::Warning, Severity::Info]
         .into_iter()
@@ -243,10 +242,10 @@ pub fn parse_severity(text: &str) -> Result<Severity, SettingsError> {
         .ok_or_else(|| SettingsError::UnknownSeverity(text.to_owned()))
 }
 
-/// A conformance class by its word, in any case.
+/// A conformance class by its name, in upper or lower case.
 ///
 /// # Errors
-/// Where there is none of that name.
+/// If there is no such class.
 pub fn parse_class(text: &str) -> Result<ConformanceClass, SettingsError> {
     ConformanceClass::ALL
         .iter()

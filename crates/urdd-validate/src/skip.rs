@@ -1,4 +1,4 @@
-//! Why a rule did not run.
+//! Why a rule was skipped.
 
 use std::fmt;
 
@@ -7,51 +7,53 @@ use urdd_document::carried_urdf::NoUrdf;
 use urdd_document::module::Unusable;
 use urdd_format::registry::ModuleKind;
 
-/// Why a rule did not run, or could not be checked after all.
+/// Why a rule did not run, or did not run to its end.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SkipReason {
-    /// The module that it is about is not there.
+    /// The module that it is about is missing.
     Absent(ModuleKind),
     /// None of the modules that it is about can be used.
     NoneUsable(&'static [ModuleKind]),
     /// A module that it needs cannot be used.
     Unusable(Unusable),
-    /// There is no root metadata that can be used.
+    /// The root metadata is missing or unusable.
     NoRootMetadata,
-    /// There is no source URDF to look at.
+    /// The source URDF is not available.
     NoCarriedUrdf(NoUrdf),
-    /// A rule that it counts on found a fault.
+    /// A rule that it needs found a fault.
     Failed(Code),
-    /// A rule that it counts on crashed.
+    /// A rule that it needs crashed.
     Crashed(Code),
-    /// A rule that it counts on was not among those that ran.
+    /// A rule that it needs was not among the rules to run.
     DidNotRun(Code),
+    /// The rule takes something that it does not declare as a need: a fault of the rule. In debug builds it crashes.
+    UndeclaredNeed,
     /// It is about version 1, and this is a legacy URDD.
     NotVersion1,
-    /// It is about legacy URDDs, and this is none.
+    /// It is about legacy URDDs, and this is not one.
     NotLegacy,
-    /// The module is of a version that does not say what the rule is about.
+    /// The module's version does not contain what the rule checks.
     NotInThisVersion(ModuleKind),
     /// The edits of legacy skips are not recorded.
     EditsNotRecorded,
-    /// The modules do not say how every link moves.
+    /// The modules do not define the kinematics of every link.
     KinematicsOpen,
     /// Poses or configurations cannot be computed, for this reason.
     Kinematics(String),
     /// The independent kinematics cannot read the carried URDF, for this reason.
     Reference(String),
-    /// Planar and floating joints of legacy URDDs have other coordinates.
+    /// Planar and floating joints of legacy URDDs use other coordinates.
     LegacyCoordinates,
-    /// There is nothing to compare distances with.
+    /// There are no statistics to compare distances with.
     NoStatistics(NoStatistics),
-    /// A complete check takes long, and was not asked for: these kinds of shapes were left out.
+    /// A complete check takes long and was not requested: these kinds of shapes were left out.
     NotDeep(Vec<&'static str>),
-    /// Counting the configurations that SPEC 8.8 asks for takes more work than a validation does.
+    /// Counting the configurations of SPEC 8.8 takes more work than allowed.
     TooMuchWork {
-        /// Whether `--deep` was asked for, which allows more.
+        /// Whether `--deep` was requested, which allows more.
         deep: bool,
     },
-    /// Settings say to ignore every finding, for this reason.
+    /// The settings ignore every finding, for this reason.
     Ignored(String),
 }
 
@@ -60,34 +62,35 @@ pub enum SkipReason {
 pub enum NoStatistics {
     /// The module has none.
     Unusable,
-    /// It does not say over how many samples they are.
+    /// The number of samples is not stated.
     SamplesUnknown,
-    /// They are over no samples.
+    /// The number of samples is 0.
     NoSamples,
     /// There is no list of shapes.
     NoShapes,
 }
 
 impl SkipReason {
-    /// Whether the rule is about something that this URDD does not have, so that nothing is missed.
+    /// Whether the URDD does not have what the rule is about, so that nothing is missed.
     pub fn is_absence(&self) -> bool {
         matches!(self, SkipReason::Absent(_) | SkipReason::NoneUsable(_))
     }
 
-    /// Whether a fault stood in the way, so that something is missed.
+    /// Whether a fault prevented the check, so that something may be missed.
     pub fn is_obstacle(&self) -> bool {
         matches!(
             self,
             SkipReason::Unusable(_)
                 | SkipReason::Failed(_)
                 | SkipReason::Crashed(_)
+                | SkipReason::UndeclaredNeed
                 | SkipReason::KinematicsOpen
                 | SkipReason::Kinematics(_)
                 | SkipReason::Reference(_)
         )
     }
 
-    /// Whether the rule is for another family of URDDs.
+    /// Whether the rule is for the other family of URDDs.
     pub fn is_for_others(&self) -> bool {
         matches!(self, SkipReason::NotVersion1 | SkipReason::NotLegacy)
     }
@@ -107,6 +110,9 @@ impl fmt::Display for SkipReason {
             SkipReason::Failed(code) => write!(f, "{code} found a fault"),
             SkipReason::Crashed(code) => write!(f, "{code} crashed"),
             SkipReason::DidNotRun(code) => write!(f, "{code} did not run"),
+            SkipReason::UndeclaredNeed => {
+                f.write_str("the rule has a fault: it takes something that it does not declare")
+            }
             SkipReason::NotVersion1 => f.write_str("this is a legacy URDD"),
             SkipReason::NotLegacy => f.write_str("this is not a legacy URDD"),
             SkipReason::NotInThisVersion(kind) => {

@@ -1,18 +1,15 @@
-//! By which description of the robot rules judge, where a URDD has two: `urdf_module`, and the
-//! URDF that it carries.
+//! Chooses the description of the robot that rules use, if a URDD has two: `urdf_module` and its carried URDF.
 //!
-//! That the two agree is for URD001 and URD013 to say. Where they do not, one fault should still be
-//! one message, and a second fault should not hide behind the first:
+//! URD001 and URD013 report where the two differ. Even then, one fault should give one finding, and a second fault
+//! should not be hidden by the first:
 //!
-//! - What a robot is like (SRC) is judged by its source: the carried URDF where it can be read.
-//! - A module that follows from the robot is judged by each of the two, and is at fault where it
-//!   is so by both. One that was made from the URDF as it was before somebody changed it follows
-//!   from `urdf_module`; one beside an `urdf_module` that was damaged follows from the URDF. In
-//!   neither case is there anything to add to what URD001 says. What follows from neither is wrong
-//!   by itself.
+//! - Rules about the robot itself (SRC) use its source: the carried URDF, if it is readable.
+//! - A module derived from the robot is judged against both, and is faulty only if both give a fault. A module made
+//!   from the URDF before it was changed follows from `urdf_module`; one beside a damaged `urdf_module` follows from
+//!   the URDF. In both cases URD001 reports the difference. A module that follows from neither is itself wrong.
 //!
-//! Each of the two runs keeps its own account of what rules found, so that a rule may count on what
-//! it needs; then they are put together rule by rule.
+//! Each of the two runs keeps its own outcomes, so that a rule's needs hold for its own run. The results are then
+//! combined rule by rule.
 
 use std::collections::{HashMap, HashSet};
 
@@ -23,7 +20,7 @@ use super::finding::Findings;
 use super::rule::{Judges, Rule};
 use super::skip::SkipReason;
 
-/// Runs rules over a URDD; the checks are in order of code.
+/// Runs rules on a URDD. The checks are ordered by code.
 pub(super) fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
     let mut checks = run_by_both(context, rules);
     checks.sort_by_key(|check| check.rule.code);
@@ -49,7 +46,7 @@ fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
     let differs = difference(&outcomes);
 
     let mut second: Vec<&'static Rule> = of(Judges::Source).collect();
-    // Whether the URDF's robot is sound enough for the others; urdf_module's was judged above.
+    // Whether the URDF's robot is valid enough for the other rules; that of urdf_module was judged above.
     let sound: Vec<&'static Rule> = of(Judges::Robot).collect();
     second.extend(&sound);
     if differs.is_some() {
@@ -77,7 +74,7 @@ fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
     checks
 }
 
-/// Which rule did not find that `urdf_module` is what the URDF says.
+/// The rule that did not confirm that `urdf_module` matches the URDF.
 fn difference(outcomes: &Outcomes) -> Option<Code> {
     [Code::URD001, Code::URD013].into_iter().find(|code| {
         outcomes
@@ -86,7 +83,7 @@ fn difference(outcomes: &Outcomes) -> Option<Code> {
     })
 }
 
-/// Makes one check of two: by `urdf_module`, and by the URDF.
+/// Combines the check by `urdf_module` with the check by the URDF.
 fn put_together(check: &mut Check, second: Check, context: &Context, by_urdf: &Context) {
     let both = match (&check.outcome, &second.outcome) {
         (Outcome::Crashed(_), _) | (_, Outcome::Skipped(_)) => return,
@@ -99,8 +96,8 @@ fn put_together(check: &mut Check, second: Check, context: &Context, by_urdf: &C
     *check = both;
 }
 
-/// What a rule that failed twice finds in the same places. It looks once more, since of many
-/// findings only the first few are kept.
+/// The findings of a rule at the places where it failed both times. Runs it once more, because only the first of many
+/// findings are kept.
 fn at_fault_by_both(first: &Check, second: &Check, context: &Context, by_urdf: &Context) -> Check {
     let mut spots = Findings::remembering_spots().within(first.scope.afresh());
     judge_into(context, first.rule, &mut spots);
@@ -108,8 +105,7 @@ fn at_fault_by_both(first: &Check, second: &Check, context: &Context, by_urdf: &
     judge(by_urdf, first.rule, both)
 }
 
-/// A rule that was skipped because another failed, and that other one has nothing left to say now:
-/// the reason is that the two robots differ.
+/// Replaces the reason of rules that were skipped because of a rule that no longer has findings: the two robots differ.
 fn tell_why_skipped(checks: &mut [Check], differs: Code) {
     let settled: HashSet<Code> = checks
         .iter()

@@ -1,4 +1,4 @@
-//! What was not verified of a URDD's geometry, and of its self-collision model.
+//! What was not verified of a URDD's geometry and of its self-collision model.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,7 +11,7 @@ use super::skip::SkipReason;
 use urdd_format::registry::ModuleKind;
 
 impl Examined {
-    /// Every part that some rule did not verify: which rules, and why not.
+    /// Every part that some rule did not verify, with the rules and reasons.
     pub fn not_verified(&self) -> BTreeMap<Part, Vec<(Code, Why)>> {
         let mut parts: BTreeMap<Part, Vec<(Code, Why)>> = BTreeMap::new();
         for check in &self.checks {
@@ -23,8 +23,8 @@ impl Examined {
         parts
     }
 
-    /// The links of which some mesh was not verified: which rules, and why not. All of them where a
-    /// rule about geometry did not run because of a fault.
+    /// The links with a mesh that was not verified, with the rules and reasons. All links, if a fault prevented a rule
+    /// about geometry.
     pub fn links_not_verified(&self) -> BTreeMap<usize, BTreeSet<(Code, String)>> {
         let mut links: BTreeMap<usize, BTreeSet<(Code, String)>> = BTreeMap::new();
         for (part, whys) in self.not_verified() {
@@ -47,8 +47,8 @@ impl Examined {
         links
     }
 
-    /// Which rules did not verify the rates of the self-collision model, and why not. Empty where they did or found them
-    /// wrong, and where there is no model.
+    /// The rules that did not verify the rates of the self-collision model, with reasons. Empty if they verified or
+    /// refuted them, or if there is no model.
     pub fn model_not_verified(&self) -> BTreeSet<(Code, String)> {
         let name = ModuleKind::SelfCollisionModel.name();
         let counting = [Code::LRN010, Code::LRN011];

@@ -1,12 +1,12 @@
-//! Which of many places of a finding comes first.
+//! Orders the places of a finding.
 
 use super::finding::{Finding, Magnitude};
 
-/// Puts the worst place of a finding first, where its places say how bad they are.
+/// Puts the worst place of a finding first, if its places have magnitudes.
 pub(super) fn worst_first(finding: &mut Finding) {
     let size = |magnitude: Option<Magnitude>| match magnitude {
         None => f64::NEG_INFINITY,
-        // What is not a number at all is as bad as it gets.
+        // NaN is the worst.
         Some(Magnitude { value, .. }) if value.is_nan() => f64::INFINITY,
         Some(Magnitude { value, .. }) => value,
     };
@@ -31,7 +31,7 @@ pub(super) fn worst_first(finding: &mut Finding) {
                 }
             }
         }
-        // The one that was first goes to its place among the others.
+        // The former first place moves to its position among the others.
         finding
             .more
             .sort_by(|a, b| size(b.magnitude).total_cmp(&size(a.magnitude)));

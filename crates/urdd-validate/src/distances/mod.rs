@@ -1,8 +1,7 @@
-//! Distances between shapes in the sampled configurations (SPEC 9.3), computed again from the modules:
-//! the mesh files, the boxes and spheres, the kinematics.
+//! Distances between shapes in the sampled configurations (SPEC 9.3), recomputed from the modules: mesh files, boxes
+//! and spheres, kinematics.
 //!
-//! How many configurations are looked at is a matter of work, counted and not timed, so that results
-//! repeat: see [`plan`].
+//! The number of configurations depends on counted work, not on time, so that results are reproducible: see [`plan`].
 
 pub mod other_reasons;
 pub mod plan;
@@ -22,30 +21,30 @@ use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::convex::{Motion, PairStatistics};
 
-/// As many configurations are held in memory at once.
+/// Maximum number of configurations in memory at once.
 const AT_ONCE: u32 = 4096;
 
 /// The distances of all kinds of shapes.
 pub struct Distances {
     /// In the order of [`KINDS`]; `None` for a kind without statistics.
     kinds: [Option<KindDistances>; 6],
-    /// Where links are in the first configurations.
+    /// Link poses in the first configurations.
     first: Motion,
-    /// Where links are in the default configuration.
+    /// Link poses in the default configuration.
     default: Motion,
 }
 
 /// The distances of one kind of shapes.
 pub struct KindDistances {
     shapes: ShapeSet,
-    /// How many configurations were looked at, from the first.
+    /// Number of configurations used, from the first on.
     pub configurations: u32,
-    /// Whether these are all that the statistics are over.
+    /// Whether these are all configurations of the statistics.
     pub complete: bool,
     found: PairStatistics,
 }
 
-/// What was found of a pair.
+/// The distances of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Found {
     /// Mean distance, m.
@@ -57,7 +56,7 @@ pub struct Found {
 }
 
 impl Distances {
-    /// Computes what the statistics of a URDD of version 1 say, as far as the work for it goes.
+    /// Recomputes the statistics of a URDD of version 1, as far as the allowed work permits.
     ///
     /// # Errors
     /// Why there is nothing to compare with.
@@ -113,14 +112,12 @@ impl Distances {
         &self.kinds
     }
 
-    /// The distances of all pairs in the default configuration, by the places of the shapes
-    /// ([`ShapeSet::place`]).
+    /// The distances of all pairs in the default configuration, by the indices of [`ShapeSet::place`].
     pub fn at_default_configuration(&self, kind: &KindDistances) -> Vec<Vec<f64>> {
         kind.shapes.statistics(&self.default).min
     }
 
-    /// The configuration among the first ones in which a pair is at a distance that `outside` is true
-    /// of, and that distance.
+    /// The first of the configurations in which the distance of a pair satisfies `outside`, and that distance.
     pub fn find(
         &self,
         kind: &KindDistances,
@@ -139,7 +136,7 @@ impl KindDistances {
         &self.shapes
     }
 
-    /// What was found of a pair; `None` where one of the two shapes is not sound, which other rules tell.
+    /// The distances of a pair; `None` if one of the two shapes is unsound, which other rules report.
     pub fn pair(&self, i: usize, j: usize) -> Option<Found> {
         let (i, j) = (self.shapes.place(i)?, self.shapes.place(j)?);
         let at = |rows: &[Vec<f64>]| rows.get(i)?.get(j).copied();
@@ -151,7 +148,7 @@ impl KindDistances {
     }
 }
 
-/// The statistics over the first `n` configurations, of which `first` has some.
+/// The statistics over the first `n` configurations, some of which are in `first`.
 fn over(
     shapes: &ShapeSet,
     poses: &Poses,
@@ -175,7 +172,7 @@ fn over(
     Ok(all)
 }
 
-/// Takes the statistics of configurations `start..end` to those of the ones before.
+/// Adds the statistics of configurations `start..end`.
 fn join(all: &mut PairStatistics, part: &PairStatistics, start: u32, end: u32) {
     let weight = f64::from(end - start) / f64::from(end);
     let each = |into: &mut [Vec<f64>], from: &[Vec<f64>], put: &dyn Fn(&mut f64, f64)| {

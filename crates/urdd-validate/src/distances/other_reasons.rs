@@ -1,4 +1,4 @@
-//! Why `link_shapes_skips_module` may skip a pair that is not always in contact.
+//! Reasons for which `link_shapes_skips_module` may skip a pair that is not always in contact.
 
 use std::collections::HashSet;
 
@@ -11,17 +11,17 @@ use urdd_document::shapes::Shapes;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::registry::ModuleDocument;
 
-/// The reasons besides `Always` for which `link_shapes_skips_module` may skip a pair.
+/// The reasons other than `Always` for which `link_shapes_skips_module` may skip a pair.
 pub struct OtherReasons<'a> {
     set: &'a ShapeSet,
-    /// The pairs of links that a joint connects, where these are skipped.
+    /// The pairs of links connected by a joint, if these are skipped.
     adjacent: HashSet<(usize, usize)>,
-    /// The distances in the default configuration, where those in contact there are skipped.
+    /// The distances in the default configuration, if pairs in contact there are skipped.
     at_default: Option<Vec<Vec<f64>>>,
 }
 
 impl<'a> OtherReasons<'a> {
-    /// Of the shapes of one kind.
+    /// The reasons for shapes of one kind.
     pub fn new(
         context: &Context,
         document: &ModuleDocument,
@@ -47,7 +47,7 @@ impl<'a> OtherReasons<'a> {
         }
     }
 
-    /// Whether a pair may be skipped for one of them.
+    /// Whether a pair may be skipped for one of these reasons.
     pub fn may_skip(&self, shapes: &Shapes, (i, j): (usize, usize)) -> bool {
         let kind = self.set.kind();
         let links = shapes.link(kind, i).zip(shapes.link(kind, j));
@@ -55,7 +55,7 @@ impl<'a> OtherReasons<'a> {
         let places = self.set.place(i).zip(self.set.place(j));
         let distance =
             (self.at_default.as_ref().zip(places)).and_then(|(rows, (a, b))| at(rows, a, b));
-        // What a tolerance decides may be skipped.
+        // A pair within the tolerance may be skipped.
         adjacent || distance.is_some_and(|distance| distance <= 2.0 * CONTACT)
     }
 }

@@ -1,31 +1,31 @@
-//! How many configurations are looked at.
+//! Plans the number of configurations.
 
-/// What it takes to compute the distances of one kind of shapes. The unit is the distance of two
-/// spheres, about a nanosecond.
+/// The work of computing the distances of one kind of shapes. The unit is one distance between two spheres, about a
+/// nanosecond.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Once.
+    /// Once, in total.
     pub once: u64,
-    /// In each configuration.
+    /// Per configuration.
     pub each: u64,
 }
 
-/// What the distance of two boxes takes, measured on links of robots.
+/// Work of the distance between two boxes, measured on links of robots.
 pub const BOX: u64 = 20;
-/// What the distance of two hulls takes.
+/// Work of the distance between two hulls.
 pub const HULL: u64 = 40;
-/// What the pose of a link takes.
+/// Work of a link's pose.
 pub const POSE: u64 = 50;
 
-/// The work that a validation does by default: about a quarter of a second of one core.
+/// Work allowed by default: about a quarter of a second on one core.
 const DEFAULT: u64 = 250_000_000;
-/// The work with `--deep`: minutes. It bounds what a number in a document can ask for.
+/// Work allowed with `--deep`: minutes. Bounds what a number in a document can demand.
 const DEEP: u64 = 2_000_000_000_000;
 
-/// Configurations are treated eight at a time, and it takes as long for fewer.
+/// Configurations are processed eight at a time; fewer take just as long.
 const LEAST: u32 = 8;
 
-/// The work that there is.
+/// The allowed work.
 pub fn budget(deep: bool) -> u64 {
     match deep {
         true => DEEP,
@@ -33,9 +33,9 @@ pub fn budget(deep: bool) -> u64 {
     }
 }
 
-/// For each kind, how many of `num_samples` configurations are looked at, from the first. Kinds that
-/// take least are looked at in full, as long as the budget lasts; what is left of it goes to equal
-/// numbers of configurations of the others, and eight of each in any case.
+/// The number of configurations, out of `num_samples` and from the first on, for each kind. The kinds with the least
+/// work are computed completely as long as the budget lasts. The rest of it goes to equal numbers of configurations of
+/// the others, at least eight of each.
 pub fn configurations(kinds: &[Option<Work>], num_samples: u32, budget: u64) -> Vec<u32> {
     let in_full = |work: &Work| {
         let moving = work.each.saturating_mul(u64::from(num_samples));
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn the_cheap_ones_in_full_and_the_others_in_part() {
-        // 1,100 for the first two; 2,400 are left, and eight configurations of the last take 240.
+        // 1,100 for the first two. 2,400 remain, and eight configurations of the last take 240.
         assert_eq!(configurations(&kinds(), 100, 3_500), [100, 0, 100, 80]);
         assert_eq!(configurations(&kinds(), 100, 1_100), [100, 0, 100, 8]);
     }

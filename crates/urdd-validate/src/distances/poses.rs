@@ -1,4 +1,4 @@
-//! Where links are in the sampled configurations.
+//! Link poses in the sampled configurations.
 
 use std::ops::Range;
 
@@ -14,19 +14,19 @@ use urdd_format::urdf::JointType;
 use urdd_geometry::convex::Motion;
 use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
 
-/// The poses of a robot's links, as a consumer computes them.
+/// The link poses of a robot, as a consumer computes them.
 pub struct Poses {
     space: ConfigurationSpace,
     kinematics: ForwardKinematics,
-    /// For each link, its rigid group.
+    /// Rigid group of each link.
     groups: Vec<usize>,
 }
 
 impl Poses {
-    /// From the modules, whatever their versions.
+    /// From modules of any version.
     ///
     /// # Errors
-    /// Why there are none.
+    /// Why there are no poses.
     pub fn new(urdd: &Urdd) -> Result<Self, SkipReason> {
         let open = SkipReason::KinematicsOpen;
         let modules = consumer::modules(urdd).ok_or(open.clone())?;
@@ -56,7 +56,7 @@ impl Poses {
         self.groups.len()
     }
 
-    /// Whether only fixed joints are between two links.
+    /// Whether only fixed joints connect two links.
     pub fn is_rigid(&self, a: usize, b: usize) -> bool {
         self.groups.get(a) == self.groups.get(b)
     }
@@ -64,7 +64,7 @@ impl Poses {
     /// The poses in the default configuration (SPEC 9.4).
     ///
     /// # Errors
-    /// Where numbers go beyond 64 bits.
+    /// If numbers exceed 64 bits.
     pub fn default_motion(&self) -> Result<Motion, SkipReason> {
         let configuration = self.space.default_configuration();
         let poses = self.kinematics.link_poses(&configuration);
@@ -74,10 +74,10 @@ impl Poses {
             .map_err(|error| SkipReason::Kinematics(error.to_string()))
     }
 
-    /// A sampled configuration, and the poses in it.
+    /// A sampled configuration and its poses.
     ///
     /// # Errors
-    /// Where numbers go beyond 64 bits.
+    /// If numbers exceed 64 bits.
     pub fn sampled(&self, sample: u32) -> Result<(Vec<f64>, Vec<Isometry3<f64>>), SkipReason> {
         let configuration = self.space.sampled(u64::from(sample));
         let poses = self.kinematics.link_poses(&configuration);
@@ -87,19 +87,19 @@ impl Poses {
         Ok((configuration, poses))
     }
 
-    /// The poses in any configuration.
+    /// The poses in a configuration.
     ///
     /// # Errors
-    /// Where numbers go beyond 64 bits.
+    /// If numbers exceed 64 bits.
     pub fn of(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, SkipReason> {
         let poses = self.kinematics.link_poses(configuration);
         poses.map_err(|error| SkipReason::Kinematics(error.to_string()))
     }
 
-    /// The poses in some of the sampled configurations.
+    /// The poses in a range of sampled configurations.
     ///
     /// # Errors
-    /// Where numbers go beyond 64 bits.
+    /// If numbers exceed 64 bits.
     pub fn motion(&self, samples: Range<u32>) -> Result<Motion, SkipReason> {
         let poses: Vec<Vec<Isometry3<f64>>> = samples
             .into_par_iter()

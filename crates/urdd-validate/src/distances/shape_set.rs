@@ -15,10 +15,10 @@ use urdd_geometry::convex::{
 };
 use urdd_kinematics::rotation::from_rpy;
 
-/// The shapes of a kind that are there, and sound.
+/// The existing, sound shapes of a kind.
 pub struct ShapeSet {
     kind: ShapeKind,
-    /// For each shape index its place in the list.
+    /// Index in the list of each shape.
     places: Vec<Option<usize>>,
     list: List,
 }
@@ -29,7 +29,7 @@ enum List {
     Spheres(Vec<PlacedShape<Sphere>>),
 }
 
-/// One of these.
+/// A shape.
 enum Made {
     Hull(ConvexShape),
     Box(OrientedBox),
@@ -37,8 +37,8 @@ enum Made {
 }
 
 impl ShapeSet {
-    /// Left out are hulls and pieces that cannot be read; and, where only `fitting` ones are wanted,
-    /// boxes and spheres that do not sit right about theirs (SHP017, SHP018).
+    /// Leaves out unreadable hulls and pieces and, if only `fitting` ones are wanted, boxes and spheres that do not fit
+    /// theirs (SHP017, SHP018).
     pub fn new(
         urdd: &Urdd,
         solids: &Solids,
@@ -81,7 +81,7 @@ impl ShapeSet {
         set
     }
 
-    /// Adds a shape of a link, and returns its place.
+    /// Adds a shape of a link and returns its index.
     fn add(&mut self, body: usize, made: Made) -> usize {
         macro_rules! push {
             ($list:ident, $shape:expr) => {{
@@ -94,7 +94,7 @@ impl ShapeSet {
                         list.push(placed);
                         list.len() - 1
                     }
-                    // The first says of what kind all are.
+                    // The first decides the kind of all.
                     list => {
                         *list = List::$list(vec![placed]);
                         0
@@ -109,17 +109,17 @@ impl ShapeSet {
         }
     }
 
-    /// Which kind.
+    /// The kind.
     pub fn kind(&self) -> ShapeKind {
         self.kind
     }
 
-    /// The place of a shape in the matrices of [`ShapeSet::statistics`], by its index.
+    /// Index of a shape in the matrices of [`ShapeSet::statistics`].
     pub fn place(&self, shape: usize) -> Option<usize> {
         self.places.get(shape).copied().flatten()
     }
 
-    /// What all its distances take.
+    /// The work of all distances.
     pub fn work(&self, poses: &Poses) -> Work {
         let (bodies, one) = match &self.list {
             List::Hulls(list) => (bodies(list), plan::HULL),
@@ -143,7 +143,7 @@ impl ShapeSet {
 
     /// The statistics of all pairs.
     pub fn statistics(&self, motion: &Motion) -> PairStatistics {
-        // Every shape is on a link, and the motion has all of these.
+        // Every shape is on a link, and the motion contains all links.
         let statistics = match &self.list {
             List::Hulls(list) => pair_statistics(list, motion),
             List::Boxes(list) => pair_statistics(list, motion),

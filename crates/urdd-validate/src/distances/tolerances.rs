@@ -1,4 +1,4 @@
-//! How far distances may be from what they should be (SPEC 8.5).
+//! Tolerances of distances (SPEC 8.5).
 
 use crate::solids::Solids;
 use crate::tolerance::{distance_tolerance, reach};
@@ -11,12 +11,12 @@ use urdd_geometry::farthest;
 pub struct Tolerances {
     /// The robot's reach, m.
     reach: f64,
-    /// How far each shape reaches from its link's origin, m.
+    /// Reach of each shape from its link's origin, m.
     shapes: Vec<f64>,
 }
 
 impl Tolerances {
-    /// For the shapes of a kind. One that is not there, which other rules tell, adds nothing.
+    /// For the shapes of a kind. A missing shape, which other rules report, adds nothing.
     pub fn new(urdd: &Urdd, solids: &Solids, shapes: &Shapes, kind: ShapeKind) -> Self {
         let volumes = urdd
             .document(ModuleKind::LinkShapesApproximations)
@@ -45,7 +45,7 @@ impl Tolerances {
         }
     }
 
-    /// How far the distances of two shapes may be from what they should be, m.
+    /// Tolerance of the distances of two shapes, m.
     pub fn pair(&self, i: usize, j: usize) -> f64 {
         let of = |shape: usize| self.shapes.get(shape).copied().unwrap_or(0.0);
         distance_tolerance(self.reach, of(i) + of(j))

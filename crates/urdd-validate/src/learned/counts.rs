@@ -1,4 +1,4 @@
-//! Counting how often a model is right: SPEC 8.8.9 and 8.8.10.
+//! Counts how often a model is right: SPEC 8.8.9 and 8.8.10.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -16,12 +16,12 @@ use urdd_format::self_collision_model::{
 };
 use urdd_geometry::convex::BodyPairs;
 
-/// The work that a configuration may take on average, so that counting takes some 20 seconds of one core at most. The
-/// unit is about a nanosecond.
+/// Average work allowed per configuration, so that counting takes at most about 20 seconds on one core. The unit is
+/// about a nanosecond.
 const DEFAULT: u64 = 200_000;
-/// The same with `--deep`: some 7 minutes.
+/// The same with `--deep`: about 7 minutes.
 const DEEP: u64 = 4_000_000;
-/// The work of comparing two pieces whose spheres meet.
+/// Work of comparing two pieces whose bounding spheres intersect.
 const COMPARISON: u64 = 150;
 
 /// Compares a model with exact geometry.
@@ -29,18 +29,18 @@ pub struct Judge {
     network: Network,
     poses: Poses,
     pieces: BodyPairs,
-    /// The work of a configuration, besides comparing pieces.
+    /// Work of a configuration, without comparing pieces.
     cost: u64,
-    /// The work that a configuration may take on average.
+    /// Average work allowed per configuration.
     budget: u64,
     deep: bool,
 }
 
 impl Judge {
-    /// Of a model in which the rules before found no fault. `deep` allows more work.
+    /// For a model in which the rules before found no fault. `deep` allows more work.
     ///
     /// # Errors
-    /// Why it cannot be compared.
+    /// Why the model cannot be compared.
     pub fn new(
         urdd: &Urdd,
         solids: &Solids,
@@ -63,12 +63,12 @@ impl Judge {
         })
     }
 
-    /// What comes of so many sampled configurations from the first on. Which collisions are near contact is found out of
-    /// those of the evaluation alone.
+    /// Counts over sampled configurations, from the first one on. Collisions near contact are determined for those of
+    /// the evaluation only.
     ///
     /// # Errors
-    /// Where one has no poses, and where it takes too much work. Whether it does depends neither on the machine nor on
-    /// the number of threads: the sum of all work decides.
+    /// If a configuration has no poses, or the work exceeds the limit. The sum of all work decides, independent of the
+    /// machine and of the number of threads.
     pub fn count(&self, first: u32, count: u32) -> Result<ModelEvaluation, SkipReason> {
         let budget = self.budget.saturating_mul(u64::from(count));
         let done = AtomicU64::new(0);
@@ -83,7 +83,7 @@ impl Judge {
         all.try_reduce(|| ModelEvaluation::NOTHING, |a, b| Ok(sum(a, b)))
     }
 
-    /// What comes of one configuration, and the work that it took.
+    /// The counts of one configuration, and the work that it took.
     fn judge(&self, sample: u32, near_contact: bool) -> Result<(ModelEvaluation, u64), SkipReason> {
         let (configuration, poses) = self.poses.sampled(sample)?;
         let (collides, compared) = self.pieces.any_touches_and_work(&poses);
@@ -111,7 +111,7 @@ impl Judge {
     }
 }
 
-/// SPEC 8.8.10: towards the next configuration, until a DOF has changed by 0.05, or the next is reached.
+/// SPEC 8.8.10: steps towards the next configuration, until a DOF has changed by 0.05 or the next is reached.
 fn stepped(from: &[f64], next: &[f64]) -> Vec<f64> {
     let differences: Vec<f64> = next.iter().zip(from).map(|(b, a)| b - a).collect();
     let largest = differences

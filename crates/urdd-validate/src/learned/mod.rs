@@ -1,5 +1,5 @@
-//! The learned self-collision model, evaluated again from SPEC 8.8, and counted again. Nothing of it is shared with
-//! those who train and use models but the distances of shapes.
+//! The learned self-collision model, evaluated and counted again from SPEC 8.8. Shares nothing with training and use of
+//! models except the distances of shapes.
 
 pub mod counts;
 pub mod network;

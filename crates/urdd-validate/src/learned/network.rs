@@ -1,4 +1,4 @@
-//! SPEC 8.8.3 and 8.8.4, as they stand.
+//! SPEC 8.8.3 and 8.8.4, implemented literally.
 
 use nalgebra::{DMatrix, DVector};
 use sha2::{Digest, Sha256};
@@ -8,7 +8,7 @@ use urdd_format::self_collision_model::{
 };
 use urdd_kinematics::rotation::from_rotation_vector;
 
-/// How many values an input gives.
+/// Number of values of an input.
 pub fn width(input: &ModelInput) -> usize {
     match input {
         ModelInput::Angle(_) => 4,
@@ -34,7 +34,7 @@ pub fn second_confirmation(model: &SelfCollisionModelModule) -> u32 {
     CONFIRMATION_SECOND + (bits >> 3)
 }
 
-/// A network of which the lists are as long as they must be.
+/// A network whose lists have the right lengths.
 pub struct Network {
     inputs: Vec<ModelInput>,
     layers: Vec<(DMatrix<f64>, DVector<f64>)>,
@@ -42,7 +42,7 @@ pub struct Network {
 }
 
 impl Network {
-    /// Of a model in which LRN003 found no fault.
+    /// For a model in which LRN003 found no fault.
     pub fn new(model: &SelfCollisionModelModule) -> Self {
         let layers = model.layers.iter().map(|layer| {
             let (rows, columns) = (
@@ -61,7 +61,7 @@ impl Network {
         }
     }
 
-    /// The clearance of each pair in a configuration of as many values as there are DOFs, metres.
+    /// The clearance of each pair in a configuration with one value per DOF, metres.
     pub fn clearances(&self, configuration: &[f64]) -> Vec<f64> {
         let mut values = Vec::new();
         for input in &self.inputs {
@@ -91,7 +91,7 @@ impl Network {
         (values - &self.margins).as_slice().to_vec()
     }
 
-    /// Whether the model clears a configuration: whether every clearance is more than 0.
+    /// Whether the model clears a configuration: every clearance is above 0.
     pub fn clears(&self, configuration: &[f64]) -> bool {
         let clearances = self.clearances(configuration);
         clearances.into_iter().all(|clearance| clearance > 0.0)

@@ -1,4 +1,4 @@
-//! The pairs of links that a model is of: SPEC 8.8.5.
+//! The pairs of links of a model: SPEC 8.8.5.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -11,16 +11,16 @@ use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::convex::BodyPairs;
 
-/// Distances of so many pairs of pieces are taken at most: each takes 16 bytes.
+/// Maximum number of pairs of pieces: each takes 16 bytes.
 const MOST: usize = 20_000_000;
 
-/// Whether two shapes are skipped: two pieces, or where there is no matrix over these, the hulls of their links.
+/// Whether two shapes are skipped: two pieces or, without a matrix over pieces, the hulls of their links.
 struct Skipped<'a> {
     pieces: Option<&'a [Vec<bool>]>,
     full: &'a [Vec<bool>],
-    /// Of each link that has one, the place of its hull.
+    /// Index of the hull of each link that has one.
     hulls: HashMap<usize, usize>,
-    /// The links with pieces, in their order, and the places of these.
+    /// The links with pieces, in order, and the indices of their pieces.
     links: Vec<(usize, Range<usize>)>,
 }
 
@@ -43,19 +43,19 @@ impl<'a> Skipped<'a> {
         })
     }
 
-    /// Of two pieces, by their places among all pieces; `None` where only the hulls of their links are listed.
+    /// For two pieces, by their indices among all pieces; `None` if only hulls of links are listed.
     fn of_pieces(&self, a: usize, b: usize) -> Option<bool> {
         Some(at(self.pieces?, a, b).unwrap_or(true))
     }
 
-    /// Of the hulls of two links.
+    /// For the hulls of two links.
     fn of_hulls(&self, a: usize, b: usize) -> bool {
         let places = self.hulls.get(&a).zip(self.hulls.get(&b));
         let skipped = places.and_then(|(a, b)| at(self.full, *a, *b));
         skipped.unwrap_or(true)
     }
 
-    /// The pairs of links that are not skipped, by their places in `links`, each with the lower link first.
+    /// The pairs of links that are not skipped, by their indices in `links`, the lower link first.
     fn not_skipped(&self) -> impl Iterator<Item = [&(usize, Range<usize>); 2]> {
         let each = self.links.iter().enumerate();
         let pairs = each.flat_map(|(place, a)| {
@@ -72,7 +72,7 @@ impl<'a> Skipped<'a> {
     }
 }
 
-/// The pairs of links that are not skipped, each with the lower link first.
+/// The pairs of links that are not skipped, the lower link first.
 pub fn not_skipped(urdd: &Urdd) -> Option<Vec<[usize; 2]>> {
     let skipped = Skipped::new(urdd, &Shapes::new(urdd)?)?;
     let pairs = skipped.not_skipped().map(|[a, b]| [a.0, b.0]);

@@ -1,7 +1,6 @@
-//! The kinematic reference: link poses computed from the text of the carried URDF
-//! (`crate::urdf_text` reads, nalgebra multiplies). It shares nothing with the modules or
-//! with `urdd_kinematics`, which it is there to check. Nothing in it recurses: a chain may be as long
-//! as the file.
+//! The kinematic reference: link poses computed from the text of the carried URDF (parsed by `crate::urdf_text`,
+//! multiplied by nalgebra). Shares nothing with the modules or with `urdd_kinematics`, which it verifies. Nothing
+//! recurses, because a chain may be as long as the file.
 
 mod motion;
 #[cfg(test)]
@@ -14,10 +13,10 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use urdd_document::pose::has_quaternions;
 use urdd_format::urdf::{self as v1, JointType, UrdfModule};
 
-/// Largest angle of a limit that is gone to: beyond it, binary64 is coarser than 1e-10 rad.
+/// Largest angle of a limit that is used: beyond it, binary64 is coarser than 1e-10 rad.
 const MOST_RADIANS: f64 = 1e6;
 
-/// A robot as its URDF has it.
+/// A robot as its URDF describes it.
 pub struct Reference {
     links: usize,
     joints: Vec<Joint>,
@@ -36,9 +35,9 @@ struct Joint {
     source: Source,
 }
 
-/// Where a joint's position comes from.
+/// What determines a joint's position.
 enum Source {
-    /// Its own DOFs, from this one on.
+    /// Its own DOFs, starting at this index.
     Own(usize),
     /// Another joint.
     Mimic {
@@ -46,21 +45,21 @@ enum Source {
         multiplier: f64,
         offset: f64,
     },
-    /// Nothing: it does not move.
+    /// Nothing: the joint does not move.
     None,
 }
 
-/// What to do with mimic joints.
+/// How mimic joints are treated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MimicDofs {
-    /// They follow (SPEC 5.8).
+    /// They follow their drivers (SPEC 5.8).
     Follow,
     /// They have DOFs of their own, as in `dof_module` 0.0.1.
     Own,
 }
 
 impl Reference {
-    /// The kinematics of a URDF that was read.
+    /// The kinematics of a parsed URDF.
     ///
     /// # Errors
     /// Why the URDF cannot be used.
@@ -126,19 +125,19 @@ impl Reference {
         self.dofs
     }
 
-    /// Whether a joint is of a kind.
+    /// Whether some joint has a type.
     pub fn has(&self, kind: JointType) -> bool {
         self.joints.iter().any(|joint| joint.kind == kind)
     }
 
-    /// For each DOF, an interval to take configurations from: the URDF's limits, or [-pi, pi]
-    /// where there are none, or an angle is beyond 1e6 rad.
+    /// An interval for configurations of each DOF: the URDF's limits, or [-pi, pi] without limits or if an angle is
+    /// beyond 1e6 rad.
     pub fn intervals(&self) -> Vec<[f64; 2]> {
         let free = [-std::f64::consts::PI, std::f64::consts::PI];
         let mut intervals = vec![free; self.dofs];
         for joint in &self.joints {
             let Some(limits) = joint.limits else { continue };
-            // An angle of so many turns has no digits left that would say where the joint stands.
+            // An angle of this many turns has no digits left for the joint's position.
             let is_turns = joint.kind == JointType::Revolute
                 && limits.iter().any(|limit| limit.abs() > MOST_RADIANS);
             if let (Source::Own(first), false) = (&joint.source, is_turns) {
@@ -148,8 +147,7 @@ impl Reference {
         intervals
     }
 
-    /// The pose of every link in the root link's frame; `None` where the configuration is of
-    /// another length.
+    /// The pose of every link in the root link's frame; `None` if the configuration has another length.
     pub fn link_poses(&self, configuration: &[f64]) -> Option<Vec<Isometry3<f64>>> {
         if configuration.len() != self.dofs {
             return None;
@@ -164,8 +162,7 @@ impl Reference {
         Some(poses)
     }
 
-    /// The position of every joint. A circle of mimics is another rule's finding; here its joints
-    /// stand at their offsets.
+    /// The position of every joint. Another rule reports a circle of mimics; its joints are at their offsets here.
     fn positions(&self, configuration: &[f64]) -> Vec<[f64; 6]> {
         let mut known: Vec<Option<[f64; 6]>> = vec![None; self.joints.len()];
         for start in 0..self.joints.len() {
@@ -200,15 +197,15 @@ impl Reference {
     }
 }
 
-/// SPEC 5.4 and 6.1.9; what is absent is zero.
+/// SPEC 5.4 and 6.1.9; a missing origin is zero.
 fn origin(origin: Option<&v1::Origin>, quaternions: bool) -> Isometry3<f64> {
     let Some(origin) = origin else {
         return Isometry3::identity();
     };
     let rotation = match origin.quat_xyzw.filter(|_| quaternions) {
         Some(xyzw) => {
-            // Divided by the largest number first, so that the squares of tiny or huge ones are
-            // neither lost nor infinite.
+            // Divided by the largest number first, so that squares of tiny or huge numbers do not underflow or
+            // overflow.
             let largest = xyzw.iter().fold(0.0_f64, |most, n| most.max(n.abs()));
             let [x, y, z, w] = xyzw.map(|n| n / largest);
             UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 0.0).unwrap_or_default()

@@ -1,4 +1,4 @@
-//! How each type of joint moves (SPEC 9.1), written with nalgebra alone.
+//! The motion of each type of joint (SPEC 9.1), implemented with nalgebra alone.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use urdd_format::urdf::JointType;
 
-/// Number of numbers that say a joint's position.
+/// Number of values of a joint's position.
 pub fn freedom(kind: JointType) -> usize {
     match kind {
         JointType::Fixed => 0,
@@ -16,10 +16,10 @@ pub fn freedom(kind: JointType) -> usize {
     }
 }
 
-/// The motion of a joint at a position, of which the first [`freedom`] numbers count.
+/// The motion of a joint at a position; only the first [`freedom`] numbers are used.
 pub fn motion(kind: JointType, axis: [f64; 3], q: &[f64; 6]) -> Isometry3<f64> {
     let axis = Vector3::from(axis);
-    // Divided first, so that the squares of huge numbers are not infinite.
+    // Divided first, so that squares of huge numbers do not overflow.
     let largest = axis.amax();
     let unit = match largest > 0.0 {
         true => (axis / largest).normalize(),
@@ -43,8 +43,8 @@ pub fn motion(kind: JointType, axis: [f64; 3], q: &[f64; 6]) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::from(shift), rotation)
 }
 
-/// The shortest arc from z to a unit axis, as a rotation vector (SPEC 5.9). `rotation_between` would
-/// take the angle from its cosine, and loses the arc near -z.
+/// The shortest arc from z to a unit axis, as a rotation vector (SPEC 5.9). `rotation_between` computes the angle from
+/// its cosine, and loses the arc near -z.
 fn arc_from_z(axis: Vector3<f64>) -> Vector3<f64> {
     let sine = axis.x.hypot(axis.y);
     let angle = sine.atan2(axis.z);
@@ -61,7 +61,7 @@ fn arc_from_z(axis: Vector3<f64>) -> Vector3<f64> {
 mod tests {
     use super::*;
 
-    /// Where the motion of a planar joint at (x, y) puts the origin.
+    /// Where the motion of a planar joint at (x, y) moves the origin.
     fn planar(axis: [f64; 3], [x, y]: [f64; 2]) -> Vector3<f64> {
         let q = [x, y, 0.0, 0.0, 0.0, 0.0];
         motion(JointType::Planar, axis, &q).translation.vector
@@ -81,8 +81,8 @@ mod tests {
 
     #[test]
     fn the_arc_keeps_its_direction_near_the_opposite_of_z() {
-        // Half a turn, but for 5e-9, about (-0.8, 0.6, 0): R = 2 v v' - I, so R ex = (0.28, -0.96, 0)
-        // and R ey = (-0.96, -0.28, 0).
+        // Half a turn, less 5e-9, about (-0.8, 0.6, 0): R = 2 v v' - I, so R ex = (0.28, -0.96, 0) and R ey = (-0.96,
+        // -0.28, 0).
         let axis = [3e-9, 4e-9, -1.0];
         for (q, expected) in [([1.0, 0.0], [0.28, -0.96]), ([0.0, 1.0], [-0.96, -0.28])] {
             let shift = planar(axis, q);

@@ -1,4 +1,4 @@
-//! Poses by closed forms, and what is read by a peer, urdf-rs.
+//! Poses from closed forms, and parsed values compared with a peer, urdf-rs.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -21,7 +21,7 @@ fn with_joint(kind: &str, inside: &str) -> Reference {
     ))
 }
 
-/// The columns of the rotation of a fixed joint with this origin: where x, y and z go.
+/// The columns of the rotation of a fixed joint with this origin: the images of x, y and z.
 fn axes(version: &str, origin: &str) -> [Vector3<f64>; 3] {
     let urdf = format!(
         "<robot name='r' {version}><link name='a'/><link name='b'/><joint name='j' type='fixed'>\
@@ -54,7 +54,7 @@ fn a_quaternion_is_x_y_z_w_and_exact() {
     );
     // A third of a turn about (1, 1, 1): x to y to z to x.
     turned("version='1.1'", "quat_xyzw='.5 .5 .5 .5'", [y, z, x]);
-    // Before 1.1 it has no meaning.
+    // Before version 1.1 it has no meaning.
     turned("", "quat_xyzw='3 0 0 3'", [x, y, z]);
     turned(
         "version='1.0'",

@@ -12,6 +12,7 @@ pub mod kinematics;
 pub mod learned;
 pub mod legacy;
 pub mod meshes;
+mod prelude;
 pub mod schema;
 pub mod shapes;
 pub mod source;
@@ -42,8 +43,7 @@ pub fn all() -> Vec<&'static Rule> {
         kinematics::RULES,
         legacy::RULES,
     ];
-    families
-        .iter()
-        .flat_map(|rules| rules.iter().copied())
-        .collect()
+    let mut rules: Vec<&Rule> = families.concat();
+    rules.sort_by_key(|rule| rule.code);
+    rules
 }

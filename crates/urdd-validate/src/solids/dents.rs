@@ -6,20 +6,20 @@ use super::polytope::{Polytope, distinct, step};
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
 
-/// What keeps a closed surface from being that of a convex body.
+/// How a closed surface differs from that of a convex body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dents {
-    /// Faces that look towards the middle of the vertices.
+    /// Number of faces towards the middle of the vertices.
     pub inward: usize,
-    /// All faces.
+    /// Number of faces.
     pub faces: usize,
-    /// How deep the surface lies inside of the hull of its vertices where it is deepest, m.
+    /// Largest depth of the surface inside the hull of its vertices, m.
     pub depth: f64,
-    /// There: a vertex, or the middle of a face, m.
+    /// Its place: a vertex or the centroid of a face, m.
     pub place: [f64; 3],
 }
 
-/// The dents of a surface; `None` where its vertices have no hull. Of very many points some are measured.
+/// The dents of a surface; `None` if its vertices have no hull. Of very many points, only some are measured.
 pub fn dents(mesh: &Mesh) -> Option<Dents> {
     let vertices = distinct(mesh);
     let hull = ConvexHull::new(&vertices).ok()?.into_mesh();
@@ -56,7 +56,7 @@ mod tests {
 
     #[test]
     fn a_corner_that_is_pushed_in_is_a_dent_of_its_depth() {
-        // A pyramid on each of the six sides of a cube, of which one goes in by 0.25.
+        // A pyramid on each side of a cube, one of them pointing inward by 0.25.
         let mut mesh = cuboid([2.0, 2.0, 2.0]);
         mesh.vertices.push([0.0, 0.0, 0.75]);
         let top: Vec<usize> = (0..mesh.triangles.len())

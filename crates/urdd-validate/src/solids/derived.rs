@@ -1,4 +1,4 @@
-//! The meshes that are made for links: plain meshes, hulls, convex pieces; each in three formats.
+//! The meshes derived for links: plain meshes, hulls and convex pieces, each in three formats.
 
 use rayon::prelude::*;
 
@@ -20,27 +20,27 @@ use urdd_geometry::read::Format as Content;
 pub struct Derived {
     /// The link.
     pub link: usize,
-    /// The piece; 0 in modules that have one mesh per link.
+    /// Its index among the pieces; 0 in modules with one mesh per link.
     pub piece: usize,
-    /// Its files, each with what is wrong with it.
+    /// Its files, with their faults.
     pub files: Vec<DerivedFile>,
-    /// What its first sound file holds, or else its first readable one. Metres, in the link's frame.
+    /// The content of its first sound file, otherwise of its first readable one. Metres, in the link's frame.
     pub mesh: Option<Mesh>,
-    /// Which of the files that is.
+    /// Index of that file.
     pub mesh_of: usize,
-    /// How the other files differ from it: which file, how.
+    /// The differences of other files from it, by index.
     pub differences: Vec<(usize, Difference)>,
 }
 
 impl Derived {
-    /// The mesh, where all of its files are sound and hold the same.
+    /// The mesh, if all its files are sound and equal.
     pub fn sound(&self) -> Option<&Mesh> {
         let sound = self.differences.is_empty() && self.files.iter().all(|f| f.fault.is_none());
         self.mesh.as_ref().filter(|_| sound)
     }
 
-    /// Where it stands in the document: in version 1 around its files, in legacy modules in the list
-    /// of the first format.
+    /// Its JSON Pointer: in version 1 of the object with its files, in legacy modules of the entry in the first
+    /// format's list.
     pub fn pointer(&self) -> &str {
         let first = self.files.first().map_or("", |file| &file.pointer);
         match first.rsplit_once('/') {
@@ -53,29 +53,28 @@ impl Derived {
 /// A file of a mesh.
 #[derive(Debug)]
 pub struct DerivedFile {
-    /// As the document has it.
+    /// Its path, as written.
     pub path: String,
-    /// Where it stands in the document.
+    /// Its JSON Pointer.
     pub pointer: String,
-    /// Which format it should be of.
+    /// The format that it should have.
     pub format: Format,
-    /// Whether the content is of that format: binary STL, OBJ, binary glTF. `None` where it is no
-    /// mesh at all.
+    /// The format of its content; `None` if it is not a mesh.
     pub content: Option<Content>,
-    /// What is wrong with it. Of a `.glb` that does not begin as one nothing is said here (MSH010).
+    /// Its fault. `None` for a `.glb` without a GLB header, which MSH010 reports.
     pub fault: Option<MeshFault>,
-    /// Whether it is a `.glb` that does not begin as one.
+    /// Whether it is a `.glb` without a GLB header.
     pub not_glb: bool,
 }
 
-/// Reads the meshes of a module: links in order, pieces in order.
+/// Reads the meshes of a module, in order of links and pieces.
 pub fn read_all(urdd: &Urdd, meshes: &Meshes) -> Vec<Derived> {
     let mut places: Vec<(usize, usize, Vec<&MeshPath>)> = Vec::new();
     for link in 0..meshes.num_links() {
         let pieces = meshes.lists.iter().filter_map(|list| list.links.get(link));
         let most = pieces.clone().map(Vec::len).max().unwrap_or(0);
         for piece in 0..most {
-            // One list in version 1, and in legacy modules one for each format.
+            // One list in version 1, one list per format in legacy modules.
             let paths = pieces.clone().filter_map(|list| list.get(piece));
             let paths: Vec<&MeshPath> = paths.flat_map(|mesh| &mesh.paths).collect();
             places.push((link, piece, paths));
@@ -140,8 +139,8 @@ fn read(
         derived.files.push(file);
     }
     let sound = |(at, _): &(usize, Mesh)| derived.files[*at].fault.is_none();
-    // Of sound ones the one with the fewest vertices, among those that hold binary32 as it is: an STL
-    // file has three for each triangle.
+    // Among sound files that store binary32 exactly, the one with the fewest vertices: an STL file has three for each
+    // triangle.
     let exact = |(at, _): &(usize, Mesh)| derived.files[*at].format != Format::Obj;
     let order = |(_, of): &(usize, &(usize, Mesh))| (!sound(of), !exact(of), of.1.vertices.len());
     let Some((first, _)) = meshes.iter().enumerate().min_by_key(order) else {
@@ -151,7 +150,7 @@ fn read(
     meshes.sort_by_key(|(at, _)| *at);
     let tolerance = mesh_resolution(surface::extent(&mesh));
     for (at, other) in &meshes {
-        // Of a file that is broken enough is said.
+        // The fault of a broken file is enough.
         if derived.files[*at].fault.is_none()
             && let Some(difference) =
                 surface::difference(&mesh, other, tolerance, Likeness::SameTriangles)
@@ -164,7 +163,7 @@ fn read(
     derived
 }
 
-/// What a module's meshes are called in messages.
+/// The name of a module's meshes in messages.
 pub fn noun(kind: ModuleKind) -> &'static str {
     match kind {
         ModuleKind::ConvexHullMeshes => "hull",

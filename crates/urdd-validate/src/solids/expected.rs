@@ -1,5 +1,5 @@
-//! What a link's mesh must be by its source: the meshes and shapes of its elements, each under its
-//! origin and scale (SPEC 7.8).
+//! The mesh that a link must have by its source: the meshes and shapes of its elements, each with its origin and scale
+//! (SPEC 7.8).
 
 use nalgebra::Vector3;
 
@@ -15,19 +15,18 @@ use urdd_format::urdf::Geometry;
 use urdd_geometry::Mesh;
 use urdd_geometry::mesh::placement;
 
-/// The surface that a link has by its source.
+/// The surface of a link by its source.
 #[derive(Debug, Default)]
 pub struct Expected {
-    /// The triangles of its meshes, placed; computed in binary64.
+    /// The triangles of its meshes, placed, computed in binary64.
     pub mesh: Mesh,
     /// Its other shapes.
     pub primitives: Vec<Primitive>,
-    /// The largest number that took part in placing, m: what rounding is measured by.
+    /// The largest number used in placing, m, which determines rounding.
     pub extent: f64,
 }
 
-/// The surface of a link by its elements of a kind; `None` where a mesh among them is not carried,
-/// or cannot be read.
+/// The surface of a link by its elements of a kind; `None` if one of their meshes is not carried or cannot be read.
 pub fn of_link(
     urdd: &Urdd,
     solids: &Solids,
@@ -65,7 +64,7 @@ pub fn of_link(
 }
 
 impl Expected {
-    /// Whether the link shows nothing.
+    /// Whether the link has no geometry.
     pub fn is_empty(&self) -> bool {
         self.mesh.triangles.is_empty() && self.primitives.is_empty()
     }
@@ -107,7 +106,7 @@ fn carried(
             };
             module.references.iter().find(here)?.path.clone()
         }
-        // Legacy modules list the files of a link's visual meshes, which keep their names.
+        // Legacy modules list the files of a link's visual meshes under their original names.
         _ => {
             let Some(Geometry::Mesh(mesh)) = &named.visual.get(element)?.geometry else {
                 return None;

@@ -1,4 +1,4 @@
-//! One mesh file.
+//! Reads a mesh file.
 
 use std::io::Read;
 
@@ -7,38 +7,38 @@ use urdd_document::mesh_files::{Absence, MeshFiles};
 use urdd_format::registry::Profile;
 use urdd_geometry::read::{GltfUp, MeshError, NoteCode, Options, Scene, read_with};
 
-/// What is wrong with a mesh file.
+/// A fault of a mesh file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum MeshFault {
-    /// It cannot be had: what other rules report.
+    /// It cannot be opened, which other rules report.
     Absent(Absence),
-    /// It is larger than what is read, bytes.
+    /// It is larger than the limit; its size, bytes.
     TooLarge(u64),
-    /// It is no mesh, in words.
+    /// It is not a mesh; the reason.
     Broken(String),
 }
 
 /// The bytes of a mesh file.
 ///
 /// # Errors
-/// Where there are none, or too many.
+/// If it is missing or too large.
 pub fn bytes(files: &mut MeshFiles, profile: Profile, path: &str) -> Result<Vec<u8>, MeshFault> {
     let (file, size) = files.open(profile, path).map_err(MeshFault::Absent)?;
     if size > MAX_DOCUMENT_BYTES {
         return Err(MeshFault::TooLarge(size));
     }
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
-    // A file that grows while it is read is cut where it was to end.
+    // A file that grows while it is read is cut at its original size.
     match file.take(MAX_DOCUMENT_BYTES).read_to_end(&mut bytes) {
         Ok(_) => Ok(bytes),
         Err(error) => Err(MeshFault::Broken(format!("it cannot be read: {error}"))),
     }
 }
 
-/// What a derived mesh file holds, in link axes; and why it is no sound mesh, where the reader had
-/// to repair it.
+/// The content of a derived mesh file, in link axes, and why it is unsound, if the reader had to repair it.
 ///
 /// # Errors
+/// If it is not a mesh.
 /// Where it is no mesh at all.
 pub fn derived(
     bytes: &[u8],
@@ -49,7 +49,7 @@ pub fn derived(
         gltf_up: GltfUp::Keep,
         ..Options::default()
     };
-    // A derived mesh stands for itself: a material file beside it is no part of the surface.
+    // A derived mesh is read alone: a material file is not part of its surface.
     let scene = read_with(bytes, path, &mut |_| None, &options)
         .map_err(|error| MeshFault::Broken(without_name(&error)))?;
     let named = scene.side_files.first().filter(|_| profile == Profile::V1);
@@ -64,7 +64,7 @@ pub fn derived(
     Ok((scene, fault))
 }
 
-/// What is wrong, without the file's name, which a finding says by itself.
+/// The message, without the file's name, which the finding adds.
 pub fn without_name(error: &MeshError) -> String {
     match &error.place {
         Some(place) => format!("{place}: {}", error.fault),
@@ -72,8 +72,8 @@ pub fn without_name(error: &MeshError) -> String {
     }
 }
 
-/// Whether what the reader noted makes a derived mesh unsound. Legacy modules say nothing of a node's
-/// transform, nor of what a file has besides its triangles.
+/// Whether a note of the reader makes a derived mesh unsound. In legacy modules, transforms of nodes and content other
+/// than triangles are allowed.
 fn is_fault(code: NoteCode, profile: Profile) -> bool {
     match code {
         NoteCode::SideFileMissing

@@ -3,7 +3,7 @@
 /// Length of a GLB's header: magic, version, length.
 pub const HEADER: usize = 12;
 
-/// What is wrong with a GLB's header, in a file of `size` bytes.
+/// The fault of the GLB header of a file of `size` bytes.
 pub fn header_fault(header: &[u8], size: u64) -> Option<String> {
     let word = |at: usize| {
         let bytes = header.get(at..at + 4)?;

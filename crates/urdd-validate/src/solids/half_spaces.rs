@@ -1,22 +1,21 @@
 //! The half-spaces of a body's faces, several side by side.
 //!
-//! Only operations whose result is the same on every instruction set are used (IEEE add, subtract, multiply,
-//! compare, select; never a fused multiply-add), so that findings do not depend on the machine.
+//! Uses only operations with the same result on every instruction set (IEEE add, subtract, multiply, compare, select;
+//! no fused multiply-add), so that findings do not depend on the machine.
 
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 
-/// Half-spaces of a block.
+/// Number of half-spaces in a block.
 const WIDTH: usize = 8;
 
 /// The inner side of a face's plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfSpace {
-    /// Outward, of unit length.
+    /// Outward normal of unit length.
     pub normal: [f64; 3],
     pub offset: f64,
-    /// How far outside of it a point of a convex body may seem to be, m: the corners of a face are
-    /// known to the resolution, and by what its plane is tilted for that grows with the distance from
-    /// a thin face.
+    /// How far outside a point of a convex body may appear, m: the corners of a face are known to the resolution, and
+    /// the resulting tilt of its plane grows with the distance from a thin face.
     pub slack: f64,
 }
 
@@ -31,13 +30,13 @@ struct Block {
 /// One half-space or more.
 #[derive(Debug)]
 pub struct HalfSpaces {
-    /// The last one is filled up by repetition.
+    /// The last block is padded by repetition.
     blocks: Vec<Block>,
     len: usize,
 }
 
 impl HalfSpaces {
-    /// `None` of nothing.
+    /// `None` without half-spaces.
     pub fn new(list: &[HalfSpace]) -> Option<Self> {
         let first = list.first()?;
         let block = |chunk: &[HalfSpace]| {
@@ -58,8 +57,8 @@ impl HalfSpaces {
         self.len
     }
 
-    /// How far a point is beyond the plane that it is farthest beyond, m, of those that it is beyond by more than
-    /// their slack; of none: minus infinity.
+    /// The largest distance of a point beyond a plane, m, among planes that it is beyond by more than their slack;
+    /// minus infinity if there are none.
     pub fn beyond(&self, point: [f64; 3]) -> f64 {
         self.beyond_at(Level::new(), point)
     }
@@ -68,7 +67,7 @@ impl HalfSpaces {
         dispatch!(level, simd => beyond(simd, &self.blocks, point))
     }
 
-    /// How far a point is from the nearest plane, m; negative beyond one.
+    /// The distance of a point from the nearest plane, m; negative beyond one.
     pub fn depth(&self, point: [f64; 3]) -> f64 {
         self.depth_at(Level::new(), point)
     }
@@ -77,7 +76,7 @@ impl HalfSpaces {
         dispatch!(level, simd => depth(simd, &self.blocks, point))
     }
 
-    /// Whether a point is beyond no plane by more than `distance` or, where that is more, its slack up to `resolution`.
+    /// Whether a point is beyond no plane by more than `distance` or, if that is larger, its slack up to `resolution`.
     pub fn hold(&self, point: [f64; 3], distance: f64, resolution: f64) -> bool {
         self.hold_at(Level::new(), point, distance, resolution)
     }
@@ -96,7 +95,7 @@ fn splat<S: Simd>(simd: S, point: [f64; 3]) -> [f64x8<S>; 3] {
     ]
 }
 
-/// Where a point is along the normals of a block.
+/// The coordinates of a point along the normals of a block.
 #[inline(always)]
 fn along<S: Simd>(simd: S, block: &Block, [x, y, z]: [f64x8<S>; 3]) -> f64x8<S> {
     f64x8::load_array_ref(simd, &block.normal[0]) * x
@@ -160,7 +159,7 @@ mod tests {
     #[test]
     fn each_instruction_set_finds_what_the_plain_loop_finds() {
         for count in [1, 3, 7, 8, 9, 20, 64] {
-            // Each third one is that of eight before, so that distances are equal.
+            // Every third one repeats the one eight before, so that distances are equal.
             let list: Vec<HalfSpace> = (0..count)
                 .map(|i: usize| {
                     if i.is_multiple_of(3) {

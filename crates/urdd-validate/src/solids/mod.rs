@@ -1,5 +1,5 @@
-//! What the mesh files of a URDD hold, read once for all rules: the derived meshes (for each link its
-//! mesh and hull, for each piece its own) and those that the URDF names.
+//! The contents of a URDD's mesh files, read once for all rules: the derived meshes (mesh and hull of each link, and
+//! its pieces) and those that the URDF names.
 //!
 //! The three files of a mesh are compared while they are read, and one of them is kept.
 
@@ -25,7 +25,7 @@ use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 
-/// What the mesh files of a URDD hold.
+/// The contents of a URDD's mesh files.
 #[derive(Debug, Default)]
 pub struct Solids {
     derived: HashMap<ModuleKind, Vec<Derived>>,
@@ -53,25 +53,25 @@ impl Solids {
         solids
     }
 
-    /// The meshes of a module of derived meshes: links in order, pieces in order.
+    /// The meshes of a module of derived meshes, in order of links and pieces.
     pub fn derived(&self, kind: ModuleKind) -> &[Derived] {
         self.derived.get(&kind).map_or(&[], Vec::as_slice)
     }
 
-    /// The mesh of a link (piece 0), or one of its pieces; `None` where the module has none there,
-    /// or none of its files can be read.
+    /// The mesh of a link (piece 0) or one of its pieces; `None` if the module has none, or none of its files can be
+    /// read.
     pub fn mesh(&self, kind: ModuleKind, link: usize, piece: usize) -> Option<&Mesh> {
         let at = *self.by_place.get(&(kind, link, piece))?;
         self.derived(kind).get(at)?.mesh.as_ref()
     }
 
-    /// The same, where all of its files are sound and hold the same.
+    /// The same, if all its files are sound and equal.
     pub fn sound(&self, kind: ModuleKind, link: usize, piece: usize) -> Option<&Mesh> {
         let at = *self.by_place.get(&(kind, link, piece))?;
         self.derived(kind).get(at)?.sound()
     }
 
-    /// Whether a module names a mesh for a link (piece 0), or such a piece.
+    /// Whether a module names a mesh for a link (piece 0) or a piece.
     pub fn holds(&self, kind: ModuleKind, link: usize, piece: usize) -> bool {
         self.by_place.contains_key(&(kind, link, piece))
     }

@@ -1,4 +1,4 @@
-//! The meshes that the URDF names, as a URDD carries them.
+//! The carried meshes that the URDF names.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -15,14 +15,13 @@ use urdd_geometry::read::read;
 /// A mesh that the URDF names.
 #[derive(Debug)]
 pub struct Original {
-    /// What it holds, in the axes of the URDF's mesh element, metres; or why it cannot be read as a
-    /// mesh with a surface.
+    /// Its content in the axes of the URDF's mesh element, metres; or why it cannot be read as a mesh with a surface.
     pub mesh: Result<Mesh, MeshFault>,
-    /// The files that it names and that are there, sorted; `None` where it cannot be read.
+    /// The existing files that it names, sorted; `None` if it cannot be read.
     pub side_files: Option<Vec<String>>,
 }
 
-/// Reads every mesh of `original_meshes_module`, by its path as the document has it.
+/// Reads every mesh of `original_meshes_module`, by its path as written.
 pub fn read_all(urdd: &Urdd) -> HashMap<String, Original> {
     let (profile, paths) = paths(urdd);
     paths
@@ -81,8 +80,8 @@ fn read_one(files: &mut MeshFiles, profile: Profile, path: &str) -> Original {
     }
 }
 
-/// Where a file is that a mesh names: from the mesh's own folder, in the names that SPEC 2.8 allows.
-/// `None` where that is outside of everything.
+/// The path of a file that a mesh names, relative to the mesh's own folder, with names as in SPEC 2.8. `None` if it
+/// leaves the root.
 fn beside(mesh: &str, side: &str) -> Option<String> {
     let mut parts: Vec<String> = mesh.split('/').map(str::to_owned).collect();
     parts.pop();

@@ -1,4 +1,4 @@
-//! Whether plain meshes are what the robot's elements show, in their places (SPEC 7.8).
+//! Compares plain meshes with the robot's elements at their places (SPEC 7.8).
 
 use rayon::prelude::*;
 
@@ -17,33 +17,33 @@ use urdd_format::readable::metres;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_geometry::Mesh;
 
-/// A link whose mesh is not what it should be.
+/// A link with a wrong mesh.
 #[derive(Debug)]
 pub struct Misplaced {
     /// The link.
     pub link: usize,
-    /// Where its mesh stands in the document.
+    /// JSON Pointer of its mesh.
     pub pointer: String,
-    /// What is wrong with it.
+    /// What is wrong with the mesh.
     pub what: String,
-    /// What it should be.
+    /// What is expected.
     pub expected: String,
-    /// What it is.
+    /// What is there.
     pub actual: String,
-    /// How far corners may be apart, m.
+    /// Maximum distance of corners, m.
     pub tolerance: f64,
 }
 
-/// What came of looking at the meshes of all links, in link order.
+/// The result for the meshes of all links, in link order.
 #[derive(Debug, Default)]
 pub struct Placed {
-    /// The links whose mesh is not what it should be.
+    /// The links with wrong meshes.
     pub wrong: Vec<Misplaced>,
-    /// The links of which it cannot be said: files differ or are broken, or a source is missing.
+    /// The links that could not be judged: files differ or are broken, or a source is missing.
     pub unknown: Vec<(usize, Why)>,
 }
 
-/// Looks at the mesh of every link.
+/// Compares the mesh of every link.
 pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
     let usable = UsableGeometry::new(urdd);
     let look = |mesh: &Derived| -> Look {
@@ -56,7 +56,7 @@ pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
         let Some(expected) = expected::of_link(urdd, solids, &usable, mesh.link, kind) else {
             return Look::Unknown(Why::SourceMissing);
         };
-        // A mesh of nothing is what MSH011 tells.
+        // MSH011 reports a mesh of a link without geometry.
         let fault = fault(&expected, found).filter(|_| !expected.is_empty());
         let (Some((what, tolerance)), Some(file)) = (fault, mesh.files.get(mesh.mesh_of)) else {
             return Look::Right;
@@ -86,14 +86,14 @@ pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
     placed
 }
 
-/// What came of looking at one mesh.
+/// The result for one mesh.
 enum Look {
     Right,
     Wrong(Misplaced),
     Unknown(Why),
 }
 
-/// Which geometry a link's mesh was made from. Legacy modules used what is visual.
+/// The geometry that a link's mesh was made from. Legacy modules used the visual geometry.
 fn kind_of(urdd: &Urdd, link: usize) -> Option<GeometryKind> {
     match urdd.document(ModuleKind::PlainMeshes)? {
         ModuleDocument::PlainMeshes(module) => {
@@ -103,7 +103,7 @@ fn kind_of(urdd: &Urdd, link: usize) -> Option<GeometryKind> {
     }
 }
 
-/// The other link whose geometry in its place a link's mesh is.
+/// The other link whose placed geometry is this link's mesh.
 pub fn owner(urdd: &Urdd, solids: &Solids, link: usize) -> Option<usize> {
     let usable = UsableGeometry::new(urdd);
     let mesh = solids.mesh(ModuleKind::PlainMeshes, link, 0)?;
@@ -115,7 +115,7 @@ pub fn owner(urdd: &Urdd, solids: &Solids, link: usize) -> Option<usize> {
     })
 }
 
-/// What is wrong with a mesh, and the tolerance; `None` where it is what it should be.
+/// The fault of a mesh and the tolerance; `None` if it is right.
 fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
     let tolerance = placing_resolution(expected.extent.max(surface::extent(found)));
     let difference = surface::difference(&expected.mesh, found, tolerance, Likeness::SameSurface)
@@ -133,8 +133,8 @@ fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
     primitives(expected, found, &difference.extra, tolerance).map(|what| (what, tolerance))
 }
 
-/// Whether triangles are those of the primitives: corners on a surface, faces not far inside of it, and
-/// the area of all.
+/// Whether triangles are those of the primitives: corners on a surface, faces not far inside it, and the right total
+/// area.
 fn primitives(
     expected: &Expected,
     found: &Mesh,
@@ -143,7 +143,7 @@ fn primitives(
 ) -> Option<String> {
     let mut areas = vec![0.0; expected.primitives.len()];
     let mut total = 0.0;
-    // Of many triangles and many shapes some triangles are held against all shapes; their area counts whole.
+    // With many triangles and shapes, only some triangles are compared with all shapes; their area counts in full.
     let every = step(triangles.len(), expected.primitives.len());
     for (number, at) in triangles.iter().enumerate() {
         let corners = found.corners(found.triangles[*at]);
@@ -195,7 +195,7 @@ fn primitives(
         .then(|| format!("{total:.6} m² of surface where its shapes have {most:.6} m²"))
 }
 
-/// A triangle that is on no primitive, in words.
+/// Describes a triangle that is on no primitive.
 fn off_surface(expected: &Expected, corners: [[f64; 3]; 3], middle: [f64; 3]) -> String {
     let nearest = |p: [f64; 3]| {
         let distances = expected.primitives.iter().map(|one| one.distance(p).abs());
@@ -218,7 +218,7 @@ fn off_surface(expected: &Expected, corners: [[f64; 3]; 3], middle: [f64; 3]) ->
     )
 }
 
-/// What a link should look like, in words.
+/// Describes the expected geometry of a link.
 fn in_words(expected: &Expected) -> String {
     let mut parts = Vec::new();
     if !expected.mesh.triangles.is_empty() {
@@ -248,7 +248,7 @@ mod tests {
     use urdd_format::urdf::{Capsule, Cuboid, Cylinder, Geometry, Sphere};
     use urdd_geometry::primitives;
 
-    /// A cylinder's triangles with this many corners a circle.
+    /// A cylinder's triangles with this many corners per circle.
     fn coarse(corners: usize, radius: f64, length: f64) -> Mesh {
         let mut mesh = Mesh::default();
         for end in [-0.5, 0.5] {
@@ -337,7 +337,7 @@ mod tests {
         assert_eq!(fault(&expected, &found), None);
     }
 
-    /// The faces of a disk's rim are nearer to its flat sides than they are inside of the rim.
+    /// The faces of a disk's rim are nearer to its flat sides than to the rim's surface.
     #[test]
     fn thin_shapes_pass_and_their_turned_faces_do_not() {
         for length in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
@@ -355,7 +355,7 @@ mod tests {
             ] {
                 let (expected, found) = of(&[(shape, mesh, [0.1, 0.0, -0.2])]);
                 assert_eq!(fault(&expected, &found), None, "{length}");
-                // Thinner than rounding allows to tell.
+                // Thinner than rounding can resolve.
                 if length < 1e-3 {
                     continue;
                 }

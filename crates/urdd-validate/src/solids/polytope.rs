@@ -1,5 +1,4 @@
-//! A mesh as the half-spaces of its faces: whether it is the closed surface of a convex body, and
-//! what lies outside of it.
+//! A mesh as the half-spaces of its faces: whether it is the closed surface of a convex body, and what is outside it.
 
 use std::collections::HashMap;
 
@@ -16,7 +15,7 @@ use urdd_geometry::mesh::Bounds;
 pub struct Polytope {
     planes: HalfSpaces,
     bounds: Bounds,
-    /// How exactly its vertices are known, m.
+    /// Resolution of its vertices, m.
     pub resolution: f64,
 }
 
@@ -25,19 +24,19 @@ pub struct Polytope {
 pub enum NotConvex {
     /// It has no face with an area.
     Nothing,
-    /// An edge is not shared by two faces that are wound alike; its middle, m.
+    /// An edge is not shared by two faces of the same winding; its middle, m.
     Open([f64; 3]),
-    /// Faces look inward.
+    /// The faces are oriented inward.
     Inward,
-    /// A vertex lies outside of a face: the vertex, and how far, m.
+    /// A vertex is outside a face; the vertex and its distance, m.
     Vertex([f64; 3], f64),
 }
 
-/// So many products of planes and points are worked out for one body; of more, evenly spread ones.
+/// Maximum number of plane and point products for a body; beyond it, evenly spread points are used.
 const MOST_PRODUCTS: usize = 400_000_000;
 
 impl Polytope {
-    /// Of a mesh; `None` where no face has an area.
+    /// For a mesh; `None` if no face has an area.
     pub fn new(mesh: &Mesh) -> Option<Self> {
         let bounds = mesh.bounds()?;
         let resolution = mesh_resolution(extent(mesh));
@@ -66,13 +65,13 @@ impl Polytope {
         })
     }
 
-    /// How far outside a point is, m, by the plane that it is farthest beyond; not positive inside,
-    /// and where it may be inside for all that is known of the faces. The true distance is no less.
+    /// How far outside a point is, m, by the plane that it is farthest beyond. Not positive inside, nor where it may be
+    /// inside within the precision of the faces. The true distance is at least this.
     pub fn outside(&self, point: [f64; 3]) -> f64 {
         self.planes.beyond(point).max(0.0)
     }
 
-    /// How deep a point lies inside, m: its distance from the nearest face's plane; not positive outside.
+    /// The depth of a point inside, m: its distance from the nearest face's plane. Not positive outside.
     pub fn depth(&self, point: [f64; 3]) -> f64 {
         self.planes.depth(point)
     }
@@ -91,12 +90,12 @@ impl Polytope {
     }
 }
 
-/// Every `n`th of `points` things, so that work on them with `faces` planes is bounded.
+/// The step `n` at which every `n`th of `points` points is used, so that work with `faces` planes is bounded.
 pub fn step(points: usize, faces: usize) -> usize {
     points.saturating_mul(faces).div_ceil(MOST_PRODUCTS).max(1)
 }
 
-/// Why a mesh is not the closed surface of a convex body, wound outwards; `None` where it is.
+/// Why a mesh is not the closed, outward-wound surface of a convex body; `None` if it is.
 pub fn not_convex(mesh: &Mesh) -> Option<NotConvex> {
     let Some(polytope) = Polytope::new(mesh) else {
         return Some(NotConvex::Nothing);
@@ -119,7 +118,7 @@ pub fn not_convex(mesh: &Mesh) -> Option<NotConvex> {
     }
 }
 
-/// The vertices of a mesh's triangles, each place once, in order.
+/// The distinct vertices of a mesh's triangles, in order.
 pub fn distinct(mesh: &Mesh) -> Vec<[f64; 3]> {
     let mut seen = std::collections::HashSet::with_capacity(mesh.vertices.len());
     let corners = mesh.triangles.iter().flatten();
@@ -127,13 +126,13 @@ pub fn distinct(mesh: &Mesh) -> Vec<[f64; 3]> {
     places.filter(|place| seen.insert(bits(*place))).collect()
 }
 
-/// A place as something that can be looked up.
+/// A point as a key.
 pub fn bits(place: [f64; 3]) -> [u64; 3] {
-    // Adding 0 makes -0 the same place as 0.
+    // Adding 0 makes -0 equal to 0.
     place.map(|x| (x + 0.0).to_bits())
 }
 
-/// The middle of an edge that is not used as often in one direction as in the other.
+/// The middle of an edge that is not used equally often in both directions.
 fn open_edge(mesh: &Mesh) -> Option<[f64; 3]> {
     let mut places: HashMap<[u64; 3], usize> = HashMap::new();
     let mut place = |vertex: u32| {

@@ -1,4 +1,4 @@
-//! The true surfaces of URDF's shapes, to hold tessellated ones to.
+//! The true surfaces of URDF's shapes, to compare tessellated ones with.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -21,7 +21,7 @@ enum Shape {
 }
 
 impl Primitive {
-    /// Of a geometry that is no mesh.
+    /// For a geometry that is not a mesh.
     pub fn new(geometry: &Geometry, rotation: Matrix3<f64>, position: [f64; 3]) -> Option<Self> {
         let shape = match geometry {
             Geometry::Mesh(_) => return None,
@@ -43,10 +43,10 @@ impl Primitive {
         })
     }
 
-    /// How far a point of the link's frame is from the surface, m: negative inside.
+    /// Distance of a point in the link's frame from the surface, m; negative inside.
     pub fn distance(&self, point: [f64; 3]) -> f64 {
         let p = self.rotation.transpose() * (Vector3::from(point) - self.position);
-        // A box, and a cylinder in the half-plane of its axis, which is a box again.
+        // A box; a cylinder is one too in the half-plane through its axis.
         let boxed = |q: &[f64]| {
             let outside = q.iter().map(|x| x.max(0.0).powi(2)).sum::<f64>().sqrt();
             outside + q.iter().copied().fold(f64::NEG_INFINITY, f64::max).min(0.0)
@@ -60,18 +60,18 @@ impl Primitive {
         }
     }
 
-    /// Whether a triangle whose corners are on the surface, but for `rounding` in m, faces outward. (Of a flat shape, and
-    /// of one without area, each does.)
+    /// Whether a triangle with its corners on the surface, within `rounding` m, faces outward. True for flat shapes and
+    /// for shapes without area.
     pub fn faces_outward(&self, [a, b, c]: [Vector3<f64>; 3], rounding: f64) -> bool {
         let normal = (b - a).cross(&(c - a));
         let doubled = normal.norm();
         if doubled == 0.0 {
             return true;
         }
-        // All shapes are convex, and have their middle inside: it is behind each face.
+        // All shapes are convex with their centre inside, which is behind each face.
         let lever = (a + b + c) / 3.0 - self.position;
         let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
-        // Corners that are off by the rounding turn the normal by it over the least height.
+        // Corners within the rounding tilt the normal by at most the rounding over the smallest height.
         let turn = rounding * longest / doubled;
         normal.dot(&lever) / doubled >= -(rounding + turn * lever.norm())
     }
@@ -87,7 +87,7 @@ impl Primitive {
         }
     }
 
-    /// How far a flat face may lie inside the true surface, m, if it may by this part of the radius.
+    /// Maximum distance of a flat face inside the true surface, m, given the allowed fraction of the radius.
     pub fn sag(&self, of_radius: f64) -> f64 {
         match self.shape {
             Shape::Box(_) => 0.0,
@@ -97,7 +97,7 @@ impl Primitive {
         }
     }
 
-    /// The farthest that a point of it can be from the link's origin, m, and no less than its size.
+    /// An upper bound of the distance of its points from the link's origin, m, and of its size.
     pub fn extent(&self) -> f64 {
         let size = match self.shape {
             Shape::Box(half) => half.norm(),
@@ -108,7 +108,7 @@ impl Primitive {
         self.position.norm() + size
     }
 
-    /// What it is called.
+    /// Its name.
     pub fn name(&self) -> &'static str {
         match self.shape {
             Shape::Box(_) => "box",

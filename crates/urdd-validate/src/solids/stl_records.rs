@@ -1,4 +1,4 @@
-//! What binary STL says beside the corners: a normal for each triangle, and two bytes for nothing.
+//! The content of binary STL besides corners: a normal for each triangle, and two unused bytes.
 
 use nalgebra::Vector3;
 
@@ -8,8 +8,8 @@ use crate::tolerance::{STL_NORMAL, mesh_resolution};
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 
-/// What is wrong with the normals or the spare bytes of a binary STL, told of its first such triangle.
-/// The corners are taken to be sound.
+/// The fault of the normals or the unused bytes of a binary STL, for its first faulty triangle. The corners are assumed
+/// sound.
 pub fn fault(stl: &[u8]) -> Option<String> {
     let records = stl.get(HEADER..)?.chunks_exact(RECORD);
     records.enumerate().find_map(|(at, record)| {
@@ -31,7 +31,7 @@ pub fn fault(stl: &[u8]) -> Option<String> {
                 &record[48..]
             ));
         }
-        // A normal of zeros says: work it out. Of a thin triangle nobody can.
+        // A zero normal means that it is to be computed, which is impossible for a thin triangle.
         if normal == Vector3::zeros() || is_thin(corners, mesh_resolution(extent) / STL_NORMAL) {
             return None;
         }

@@ -1,31 +1,31 @@
-//! Whether two meshes are the same surface, in whatever order their triangles stand.
+//! Whether two meshes are the same surface, in any order of triangles.
 
 use std::collections::HashMap;
 
 use urdd_geometry::Mesh;
 
-/// How alike two meshes must be.
+/// How equal two meshes must be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Likeness {
-    /// The same triangles, each as often.
+    /// The same triangles with the same multiplicity.
     SameTriangles,
-    /// The same triangles, however often each.
+    /// The same triangles with any multiplicity.
     SameSurface,
 }
 
-/// How a mesh differs from the one that it should be.
+/// The difference of a mesh from the expected one.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Difference {
-    /// Triangles that it should have and has not.
+    /// Number of missing triangles.
     pub missing: usize,
-    /// Triangles that it should not have: their numbers.
+    /// Number of excess triangles.
     pub extra: Vec<usize>,
-    /// Triangles that face the other way.
+    /// Number of triangles facing the other way.
     pub turned: usize,
-    /// Where: a corner, or the middle of a triangle, of the first that differs; metres.
+    /// Its place: a corner or the centroid of the first differing triangle, metres.
     pub place: [f64; 3],
-    /// How far the farthest corner that should not be there is from the nearest that should, or the
-    /// other way round; 0 where only triangles differ. Metres.
+    /// Largest distance of an excess corner from the nearest expected one, or the other way round; 0 if only triangles
+    /// differ. Metres.
     pub distance: f64,
 }
 
@@ -35,7 +35,7 @@ impl Difference {
         self.missing == 0 && self.extra.is_empty() && self.turned == 0
     }
 
-    /// It in words.
+    /// The difference in words.
     pub fn in_words(&self) -> String {
         let mut parts = Vec::new();
         let count = |n: usize, what: &str| match n {
@@ -71,8 +71,8 @@ pub fn extent(mesh: &Mesh) -> f64 {
     })
 }
 
-/// How a mesh differs from the one that it should be; `None` where it does not. Corners within
-/// `tolerance` are one, and triangles that are thinner than that count for nothing.
+/// The difference of a mesh from the expected one; `None` if there is none. Corners within `tolerance` are equal, and
+/// thinner triangles are ignored.
 pub fn difference(
     expected: &Mesh,
     actual: &Mesh,
@@ -86,7 +86,7 @@ pub fn difference(
     (!difference.is_none()).then_some(difference)
 }
 
-/// Whether two meshes have the same triangles in the same order, but for thin ones.
+/// Whether two meshes have the same triangles in the same order, apart from thin ones.
 fn same_in_order(a: &Mesh, b: &Mesh, tolerance: f64) -> bool {
     let near = |p: [f64; 3], q: [f64; 3]| (0..3).all(|i| (p[i] - q[i]).abs() <= tolerance);
     let (mut i, mut j) = (0, 0);
@@ -117,15 +117,15 @@ pub fn is_thin(corners: [[f64; 3]; 3], tolerance: f64) -> bool {
     sides[0].cross(&sides[2]).norm() <= tolerance * longest
 }
 
-/// The corners of two meshes, those within the tolerance made one.
+/// The corners of two meshes, with those within the tolerance merged.
 struct Matching<'a> {
     meshes: [&'a Mesh; 2],
     tolerance: f64,
-    /// For each vertex of each mesh the number of its place.
+    /// For each vertex of each mesh, the index of its merged point.
     places: [Vec<u32>; 2],
 }
 
-/// Triangles on the same three places: how many of each mesh, facing each way.
+/// Triangles on the same three points: their number in each mesh, by orientation.
 type Count = [[u32; 2]; 2];
 
 impl<'a> Matching<'a> {
@@ -148,7 +148,7 @@ impl<'a> Matching<'a> {
             exact.insert(bits, at as u32);
             let scaled = point.map(|x| x / size);
             let cell = scaled.map(|x| x.floor() as i64);
-            // What is within the tolerance, half a cell, is in this cell or in the next on the near side.
+            // A point within the tolerance, half a cell, is in this cell or in the next one on the near side.
             let side: [i64; 3] = std::array::from_fn(|i| {
                 if scaled[i].fract().rem_euclid(1.0) < 0.5 {
                     -1
@@ -181,7 +181,7 @@ impl<'a> Matching<'a> {
         }
     }
 
-    /// The places of a triangle in ascending order, and which way it faces; `None` where it is thin.
+    /// The points of a triangle in ascending order, and its orientation; `None` if it is thin.
     fn key(&self, which: usize, triangle: [u32; 3]) -> Option<([u32; 3], usize)> {
         if is_thin(self.meshes[which].corners(triangle), self.tolerance) {
             return None;
@@ -223,7 +223,7 @@ impl<'a> Matching<'a> {
                     Likeness::SameSurface => total_there == 0,
                 };
                 if differs {
-                    // Each that is too many is counted once.
+                    // Each excess one counts once.
                     if likeness == Likeness::SameTriangles {
                         let facing = if count[which][facing] > 0 {
                             facing
@@ -254,7 +254,7 @@ impl<'a> Matching<'a> {
         difference
     }
 
-    /// Whether a triangle that both meshes have faces the other way in the second.
+    /// Whether a triangle of both meshes has the other orientation in the second.
     fn is_turned(
         &self,
         likeness: Likeness,
@@ -268,8 +268,8 @@ impl<'a> Matching<'a> {
         }
     }
 
-    /// Of the corners of lost triangles that the other mesh has not: the one farthest from all of its
-    /// corners. Only some are measured, so that the work is bounded.
+    /// Of the corners of missing triangles that the other mesh does not have, the one farthest from all its corners.
+    /// Only some are measured, so that the work is bounded.
     fn farthest(&self, lost: &[Vec<[u32; 3]>; 2]) -> Option<([f64; 3], f64)> {
         const MOST_CORNERS: usize = 64;
         let mut farthest: Option<([f64; 3], f64)> = None;
@@ -305,7 +305,7 @@ pub fn nearest(mesh: &Mesh, point: [f64; 3]) -> f64 {
     least.sqrt()
 }
 
-/// Which of many things are one (union-find).
+/// Merges equal elements (union-find).
 struct Joined(Vec<u32>);
 
 impl Joined {
@@ -324,7 +324,7 @@ impl Joined {
 
     fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.root(a), self.root(b));
-        // The lower number stays, so that places do not depend on the order of joining.
+        // The lower index stays, so that the result does not depend on the order of merging.
         self.0[a.max(b)] = a.min(b) as u32;
     }
 }
@@ -340,7 +340,7 @@ mod tests {
         difference(a, b, TOLERANCE, Likeness::SameTriangles)
     }
 
-    /// The triangles in reverse, each with another first corner, no vertex shared.
+    /// The triangles in reverse order, each with another first corner, without shared vertices.
     fn shuffled(mesh: &Mesh) -> Mesh {
         let mut other = Mesh::default();
         for triangle in mesh.triangles.iter().rev() {

@@ -1,4 +1,4 @@
-//! What a document says against what the URDF says.
+//! Compares a document with the URDF.
 
 use std::collections::HashMap;
 
@@ -6,26 +6,25 @@ use serde_json::Value;
 
 use crate::tolerance::{number_tolerance, numbers_agree};
 
-/// A value that is not the URDF's.
+/// A value that differs from the URDF.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
     /// JSON Pointer in the document.
     pub pointer: String,
-    /// The value's JSON Pointer in what the URDF says, which has other indices where elements are
-    /// missing or moved.
+    /// JSON Pointer of the value in the URDF's data, which has other indices if elements are missing or moved.
     pub source: String,
-    /// What the URDF says.
+    /// The URDF's value.
     pub expected: Value,
-    /// What the document says.
+    /// The document's value.
     pub actual: Value,
-    /// Where both are numbers: how far they may be apart.
+    /// Tolerance, if both are numbers.
     pub tolerance: Option<f64>,
-    /// Where whole lists differ: how.
+    /// How whole lists differ, if they do.
     pub list: Option<String>,
 }
 
-/// Every difference between what the URDF says and a document. Links and joints are compared by
-/// name, so that one that is missing is one difference.
+/// Every difference between the URDF's data and a document. Links and joints are compared by name, so that a missing
+/// one is a single difference.
 pub fn differences(expected: &Value, actual: &Value) -> Vec<Difference> {
     let mut comparison = Comparison::default();
     if let Some(keys) = expected.as_object() {
@@ -70,7 +69,7 @@ impl Comparison {
     fn value(&mut self, pointer: &str, source: &str, expected: &Value, actual: &Value) {
         match (expected, actual) {
             (Value::Object(wanted), Value::Object(there)) => {
-                // A choice of one key: another key is another kind of thing.
+                // A choice of one key: another key means another kind of value.
                 if wanted.keys().any(|key| !there.contains_key(key)) {
                     self.report(pointer, source, expected, actual);
                     return;
@@ -115,7 +114,7 @@ impl Comparison {
         }
     }
 
-    /// Lists of things with names: the same names in the same order, and each against its own.
+    /// Compares lists of named elements: the same names in the same order, and each with its counterpart.
     fn by_name(&mut self, list: &str, expected: &[Value], actual: &[Value]) {
         let name = |value: &Value| -> String {
             let name = value.get("name").and_then(Value::as_str);
@@ -130,7 +129,7 @@ impl Comparison {
             .filter(|(_, (wanted, there))| wanted != there)
             .map(|(index, _)| index)
             .collect();
-        // One that is called otherwise is compared all the same; its name shows as a difference.
+        // One with another name is compared too; its name is a difference.
         if wanted.len() == there.len() && others.len() <= 1 {
             for (index, (expected, actual)) in expected.iter().zip(actual).enumerate() {
                 let pointer = format!("{list}/{index}");
@@ -158,7 +157,7 @@ impl Comparison {
     }
 }
 
-/// How one list of names differs from another, in words.
+/// Describes how two lists of names differ.
 fn how_names_differ(wanted: &[String], there: &[String]) -> String {
     let only_in = |a: &[String], b: &[String]| {
         let b: std::collections::HashSet<&String> = b.iter().collect();
@@ -199,8 +198,7 @@ pub fn first_names<S: AsRef<str>>(names: &[S]) -> String {
     text.join(", ")
 }
 
-/// A text with its line ends as XML readers give them: what moved files about may have changed
-/// these.
+/// A text with line endings as XML readers normalise them: copying files may have changed them.
 fn unix_lines(text: &str) -> String {
     text.replace("\r\n", "\n")
 }

@@ -1,12 +1,12 @@
-//! What a legacy `urdf_module` says of a URDF: defaults where the URDF says nothing.
+//! The data of a legacy `urdf_module` for a URDF: defaults where the URDF has no value.
 
 use serde_json::Value;
 
 use urdd_format::legacy::urdf as old;
 use urdd_format::urdf as v1;
 
-/// The document that the converter of the legacy URDDs would have written, but for what it wrote
-/// now so and now so; `None` where it had no way to write it (an element without a shape).
+/// The document that the converter of legacy URDDs would have written, apart from what it wrote inconsistently. `None`
+/// if it could not write it (an element without a shape).
 pub fn as_legacy(robot: &v1::UrdfModule) -> Option<Value> {
     let module = old::UrdfModule {
         name: robot.name.clone(),
@@ -17,8 +17,7 @@ pub fn as_legacy(robot: &v1::UrdfModule) -> Option<Value> {
     let mut document = serde_json::to_value(module).ok()?;
     let joints = document.get_mut("joints")?.as_array_mut()?;
     for (joint, value) in robot.joints.iter().zip(joints) {
-        // An axis that is neither there nor of use was written as 1 0 0 by some versions, and as
-        // zeros by others.
+        // An axis that is neither present nor used was written as 1 0 0 by some versions, and as zeros by others.
         if joint.axis.is_none() && joint.joint_type == v1::JointType::Fixed {
             value.as_object_mut()?.shift_remove("axis");
         }

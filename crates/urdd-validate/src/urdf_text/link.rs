@@ -55,7 +55,7 @@ impl Reader {
 
     fn inertial(&mut self, inertial: Element<'_>, at: &str) -> v1::Inertial {
         let origin = self.origin(inertial, "inertial", at);
-        // A mass without a value says nothing, as no mass does.
+        // A mass without a value means the same as no mass.
         let mass = self
             .only(inertial, "inertial", "mass", at)
             .and_then(|(mass, at)| self.number(mass, "mass", "value", &at))
@@ -134,7 +134,7 @@ impl Reader {
     }
 
     pub(super) fn material(&mut self, material: Element<'_>, at: &str) -> v1::Material {
-        // A colour without numbers, or a texture without a file, says nothing (iCub has these).
+        // A colour without numbers, or a texture without a file, means nothing (as in iCub).
         v1::Material {
             name: self.text(material, "name", at),
             color: self

@@ -1,7 +1,7 @@
-//! The carried URDF, read by the validator's own short path.
+//! The carried URDF, read by a small reader of the validator's own.
 //!
-//! The XML is read as it stands, so that what is absent can be told from what is zero, and every
-//! value has its place in the file. What a URDF library would fill in, drop or repair is neither.
+//! It reads the XML literally, so that missing values differ from zeros, and every value has its place in the file. It
+//! does not fill in, drop or repair values, as a URDF library would.
 
 pub mod compare;
 mod joint;
@@ -20,23 +20,23 @@ use std::collections::HashMap;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_format::urdf::UrdfModule;
 
-/// A URDF, as far as it could be read.
+/// A URDF, as far as it is readable.
 #[derive(Debug, Default)]
 pub struct Reading {
-    /// What a faithful `urdf_module` says; `None` where the text is no XML, or no URDF at all.
-    /// Only to be relied on where there are no problems.
+    /// The data of a faithful `urdf_module`; `None` if the text is not XML or not a URDF. Only reliable without
+    /// problems.
     pub robot: Option<UrdfModule>,
-    /// What cannot be read, in the order of the file.
+    /// The unreadable places, in the order of the file.
     pub problems: Vec<Problem>,
-    /// Elements that are there again though once is all that counts.
+    /// Repeated elements of which only the first counts.
     pub repeated: Vec<Repeated>,
-    /// Where the values of `robot` stand in the text, by JSON Pointer.
+    /// Positions of the values of `robot` in the text, by JSON Pointer.
     places: HashMap<String, usize>,
 }
 
 impl Reading {
-    /// The byte offset of the value at a JSON Pointer of `robot`; where the URDF has no such
-    /// value, of the nearest element around it.
+    /// The byte offset of the value at a JSON Pointer of `robot`. If the URDF has no such value, that of the nearest
+    /// element around it.
     pub fn offset(&self, pointer: &str) -> Option<usize> {
         let mut pointer = pointer;
         loop {

@@ -1,8 +1,7 @@
 //! Numbers as URDF writes them.
 
-/// The numbers of an attribute: decimal, with or without fraction, exponent and sign (`+.01`,
-/// `1.`, `-5e-2`), white space between them and around them. `inf` and `nan` are numbers that are
-/// not finite, as is one beyond binary64.
+/// The numbers of an attribute: decimal, with or without fraction, exponent and sign (`+.01`, `1.`, `-5e-2`), separated
+/// and surrounded by white space. `inf`, `nan` and numbers beyond binary64 are read as numbers that are not finite.
 pub(super) fn read<const N: usize>(text: &str) -> Option<[f64; N]> {
     let mut numbers = [0.0; N];
     let mut words = text.split_ascii_whitespace();

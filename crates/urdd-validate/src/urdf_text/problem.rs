@@ -1,34 +1,34 @@
-//! What can be wrong with a URDF's text.
+//! Faults of a URDF's text.
 
 use thiserror::Error;
 
 use urdd_directory::position::LineIndex;
 use urdd_xml::XmlError;
 
-/// A place that cannot be read.
+/// An unreadable place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     /// Byte offset in the text.
     pub offset: usize,
-    /// What is wrong there.
+    /// The fault.
     pub fault: Fault,
-    /// What stands there.
+    /// The text at the place.
     pub actual: Option<String>,
 }
 
-/// What is wrong. The words say what kind of fault it is, and what stands there is said apart, so
-/// that many of one kind can be told as one.
+/// A fault. Its words name the kind of fault. The text at the place is separate, so that many faults of one kind can be
+/// reported as one.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Error)]
 pub enum Fault {
     /// Not well-formed XML.
     #[error("not well-formed XML: {0}")]
     NotXml(String),
-    /// The outermost element is another.
+    /// The root element has another name.
     #[error(
         "the outermost element is not `<robot>`; a URDF is one `<robot>` with everything inside it"
     )]
     NotRobot,
-    /// An attribute that a reader cannot do without.
+    /// A required attribute is missing.
     #[error("`<{element}>` does not have the attribute `{attribute}`; add it")]
     MissingAttribute {
         /// The element.
@@ -36,15 +36,15 @@ pub enum Fault {
         /// The attribute.
         attribute: &'static str,
     },
-    /// An element that a reader cannot do without.
+    /// A required element is missing.
     #[error("`<{parent}>` does not have a `<{element}>`; add it")]
     MissingElement {
-        /// The element that is not there.
+        /// The missing element.
         element: &'static str,
-        /// Where it should be.
+        /// The element that should contain it.
         parent: &'static str,
     },
-    /// Not as many numbers as are needed, or something that is no number.
+    /// The wrong number of numbers, or something that is not a number.
     #[error(
         "`{attribute}` of `<{element}>` is not {}",
         numbers_wanted(*.count)
@@ -54,7 +54,7 @@ pub enum Fault {
         element: &'static str,
         /// The attribute.
         attribute: &'static str,
-        /// How many numbers are needed.
+        /// The required number of numbers.
         count: usize,
     },
     /// A size that is not finite.
@@ -65,7 +65,7 @@ pub enum Fault {
         /// The attribute.
         attribute: &'static str,
     },
-    /// A rotation that is given in two ways.
+    /// A rotation given in two ways.
     #[error("`<origin>` has both `rpy` and `quat_xyzw`; keep one of them")]
     TwoRotations,
     /// A joint type that URDF does not define.
@@ -84,16 +84,16 @@ fn numbers_wanted(count: usize) -> String {
     }
 }
 
-/// An element that is there again: the first counts.
+/// A repeated element, of which only the first counts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Repeated {
-    /// Byte offset of the element that does not count.
+    /// Byte offset of the element that is ignored.
     pub offset: usize,
-    /// Byte offset of the one that counts.
+    /// Byte offset of the first one.
     pub first: usize,
     /// Its name.
     pub element: String,
-    /// The element that it is in.
+    /// The element that contains it.
     pub parent: &'static str,
 }
 
@@ -109,7 +109,7 @@ pub(super) fn not_xml(error: &XmlError, text: &str) -> Problem {
         .map_or(rest.len(), |(offset, _)| offset);
     Problem {
         offset: start + column,
-        // The place stands beside the message already.
+        // The message is shown with its place already.
         fault: Fault::NotXml(error.words(text)),
         actual: None,
     }

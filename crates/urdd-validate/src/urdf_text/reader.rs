@@ -1,4 +1,4 @@
-//! From the XML tree to what `urdf_module` says.
+//! Converts the XML tree to the data of `urdf_module`.
 
 use roxmltree::{Document, Node};
 
@@ -13,7 +13,7 @@ pub(super) type Element<'a> = Node<'a, 'a>;
 /// Reads the robot of a document.
 pub(super) fn read(document: &Document<'_>) -> Reading {
     let mut reader = Reader::default();
-    // The document borrows its own text: one lifetime for both makes the code below readable.
+    // The document borrows its text: a single lifetime for both keeps the code below readable.
     let robot = document.root_element();
     reader.robot(robot);
     let mut reading = reader.reading;
@@ -41,7 +41,7 @@ impl Reader {
         self.reading.places.insert(pointer.to_owned(), offset);
     }
 
-    /// The first element of a name; another of that name does not count, and is remembered.
+    /// The first element with a name; a further one is ignored and recorded.
     pub(super) fn only<'a>(
         &mut self,
         parent: Element<'a>,
@@ -76,7 +76,7 @@ impl Reader {
         Some(found.value().to_owned())
     }
 
-    /// An attribute as text, without which nothing can be read.
+    /// A required attribute as text.
     pub(super) fn needed_text(
         &mut self,
         element: Element<'_>,
@@ -95,7 +95,7 @@ impl Reader {
         text
     }
 
-    /// An attribute of `N` numbers; null where it is absent or one of them is not finite.
+    /// An attribute of `N` numbers; null if it is missing or one of them is not finite.
     pub(super) fn vector<const N: usize>(
         &mut self,
         element: Element<'_>,
@@ -131,7 +131,7 @@ impl Reader {
             .map(|[number]| number)
     }
 
-    /// As [`Reader::vector`], where the shape is nothing without it.
+    /// Like [`Reader::vector`], for a required attribute of a shape.
     pub(super) fn size<const N: usize>(
         &mut self,
         element: Element<'_>,

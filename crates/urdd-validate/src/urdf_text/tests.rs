@@ -122,7 +122,7 @@ fn every_value_has_its_place() {
     assert_eq!(at("/links/0/name"), (2, 8));
     assert_eq!(at("/joints/0/joint_type"), (4, 3));
     assert_eq!(at("/joints/0/origin/rpy/2"), (6, 4));
-    // What is absent is where it would be.
+    // A missing value has the place of its parent.
     assert_eq!(at("/joints/0/origin/xyz"), (5, 3));
     assert_eq!(at("/joints/0/limit/lower"), (3, 2));
     assert_eq!(at("/materials"), (1, 1));
@@ -181,7 +181,7 @@ fn bad_xml_is_refused_with_its_place() {
 #[test]
 fn deep_nesting_is_refused() {
     let nested = |levels: usize| format!("{}{}", "<a>".repeat(levels), "</a>".repeat(levels));
-    // One level is the robot's.
+    // The robot itself is one level.
     let reading = robot(&nested(255));
     assert_eq!(reading.problems, []);
     assert_eq!(reading.robot.unwrap().unknown_elements, [nested(255)]);

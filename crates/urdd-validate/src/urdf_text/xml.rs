@@ -1,9 +1,9 @@
-//! Elements of the XML tree, by the names that are written.
+//! Elements of the XML tree by their names as written.
 
 use roxmltree::{Attribute, Node};
 
-/// The name of an element as it is written. A name with a prefix (`xacro:link`) is no URDF name,
-/// whatever the prefix stands for; a default namespace changes no name.
+/// The name of an element as written. A name with a prefix (`xacro:link`) is not a URDF name, whatever the prefix
+/// means; a default namespace changes no name.
 pub(super) fn name<'a>(element: Node<'a, 'a>) -> &'a str {
     let text = element.document().input_text();
     let after = text.get(element.range().start + 1..).unwrap_or_default();
@@ -13,18 +13,18 @@ pub(super) fn name<'a>(element: Node<'a, 'a>) -> &'a str {
     &after[..end]
 }
 
-/// The elements directly in an element.
+/// The child elements of an element.
 pub(super) fn elements<'a>(parent: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
     parent.children().filter(Node::is_element)
 }
 
-/// An element's own characters in the file.
+/// The range of an element in the file.
 pub(super) fn verbatim(element: Node<'_, '_>) -> String {
     let text = element.document().input_text();
     text.get(element.range()).unwrap_or_default().to_owned()
 }
 
-/// An attribute, by its name without a prefix. (`roxmltree` takes any prefix for none.)
+/// An attribute by its name without a prefix. (`roxmltree` ignores prefixes.)
 pub(super) fn attribute<'a>(element: Node<'a, 'a>, name: &str) -> Option<Attribute<'a, 'a>> {
     element
         .attributes()

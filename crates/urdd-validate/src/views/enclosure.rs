@@ -1,4 +1,4 @@
-//! How boxes and spheres sit about the hulls and pieces that they are there for.
+//! Bounding boxes and bounding spheres compared with their hulls and pieces.
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
@@ -10,12 +10,12 @@ use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::{Mesh, farthest};
 
-/// A box or sphere, with the hull or piece that it is there for.
+/// A box or sphere with the hull or piece that it bounds.
 #[derive(Debug, Clone)]
 pub struct Enclosure<'a> {
-    /// Of which kind.
+    /// The kind of shape.
     pub kind: ShapeKind,
-    /// Where it stands in the document.
+    /// JSON Pointer in the document.
     pub pointer: String,
     /// The link.
     pub link: usize,
@@ -25,32 +25,32 @@ pub struct Enclosure<'a> {
     pub volume: Volume,
     /// The hull or piece.
     pub mesh: &'a Mesh,
-    /// How far vertices may stand outside, or sides off, m.
+    /// Maximum distance of vertices outside, and of sides off the mesh, m.
     pub tolerance: f64,
-    /// How it sits.
+    /// How it fits the mesh.
     pub fit: Fit,
 }
 
-/// How a box or sphere sits about a mesh.
+/// How a box or sphere fits a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
-    /// The vertex that is farthest outside, and how far, m: 0 where all are inside.
+    /// The vertex farthest outside and its distance, m; 0 if all are inside.
     pub outside: (usize, f64),
-    /// The side that stands farthest off, and how far, m.
+    /// The side farthest off the mesh and its distance, m.
     pub off: (Side, f64),
 }
 
 /// A part of the surface of a box or sphere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// All of a sphere.
+    /// The surface of a sphere.
     Round,
     /// The side of a box at the lower (false) or upper end of one of its own axes.
     Of(usize, bool),
 }
 
 impl Fit {
-    /// Looks at every vertex.
+    /// Computes it from every vertex.
     pub fn new(volume: &Volume, mesh: &Mesh) -> Fit {
         match *volume {
             Volume::Sphere { radius, offset } => {
@@ -89,18 +89,18 @@ impl Fit {
         }
     }
 
-    /// Whether the box or sphere holds the mesh, and touches it with all its sides.
+    /// Whether the box or sphere contains the mesh and touches it with all sides.
     pub fn is_tight(&self, mesh: &Mesh) -> bool {
         self.outside.1.max(self.off.1) <= tolerance(mesh)
     }
 }
 
-/// How far vertices of a mesh may stand outside, or sides off it, m.
+/// Maximum distance of vertices outside, and of sides off the mesh, m.
 fn tolerance(mesh: &Mesh) -> f64 {
     HULL_IN_VOLUME * farthest::of_mesh(mesh)
 }
 
-/// The largest number, and the first place where it stands.
+/// The largest number and its first index.
 fn most(numbers: impl Iterator<Item = f64>) -> (usize, f64) {
     let largest =
         |best: (usize, f64), next: (usize, f64)| if next.1 > best.1 { next } else { best };
@@ -113,12 +113,12 @@ impl Enclosure<'_> {
         self.fit.outside.1 <= self.tolerance
     }
 
-    /// Whether every side touches, or the sphere.
+    /// Whether every side, or the sphere, touches the mesh.
     pub fn touches(&self) -> bool {
         self.fit.off.1 <= self.tolerance
     }
 
-    /// What it is.
+    /// Its name: `box` or `sphere`.
     pub fn noun(&self) -> &'static str {
         match self.volume {
             Volume::Box { .. } => "box",
@@ -131,7 +131,7 @@ impl Enclosure<'_> {
         Part::of_shape(self.kind, self.link, self.piece)
     }
 
-    /// What it is there for.
+    /// The hull or piece in words.
     pub fn of_what(&self, urdd: &Urdd) -> String {
         let link = urdd.link_label(self.link);
         match self.kind.full {
@@ -141,7 +141,7 @@ impl Enclosure<'_> {
     }
 }
 
-/// Every box and sphere of which the hull or piece can be read.
+/// Every box and sphere whose hull or piece is readable.
 pub fn enclosures<'a>(urdd: &Urdd, solids: &'a Solids) -> Vec<Enclosure<'a>> {
     let document = urdd.document(ModuleKind::LinkShapesApproximations);
     let Some(lists) = document.and_then(approximations) else {
@@ -153,22 +153,20 @@ pub fn enclosures<'a>(urdd: &Urdd, solids: &'a Solids) -> Vec<Enclosure<'a>> {
             true => ModuleKind::ConvexHullMeshes,
             false => ModuleKind::ConvexDecompositionMeshes,
         };
-        for (link, entry) in list.links.iter().enumerate() {
-            for (piece, volume) in entry.iter().enumerate() {
-                let Some(mesh) = solids.sound(meshes, link, piece) else {
-                    continue;
-                };
-                enclosures.push(Enclosure {
-                    kind: list.kind,
-                    pointer: list.pointer(link, piece),
-                    link,
-                    piece,
-                    volume: *volume,
-                    mesh,
-                    tolerance: tolerance(mesh),
-                    fit: Fit::new(volume, mesh),
-                });
-            }
+        for (link, piece, volume) in list.entries() {
+            let Some(mesh) = solids.sound(meshes, link, piece) else {
+                continue;
+            };
+            enclosures.push(Enclosure {
+                kind: list.kind,
+                pointer: list.pointer(link, piece),
+                link,
+                piece,
+                volume,
+                mesh,
+                tolerance: tolerance(mesh),
+                fit: Fit::new(&volume, mesh),
+            });
         }
     }
     enclosures

@@ -1,5 +1,5 @@
-//! The schema that an extension brings: used without opening anything, and only where that takes
-//! little work. It is as untrusted as all else.
+//! The schema of an extension: used without opening other files, and only if it takes little work. It is as untrusted
+//! as the rest of the URDD.
 
 use serde_json::Value;
 
@@ -9,14 +9,14 @@ use urdd_directory::root::ReadError;
 use urdd_document::module::Module;
 use urdd_document::urdd::Urdd;
 
-/// Longest `schema.json` that is read, bytes.
+/// Maximum size of a `schema.json`, bytes.
 pub const MAX_SCHEMA_BYTES: u64 = 1 << 20;
 
-/// Largest automaton of a pattern, bytes. Patterns are matched in time linear in the text; what
-/// would need going back (lookaround, references to groups) is refused.
+/// Maximum size of a pattern's automaton, bytes. Patterns are matched in time linear in the text; those that would need
+/// backtracking (lookaround, backreferences) are refused.
 const PATTERN_BYTES: usize = 1 << 18;
 
-/// Above this much work, only the first violation is looked for: lists of them take memory with the
+/// Above this work, only the first violation is searched, because a list of them takes memory proportional to the
 /// document.
 const WORK_FOR_ALL_VIOLATIONS: u64 = 100_000;
 
@@ -24,11 +24,11 @@ const WORK_FOR_ALL_VIOLATIONS: u64 = 100_000;
 #[cfg(not(target_family = "wasm"))]
 const STACK_BYTES: usize = 256 << 20;
 
-/// A `schema.json`, as far as it can be used.
+/// A `schema.json`, as far as it is usable.
 pub enum SchemaFile {
-    /// There is none.
+    /// It is missing.
     Missing,
-    /// It cannot be read, for a reason of which DIR016 or DIR023 would tell for other files.
+    /// It cannot be read, for a reason that DIR016 or DIR023 would report for other files.
     Unreadable(ReadError),
     /// It is not JSON.
     NotJson(String),
@@ -55,11 +55,11 @@ pub fn read(urdd: &Urdd, module: &Module) -> SchemaFile {
 pub struct SchemaFault {
     /// JSON Pointer into the schema.
     pub pointer: String,
-    /// What is wrong.
+    /// The fault.
     pub message: String,
 }
 
-/// What keeps a value from being a schema that can be used for a document.
+/// Why a value cannot be used as a schema for a document.
 pub fn faults(schema: &Value, document: Option<&Value>) -> Vec<SchemaFault> {
     let mut faults = foreign_references(schema);
     if faults.is_empty()
@@ -78,17 +78,17 @@ pub fn faults(schema: &Value, document: Option<&Value>) -> Vec<SchemaFault> {
     faults
 }
 
-/// Where a document breaks a schema.
+/// The violations of a schema by a document.
 #[derive(Debug, Default)]
 pub struct Violations {
     /// Pointers and messages.
     pub found: Vec<(String, String)>,
-    /// Whether no others were looked for.
+    /// Whether only the first was searched.
     pub is_first_only: bool,
 }
 
-/// Where a document breaks a schema that has no [`faults`]: at most `limit` places. In a large
-/// document only the first is looked for.
+/// The violations by a document of a schema without [`faults`]: at most `limit` places. In a large document, only the
+/// first is searched.
 pub fn violations(schema: &Value, document: &Value, limit: usize) -> Violations {
     on_a_large_stack(|| {
         let Ok(validator) = compile(schema) else {
@@ -117,7 +117,7 @@ pub fn violations(schema: &Value, document: &Value, limit: usize) -> Violations 
 }
 
 fn compile(schema: &Value) -> Result<jsonschema::Validator, SchemaFault> {
-    // No retriever is compiled in, so that a reference to elsewhere fails and opens nothing.
+    // Compiled without a retriever, so that a reference to another file fails without opening anything.
     jsonschema::draft202012::options()
         .with_pattern_options(
             jsonschema::PatternOptions::regex()
@@ -131,7 +131,7 @@ fn compile(schema: &Value) -> Result<jsonschema::Validator, SchemaFault> {
         })
 }
 
-/// A browser has no thread to spare, and a stack that is chosen when the module is linked (`.cargo/config.toml`).
+/// A browser has no spare thread; its stack size is set at link time (`.cargo/config.toml`).
 #[cfg(target_family = "wasm")]
 fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     work()
@@ -152,7 +152,7 @@ fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     })
 }
 
-/// References that do not stay within the schema's own file, and what would make them ambiguous.
+/// References that leave the schema's own file, and constructs that would make references ambiguous.
 fn foreign_references(schema: &Value) -> Vec<SchemaFault> {
     let mut faults = Vec::new();
     let mut open = vec![(String::new(), schema)];
@@ -214,7 +214,7 @@ mod tests {
             assert_eq!(faults.len(), 1);
             assert_eq!(faults[0].pointer, "/properties/a/$ref");
         }
-        // What only looks like a reference.
+        // This only looks like a reference.
         let schema = json!({"const": {"$ref": "other.json"}, "properties": {"$ref": true}});
         assert_eq!(message(&schema, &json!({})), None);
     }
@@ -279,7 +279,7 @@ mod tests {
         let broken = violations(&schema, &document, 10);
         assert_eq!(broken.found[0].0, "/7/8");
         assert!(broken.is_first_only);
-        // Of a million violations one is kept; of a few, all.
+        // Of a million violations one is kept, of a few all.
         let all = json!({"items": {"type": "string"}});
         assert_eq!(
             violations(&all, &json!(vec![1; 1_000_000]), 10).found.len(),
@@ -326,7 +326,7 @@ mod tests {
         ] {
             assert!(message(&schema, &document).is_some());
         }
-        // Each of many objects against each of many.
+        // Each of many objects is compared with each of many others.
         let object = |i: usize| json!({"a": [1, 2, 3, 4, 5, 6, 7, 8, 9, i]});
         let objects: Vec<Value> = (0..2000).map(object).collect();
         let schema = json!({"items": {"enum": objects}});

@@ -1,5 +1,5 @@
-//! Which parts a rule judges: those that are sound by the rules that it needs, and that can be read.
-//! What is left out is noted as not verified.
+//! Decides which parts a rule judges: readable ones that passed the rules that it needs. Other parts are recorded as not
+//! verified.
 
 use super::enclosure::{self, Enclosure};
 use crate::code::Code;
@@ -9,7 +9,7 @@ use crate::part::{Part, Why};
 use urdd_document::shapes::{ShapeKind, Shapes};
 use urdd_format::registry::ModuleKind;
 
-/// Whether to judge a part, by itself or by others.
+/// Whether to judge a part against other parts.
 pub fn judged(context: &Context, findings: &mut Findings, part: Part, by: &[Part]) -> bool {
     for needed in std::iter::once(&part).chain(by) {
         let (kind, link, piece) = needed.place();
@@ -26,7 +26,7 @@ pub fn judged(context: &Context, findings: &mut Findings, part: Part, by: &[Part
     findings.judges(part, by)
 }
 
-/// Every box and sphere of which the hull or piece is judged.
+/// Every box and sphere whose hull or piece is judged.
 pub fn enclosures<'a>(context: &'a Context, findings: &mut Findings) -> Vec<Enclosure<'a>> {
     for kind in [
         ModuleKind::ConvexHullMeshes,
@@ -43,19 +43,28 @@ pub fn enclosures<'a>(context: &'a Context, findings: &mut Findings) -> Vec<Encl
     all
 }
 
-/// For each shape of a kind, whether to judge its distances.
-pub fn shapes(
-    context: &Context,
-    findings: &mut Findings,
-    shapes: &Shapes,
-    kind: ShapeKind,
-) -> Vec<bool> {
-    let part = |shape| shapes.place(kind, shape);
-    (0..shapes.count(kind))
-        .map(|shape| {
-            part(shape).is_none_or(|(link, piece)| {
+/// The shapes of a kind whose distances are judged.
+pub struct JudgedShapes(Vec<bool>);
+
+impl JudgedShapes {
+    /// Decides it for every shape of a kind.
+    pub fn new(
+        context: &Context,
+        findings: &mut Findings,
+        shapes: &Shapes,
+        kind: ShapeKind,
+    ) -> Self {
+        let mut is_judged = |shape| {
+            shapes.place(kind, shape).is_none_or(|(link, piece)| {
                 judged(context, findings, Part::of_shape(kind, link, piece), &[])
             })
-        })
-        .collect()
+        };
+        JudgedShapes((0..shapes.count(kind)).map(&mut is_judged).collect())
+    }
+
+    /// Whether both shapes of a pair are judged.
+    pub fn pair(&self, i: usize, j: usize) -> bool {
+        let judged = |shape: usize| self.0.get(shape).copied().unwrap_or(true);
+        judged(i) && judged(j)
+    }
 }

@@ -1,8 +1,9 @@
-//! What several rules look at or compute: texts, schemas of extensions, shapes and their pairs.
+//! Data that several rules use: texts, schemas of extensions, shapes and pairs of shapes.
 
 pub mod enclosure;
 pub mod extension_schema;
 pub mod judged;
+pub mod list_lengths;
 pub mod schema_work;
 pub mod shape_pair;
 pub mod shared_meshes;

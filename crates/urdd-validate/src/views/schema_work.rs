@@ -1,18 +1,17 @@
-//! How much work a JSON Schema asks for, estimated before the work is done.
+//! Estimates the work of a JSON Schema before doing it.
 
 use std::collections::HashMap;
 
 use serde_json::Value;
 
-/// How much work a schema may ask for, in comparisons: for any document this much, for a large one
-/// so much for each of its values.
+/// Maximum work of a schema, in comparisons: for any document, and per value of a large document.
 const WORK: u64 = 1_000_000;
 const WORK_PER_VALUE: u64 = 20;
 
-/// Deepest that references lead through references.
+/// Maximum depth of references through references.
 const MAX_DEPTH: usize = 5_000;
 
-/// Keywords whose value is a schema for the same value or for the values in it.
+/// Keywords whose value is a schema, for the same value or for the values inside it.
 const ONE: &[(&str, bool)] = &[
     ("not", false),
     ("if", false),
@@ -41,8 +40,7 @@ const MAPS: &[(&str, bool)] = &[
     ("patternProperties", true),
 ];
 
-/// The schemas in a schema, each with its pointer from there, and whether it is for the values in
-/// the value.
+/// The schemas inside a schema, each with its pointer and whether it applies to the values inside the value.
 pub fn schemas_in(schema: &Value) -> impl Iterator<Item = (String, &Value, bool)> {
     let object = schema.as_object();
     let one = ONE
@@ -67,8 +65,8 @@ pub fn schemas_in(schema: &Value) -> impl Iterator<Item = (String, &Value, bool)
     }))
 }
 
-/// The work of checking a document, where it is no more than is allowed. Choices within choices
-/// multiply, so that a page of schema can ask for more than any computer will ever do.
+/// The work of checking a document, if it is within the limit. Nested choices multiply, so that a page of schema can
+/// demand more than any computer can do.
 pub fn affordable_work(schema: &Value, document: &Value) -> Option<u64> {
     let allowed = WORK.max(WORK_PER_VALUE.saturating_mul(count_values(document)));
     let longest_key = Value::String(longest_key(document).to_owned());
@@ -105,15 +103,15 @@ fn longest_key(value: &Value) -> &str {
     longest
 }
 
-/// The work of matching a pattern: linear in the text, more for each character where it repeats by
-/// number or names classes of Unicode, since its automaton has many states then.
+/// The work of matching a pattern: linear in the text. It is more per character if the pattern has counted repetitions
+/// or Unicode classes, whose automata have many states.
 fn pattern_work(pattern: &str, text: &str) -> u64 {
     let has_many_states = pattern.contains(['{', '\\']);
     let each = pattern.len() as u64 / 32 + if has_many_states { 16 } else { 1 };
     5 + each.saturating_mul(text.len() as u64)
 }
 
-/// The work of looking for a value in a list of values.
+/// The work of finding a value in a list of values.
 fn search_work(values: &[Value], value: &Value) -> u64 {
     let is_composite = value.is_array() || value.is_object();
     let size = if is_composite { count_values(value) } else { 1 };
@@ -151,17 +149,17 @@ fn anchors(schema: &Value) -> HashMap<&str, Vec<&Value>> {
 
 struct Estimate<'a> {
     root: &'a Value,
-    /// The longest key in the document: for all of them, where names are checked.
+    /// The longest key in the document, which stands for all keys when names are checked.
     longest_key: &'a Value,
     anchors: HashMap<&'a str, Vec<&'a Value>>,
-    /// Work of each schema on each value, by address.
+    /// Work of each schema on each value, by addresses.
     known: HashMap<(*const Value, *const Value), u64>,
     steps: u64,
     allowed: u64,
 }
 
 impl<'a> Estimate<'a> {
-    /// The work of checking a value against a schema; `None` where finding out is too much itself.
+    /// The work of checking a value against a schema; `None` if the estimate itself takes too much work.
     fn work(&mut self, schema: &'a Value, value: &'a Value, depth: usize) -> Option<u64> {
         self.steps += 1;
         if depth > MAX_DEPTH || self.steps > self.allowed {
@@ -174,7 +172,7 @@ impl<'a> Estimate<'a> {
         if let Some(work) = self.known.get(&key) {
             return Some(*work);
         }
-        // A reference that comes back to itself on the same value is passed over by the validator.
+        // The validator ignores a reference that returns to itself on the same value.
         self.known.insert(key, 1);
         let mut work = keywords.len() as u64;
         if let (Some(Value::String(pattern)), Value::String(text)) =
@@ -212,7 +210,7 @@ impl<'a> Estimate<'a> {
                 work = work.saturating_add(self.work(inner, value, depth + 1)?);
                 continue;
             }
-            // Of `properties` each schema is for one value; others may be for all of them.
+            // Each schema of `properties` applies to one value; others may apply to all of them.
             if pointer.starts_with("/properties/") {
                 continue;
             }
@@ -248,8 +246,8 @@ impl<'a> Estimate<'a> {
             return Vec::new();
         };
         if fragment.is_empty() || fragment.starts_with('/') {
-            // A name with an escape (%25) is hardly ever seen; not found, it costs nothing here, and
-            // everywhere else it does, so it is looked for in both ways.
+            // A name with an escape (%25) is rare. A name that is not found costs nothing here, and is expensive later,
+            // so both spellings are tried.
             return self
                 .root
                 .pointer(fragment)

@@ -1,10 +1,10 @@
-//! The statistics of one pair of shapes, judged (SPEC 8.5).
+//! The statistics of a pair of shapes (SPEC 8.5).
 
 use super::tangled::Tangled;
 use crate::tolerance::{LEGACY_SAMPLES, mean_tolerance, numbers_agree};
 use urdd_document::shape_matrices::{Elements, Statistics, at};
 
-/// Largest distance of shapes that are in contact, m (SPEC 8.6).
+/// Largest distance of shapes in contact, m (SPEC 8.6).
 pub const CONTACT: f64 = 0.001;
 
 /// The distances of a pair.
@@ -16,11 +16,11 @@ pub struct Pair {
     pub min: f64,
     /// Largest distance.
     pub max: f64,
-    /// How far the mean may lie outside the other two.
+    /// How far the mean may be outside the other two.
     pub tolerance: f64,
 }
 
-/// The statistics of one kind of shapes, to read pairs from.
+/// Reads pairs from the statistics of one kind of shapes.
 #[derive(Debug, Clone)]
 pub struct Pairs<'a> {
     statistics: Statistics<'a>,
@@ -37,9 +37,8 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// The distances of shapes i and j; `None` where an element is missing, is not that of j and i,
-    /// is negative and may not be, or is in a row that is wrong as a whole: faults that have rules of
-    /// their own.
+    /// The distances of shapes i and j. `None` if an element is missing, differs from its mirror, is negative where it
+    /// must not be, or is in a row that is wrong as a whole: other rules report these faults.
     pub fn read(&self, i: usize, j: usize) -> Option<Pair> {
         let statistics = &self.statistics;
         let one = |rows| {
@@ -71,19 +70,19 @@ impl Pair {
         self.min <= self.mean + self.tolerance && self.mean <= self.max + self.tolerance
     }
 
-    /// Whether the three are one number, within a tolerance. Depths, which legacy modules have, count
-    /// as contact: libraries do not agree on them.
+    /// Whether the three are equal within a tolerance. Depths, which legacy modules have, count as contact, because
+    /// libraries do not agree on them.
     pub fn is_constant(&self, tolerance: f64) -> bool {
         let [mean, min, max] = [self.mean, self.min, self.max].map(|d| d.max(0.0));
         min.max(mean).max(max) - min.min(mean).min(max) <= tolerance
     }
 
-    /// Whether the pair is always in contact; `None` where that hangs on the last digit.
+    /// Whether the pair is always in contact; `None` if that depends on rounding.
     pub fn always(&self) -> Option<bool> {
         decided(self.max).then_some(self.max <= CONTACT)
     }
 
-    /// Whether the pair is never in contact; `None` where that hangs on the last digit.
+    /// Whether the pair is never in contact; `None` if that depends on rounding.
     pub fn never(&self) -> Option<bool> {
         decided(self.min).then_some(self.min > CONTACT)
     }

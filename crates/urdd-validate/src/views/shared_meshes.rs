@@ -12,21 +12,20 @@ use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 pub struct SharedMesh {
     /// The module.
     pub kind: ModuleKind,
-    /// The link whose entry comes first, and the pointer of that entry.
+    /// The link of the first entry, and its pointer.
     pub first: (usize, String),
-    /// The other link, and the pointer of its entry.
+    /// The link of the other entry, and its pointer.
     pub other: (usize, String),
     /// The path, as written.
     pub path: String,
     /// Every mesh of the two that shares a file with the other.
     pub parts: Vec<Part>,
-    /// Whether the file is right for both: both place the very same mesh in the same way. Only
-    /// legacy URDDs may share so.
+    /// Whether the file is right for both, because both place the same mesh in the same way. Only possible in legacy
+    /// URDDs.
     pub alike: bool,
 }
 
-/// Every pair of links of a module that share a file, once, however many formats and pieces they
-/// share.
+/// Every pair of links of a module that share a file, once, regardless of the number of formats and pieces.
 pub fn all(urdd: &Urdd) -> Vec<SharedMesh> {
     let mut shared: Vec<SharedMesh> = Vec::new();
     for kind in DERIVED {
@@ -34,7 +33,7 @@ pub fn all(urdd: &Urdd) -> Vec<SharedMesh> {
             continue;
         };
         let mut first_use: HashMap<&str, Use> = HashMap::new();
-        // By links, and by whether they share alike: the place in `shared`.
+        // Index in `shared`, by links and by whether they share alike.
         let mut by_links: BTreeMap<(usize, usize, bool), usize> = BTreeMap::new();
         for (link, piece, path) in places(&meshes) {
             let other = Use { link, piece, path };

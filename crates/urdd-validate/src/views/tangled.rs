@@ -1,11 +1,11 @@
-//! Shapes whose rows of a matrix are wrong as a whole, so that one mistake gives one message.
+//! Shapes whose rows of a matrix are wrong as a whole, so that one mistake gives one finding.
 
 use crate::tolerance::numbers_agree;
 use urdd_document::shape_matrices::{Elements, at};
 
-/// The shapes of a matrix that are *tangled*: rows that were exchanged, or written in another order,
-/// make a matrix asymmetric, its diagonal wrong, and with luck some pairs wrong both ways round. All of
-/// that is one mistake, which the first of these rules tells.
+/// The *tangled* shapes of a matrix. Rows that were swapped or written in another order make a matrix asymmetric, its
+/// diagonal wrong, and sometimes pairs wrong in both directions. All of that is one mistake, which SHP006 or SHP007
+/// reports.
 #[derive(Debug, Clone)]
 pub struct Tangled {
     asymmetric: Vec<bool>,
@@ -13,7 +13,7 @@ pub struct Tangled {
 }
 
 impl Tangled {
-    /// Looks through a square matrix.
+    /// Examines a square matrix.
     pub fn new(elements: Elements<'_>) -> Tangled {
         let rows = elements.rows();
         let mut asymmetric = vec![false; rows];
@@ -32,12 +32,12 @@ impl Tangled {
         }
     }
 
-    /// Whether some element of the shape is not that of its mirror: SHP006 tells.
+    /// Whether some element of the shape differs from its mirror, which SHP006 reports.
     pub fn asymmetric(&self, shape: usize) -> bool {
         self.asymmetric.get(shape).copied().unwrap_or(false)
     }
 
-    /// Whether both shapes of a pair have faults that SHP006 or SHP007 tell.
+    /// Whether both shapes of a pair have faults that SHP006 or SHP007 report.
     pub fn pair(&self, i: usize, j: usize) -> bool {
         let tangled = |shape| {
             self.asymmetric(shape) || self.off_diagonal.get(shape).copied().unwrap_or(false)
@@ -46,7 +46,7 @@ impl Tangled {
     }
 }
 
-/// Whether the elements (i, j) and (j, i) of a matrix agree; so they do where one is missing.
+/// Whether the elements (i, j) and (j, i) of a matrix agree; true if one is missing.
 pub fn symmetric_at(elements: Elements<'_>, i: usize, j: usize) -> bool {
     fn agree<T: Copy>(rows: &[Vec<T>], i: usize, j: usize, same: fn(T, T) -> bool) -> bool {
         match (at(rows, i, j), at(rows, j, i)) {
@@ -65,8 +65,30 @@ pub fn symmetric_at(elements: Elements<'_>, i: usize, j: usize) -> bool {
     }
 }
 
-/// Whether the element (i, i) of a matrix is what every diagonal has: distance 0, skip true. Reasons
-/// and models are not judged here.
+/// Every pair of shapes, each once.
+pub fn pairs(shapes: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..shapes).flat_map(move |i| (i + 1..shapes).map(move |j| (i, j)))
+}
+
+/// The element of a pair in both directions; `None` if the two differ, which SHP006 reports.
+pub fn of_pair<T: Copy + PartialEq>(rows: &[Vec<T>], i: usize, j: usize) -> Option<T> {
+    at(rows, i, j).filter(|element| at(rows, j, i) == Some(*element))
+}
+
+/// Every pair of shapes with its element, without pairs that SHP006 or SHP007 report.
+pub fn sound_pairs<'a, T: Copy + PartialEq>(
+    rows: &'a [Vec<T>],
+    elements: fn(&'a [Vec<T>]) -> Elements<'a>,
+) -> impl Iterator<Item = (usize, usize, T)> {
+    let tangled = Tangled::new(elements(rows));
+    pairs(rows.len()).filter_map(move |(i, j)| {
+        let element = of_pair(rows, i, j).filter(|_| !tangled.pair(i, j))?;
+        Some((i, j, element))
+    })
+}
+
+/// Whether the element (i, i) of a matrix has the value of every diagonal: distance 0, skip true. Always true for reasons
+/// and models.
 pub fn diagonal_sound(elements: Elements<'_>, i: usize) -> bool {
     match elements {
         Elements::Distances(rows) => at(rows, i, i).is_none_or(|d| numbers_agree(d, 0.0)),

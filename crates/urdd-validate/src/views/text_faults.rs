@@ -1,4 +1,4 @@
-//! Faults of the text of documents, as they were noted when the documents were read.
+//! Faults in the text of documents, recorded when the documents were read.
 
 use super::super::context::Context;
 use super::super::finding::{Finding, Findings, KEPT_PLACES, Occurrence, Place};
@@ -7,8 +7,8 @@ use urdd_directory::text_fault::{TextFault, TextFaultKind, TextFaults};
 use urdd_document::entries;
 use urdd_document::module::Mirror;
 
-/// Reports the faults of these kinds in `urdd.json` and every `module.json`: one finding for each
-/// file and kind, with the number of them.
+/// Reports the faults of these kinds in `urdd.json` and every `module.json`: one finding per file and kind, with their
+/// number.
 pub fn report_json(context: &Context, kinds: &[TextFaultKind], findings: &mut Findings) {
     if let Some(faults) = context.metadata_file().json.faults() {
         report(ROOT_METADATA, faults, kinds, findings);
@@ -20,12 +20,12 @@ pub fn report_json(context: &Context, kinds: &[TextFaultKind], findings: &mut Fi
     }
 }
 
-/// As [`report_json`], of every `module.yaml`.
+/// Like [`report_json`], for every `module.yaml`.
 pub fn report_yaml(context: &Context, kinds: &[TextFaultKind], findings: &mut Findings) {
     report_yaml_unless(context, kinds, &[], findings);
 }
 
-/// As [`report_yaml`], but for files that have a fault of one of the other kinds.
+/// Like [`report_yaml`], except for files that have a fault of one of the other kinds.
 pub fn report_yaml_unless(
     context: &Context,
     kinds: &[TextFaultKind],

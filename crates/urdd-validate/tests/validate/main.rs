@@ -9,3 +9,4 @@ mod kinematics_figures;
 mod no_crash;
 mod shape_rules_random;
 mod soundness;
+mod undeclared_need;

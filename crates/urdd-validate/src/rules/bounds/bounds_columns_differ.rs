@@ -1,9 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::tolerance::{number_tolerance, numbers_agree};
+use crate::rules::prelude::*;
 use urdd_document::dof_layout::bounds_without_limits;
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// `dof_lower_bounds` or `dof_upper_bounds` is not the column of `bounds`.
@@ -15,14 +11,11 @@ declare_rule! {
     /// these decide which of the two is right, and the finding is at the other.
     BND002 "bounds-columns-differ", Error, clause "6.5.1", since "0.1.0",
     phase References, judges AsItStands, needs [Module(Kind::Bounds), Passed(BND001)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(bounds), Some(module)) = (context.bounds(), context.module(ModuleKind::Bounds))
-    else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let bounds = context.bounds()?;
+    let module = context.module(ModuleKind::Bounds)?;
     for (column, (name, values)) in [
         ("dof_lower_bounds", bounds.lower),
         ("dof_upper_bounds", bounds.upper),
@@ -65,25 +58,26 @@ fn check(context: &Context, findings: &mut Findings) {
                     format!("{right:?}, as `{other}` has it"),
                 ),
             };
-            findings.report(
-                Finding::at(module.file("module.json"), wrong, message)
-                    .expected(expected)
-                    .actual(format!("{written:?}"))
-                    .tolerance(number_tolerance(right, written))
-                    .off_by(right - written, ""),
-            );
+            Finding::of(module, wrong, message)
+                .expected(expected)
+                .actual(format!("{written:?}"))
+                .tolerance(number_tolerance(right, written))
+                .off_by(right - written, "")
+                .report(findings);
         }
     }
+    Some(())
 }
 
-/// What the robot makes of a bound.
+/// A bound that follows from the robot.
 struct Decided {
     bound: f64,
-    /// In words.
+    /// The reason, for messages.
     why: String,
 }
 
-/// What a bound has to be, where the robot and `dof_module` agree about whose DOF it is. Legacy modules have other bounds too.
+/// The right bound, if the robot and `dof_module` agree on the joint of the DOF. `None` in legacy modules, which may
+/// have other bounds.
 fn decided(context: &Context, dof: usize, end: usize) -> Option<Decided> {
     context.bounds()?.v1?;
     let (joint, place) = context.dof_layout()?.place(dof)?;

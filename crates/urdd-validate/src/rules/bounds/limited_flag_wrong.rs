@@ -1,8 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::skip::SkipReason;
-use urdd_format::registry::ModuleKind;
+use super::dofs;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// `dof_limited` does not say which DOFs the robot's source limits.
@@ -14,39 +11,25 @@ declare_rule! {
     /// Write true for DOFs of revolute and prismatic joints whose `limit` has `lower` or `upper`, and false
     /// for all others, those of continuous joints included.
     BND004 "limited-flag-wrong", Error, clause "6.5.2", since "0.1.0",
-    phase References, needs [Version1, Passed(DOF005), Passed(BND001)],
-    check check,
+    phase References, needs [Version1, Passed(DOF005), Passed(BND001), ModuleV1(Kind::Bounds)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(layout), Some(bounds), Some(module)) = (
-        context.robot(),
-        context.dof_layout(),
-        context.bounds().and_then(|bounds| bounds.v1),
-        context.module(ModuleKind::Bounds),
-    ) else {
-        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Bounds));
-    };
-    let flags = bounds.dof_limited.iter().zip(&layout.joint_of_dof);
-    for (dof, (written, joint)) in flags.enumerate() {
-        let Some(joint) = robot.joints.get(*joint) else {
-            continue;
-        };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let bounds = context.bounds()?.v1?;
+    let module = context.module(ModuleKind::Bounds)?;
+    for (written, (dof, joint)) in bounds.dof_limited.iter().zip(dofs(context)?) {
         let limited = joint.position_limits().is_some();
         if *written != limited {
             let why = match limited {
                 true => "has limits in urdf_module".to_owned(),
                 false => format!("is a {} joint without position limits", joint.joint_type),
             };
-            findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/dof_limited/{dof}"),
-                    format!("DOF {dof} moves joint {:?}, which {why}", joint.name),
-                )
+            let message = format!("DOF {dof} moves joint {:?}, which {why}", joint.name);
+            Finding::of(module, format!("/dof_limited/{dof}"), message)
                 .expected(limited)
-                .actual(written),
-            );
+                .actual(written)
+                .report(findings);
         }
     }
+    Some(())
 }

@@ -1,9 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::skip::SkipReason;
-use crate::tolerance::{number_tolerance, numbers_agree};
-use urdd_format::registry::ModuleKind;
+use super::dofs;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// The velocity or effort limit of a DOF is not the joint's.
@@ -14,64 +10,38 @@ declare_rule! {
     /// Copy `velocity` and `effort` of the `limit` of joints of one DOF. Write null where the URDF has none,
     /// and for the DOFs of planar, floating and spherical joints.
     BND005 "speed-or-effort-differs", Error, clause "6.5.4", since "0.1.0",
-    phase References, needs [Version1, Passed(DOF005), Passed(BND001)],
-    check check,
+    phase References, needs [Version1, Passed(DOF005), Passed(BND001), ModuleV1(Kind::Bounds)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(layout), Some(bounds), Some(module)) = (
-        context.robot(),
-        context.dof_layout(),
-        context.bounds().and_then(|bounds| bounds.v1),
-        context.module(ModuleKind::Bounds),
-    ) else {
-        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Bounds));
-    };
-    for (dof, joint) in layout.joint_of_dof.iter().enumerate() {
-        let Some(joint) = robot.joints.get(*joint) else {
-            continue;
-        };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let bounds = context.bounds()?.v1?;
+    let module = context.module(ModuleKind::Bounds)?;
+    let lists = bounds
+        .dof_velocity_limits
+        .iter()
+        .zip(&bounds.dof_effort_limits);
+    for ((dof, joint), (speed, effort)) in dofs(context)?.zip(lists) {
         let limit = joint.limit.filter(|_| joint.num_dofs() == 1);
+        let right_speed = limit.and_then(|limit| limit.velocity);
+        let right_effort = limit.and_then(|limit| limit.effort);
         for (key, right, written) in [
-            (
-                "dof_velocity_limits",
-                limit.and_then(|limit| limit.velocity),
-                bounds.dof_velocity_limits.get(dof),
-            ),
-            (
-                "dof_effort_limits",
-                limit.and_then(|limit| limit.effort),
-                bounds.dof_effort_limits.get(dof),
-            ),
+            ("dof_velocity_limits", right_speed, *speed),
+            ("dof_effort_limits", right_effort, *effort),
         ] {
-            let written = written.copied().flatten();
-            let agree = match (right, written) {
-                (Some(right), Some(written)) => numbers_agree(right, written),
-                (right, written) => right == written,
-            };
-            if agree {
+            let both = right.zip(written);
+            if both.map_or(right == written, |(a, b)| numbers_agree(a, b)) {
                 continue;
             }
-            let finding = Finding::at(
-                module.file("module.json"),
-                format!("/{key}/{dof}"),
-                format!(
-                    "this is not what urdf_module says of joint {:?}, which DOF {dof} moves",
-                    joint.name
-                ),
-            )
-            .expected(or_null(right))
-            .actual(or_null(written));
-            findings.report(match (right, written) {
-                (Some(right), Some(written)) => finding
-                    .tolerance(number_tolerance(right, written))
-                    .off_by(right - written, ""),
-                _ => finding,
+            let message = format!(
+                "this is not what urdf_module says of joint {:?}, which DOF {dof} moves",
+                joint.name
+            );
+            let finding = Finding::of(module, format!("/{key}/{dof}"), message);
+            findings.report(match both {
+                Some((right, written)) => finding.numbers(right, written),
+                None => finding.expected(or_null(right)).actual(or_null(written)),
             });
         }
     }
-}
-
-fn or_null(number: Option<f64>) -> String {
-    number.map_or_else(|| "null".to_owned(), |number| format!("{number:?}"))
+    Some(())
 }

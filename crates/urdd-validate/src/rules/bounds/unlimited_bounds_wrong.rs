@@ -1,11 +1,7 @@
-use super::{LEGACY_WIDENING, columns_agree};
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::tolerance::{NUMBER_ABSOLUTE, number_tolerance, numbers_agree};
+use super::{LEGACY_WIDENING, columns_agree, dofs};
+use crate::rules::prelude::*;
 use urdd_document::dof_layout::bounds_without_limits;
 use urdd_document::robot::Joint;
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// A DOF without limits does not have the bounds that SPEC 6.5.3 gives it.
@@ -19,35 +15,21 @@ declare_rule! {
     /// joint has; only frozen DOFs, and bounds of no known origin, are reported.)
     BND006 "unlimited-bounds-wrong", Error, clause "6.5.3", since "0.1.0",
     phase References, needs [Passed(DOF005), Passed(BND001)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(layout), Some(bounds), Some(module)) = (
-        context.robot(),
-        context.dof_layout(),
-        context.bounds(),
-        context.module(ModuleKind::Bounds),
-    ) else {
-        return;
-    };
-    for (dof, pair) in bounds.bounds.iter().enumerate() {
-        let Some((joint, place)) = layout.place(dof) else {
-            continue;
-        };
-        let Some(joint) = robot.joints.get(joint) else {
-            continue;
-        };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let layout = context.dof_layout()?;
+    let bounds = context.bounds()?;
+    let module = context.module(ModuleKind::Bounds)?;
+    for (pair, (dof, joint)) in bounds.bounds.iter().zip(dofs(context)?) {
         if joint.position_limits().is_some() {
             continue;
         }
-        let Some(ends) = bounds_without_limits(joint.joint_type, place) else {
-            continue;
-        };
+        let (_, place) = layout.place(dof)?;
+        let ends = bounds_without_limits(joint.joint_type, place)?;
         if agree(*pair, ends) {
             continue;
         }
-        let file = module.file("module.json");
         let kind = joint.joint_type;
         if bounds.v1.is_none() {
             let is_one = columns_agree(bounds, dof, 0) && columns_agree(bounds, dof, 1);
@@ -62,40 +44,34 @@ fn check(context: &Context, findings: &mut Findings) {
                         joint.name
                     ),
                 };
-                findings.report(
-                    Finding::at(file, format!("/bounds/{dof}"), message)
-                        .expected(format!("{ends:?}"))
-                        .actual(format!("{pair:?}")),
-                );
+                Finding::of(module, format!("/bounds/{dof}"), message)
+                    .expected(format!("{ends:?}"))
+                    .actual(format!("{pair:?}"))
+                    .report(findings);
             }
             continue;
         }
         for (end, (right, written)) in ends.into_iter().zip(*pair).enumerate() {
             if !numbers_agree(right, written) && columns_agree(bounds, dof, end) {
-                findings.report(
-                    Finding::at(
-                        &file,
-                        format!("/bounds/{dof}/{end}"),
-                        format!(
-                            "DOF {dof} of joint {:?} ({kind}) has no limits, and this is not the bound of a DOF without limits",
-                            joint.name
-                        ),
-                    )
-                    .expected(format!("{right:?}"))
-                    .actual(format!("{written:?}"))
-                    .tolerance(number_tolerance(right, written))
-                    .off_by(right - written, ""),
+                let pointer = format!("/bounds/{dof}/{end}");
+                let message = format!(
+                    "DOF {dof} of joint {:?} ({kind}) has no limits, and this is not the bound of a DOF without limits",
+                    joint.name
                 );
+                Finding::of(module, pointer, message)
+                    .numbers(right, written)
+                    .report(findings);
             }
         }
     }
+    Some(())
 }
 
 fn agree(a: [f64; 2], b: [f64; 2]) -> bool {
     numbers_agree(a[0], b[0]) && numbers_agree(a[1], b[1])
 }
 
-/// Whether a legacy module repeats the limits that the joint has, and leaves it some range.
+/// Whether a legacy module repeats the joint's limits and leaves it a range.
 fn legacy_copy(pair: [f64; 2], joint: &Joint) -> bool {
     let limit = joint.limit;
     let end = |end: Option<f64>| end.unwrap_or(0.0);
@@ -103,7 +79,7 @@ fn legacy_copy(pair: [f64; 2], joint: &Joint) -> bool {
     agree(pair, ends) && !is_frozen(pair)
 }
 
-/// Whether bounds leave no range: none at all, or only what legacy modules put there.
+/// Whether bounds leave no range, or only the one that legacy modules added.
 fn is_frozen([lower, upper]: [f64; 2]) -> bool {
     (upper - lower).abs() <= LEGACY_WIDENING + NUMBER_ABSOLUTE
 }

@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// `joints_in_chain` does not hold the joints of `urdf_module`, in their order, each with its links.
@@ -14,67 +11,44 @@ declare_rule! {
     /// `chain_module` and what depends on it again.
     CHN002 "chain-joint-wrong", Error, clause "6.3.1", since "0.1.0",
     phase References, needs [Passed(CHN001)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(tree), Some(chain), Some(module)) = (
-        context.robot(),
-        context.tree(),
-        context.chain(),
-        context.module(ModuleKind::Chain),
-    ) else {
-        return;
-    };
-    let file = module.file("module.json");
-    if chain.joints.len() != robot.joints.len() {
-        findings.report(
-            Finding::at(
-                &file,
-                "/joints_in_chain",
-                "one entry per joint of urdf_module is needed",
-            )
-            .expected(format!("{} joints", robot.joints.len()))
-            .actual(format!("{} joints", chain.joints.len())),
-        );
-        return;
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let tree = context.tree()?;
+    let chain = context.chain()?;
+    let module = context.module(ModuleKind::Chain)?;
+    let (right, written) = (robot.joints.len(), chain.joints.len());
+    if right != written {
+        let message = "one entry per joint of urdf_module is needed";
+        Finding::of(module, "/joints_in_chain", message)
+            .expected(format!("{right} joints"))
+            .actual(format!("{written} joints"))
+            .report(findings);
+        return Some(());
     }
     let right = robot.joints.iter().zip(&tree.joint_links);
     for (index, (joint, (right, (parent, child)))) in chain.joints.iter().zip(right).enumerate() {
         let mut expect = |key: &str, right: String, written: String| {
             if right != written {
-                findings.report(
-                    Finding::at(
-                        &file,
-                        format!("/joints_in_chain/{index}/{key}"),
-                        format!("this is not what urdf_module says of joint {index}"),
-                    )
-                    .expected(right)
-                    .actual(written),
-                );
+                let pointer = format!("/joints_in_chain/{index}/{key}");
+                let message = format!("this is not what urdf_module says of joint {index}");
+                let finding = Finding::of(module, pointer, message);
+                findings.report(finding.expected(right).actual(written));
             }
         };
-        let quoted = |name: &str| format!("{name:?}");
-        expect("joint_name", quoted(&right.name), quoted(joint.joint_name));
-        expect("joint_idx", index.to_string(), joint.joint_idx.to_string());
-        for (keys, right_name, right_idx, name, idx) in [
-            (
-                ["parent_link_name", "parent_link_idx"],
-                &right.parent,
-                parent,
-                joint.parent_link_name,
-                joint.parent_link_idx,
-            ),
-            (
-                ["child_link_name", "child_link_idx"],
-                &right.child,
-                child,
-                joint.child_link_name,
-                joint.child_link_idx,
-            ),
-        ] {
-            expect(keys[0], quoted(right_name), quoted(name));
-            expect(keys[1], right_idx.to_string(), idx.to_string());
-        }
+        let mut name = |key, right: &str, written: &str| {
+            expect(key, format!("{right:?}"), format!("{written:?}"));
+        };
+        name("joint_name", &right.name, joint.joint_name);
+        name("parent_link_name", &right.parent, joint.parent_link_name);
+        name("child_link_name", &right.child, joint.child_link_name);
+        let mut idx = |key, right: usize, written: usize| {
+            expect(key, right.to_string(), written.to_string());
+        };
+        idx("joint_idx", index, joint.joint_idx.get());
+        idx("parent_link_idx", *parent, joint.parent_link_idx.get());
+        idx("child_link_idx", *child, joint.child_link_idx.get());
     }
+    Some(())
 }

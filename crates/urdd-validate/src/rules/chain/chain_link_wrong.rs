@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// `links_in_chain` does not hold the links of `urdf_module`, in their order.
@@ -13,52 +10,36 @@ declare_rule! {
     /// the robot has changed since, write `chain_module` and what depends on it again.
     CHN001 "chain-link-wrong", Error, clause "6.3.1", since "0.1.0",
     phase References, needs [Module(Kind::Chain), ROBOT_SOUND],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(chain), Some(module)) = (
-        context.robot(),
-        context.chain(),
-        context.module(ModuleKind::Chain),
-    ) else {
-        return;
-    };
-    let file = module.file("module.json");
-    if chain.links.len() != robot.links.len() {
-        findings.report(
-            Finding::at(
-                &file,
-                "/links_in_chain",
-                "one entry per link of urdf_module is needed",
-            )
-            .expected(format!("{} links", robot.links.len()))
-            .actual(format!("{} links", chain.links.len())),
-        );
-        return;
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let chain = context.chain()?;
+    let module = context.module(ModuleKind::Chain)?;
+    let (right, written) = (robot.links.len(), chain.links.len());
+    if right != written {
+        let message = "one entry per link of urdf_module is needed";
+        Finding::of(module, "/links_in_chain", message)
+            .expected(format!("{right} links"))
+            .actual(format!("{written} links"))
+            .report(findings);
+        return Some(());
     }
     for (index, (link, right)) in chain.links.iter().zip(&robot.links).enumerate() {
         if link.name != right.name {
-            findings.report(
-                Finding::at(
-                    &file,
-                    format!("/links_in_chain/{index}/name"),
-                    format!("this is not the name of link {index} of urdf_module"),
-                )
+            let pointer = format!("/links_in_chain/{index}/name");
+            let message = format!("this is not the name of link {index} of urdf_module");
+            Finding::of(module, pointer, message)
                 .expected(format!("{:?}", right.name))
-                .actual(format!("{:?}", link.name)),
-            );
+                .actual(format!("{:?}", link.name))
+                .report(findings);
         }
         if link.link_idx.get() != index {
-            findings.report(
-                Finding::at(
-                    &file,
-                    format!("/links_in_chain/{index}/link_idx"),
-                    "`link_idx` is not the link's place in this list",
-                )
-                .expected(index)
-                .actual(link.link_idx),
-            );
+            let pointer = format!("/links_in_chain/{index}/link_idx");
+            let message = "`link_idx` is not the link's place in this list";
+            let finding = Finding::of(module, pointer, message);
+            findings.report(finding.expected(index).actual(link.link_idx));
         }
     }
+    Some(())
 }

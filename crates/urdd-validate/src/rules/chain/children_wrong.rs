@@ -1,8 +1,5 @@
 use super::list;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::{ModuleKind, Profile};
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A link's child joints or child links are not those that the robot's joints give it.
@@ -15,61 +12,48 @@ declare_rule! {
     /// do.
     CHN004 "children-wrong", Error, clause "6.3.2", since "0.1.0",
     phase References, needs [Passed(CHN002)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(tree), Some(chain), Some(module)) = (
-        context.tree(),
-        context.chain(),
-        context.module(ModuleKind::Chain),
-    ) else {
-        return;
-    };
-    let any_order = module
-        .spec
-        .is_some_and(|spec| spec.profile == Profile::Legacy);
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let tree = context.tree()?;
+    let chain = context.chain()?;
+    let module = context.module(ModuleKind::Chain)?;
+    let any_order = is_legacy(module);
     for (index, (link, joints)) in chain.links.iter().zip(&tree.child_joints).enumerate() {
-        let mut links: Vec<usize> = joints
+        let links = joints
             .iter()
-            .filter_map(|joint| tree.joint_links.get(*joint))
-            .map(|(_, child)| *child)
-            .collect();
+            .filter_map(|joint| tree.joint_links.get(*joint));
+        let mut links: Vec<usize> = links.map(|(_, child)| *child).collect();
         links.sort_unstable();
         let written_joints = link.children_joint_idxs.iter().map(|joint| joint.get());
         let written_links = link.children_link_idxs.iter().map(|link| link.get());
-        for (key, right, mut written) in [
-            (
-                "children_joint_idxs",
-                joints.as_slice(),
-                written_joints.collect::<Vec<_>>(),
-            ),
-            ("children_link_idxs", &links, written_links.collect()),
-        ] {
+        let (written_joints, written_links) = (written_joints.collect(), written_links.collect());
+        let lists: [(&str, &Vec<usize>, Vec<usize>); 2] = [
+            ("children_joint_idxs", joints, written_joints),
+            ("children_link_idxs", &links, written_links),
+        ];
+        for (key, right, mut written) in lists {
             if any_order {
                 written.sort_unstable();
             }
-            if right != written {
-                let place = right.iter().zip(&written).position(|(a, b)| a != b);
-                let pointer = match place {
-                    Some(place) if right.len() == written.len() && !any_order => {
-                        format!("/links_in_chain/{index}/{key}/{place}")
-                    }
-                    _ => format!("/links_in_chain/{index}/{key}"),
-                };
-                findings.report(
-                    Finding::at(
-                        module.file("module.json"),
-                        pointer,
-                        format!(
-                            "these are not the children of link {index} ({:?}) by the joints of urdf_module",
-                            link.name
-                        ),
-                    )
-                    .expected(list(right))
-                    .actual(list(&written)),
-                );
+            if *right == written {
+                continue;
             }
+            let mut pointer = format!("/links_in_chain/{index}/{key}");
+            let place = right.iter().zip(&written).position(|(a, b)| a != b);
+            if let Some(place) = place
+                && right.len() == written.len()
+                && !any_order
+            {
+                pointer += &format!("/{place}");
+            }
+            let message = format!(
+                "these are not the children of link {index} ({:?}) by the joints of urdf_module",
+                link.name
+            );
+            let finding = Finding::of(module, pointer, message);
+            findings.report(finding.expected(list(right)).actual(list(&written)));
         }
     }
+    Some(())
 }

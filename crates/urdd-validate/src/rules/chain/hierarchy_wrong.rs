@@ -1,8 +1,5 @@
 use super::list;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::{ModuleKind, Profile};
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// `kinematic_hierarchy` is not the links by their distance from the root.
@@ -15,49 +12,34 @@ declare_rule! {
     /// in any order); level 0 is the root alone, and every link is on exactly one level.
     CHN005 "hierarchy-wrong", Error, clause "6.3.3", since "0.1.0",
     phase References, needs [Passed(CHN002)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(tree), Some(chain), Some(module)) = (
-        context.tree(),
-        context.chain(),
-        context.module(ModuleKind::Chain),
-    ) else {
-        return;
-    };
-    let any_order = module
-        .spec
-        .is_some_and(|spec| spec.profile == Profile::Legacy);
-    let file = module.file("module.json");
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let tree = context.tree()?;
+    let chain = context.chain()?;
+    let module = context.module(ModuleKind::Chain)?;
     let levels = tree.levels();
     if levels.len() != chain.hierarchy.len() {
-        findings.report(
-            Finding::at(
-                &file,
-                "/kinematic_hierarchy",
-                "the tree of urdf_module has another number of levels",
-            )
+        let message = "the tree of urdf_module has another number of levels";
+        Finding::of(module, "/kinematic_hierarchy", message)
             .expected(format!("{} levels", levels.len()))
-            .actual(format!("{} levels", chain.hierarchy.len())),
-        );
-        return;
+            .actual(format!("{} levels", chain.hierarchy.len()))
+            .report(findings);
+        return Some(());
     }
     for (depth, (right, written)) in levels.iter().zip(chain.hierarchy).enumerate() {
         let mut written: Vec<usize> = written.iter().map(|link| link.get()).collect();
-        if any_order {
+        if is_legacy(module) {
             written.sort_unstable();
         }
         if *right != written {
-            findings.report(
-                Finding::at(
-                    &file,
-                    format!("/kinematic_hierarchy/{depth}"),
-                    format!("these are not the links of level {depth} (so many joints from the root), ascending"),
-                )
-                .expected(list(right))
-                .actual(list(&written)),
+            let pointer = format!("/kinematic_hierarchy/{depth}");
+            let message = format!(
+                "these are not the links of level {depth} (so many joints from the root), ascending"
             );
+            let finding = Finding::of(module, pointer, message);
+            findings.report(finding.expected(list(right)).actual(list(&written)));
         }
     }
+    Some(())
 }

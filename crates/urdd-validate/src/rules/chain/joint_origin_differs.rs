@@ -1,15 +1,7 @@
 use nalgebra::Vector3;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::skip::SkipReason;
-use crate::tolerance::{
-    POSITION_OF_REACH, ROTATION, UNIT_NORM, angle_of_distance, reach, rotation_distance,
-};
+use crate::rules::prelude::*;
 use urdd_document::pose::rotation_of_quaternion;
-use urdd_format::readable::number;
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// `origin` of a joint is not the URDF's.
@@ -21,39 +13,31 @@ declare_rule! {
     /// with w first, or from URDF 1.1 on that of `quat_xyzw` (w last). Common mistakes: x, y, z, w instead of w, x, y, z; the inverse rotation; roll,
     /// pitch and yaw taken about moving axes; numbers that went through 32-bit floats.
     CHN008 "joint-origin-differs", Error, clause "6.3.4", since "0.1.0",
-    phase References, needs [Version1, Passed(CHN002)],
-    check check,
+    phase References, needs [Version1, Passed(CHN002), ModuleV1(Kind::Chain)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(tree), Some(chain), Some(module)) = (
-        context.robot(),
-        context.tree(),
-        context.chain().and_then(|chain| chain.v1),
-        context.module(ModuleKind::Chain),
-    ) else {
-        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Chain));
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let tree = context.tree()?;
+    let chain = context.chain()?.v1?;
+    let module = context.module(ModuleKind::Chain)?;
     let position_tolerance = POSITION_OF_REACH * reach(robot, tree);
     for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
         let origin = &joint.origin;
         let offset = (Vector3::from(origin.position) - Vector3::from(right.origin.xyz)).norm();
         if !within(offset, position_tolerance) {
-            findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/joints_in_chain/{index}/origin/position"),
-                    format!(
-                        "joint {index} ({:?}) is {} m from its position in urdf_module",
-                        right.name,
-                        number(offset, 4)
-                    ),
-                )
+            let pointer = format!("/joints_in_chain/{index}/origin/position");
+            let message = format!(
+                "joint {index} ({:?}) is {} m from its position in urdf_module",
+                right.name,
+                number(offset, 4)
+            );
+            Finding::of(module, pointer, message)
                 .expected(format!("{:?}", right.origin.xyz))
                 .actual(format!("{:?}", origin.position))
                 .tolerance(position_tolerance)
-                .off_by(offset, "m"),
-            );
+                .off_by(offset, "m")
+                .report(findings);
         }
         // CHN010 reports a quaternion of another length.
         let unit = origin.quaternion_wxyz;
@@ -77,25 +61,22 @@ fn check(context: &Context, findings: &mut Findings) {
                     number(angle_of_distance(distance), 4)
                 ),
             };
-            findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/joints_in_chain/{index}/origin/quaternion_wxyz"),
-                    message,
-                )
+            let pointer = format!("/joints_in_chain/{index}/origin/quaternion_wxyz");
+            Finding::of(module, pointer, message)
                 .expected(match right.origin.quat_xyzw {
                     Some(xyzw) => format!("the rotation of quat_xyzw {xyzw:?}"),
                     None => format!("the rotation of rpy {:?}", right.origin.rpy),
                 })
                 .actual(format!("{:?}", origin.quaternion_wxyz))
                 .tolerance(ROTATION)
-                .off_by(angle_of_distance(distance), "rad"),
-            );
+                .off_by(angle_of_distance(distance), "rad")
+                .report(findings);
         }
     }
+    Some(())
 }
 
-/// Whether a distance is within a tolerance; what is not a number is not.
+/// Whether a distance is within a tolerance; NaN is not.
 fn within(distance: f64, tolerance: f64) -> bool {
     distance <= tolerance
 }

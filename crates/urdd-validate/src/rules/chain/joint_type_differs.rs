@@ -1,8 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::skip::SkipReason;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// `joint_type` of a joint is not the URDF's.
@@ -14,32 +10,23 @@ declare_rule! {
     /// Copy the type from `urdf_module`. (A joint without limits that turns is still `Revolute` if the
     /// URDF says so.)
     CHN007 "joint-type-differs", Error, clause "6.3.4", since "0.1.0",
-    phase References, needs [Version1, Passed(CHN002)],
-    check check,
+    phase References, needs [Version1, Passed(CHN002), ModuleV1(Kind::Chain)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(chain), Some(module)) = (
-        context.robot(),
-        context.chain().and_then(|chain| chain.v1),
-        context.module(ModuleKind::Chain),
-    ) else {
-        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Chain));
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let chain = context.chain()?.v1?;
+    let module = context.module(ModuleKind::Chain)?;
     for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
         if joint.joint_type != right.joint_type {
-            findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/joints_in_chain/{index}/joint_type"),
-                    format!(
-                        "joint {index} ({:?}) is of another type in urdf_module",
-                        right.name
-                    ),
-                )
+            let name = &right.name;
+            let pointer = format!("/joints_in_chain/{index}/joint_type");
+            let message = format!("joint {index} ({name:?}) is of another type in urdf_module");
+            Finding::of(module, pointer, message)
                 .expected(right.joint_type)
-                .actual(joint.joint_type),
-            );
+                .actual(joint.joint_type)
+                .report(findings);
         }
     }
+    Some(())
 }

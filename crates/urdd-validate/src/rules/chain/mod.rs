@@ -14,25 +14,11 @@ mod parent_wrong;
 mod quaternion_not_canonical;
 mod root_wrong;
 
-use crate::rule::Rule;
+use crate::rule::rules;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &chain_link_wrong::RULE,
-    &chain_joint_wrong::RULE,
-    &parent_wrong::RULE,
-    &children_wrong::RULE,
-    &hierarchy_wrong::RULE,
-    &root_wrong::RULE,
-    &joint_type_differs::RULE,
-    &joint_origin_differs::RULE,
-    &joint_axis_wrong::RULE,
-    &quaternion_not_canonical::RULE,
-];
-
-/// An index that may be absent, as a report has it.
-fn or_null(index: Option<usize>) -> String {
-    index.map_or_else(|| "null".to_owned(), |index| index.to_string())
+rules! {
+    chain_joint_wrong, chain_link_wrong, children_wrong, hierarchy_wrong, joint_axis_wrong,
+    joint_origin_differs, joint_type_differs, parent_wrong, quaternion_not_canonical, root_wrong
 }
 
 /// A list of indices, as a report has it: cut where it is long.

@@ -1,8 +1,4 @@
-use super::or_null;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A link's parent joint or parent link is not the one that the robot's joints give it.
@@ -14,45 +10,30 @@ declare_rule! {
     /// both are null for the root, and only for it.
     CHN003 "parent-wrong", Error, clause "6.3.2", since "0.1.0",
     phase References, needs [Passed(CHN002)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(tree), Some(chain), Some(module)) = (
-        context.tree(),
-        context.chain(),
-        context.module(ModuleKind::Chain),
-    ) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let tree = context.tree()?;
+    let chain = context.chain()?;
+    let module = context.module(ModuleKind::Chain)?;
     let parents = tree.parent_joint.iter().zip(&tree.parent_link);
     for (index, (link, (joint, parent))) in chain.links.iter().zip(parents).enumerate() {
+        let written_joint = link.parent_joint_idx.map(|joint| joint.get());
+        let written_link = link.parent_link_idx.map(|link| link.get());
         for (key, right, written) in [
-            (
-                "parent_joint_idx",
-                *joint,
-                link.parent_joint_idx.map(|joint| joint.get()),
-            ),
-            (
-                "parent_link_idx",
-                *parent,
-                link.parent_link_idx.map(|link| link.get()),
-            ),
+            ("parent_joint_idx", *joint, written_joint),
+            ("parent_link_idx", *parent, written_link),
         ] {
             if right != written {
-                findings.report(
-                    Finding::at(
-                        module.file("module.json"),
-                        format!("/links_in_chain/{index}/{key}"),
-                        format!(
-                            "this is not the parent of link {index} ({:?}) by the joints of urdf_module",
-                            link.name
-                        ),
-                    )
-                    .expected(or_null(right))
-                    .actual(or_null(written)),
+                let pointer = format!("/links_in_chain/{index}/{key}");
+                let message = format!(
+                    "this is not the parent of link {index} ({:?}) by the joints of urdf_module",
+                    link.name
                 );
+                let finding = Finding::of(module, pointer, message);
+                findings.report(finding.expected(or_null(right)).actual(or_null(written)));
             }
         }
     }
+    Some(())
 }

@@ -1,10 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::skip::SkipReason;
-use crate::tolerance::{ROTATION, UNIT_NORM, rotation_distance};
+use crate::rules::prelude::*;
 use urdd_document::pose::rotation_of_quaternion;
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// A joint's quaternion is not of length 1, or is the negative of the one to write.
@@ -15,26 +10,17 @@ declare_rule! {
     /// Divide the quaternion by its length. Then negate it if w is negative, or if w is 0 and the first of
     /// x, y, z that is not 0 is negative.
     CHN010 "quaternion-not-canonical", Error, clause "6.3.4", since "0.1.0",
-    phase References, consequence Format, needs [Version1, Module(Kind::Chain)],
-    check check,
+    phase References, consequence Format, needs [Version1, ModuleV1(Kind::Chain)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(chain), Some(module)) = (
-        context.chain().and_then(|chain| chain.v1),
-        context.module(ModuleKind::Chain),
-    ) else {
-        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Chain));
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let chain = context.chain()?.v1?;
+    let module = context.module(ModuleKind::Chain)?;
     for (index, joint) in chain.joints_in_chain.iter().enumerate() {
         let quaternion = joint.origin.quaternion_wxyz;
         let at = |message: &str| {
-            Finding::at(
-                module.file("module.json"),
-                format!("/joints_in_chain/{index}/origin/quaternion_wxyz"),
-                message,
-            )
-            .actual(format!("{quaternion:?}"))
+            let pointer = format!("/joints_in_chain/{index}/origin/quaternion_wxyz");
+            Finding::of(module, pointer, message).actual(format!("{quaternion:?}"))
         };
         let norm = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
         if (norm - 1.0).abs() > UNIT_NORM {
@@ -47,10 +33,10 @@ fn check(context: &Context, findings: &mut Findings) {
             findings.report(at(message).expected(format!("{negated:?}")));
         }
     }
+    Some(())
 }
 
-/// Whether it is not the rotation of the joint's origin: CHN008 reports that, and negating the
-/// numbers would not help.
+/// Whether it is another rotation than that of the joint's origin: CHN008 reports that, and negating it would not help.
 fn is_other_rotation(context: &Context, index: usize, quaternion: [f64; 4]) -> bool {
     let joint = context.robot().and_then(|robot| robot.joints.get(index));
     joint.is_some_and(|joint| {
@@ -59,12 +45,10 @@ fn is_other_rotation(context: &Context, index: usize, quaternion: [f64; 4]) -> b
     })
 }
 
-/// Whether the first number that is not 0 is negative.
+/// Whether the first non-zero number is negative.
 fn is_negative(quaternion: &[f64]) -> bool {
-    quaternion
-        .iter()
-        .find(|x| **x != 0.0)
-        .is_some_and(|x| *x < 0.0)
+    let mut numbers = quaternion.iter();
+    numbers.find(|x| **x != 0.0).is_some_and(|x| *x < 0.0)
 }
 
 #[cfg(test)]

@@ -1,34 +1,28 @@
 use super::subject;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_format::composition::CompositionPart;
 
 declare_rule! {
-    /// A part of a composed robot does not hang on what `composition_module` says.
+    /// A part of a composed robot is not attached where `composition_module` says.
     ///
-    /// The joints of a part connect its own links; one joint more hangs it on a link of another part, or on
-    /// the base. A program that takes a part off, or puts another in its place, cuts the robot at the wrong
-    /// joint.
+    /// The joints of a part connect its own links; one more joint attaches it to a link of another part, or to the
+    /// base. A program that takes a part off, or puts another in its place, cuts the robot at the wrong joint.
     ///
     /// Name the joint above the part's root link, the link that carries that joint, and the part which has this
     /// link.
     CMP005 "composition-attachment-wrong", Error, clause "6.6.5", since "0.2.0",
     phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND, Passed(CMP001), Passed(CMP003)],
-    check check,
 }
 
 fn has(part: &CompositionPart, link: usize) -> bool {
     part.links.iter().any(|of| of.link_idx.get() == link)
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some((module, composition, robot)) = subject(context) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (module, composition, robot) = subject(context)?;
     let parts = &composition.parts;
     let mut report = |pointer: String, message: &str| {
-        findings.report(Finding::at(module.file("module.json"), pointer, message));
+        Finding::of(module, pointer, message).report(findings);
     };
     let ends = |joint: usize| {
         let joint = &robot.joints[joint];
@@ -54,18 +48,14 @@ fn check(context: &Context, findings: &mut Findings) {
         };
         let at = |key: &str| format!("/parts/{place}/attachment/{key}");
         if !is_there {
-            report(
-                at("link_idx"),
-                "the link is not of the part that is named, or not the base",
-            );
+            let message = "the link is not of the part that is named, or not the base";
+            report(at("link_idx"), message);
         } else if parent != link {
             report(at("link_idx"), "the joint does not sit on this link");
         }
         if !has(part, child) {
-            report(
-                at("joint_idx"),
-                "the joint does not move a link of the part",
-            );
+            let message = "the joint does not move a link of the part";
+            report(at("joint_idx"), message);
         }
     }
     let roots = parts
@@ -74,14 +64,9 @@ fn check(context: &Context, findings: &mut Findings) {
         .count();
     let expected = usize::from(composition.base.is_none());
     if roots != expected {
-        findings.report(
-            Finding::at(
-                module.file("module.json"),
-                "/parts",
-                "one part hangs on nothing, or none where there is a base",
-            )
-            .expected(expected)
-            .actual(roots),
-        );
+        let message = "one part hangs on nothing, or none where there is a base";
+        let finding = Finding::of(module, "/parts", message);
+        findings.report(finding.expected(expected).actual(roots));
     }
+    Some(())
 }

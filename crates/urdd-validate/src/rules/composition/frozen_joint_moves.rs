@@ -1,34 +1,27 @@
 use super::subject;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_format::urdf::JointType;
 
 declare_rule! {
     /// A joint that was made fixed, as `composition_module` says, moves, is of another part, or is listed twice.
     ///
-    /// Who reads that a joint was frozen does not expect a DOF of it, and looks for none. Who sets it free again puts it
-    /// where `position` says, a value for each DOF that it had.
+    /// A program that reads that a joint was frozen expects no DOF of it. One that frees the joint again puts it at
+    /// `position`, a value for each DOF that it had.
     ///
-    /// List the part's own joints that moved in it and are fixed here, each once and in ascending order, and no others. A
-    /// joint of one DOF has one value, a planar or spherical one three, a floating one six.
+    /// List the part's own joints that moved in it and are fixed here, each once and in ascending order, and no others.
+    /// A joint of one DOF has one value, a planar or spherical one three, a floating one six.
     CMP006 "composition-frozen-joint-moves", Error, clause "6.6.6", since "0.2.0",
     phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND, Passed(CMP001), Passed(CMP003)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some((module, composition, robot)) = subject(context) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (module, composition, robot) = subject(context)?;
     for (place, part) in composition.parts.iter().enumerate() {
         let mut before = None;
         for (idx, frozen) in part.frozen_joints.iter().enumerate() {
             let joint = &robot.joints[frozen.joint_idx.get()];
-            let is_own = part
-                .joints
-                .iter()
-                .any(|of| of.joint_idx == frozen.joint_idx);
+            let mut own = part.joints.iter().map(|of| of.joint_idx);
+            let is_own = own.any(|own| own == frozen.joint_idx);
             let ascends = before < Some(frozen.joint_idx);
             before = Some(frozen.joint_idx);
             let message = match (is_own, joint.joint_type, ascends) {
@@ -39,21 +32,17 @@ fn check(context: &Context, findings: &mut Findings) {
             };
             let at = |key: &str| format!("/parts/{place}/frozen_joints/{idx}/{key}");
             if let Some(message) = message {
-                findings.report(
-                    Finding::at(module.file("module.json"), at("joint_idx"), message)
-                        .expected("a fixed joint of the part, after the one before")
-                        .actual(format!("joint `{}`, {}", joint.name, joint.joint_type)),
-                );
+                Finding::of(module, at("joint_idx"), message)
+                    .expected("a fixed joint of the part, after the one before")
+                    .actual(format!("joint `{}`, {}", joint.name, joint.joint_type))
+                    .report(findings);
             }
             let values = frozen.position.len();
             if !matches!(values, 1 | 3 | 6) {
-                let message = "no joint has so many DOFs";
-                findings.report(
-                    Finding::at(module.file("module.json"), at("position"), message)
-                        .expected("1, 3 or 6 values")
-                        .actual(values),
-                );
+                let finding = Finding::of(module, at("position"), "no joint has so many DOFs");
+                findings.report(finding.expected("1, 3 or 6 values").actual(values));
             }
         }
     }
+    Some(())
 }

@@ -1,7 +1,5 @@
 use super::subject;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// `composition_module` names a link, a joint or a part that is not there.
@@ -12,21 +10,14 @@ declare_rule! {
     /// Write the module again, from the robot as it is now.
     CMP001 "composition-index-out-of-range", Error, clause "6.6.2", since "0.2.0",
     phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some((module, composition, robot)) = subject(context) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (module, composition, robot) = subject(context)?;
     let mut judge = |pointer: String, what: &str, index: usize, count: usize| {
         if index >= count {
-            let message = format!("there is no such {what}");
-            findings.report(
-                Finding::at(module.file("module.json"), pointer, message)
-                    .expected(format!("below {count}"))
-                    .actual(index),
-            );
+            let finding = Finding::of(module, pointer, format!("there is no such {what}"));
+            findings.report(finding.expected(format!("below {count}")).actual(index));
         }
     };
     let (links, joints) = (robot.links.len(), robot.joints.len());
@@ -57,4 +48,5 @@ fn check(context: &Context, findings: &mut Findings) {
             }
         }
     }
+    Some(())
 }

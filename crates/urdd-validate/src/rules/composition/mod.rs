@@ -7,28 +7,19 @@ mod not_one_to_one;
 mod part_ids;
 mod renamed_otherwise;
 
-use crate::context::Context;
-use crate::rule::Rule;
-use urdd_document::module::Module;
+use crate::rule::rules;
+use crate::rules::prelude::*;
 use urdd_document::robot::Robot;
 use urdd_format::composition::CompositionModule;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &index_out_of_range::RULE,
-    &part_ids::RULE,
-    &not_one_to_one::RULE,
-    &renamed_otherwise::RULE,
-    &attachment_wrong::RULE,
-    &frozen_joint_moves::RULE,
-];
+rules! {
+    attachment_wrong, frozen_joint_moves, index_out_of_range, not_one_to_one, part_ids,
+    renamed_otherwise
+}
 
-/// What every rule of this family looks at: the module, what it says, and the robot.
+/// The module, its document and the robot.
 fn subject(context: &Context) -> Option<(&Module, &CompositionModule, &Robot)> {
     let kind = ModuleKind::Composition;
-    let Some(ModuleDocument::Composition(composition)) = context.document(kind) else {
-        return None;
-    };
+    let composition = document!(context, Composition)?;
     Some((context.module(kind)?, composition, context.robot()?))
 }

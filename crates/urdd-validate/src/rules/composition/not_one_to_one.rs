@@ -1,12 +1,10 @@
 use std::collections::BTreeSet;
 
 use super::subject;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
-    /// `composition_module` does not say of every link and joint, once, where it came from.
+    /// `composition_module` does not say exactly once where each link and joint came from.
     ///
     /// Each link is one of a part, or that of the base; each joint is one of a part, or the one by which a
     /// part hangs on what carries it. A link that is in no part is left out where a program takes a part by
@@ -15,15 +13,12 @@ declare_rule! {
     /// List the links and joints of each part in ascending order, each in one part, and none of its names twice.
     CMP003 "composition-not-one-to-one", Error, clause "6.6.3", since "0.2.0",
     phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND, Passed(CMP001)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some((module, composition, robot)) = subject(context) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (module, composition, robot) = subject(context)?;
     let mut report = |pointer: String, message: String| {
-        findings.report(Finding::at(module.file("module.json"), pointer, message));
+        Finding::of(module, pointer, message).report(findings);
     };
     let mut links: Vec<u32> = vec![0; robot.links.len()];
     let mut joints: Vec<u32> = vec![0; robot.joints.len()];
@@ -31,50 +26,37 @@ fn check(context: &Context, findings: &mut Findings) {
         links[base.link_idx.get()] += 1;
     }
     for (place, part) in composition.parts.iter().enumerate() {
-        part.links
-            .iter()
-            .for_each(|of| links[of.link_idx.get()] += 1);
-        part.joints
-            .iter()
-            .for_each(|of| joints[of.joint_idx.get()] += 1);
+        for of in &part.links {
+            links[of.link_idx.get()] += 1;
+        }
+        for of in &part.joints {
+            joints[of.joint_idx.get()] += 1;
+        }
         if let Some(attachment) = &part.attachment {
             joints[attachment.joint_idx.get()] += 1;
         }
         let link_order = part.links.iter().map(|of| of.link_idx.get());
         let joint_order = part.joints.iter().map(|of| of.joint_idx.get());
-        let link_names = part.links.iter().map(|of| &of.name);
-        let joint_names = part.joints.iter().map(|of| &of.name);
-        let lists = [
+        let links: Vec<&String> = part.links.iter().map(|of| &of.name).collect();
+        let joints: Vec<&String> = part.joints.iter().map(|of| &of.name).collect();
+        for (key, order) in [
             ("links", link_order.collect::<Vec<_>>()),
             ("joints", joint_order.collect()),
-        ];
-        for (key, order) in lists {
+        ] {
             if let Some(at) = order.windows(2).position(|two| two[0] > two[1]) {
                 let pointer = format!("/parts/{place}/{key}/{}", at + 1);
                 report(pointer, format!("the {key} do not ascend"));
             }
         }
-        let names = [
-            (
-                "dropped_links",
-                link_names.collect::<Vec<_>>(),
-                &part.dropped_links,
-            ),
-            (
-                "dropped_joints",
-                joint_names.collect(),
-                &part.dropped_joints,
-            ),
-        ];
-        for (key, kept, dropped) in names {
+        for (key, kept, dropped) in [
+            ("dropped_links", links, &part.dropped_links),
+            ("dropped_joints", joints, &part.dropped_joints),
+        ] {
             let mut seen = BTreeSet::new();
             let mut all = kept.into_iter().chain(dropped);
             if let Some(name) = all.find(|name| !seen.insert(*name)) {
-                let pointer = format!("/parts/{place}/{key}");
-                report(
-                    pointer,
-                    format!("the part's name `{name}` stands here, and is listed before"),
-                );
+                let message = format!("the part's name `{name}` stands here, and is listed before");
+                report(format!("/parts/{place}/{key}"), message);
             }
         }
     }
@@ -88,10 +70,9 @@ fn check(context: &Context, findings: &mut Findings) {
                 0 => "in no part".to_owned(),
                 count => format!("listed {count} times"),
             };
-            report(
-                "/parts".to_owned(),
-                format!("{what} `{}` is {often}", names(idx)),
-            );
+            let message = format!("{what} `{}` is {often}", names(idx));
+            report("/parts".to_owned(), message);
         }
     }
+    Some(())
 }

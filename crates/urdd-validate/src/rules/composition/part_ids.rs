@@ -1,7 +1,5 @@
 use super::subject;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// The ids of a composed robot's parts do not tell them apart.
@@ -12,13 +10,10 @@ declare_rule! {
     /// Give each part an id of its own, without `/`.
     CMP002 "composition-part-ids", Error, clause "6.6.2", since "0.2.0",
     phase References, needs [Version1, Module(Kind::Composition), ROBOT_SOUND],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some((module, composition, _)) = subject(context) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (module, composition, _) = subject(context)?;
     let parts = &composition.parts;
     for (place, part) in parts.iter().enumerate() {
         let is_taken = parts[..place].iter().any(|before| before.id == part.id);
@@ -29,9 +24,9 @@ fn check(context: &Context, findings: &mut Findings) {
             () => continue,
         };
         let pointer = format!("/parts/{place}/id");
-        findings.report(
-            Finding::at(module.file("module.json"), pointer, message)
-                .actual(format!("`{}`", part.id)),
-        );
+        Finding::of(module, pointer, message)
+            .actual(format!("`{}`", part.id))
+            .report(findings);
     }
+    Some(())
 }

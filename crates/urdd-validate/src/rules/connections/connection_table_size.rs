@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A table of `connections_module` does not have one row per link, or a row not one entry per link.
@@ -13,26 +10,18 @@ declare_rule! {
     /// Write the module again from the robot as it is now.
     CON001 "connection-table-size", Error, clause "6.4.1", since "0.1.0",
     phase References, needs [Module(Kind::Connections), ROBOT_SOUND],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(connections), Some(module)) = (
-        context.robot(),
-        context.connections(),
-        context.module(ModuleKind::Connections),
-    ) else {
-        return;
-    };
-    let links = robot.links.len();
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let links = context.robot()?.links.len();
+    let connections = context.connections()?;
+    let module = context.module(ModuleKind::Connections)?;
     let mut tables: Vec<(&str, Vec<usize>)> = Vec::new();
     let mut lists: Vec<(&str, usize)> = Vec::new();
     if let Some(v1) = connections.v1 {
         lists.push(("root_paths", v1.root_paths.len()));
-        tables.push((
-            "lowest_common_ancestors",
-            lengths(&v1.lowest_common_ancestors),
-        ));
+        let ancestors = lengths(&v1.lowest_common_ancestors);
+        tables.push(("lowest_common_ancestors", ancestors));
         if let Some(paths) = &v1.link_to_link_paths {
             tables.push(("link_to_link_paths", lengths(paths)));
         }
@@ -41,44 +30,27 @@ fn check(context: &Context, findings: &mut Findings) {
         tables.push(("link_connection_paths", lengths(paths)));
     }
     lists.extend(tables.iter().map(|(name, rows)| (*name, rows.len())));
-
-    let file = module.file("module.json");
-    let wrong: Vec<&(&str, usize)> = lists.iter().filter(|(_, size)| *size != links).collect();
-    // A stale module is one mistake, though it shows in every table.
-    if let Some((first, size)) = wrong.first() {
-        let names: Vec<String> = wrong
-            .iter()
-            .map(|(name, size)| format!("`{name}` has {size}"))
-            .collect();
-        findings.report(
-            Finding::at(
-                &file,
-                format!("/{first}"),
-                format!(
-                    "one entry per link of urdf_module is needed: {}",
-                    names.join(", ")
-                ),
-            )
+    let mut report = |pointer: String, message: String, size: usize| {
+        Finding::of(module, pointer, message)
             .expected(format!("{links} entries"))
-            .actual(format!("{size} entries")),
-        );
-        return;
+            .actual(format!("{size} entries"))
+            .report(findings);
+    };
+    if let Some(wrong) = wrong_lengths(&lists, links) {
+        let all = wrong.in_words;
+        let message = format!("one entry per link of urdf_module is needed: {all}");
+        report(wrong.pointer, message, wrong.length);
+        return Some(());
     }
     for (name, rows) in &tables {
         for (row, size) in rows.iter().enumerate() {
             if *size != links {
-                findings.report(
-                    Finding::at(
-                        &file,
-                        format!("/{name}/{row}"),
-                        format!("row {row} does not have one entry per link"),
-                    )
-                    .expected(format!("{links} entries"))
-                    .actual(format!("{size} entries")),
-                );
+                let message = format!("row {row} does not have one entry per link");
+                report(format!("/{name}/{row}"), message, *size);
             }
         }
     }
+    Some(())
 }
 
 fn lengths<T>(rows: &[Vec<T>]) -> Vec<usize> {

@@ -1,11 +1,7 @@
-use super::Tally;
 use super::walk::{Ancestors, show_path};
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_document::tree::Tree;
 use urdd_format::index::LinkIdx;
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// An entry of `link_connection_paths` is not the way down from one link to another.
@@ -18,18 +14,13 @@ declare_rule! {
     /// j (included). Otherwise it is null.
     CON005 "descendant-path-wrong", Error, clause "6.4.5", since "0.1.0",
     phase References, needs [Passed(CON001)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(tree), Some(connections), Some(module)) = (
-        context.tree(),
-        context.connections(),
-        context.module(ModuleKind::Connections),
-    ) else {
-        return;
-    };
-    let mut tally = Tally::default();
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let tree = context.tree()?;
+    let connections = context.connections()?;
+    let module = context.module(ModuleKind::Connections)?;
+    let mut fold = Fold::new(findings);
     let mut ancestors = Ancestors::new(tree);
     let table = connections.descendant_paths.into_iter().flatten();
     for (i, row) in table.enumerate() {
@@ -38,24 +29,23 @@ fn check(context: &Context, findings: &mut Findings) {
             let Some((place, right, written)) = fault(tree, i, j, below, path.as_deref()) else {
                 continue;
             };
-            tally.wrong(|| {
+            fold.add(|| {
                 let message = match below {
                     true if i == j => "the path of a link to itself is that link alone".to_owned(),
                     true => format!("this is not the path from link {i} down to link {j}"),
                     false => format!("link {j} is not below link {i}; write null"),
                 };
                 let pointer = format!("/link_connection_paths/{i}/{j}{place}");
-                Finding::at(module.file("module.json"), pointer, message)
-                    .expected(right)
-                    .actual(written)
+                let finding = Finding::of(module, pointer, message);
+                finding.expected(right).actual(written)
             });
         }
     }
-    tally.report(findings);
+    Some(())
 }
 
-/// Where the entry differs from the way down from link `i` to link `j`: the place below it, and what
-/// should be and is there.
+/// The first difference of an entry from the path down from link `i` to link `j`: pointer below the entry, expected and
+/// actual value.
 fn fault(
     tree: &Tree,
     i: usize,

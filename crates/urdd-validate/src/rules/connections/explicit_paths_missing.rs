@@ -1,15 +1,11 @@
 use super::walk::Ancestors;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::skip::SkipReason;
+use crate::rules::prelude::*;
 use urdd_document::tree::Tree;
-use urdd_format::registry::ModuleKind;
 
-/// Up to this many links the explicit tables must be there (SPEC 6.4.6): some 90,000 paths.
+/// Up to this many links, the explicit tables are required (SPEC 6.4.6): some 90,000 paths.
 const EXPLICIT_UP_TO: usize = 300;
 
-/// Unless the paths of all pairs hold more links than this together.
+/// Unless the paths of all pairs have more links than this in total.
 const LINKS_IN_PATHS_UP_TO: usize = 2_000_000;
 
 declare_rule! {
@@ -22,53 +18,41 @@ declare_rule! {
     /// Write both tables. They may be null above 300 links, and where the paths of all pairs hold more
     /// than 2,000,000 links together, as those of a line of 181 links do.
     CON006 "explicit-paths-missing", Error, clause "6.4.6", since "0.1.0",
-    phase References, needs [Version1, Module(Kind::Connections), ROBOT_SOUND],
-    check check,
+    phase References, needs [Version1, ModuleV1(Kind::Connections), ROBOT_SOUND],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(tree), Some(connections), Some(module)) = (
-        context.tree(),
-        context.connections().and_then(|connections| connections.v1),
-        context.module(ModuleKind::Connections),
-    ) else {
-        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Connections));
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let tree = context.tree()?;
+    let connections = context.connections()?.v1?;
+    let module = context.module(ModuleKind::Connections)?;
     let links = tree.parent_link.len();
     if links > EXPLICIT_UP_TO {
-        return;
+        return Some(());
     }
     let in_paths = links_in_paths(tree);
     if in_paths > LINKS_IN_PATHS_UP_TO {
-        return;
+        return Some(());
     }
+    let missing = connections.link_to_link_paths.is_none();
+    let descendants_missing = connections.link_connection_paths.is_none();
     for (name, missing) in [
-        (
-            "link_to_link_paths",
-            connections.link_to_link_paths.is_none(),
-        ),
-        (
-            "link_connection_paths",
-            connections.link_connection_paths.is_none(),
-        ),
+        ("link_to_link_paths", missing),
+        ("link_connection_paths", descendants_missing),
     ] {
         if missing {
-            findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/{name}"),
-                    format!(
-                        "this table may be null only above {EXPLICIT_UP_TO} links, or where the paths of all pairs have more than {LINKS_IN_PATHS_UP_TO} links; this robot has {links}, and {in_paths} in the paths"
-                    ),
-                )
-                .expected(format!("{links} x {links} paths"))
-                .actual("null"),
+            let message = format!(
+                "this table may be null only above {EXPLICIT_UP_TO} links, or where the paths of all pairs have more than {LINKS_IN_PATHS_UP_TO} links; this robot has {links}, and {in_paths} in the paths"
             );
+            Finding::of(module, format!("/{name}"), message)
+                .expected(format!("{links} x {links} paths"))
+                .actual("null")
+                .report(findings);
         }
     }
+    Some(())
 }
 
-/// How many links the paths of all pairs hold: each climbs to the common ancestor and goes down from it.
+/// Total number of links in the paths of all pairs, each up to the common ancestor and down from it.
 fn links_in_paths(tree: &Tree) -> usize {
     let depth = &tree.depth;
     let mut ancestors = Ancestors::new(tree);

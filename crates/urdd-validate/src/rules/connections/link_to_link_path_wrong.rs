@@ -1,10 +1,5 @@
-use super::Tally;
 use super::walk::{Ancestors, path_fault};
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::skip::SkipReason;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A path of `link_to_link_paths` is not the path between its two links.
@@ -16,35 +11,27 @@ declare_rule! {
     /// common ancestor; `joints` are those between the links, one fewer. Element (j, i) is the same
     /// backwards.
     CON004 "link-to-link-path-wrong", Error, clause "6.4.4", since "0.1.0",
-    phase References, needs [Version1, Passed(CON001)],
-    check check,
+    phase References, needs [Version1, Passed(CON001), ModuleV1(Kind::Connections)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(tree), Some(connections), Some(module)) = (
-        context.tree(),
-        context.connections().and_then(|connections| connections.v1),
-        context.module(ModuleKind::Connections),
-    ) else {
-        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Connections));
-    };
-    let mut tally = Tally::default();
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let tree = context.tree()?;
+    let connections = context.connections()?.v1?;
+    let module = context.module(ModuleKind::Connections)?;
+    let mut fold = Fold::new(findings);
     let mut ancestors = Ancestors::new(tree);
     let table = connections.link_to_link_paths.iter().flatten();
     for (i, row) in table.enumerate() {
         for (j, (path, top)) in row.iter().zip(ancestors.row(i)).enumerate() {
             if let Some((place, right, written)) = path_fault(tree, (i, *top, j), path) {
-                tally.wrong(|| {
-                    Finding::at(
-                        module.file("module.json"),
-                        format!("/link_to_link_paths/{i}/{j}{place}"),
-                        format!("this is not the path from link {i} to link {j}"),
-                    )
-                    .expected(right)
-                    .actual(written)
+                fold.add(|| {
+                    let pointer = format!("/link_to_link_paths/{i}/{j}{place}");
+                    let message = format!("this is not the path from link {i} to link {j}");
+                    let finding = Finding::of(module, pointer, message);
+                    finding.expected(right).actual(written)
                 });
             }
         }
     }
-    tally.report(findings);
+    Some(())
 }

@@ -1,9 +1,9 @@
-//! Walking the kinematic tree: common ancestors row by row, and paths without making them.
+//! Walks the kinematic tree: computes common ancestors row by row, and checks paths without building them.
 
 use urdd_document::tree::Tree;
 use urdd_format::connections::LinkPath;
 
-/// Rows of the table of lowest common ancestors, each made in time proportional to its length.
+/// Rows of the table of lowest common ancestors, each computed in time proportional to its length.
 pub(super) struct Ancestors<'a> {
     tree: &'a Tree,
     above: Vec<bool>,
@@ -28,7 +28,7 @@ impl<'a> Ancestors<'a> {
             self.above[above] = true;
             next = self.tree.parent_link[above];
         }
-        // From the root downwards: what is above `link` is its own answer, what is not has its parent's.
+        // From the root downwards: an ancestor of `link` is its own answer, any other link has its parent's.
         for &other in &self.tree.order {
             self.row[other] = match self.tree.parent_link[other] {
                 Some(parent) if !self.above[other] => self.row[parent],
@@ -39,8 +39,8 @@ impl<'a> Ancestors<'a> {
     }
 }
 
-/// Where a path first differs from the path that the tree has from link `from` up to link `top` and
-/// down to link `to`: the place below the path, and what should be and is there.
+/// The first difference of a path from the tree's path from link `from` up to link `top` and down to link `to`: pointer
+/// below the path, expected and actual value.
 pub(super) fn path_fault(
     tree: &Tree,
     (from, top, to): (usize, usize, usize),
@@ -97,7 +97,7 @@ fn count(number: usize, what: &str) -> String {
     }
 }
 
-/// A path for people: its links where they are few, else the first and last, and how many.
+/// A path for messages: all links if they are few, otherwise the first and last, and their number.
 pub(super) fn show_path(links: &[usize]) -> String {
     const SHOWN: usize = 8;
     match links {

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_directory::path;
 use urdd_document::paths;
 
@@ -16,20 +14,18 @@ declare_rule! {
     /// `mesh_modules/plain_meshes_module/meshes/stl/0_base.stl`.
     DIR015 "bad-path", Error, clause "2.8", since "0.1.0",
     phase References, needs [Version1],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for path in paths::all(context) {
-        if path.from_parent() {
-            continue;
-        }
-        if let Err(fault) = path::check(path.path) {
-            findings.report(
-                Finding::at(path.file(), path.pointer.clone(), fault.to_string())
-                    .expected("a path relative to the URDD's root")
-                    .actual(format!("{:?}", path.path)),
-            );
+        if !path.from_parent()
+            && let Err(fault) = path::check(path.path)
+        {
+            Finding::at(path.file(), path.pointer.clone(), fault.to_string())
+                .expected("a path relative to the URDD's root")
+                .actual(format!("{:?}", path.path))
+                .report(findings);
         }
     }
+    Some(())
 }

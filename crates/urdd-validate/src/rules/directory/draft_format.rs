@@ -1,10 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_directory::discover::ROOT_METADATA;
+use crate::rules::prelude::*;
 use urdd_document::draft::SIMPLE_SKIPS_DEPENDENCIES;
-use urdd_document::entries;
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// The URDD follows a draft of the format, which `urdd` 0.1.0 or 0.2.0 wrote.
@@ -19,42 +14,35 @@ declare_rule! {
     /// your edits of the skips, and makes again only what has changed.
     DIR030 "draft-format", Error, clause "4.4", since "0.2.0",
     phase Files, needs [Version1],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let message = "this was written in the draft format of urdd 0.1.0: run `urdd generate` again \
-                   into this folder; edits of the skips are kept";
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let of_skips = "this was written in the draft format of urdd 0.1.0: run `urdd generate` again \
+                    into this folder; edits of the skips are kept";
     let of_model = "this was written in the draft format of urdd 0.2.0: run `urdd generate` again \
                     into this folder, with `--modules all,self_collision_model`";
-    for (kind, message, key) in [
-        (ModuleKind::SelfCollisionModel, of_model, "evaluation"),
-        (ModuleKind::LinkShapesSkips, message, "skipped_reasons"),
-    ] {
-        if let Some(module) = context.module(kind).filter(|module| module.is_draft) {
-            findings.report(
-                Finding::at(module.file("module.json"), "", message)
-                    .expected(format!("key {key}"))
-                    .actual("no such key"),
-            );
+    let mut is_draft = |kind, key: &str, message: &str| {
+        let module = context.module(kind).filter(|module| module.is_draft);
+        if let Some(module) = module {
+            let finding = Finding::of(module, "", message).actual("no such key");
+            findings.report(finding.expected(format!("key {key}")));
         }
-    }
-    let skips = context.module(ModuleKind::LinkShapesSkips);
-    if skips.is_some_and(|module| module.is_draft) {
-        return;
+        module.is_some()
+    };
+    is_draft(ModuleKind::SelfCollisionModel, "evaluation", of_model);
+    if is_draft(ModuleKind::LinkShapesSkips, "skipped_reasons", of_skips) {
+        return Some(());
     }
     let names = SIMPLE_SKIPS_DEPENDENCIES.map(ModuleKind::name);
+    let kind = ModuleKind::LinkShapesSimpleSkips;
     for entry in entries::all(context) {
         let stated = entry.entry.depends_on.iter().map(String::as_str);
-        if entry.kind == Some(ModuleKind::LinkShapesSimpleSkips) && stated.eq(names) {
-            let all = ModuleKind::LinkShapesSimpleSkips.depends_on().iter();
-            let all: Vec<&str> = all.map(|kind| kind.name()).collect();
-            findings.report(
-                Finding::at(ROOT_METADATA, entry.pointer("depends_on"), message)
-                    .expected(all.join(", "))
-                    .actual(names.join(", ")),
-            );
-            return;
+        if entry.kind == Some(kind) && stated.eq(names) {
+            let all: Vec<&str> = kind.depends_on().iter().map(|kind| kind.name()).collect();
+            let finding = Finding::of(&entry, "depends_on", of_skips);
+            findings.report(finding.expected(all.join(", ")).actual(names.join(", ")));
+            break;
         }
     }
+    Some(())
 }

@@ -2,15 +2,12 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings, KEPT_PLACES, Occurrence, Place};
-use crate::rule::declare_rule;
+use crate::finding::{KEPT_PLACES, Occurrence, Place};
+use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};
-use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::root::EntryKind;
+use urdd_document::paths;
 use urdd_format::root_metadata::{FileEntry, Source};
-
-use urdd_document::{entries, paths};
 
 declare_rule! {
     /// A file is not the one that `urdd.json` describes: its size or its SHA-256 differs.
@@ -23,11 +20,10 @@ declare_rule! {
     /// Bring the file back as it was, or write the modules that follow from it, and `urdd.json`, again.
     DIR014 "file-changed", Error, clause "2.7", since "0.1.0",
     phase Files, needs [Version1, RootMetadata],
-    check check,
 }
 
-/// Most bytes of one URDD that are hashed: a file of a terabyte, which costs its author nothing,
-/// must not keep a reader busy for an hour.
+/// Maximum number of bytes hashed in a URDD: a file of a terabyte, which costs its author nothing, must not keep a
+/// reader busy for an hour.
 const MAX_HASHED_BYTES: u64 = 64 << 30;
 
 struct Listed<'a> {
@@ -35,12 +31,12 @@ struct Listed<'a> {
     file: &'a FileEntry,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let listed = listed(context);
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let listed = listed(context)?;
     let mut left = MAX_HASHED_BYTES;
     let (mut to_read, mut too_large) = (Vec::new(), Vec::new());
     for listed in &listed {
-        // Of what is not there, or cannot be read, other rules report.
+        // Other rules report files that are missing or unreadable.
         let Ok(size) = entries::look(context, &listed.file.path) else {
             continue;
         };
@@ -80,38 +76,30 @@ fn check(context: &Context, findings: &mut Findings) {
             Change::Hash(actual) => ("sha256", listed.file.sha256.to_string(), actual.clone()),
             Change::LfsPointer | Change::LineEndings => continue,
         };
-        findings.report(
-            Finding::at(
-                ROOT_METADATA,
-                format!("{}/{key}", listed.pointer),
-                format!(
-                    "{} does not have the size and SHA-256 that are stated here: restore the file; if it is the right one, write again what follows from it and run `urdd rehash`",
-                    listed.file.path
-                ),
-            )
-            .expected(expected)
-            .actual(format!("{actual} ({})", listed.file.path)),
+        let pointer = format!("{}/{key}", listed.pointer);
+        let message = format!(
+            "{} does not have the size and SHA-256 that are stated here: restore the file; if it is the right one, write again what follows from it and run `urdd rehash`",
+            listed.file.path
         );
+        Finding::at(ROOT_METADATA, pointer, message)
+            .expected(expected)
+            .actual(format!("{actual} ({})", listed.file.path))
+            .report(findings);
     }
     for (listed, size) in too_large {
-        findings.report(
-            Finding::at(
-                ROOT_METADATA,
-                format!("{}/size", listed.pointer),
-                "the files are too large to be checked: at most 64 GiB of a URDD are read",
-            )
+        let pointer = format!("{}/size", listed.pointer);
+        let message = "the files are too large to be checked: at most 64 GiB of a URDD are read";
+        Finding::at(ROOT_METADATA, pointer, message)
             .expected(format!("{} bytes", listed.file.size))
-            .actual(format!("{size} bytes ({})", listed.file.path)),
-        );
+            .actual(format!("{size} bytes ({})", listed.file.path))
+            .report(findings);
     }
+    Some(())
 }
 
-/// Every file with a size and a hash, but for those that are listed twice, which DIR026 reports,
-/// and those that are not files.
-fn listed(context: &Context) -> Vec<Listed<'_>> {
-    let Some(metadata) = context.metadata() else {
-        return Vec::new();
-    };
+/// Every file with a size and a hash, except duplicates, which DIR026 reports, and entries that are not files.
+fn listed(context: &Context) -> Option<Vec<Listed<'_>>> {
+    let metadata = context.metadata()?;
     let source = match &metadata.source {
         Some(Source::Urdf(file)) => Some(Listed {
             pointer: "/source/Urdf".to_owned(),
@@ -122,7 +110,7 @@ fn listed(context: &Context) -> Vec<Listed<'_>> {
     let modules = entries::all(context).into_iter().flat_map(|entry| {
         let m = entry.index;
         let files = entry.entry.files.iter().enumerate();
-        // A file of another module is not the one that is meant: DIR012 reports it.
+        // DIR012 reports a file of another module.
         files
             .filter(move |(_, file)| entry.holds(&file.path))
             .map(move |(f, file)| Listed {
@@ -134,20 +122,18 @@ fn listed(context: &Context) -> Vec<Listed<'_>> {
     for path in paths::of_metadata(metadata) {
         *times.entry(path.path).or_default() += 1;
     }
-    source
+    let once = source
         .into_iter()
         .chain(modules)
-        .filter(|listed| times.get(listed.file.path.as_str()) == Some(&1))
-        .filter(|listed| {
-            context
-                .listing()
-                .get(&listed.file.path)
-                .is_none_or(|entry| entry.kind == EntryKind::File)
-        })
-        .collect()
+        .filter(|listed| times.get(listed.file.path.as_str()) == Some(&1));
+    let files = once.filter(|listed| {
+        let entry = context.listing().get(&listed.file.path);
+        entry.is_none_or(|entry| entry.kind == EntryKind::File)
+    });
+    Some(files.collect())
 }
 
-/// One finding for all files of a cause that is one mistake.
+/// Reports all files with the same cause as one finding.
 fn report_cause(
     findings: &mut Findings,
     changes: &[(&Listed<'_>, Change)],

@@ -1,12 +1,8 @@
 use std::collections::HashSet;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_directory::discover::ROOT_METADATA;
+use crate::rules::prelude::*;
 use urdd_directory::root::EntryKind;
 use urdd_document::paths::{self, Place};
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// A symbolic link leads out of the URDD.
@@ -17,47 +13,34 @@ declare_rule! {
     /// Put a copy of the file there instead of the link.
     DIR016 "link-leaves-root", Error, clause "2.8", since "0.1.0",
     phase Files, needs [],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let paths = paths::all(context);
-    let named: HashSet<&str> = paths
-        .iter()
-        .filter_map(|path| match path.place(context) {
-            Place::Here(path) => Some(path),
-            _ => None,
-        })
-        .flat_map(with_parents)
-        .collect();
-    let module_folders: HashSet<&str> = ModuleKind::ALL
-        .iter()
-        .flat_map(|kind| with_parents(kind.folder()))
-        .collect();
-    let modules: HashSet<&str> = context
-        .modules()
-        .iter()
-        .map(|module| module.folder.as_str())
-        .collect();
+    let here = paths.iter().filter_map(|path| match path.place(context) {
+        Place::Here(path) => Some(path),
+        _ => None,
+    });
+    let module_folders = ModuleKind::ALL.iter().map(|kind| kind.folder());
+    let named: HashSet<&str> = here.chain(module_folders).flat_map(with_parents).collect();
+    let modules = context.modules().iter();
+    let modules: HashSet<&str> = modules.map(|module| module.folder.as_str()).collect();
     for entry in &context.listing().entries {
         let path = entry.path.as_str();
-        // What else lies in the root is nobody's business.
+        // Other files in the root do not belong to the URDD.
         let matters = path == ROOT_METADATA
             || named.contains(path)
-            || module_folders.contains(path)
             || with_parents(path).any(|parent| modules.contains(parent));
         if entry.kind == EntryKind::LinkOut && matters {
-            findings.report(Finding::in_file(
-                path,
-                "this symbolic link leads out of the URDD: put what it leads to here instead",
-            ));
+            let message =
+                "this symbolic link leads out of the URDD: put what it leads to here instead";
+            Finding::in_file(path, message).report(findings);
         }
     }
+    Some(())
 }
 
 /// A path, and every folder above it.
 fn with_parents(path: &str) -> impl Iterator<Item = &str> {
-    std::iter::successors(Some(path), |path| {
-        path.rsplit_once('/').map(|(parent, _)| parent)
-    })
+    std::iter::successors(Some(path), |path| Some(path.rsplit_once('/')?.0))
 }

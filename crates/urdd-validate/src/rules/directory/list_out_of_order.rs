@@ -1,8 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_directory::discover::ROOT_METADATA;
-use urdd_document::entries;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// `modules` or a `files` list of `urdd.json` is not in order, or names a file twice.
@@ -14,55 +10,45 @@ declare_rule! {
     /// by path, byte by byte, each once.
     DIR026 "list-out-of-order", Error, clause "2.6", since "0.1.0",
     phase Files, needs [Version1, RootMetadata, Passed(DIR021)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let entries = entries::all(context);
-    // Modules of the specification first (`None` comes after them), others by name.
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let entries = listed_modules(context)?;
+    // Modules of the specification first, others by name.
     let place = |index: usize| {
         let entry = entries.get(index)?;
         let name = entry.kind.is_none().then_some(entry.entry.name.as_str());
         Some((entry.kind.is_none(), entry.kind, name))
     };
     if let Some(index) = (1..entries.len()).find(|index| place(*index) < place(index - 1)) {
-        let (before, entry) = (&entries[index - 1].entry.name, &entries[index]);
-        findings.report(
-            Finding::at(
-                ROOT_METADATA,
-                format!("/modules/{index}"),
-                "the modules are not in the order of the specification's table",
-            )
-            .expected(format!("{} before {before}", entry.entry.name))
-            .actual(format!("{} after {before}", entry.entry.name)),
-        );
+        let (before, name) = (&entries[index - 1].entry.name, &entries[index].entry.name);
+        let message = "the modules are not in the order of the specification's table";
+        Finding::at(ROOT_METADATA, format!("/modules/{index}"), message)
+            .expected(format!("{name} before {before}"))
+            .actual(format!("{name} after {before}"))
+            .report(findings);
     }
     for entry in &entries {
         let files = &entry.entry.files;
         let Some(place) = (1..files.len()).find(|i| files[*i].path <= files[i - 1].path) else {
             continue;
         };
-        let (before, path) = (&files[place - 1].path, &files[place].path);
-        // A file that has a fault of its own stands in the wrong place for that reason.
-        let other_fault = files
-            .iter()
-            .any(|file| !entry.holds(&file.path) || entries::look(context, &file.path).is_err());
-        if other_fault {
+        // A file with a fault of its own is in the wrong place for that reason.
+        let faulty = |path: &str| !entry.holds(path) || entries::look(context, path).is_err();
+        if files.iter().any(|file| faulty(&file.path)) {
             continue;
         }
-        let message = if before == path {
-            "the file is listed twice: list each once"
-        } else {
-            "the files are not sorted by path, byte by byte"
+        let (before, path) = (&files[place - 1].path, &files[place].path);
+        let message = match before == path {
+            true => "the file is listed twice: list each once",
+            false => "the files are not sorted by path, byte by byte",
         };
+        let finding = Finding::of(entry, format!("files/{place}/path"), message);
         findings.report(
-            Finding::at(
-                ROOT_METADATA,
-                entry.pointer(&format!("files/{place}/path")),
-                message,
-            )
-            .expected(format!("a path after {before}"))
-            .actual(path),
+            finding
+                .expected(format!("a path after {before}"))
+                .actual(path),
         );
     }
+    Some(())
 }

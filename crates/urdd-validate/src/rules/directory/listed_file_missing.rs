@@ -1,9 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_directory::discover::ROOT_METADATA;
+use crate::rules::prelude::*;
 use urdd_directory::root::ReadError;
-use urdd_document::entries;
 use urdd_format::root_metadata::Source;
 
 declare_rule! {
@@ -15,47 +11,34 @@ declare_rule! {
     /// Bring the file back, or write `urdd.json` again from what is there.
     DIR011 "listed-file-missing", Error, clause "2.7", since "0.1.0",
     phase Files, needs [Version1, RootMetadata],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let missing = |path: &str| entries::look(context, path) == Err(ReadError::Missing);
-    let report = |findings: &mut Findings, pointer: String, path: &str, message: &str| {
-        findings.report(
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let mut look = |pointer: String, path: &str, message: &str| {
+        if entries::look(context, path) == Err(ReadError::Missing) {
             Finding::at(ROOT_METADATA, pointer, message)
                 .expected("a file")
-                .actual(format!("nothing at {path}")),
-        );
+                .actual(format!("nothing at {path}"))
+                .report(findings);
+        }
     };
-    let source = context
-        .metadata()
-        .and_then(|metadata| metadata.source.as_ref());
-    if let Some(Source::Urdf(file)) = source
-        && missing(&file.path)
-    {
-        report(
-            findings,
-            "/source/Urdf/path".to_owned(),
-            &file.path,
-            "the source URDF is missing: put it into the root folder",
-        );
+    if let Some(Source::Urdf(file)) = &context.metadata()?.source {
+        let message = "the source URDF is missing: put it into the root folder";
+        look("/source/Urdf/path".to_owned(), &file.path, message);
     }
-    for entry in entries::all(context) {
-        // Of a folder that is not there, DIR002 tells; of VERSION and module.json, DIR005 and DIR004.
+    for entry in listed_modules(context)? {
+        // DIR002 reports a missing folder; DIR004 and DIR005 report missing module.json and VERSION files.
         if context.listing().get(&entry.entry.path).is_none() {
             continue;
         }
         for (place, file) in entry.entry.files.iter().enumerate() {
             let own = file.path.strip_prefix(entry.entry.path.as_str());
-            let told = entry.module.is_some() && matches!(own, Some("/VERSION" | "/module.json"));
-            if !told && missing(&file.path) {
-                report(
-                    findings,
-                    entry.pointer(&format!("files/{place}/path")),
-                    &file.path,
-                    "the file is missing: restore it, or write urdd.json again from the files that exist",
-                );
+            if entry.module.is_none() || !matches!(own, Some("/VERSION" | "/module.json")) {
+                let pointer = entry.pointer(&format!("files/{place}/path"));
+                let message = "the file is missing: restore it, or write urdd.json again from the files that exist";
+                look(pointer, &file.path, message);
             }
         }
     }
+    Some(())
 }

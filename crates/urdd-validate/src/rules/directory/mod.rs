@@ -1,4 +1,4 @@
-//! DIR: what lies in the directory, and the root metadata.
+//! DIR: files and folders, and the root metadata.
 
 mod bad_path;
 mod class_incomplete;
@@ -31,38 +31,23 @@ mod version_malformed;
 mod version_missing;
 mod wrong_dependencies;
 
-use crate::rule::Rule;
+use std::collections::HashSet;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &root_metadata_missing::RULE,
-    &listed_module_missing::RULE,
-    &unlisted_module::RULE,
-    &module_json_missing::RULE,
-    &version_missing::RULE,
-    &version_malformed::RULE,
-    &version_differs::RULE,
-    &module_version_unknown::RULE,
-    &newer_version::RULE,
-    &module_yaml_missing::RULE,
-    &listed_file_missing::RULE,
-    &file_list_incomplete::RULE,
-    &stray_file::RULE,
-    &file_changed::RULE,
-    &bad_path::RULE,
-    &link_leaves_root::RULE,
-    &dependency_missing::RULE,
-    &wrong_dependencies::RULE,
-    &class_incomplete::RULE,
-    &robot_name_differs::RULE,
-    &module_entry_wrong::RULE,
-    &unknown_module::RULE,
-    &unreadable_file::RULE,
-    &name_not_utf8::RULE,
-    &unknown_major_version::RULE,
-    &list_out_of_order::RULE,
-    &names_differ_in_case::RULE,
-    &source_not_in_root::RULE,
-    &source_not_named::RULE,
-    &draft_format::RULE,
-];
+use crate::rule::rules;
+use urdd_format::root_metadata::RootMetadata;
+
+/// The files that `urdd.json` lists as those of modules.
+pub fn listed_files(metadata: &RootMetadata) -> HashSet<&str> {
+    let files = metadata.modules.iter().flat_map(|module| &module.files);
+    files.map(|file| file.path.as_str()).collect()
+}
+
+rules! {
+    bad_path, class_incomplete, dependency_missing, draft_format, file_changed,
+    file_list_incomplete, link_leaves_root, list_out_of_order, listed_file_missing,
+    listed_module_missing, module_entry_wrong, module_json_missing, module_version_unknown,
+    module_yaml_missing, name_not_utf8, names_differ_in_case, newer_version, robot_name_differs,
+    root_metadata_missing, source_not_in_root, source_not_named, stray_file,
+    unknown_major_version, unknown_module, unlisted_module, unreadable_file, version_differs,
+    version_malformed, version_missing, wrong_dependencies
+}

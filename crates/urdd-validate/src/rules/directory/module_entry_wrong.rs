@@ -1,11 +1,7 @@
 use std::collections::HashSet;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_directory::discover::ROOT_METADATA;
+use crate::rules::prelude::*;
 use urdd_directory::path;
-use urdd_document::entries;
 
 declare_rule! {
     /// An entry of `modules` has a name and a path that do not belong together, or is there twice.
@@ -16,43 +12,34 @@ declare_rule! {
     /// Give each module one entry, with the name and the folder of the table in SPEC §12.
     DIR021 "module-entry-wrong", Error, clause "2.6", since "0.1.0",
     phase Files, needs [Version1, RootMetadata],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let mut names = HashSet::new();
-    let mut paths = HashSet::new();
-    for entry in entries::all(context) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (mut names, mut paths) = (HashSet::new(), HashSet::new());
+    for entry in listed_modules(context)? {
         let (name, path) = (entry.entry.name.as_str(), entry.entry.path.as_str());
-        // A path that may not be is DIR015's.
+        // DIR015 reports an invalid path.
         if path::check(path).is_err() {
             continue;
         }
         let twice = !names.insert(name) || !paths.insert(path);
+        let last = path.rsplit('/').next().unwrap_or(path);
         let (key, message, expected) = match entry.kind {
-            Some(kind) if kind.name() != name => (
-                "name",
-                "this is not the name of the module in this folder",
-                kind.name(),
-            ),
-            Some(kind) if kind.folder() != path => (
-                "path",
-                "this is not the folder that the module has",
-                kind.folder(),
-            ),
-            _ if path.rsplit('/').next() != Some(name) => (
-                "name",
-                "the name is not the last part of the path",
-                path.rsplit('/').next().unwrap_or(path),
-            ),
+            Some(kind) if kind.name() != name => {
+                let message = "this is not the name of the module in this folder";
+                ("name", message, kind.name())
+            }
+            Some(kind) if kind.folder() != path => {
+                let message = "this is not the folder that the module has";
+                ("path", message, kind.folder())
+            }
+            _ if last != name => ("name", "the name is not the last part of the path", last),
             _ if twice => ("name", "the module is listed twice", "one entry"),
             _ => continue,
         };
         let actual = if key == "path" { path } else { name };
-        findings.report(
-            Finding::at(ROOT_METADATA, entry.pointer(key), message)
-                .expected(expected)
-                .actual(format!("{actual:?}")),
-        );
+        let finding = Finding::of(&entry, key, message);
+        findings.report(finding.expected(expected).actual(format!("{actual:?}")));
     }
+    Some(())
 }

@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_document::entries;
+use crate::rules::prelude::*;
 use urdd_document::module::JsonFile;
 
 declare_rule! {
@@ -14,16 +11,15 @@ declare_rule! {
     /// Write the module again, or delete the folder.
     DIR004 "module-json-missing", Error, clause "2.4", since "0.1.0",
     phase Files, needs [],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for module in entries::known_modules(context) {
         if matches!(module.json, JsonFile::Missing) {
-            findings.report(Finding::in_file(
-                module.file("module.json"),
-                "the module has no module.json: write the module again, or delete its folder",
-            ));
+            let message =
+                "the module has no module.json: write the module again, or delete its folder";
+            Finding::in_file(module.file("module.json"), message).report(findings);
         }
     }
+    Some(())
 }

@@ -1,12 +1,7 @@
-use std::collections::HashSet;
-
 use super::version_differs;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_document::entries;
-use urdd_document::module::{Module, VersionFile};
-use urdd_format::registry::{self, ModuleKind, Profile};
+use crate::rules::prelude::*;
+use urdd_document::module::VersionFile;
+use urdd_format::registry;
 use urdd_format::root_metadata::Version;
 
 declare_rule! {
@@ -20,48 +15,36 @@ declare_rule! {
     /// your own are extensions (`x_<vendor>_<name>_module`) and have versions of their own.
     DIR008 "module-version-unknown", Error, clause "4.2", since "0.1.0",
     phase Files, needs [],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let differing: HashSet<&str> = entries::all(context)
-        .iter()
-        .filter_map(version_differs::differing)
-        .map(|(module, _)| module.folder.as_str())
-        .collect();
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let differing = version_differs::folders(context);
     for module in entries::known_modules(context) {
         let (Some(kind), Some(version)) = (module.kind, &module.version) else {
             continue;
         };
-        // DIR006 reports what is not a version.
-        let old = context.profile() == Profile::V1
-            && module
-                .spec
-                .is_some_and(|spec| spec.profile == Profile::Legacy);
+        let old = context.profile() == Profile::V1 && is_legacy(module);
         let sound = module.spec.is_some() && !old;
+        // DIR006 reports a malformed version, DIR007 a differing one.
         if sound || is_malformed(module) || differing.contains(module.folder.as_str()) {
             continue;
         }
-        let message = if old {
-            format!(
+        let message = match old {
+            true => format!(
                 "version {version} is from before the specification: in a URDD with urdd.json, write the module in a version that the specification lists"
-            )
-        } else {
-            format!("there is no version {version} of {}", kind.name())
+            ),
+            false => format!("there is no version {version} of {}", kind.name()),
         };
-        findings.report(
-            Finding::in_file(module.file("VERSION"), message)
-                .expected(known_versions(kind, context.profile()))
-                .actual(version),
-        );
+        Finding::in_file(module.file("VERSION"), message)
+            .expected(known_versions(kind, context.profile()))
+            .actual(version)
+            .report(findings);
     }
+    Some(())
 }
 
 fn is_malformed(module: &Module) -> bool {
-    match &module.version_file {
-        VersionFile::Text(text) => Version::new(text.as_str()).is_none(),
-        _ => false,
-    }
+    matches!(&module.version_file, VersionFile::Text(text) if Version::new(text.as_str()).is_none())
 }
 
 fn known_versions(kind: ModuleKind, profile: Profile) -> String {

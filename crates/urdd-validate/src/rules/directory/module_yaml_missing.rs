@@ -1,9 +1,5 @@
-use std::collections::HashSet;
-
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_document::entries;
+use super::listed_files;
+use crate::rules::prelude::*;
 use urdd_document::module::{JsonFile, Mirror};
 
 declare_rule! {
@@ -15,27 +11,21 @@ declare_rule! {
     /// Write the same document as `module.json`, as YAML, beside it.
     DIR010 "module-yaml-missing", Warning, clause "2.4", since "0.1.0",
     phase Files, needs [],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    // Of a file that is listed and not there, DIR011 tells.
-    let entries = entries::all(context);
-    let listed: HashSet<&str> = entries
-        .iter()
-        .flat_map(|entry| &entry.entry.files)
-        .map(|file| file.path.as_str())
-        .collect();
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    // DIR011 reports a file that is listed and missing.
+    let listed = context.metadata().map(listed_files).unwrap_or_default();
     for module in entries::known_modules(context) {
         let file = module.file("module.yaml");
         if matches!(module.mirror, Mirror::Missing)
             && !matches!(module.json, JsonFile::Missing)
             && !listed.contains(file.as_str())
         {
-            findings.report(Finding::in_file(
-                file,
-                "the module has no module.yaml: write the document of module.json as YAML too",
-            ));
+            let message =
+                "the module has no module.yaml: write the document of module.json as YAML too";
+            Finding::in_file(file, message).report(findings);
         }
     }
+    Some(())
 }

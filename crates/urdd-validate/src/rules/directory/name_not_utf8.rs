@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_document::entries;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A file in a module's folder has a name that is not UTF-8.
@@ -12,25 +9,19 @@ declare_rule! {
     /// Rename it; derived files are named by link index and ASCII letters.
     DIR024 "name-not-utf8", Error, clause "2.9", since "0.1.0",
     phase Files, needs [],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for module in entries::known_modules(context) {
-        let bad: Vec<&str> = context
+        let mut bad = context
             .listing()
             .below(&module.folder)
-            .filter(|entry| !entry.utf8)
-            .map(|entry| entry.path.as_str())
-            .collect();
-        if let Some(first) = bad.first() {
-            findings.report(
-                Finding::in_file(
-                    *first,
-                    "the name is not UTF-8 (shown with replacement characters): rename it",
-                )
-                .count(bad.len()),
-            );
+            .filter(|entry| !entry.utf8);
+        if let Some(first) = bad.next() {
+            let message = "the name is not UTF-8 (shown with replacement characters): rename it";
+            let finding = Finding::in_file(&first.path, message);
+            findings.report(finding.count(1 + bad.count()));
         }
     }
+    Some(())
 }

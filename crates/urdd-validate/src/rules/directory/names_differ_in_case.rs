@@ -1,10 +1,6 @@
 use std::collections::BTreeMap;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::{Need, declare_rule};
-use urdd_directory::discover::ROOT_METADATA;
-use urdd_document::entries;
+use crate::rules::prelude::*;
 use urdd_format::root_metadata::Source;
 
 declare_rule! {
@@ -16,25 +12,22 @@ declare_rule! {
     ///
     /// Rename one of the two, and name it in the documents as it is called then.
     DIR027 "names-differ-in-case", Error, clause "2.9", since "0.2.0",
-    phase Files, needs [Need::Version1],
-    check check,
+    phase Files, needs [Version1],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let source = context.metadata().and_then(|m| match &m.source {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let source = match context.metadata().and_then(|m| m.source.as_ref()) {
         Some(Source::Urdf(file)) => Some(file.path.as_str()),
         _ => None,
-    });
-    // Files in the root that this specification does not name are nobody's business.
+    };
+    // Other files in the root do not belong to the URDD.
     let is_of_urdd = |path: &str| {
-        let within = |folder: &str| {
-            path.strip_prefix(folder)
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-        };
+        let folders = entries::known_modules(context).map(|module| module.folder.as_str());
         path == ROOT_METADATA
             || Some(path) == source
-            || entries::known_modules(context)
-                .any(|module| within(&module.folder) || is_above(path, &module.folder))
+            || folders
+                .into_iter()
+                .any(|folder| path == folder || is_in(path, folder) || is_in(folder, path))
     };
     let mut alike: BTreeMap<(&str, String), Vec<&str>> = BTreeMap::new();
     for entry in &context.listing().entries {
@@ -43,24 +36,21 @@ fn check(context: &Context, findings: &mut Findings) {
         paths.push(&entry.path);
     }
     for paths in alike.values() {
-        let [first, second, ..] = paths.as_slice() else {
-            continue;
-        };
-        if paths.iter().any(|path| is_of_urdd(path)) {
-            findings.report(
-                Finding::in_file(
-                    *second,
-                    format!("this name differs from that of {first} in letter case alone, and many file systems take the two for one: rename one"),
-                )
-                .count(paths.len() - 1),
+        if let [first, second, ..] = paths.as_slice()
+            && paths.iter().any(|path| is_of_urdd(path))
+        {
+            let message = format!(
+                "this name differs from that of {first} in letter case alone, and many file systems take the two for one: rename one"
             );
+            let finding = Finding::in_file(*second, message);
+            findings.report(finding.count(paths.len() - 1));
         }
     }
+    Some(())
 }
 
-/// Whether a folder lies above another.
-fn is_above(folder: &str, other: &str) -> bool {
-    other
-        .strip_prefix(folder)
-        .is_some_and(|rest| rest.starts_with('/'))
+/// Whether a path is below a folder.
+fn is_in(path: &str, folder: &str) -> bool {
+    let rest = path.strip_prefix(folder);
+    rest.is_some_and(|rest| rest.starts_with('/'))
 }

@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_directory::discover::ROOT_METADATA;
+use crate::rules::prelude::*;
 use urdd_document::module::JsonFile;
 
 declare_rule! {
@@ -15,14 +12,12 @@ declare_rule! {
     /// the URDD is from before version 1, none of its modules may be of version 1.
     DIR001 "root-metadata-missing", Error, clause "2.2", since "0.1.0",
     phase Files, needs [Version1],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     if matches!(context.metadata_file().json, JsonFile::Missing) {
-        findings.report(Finding::in_file(
-            ROOT_METADATA,
-            "there is no urdd.json: write the root metadata beside the module folders",
-        ));
+        let message = "there is no urdd.json: write the root metadata beside the module folders";
+        Finding::in_file(ROOT_METADATA, message).report(findings);
     }
+    Some(())
 }

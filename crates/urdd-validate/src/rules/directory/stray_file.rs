@@ -1,11 +1,9 @@
 use std::collections::HashSet;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use super::listed_files;
+use crate::rules::prelude::*;
 use urdd_directory::root::EntryKind;
-use urdd_document::entries::{self, MODULE_FILES};
-use urdd_document::module::Module;
+use urdd_document::entries::MODULE_FILES;
 use urdd_document::paths::{self, PathRole, Place};
 
 declare_rule! {
@@ -18,20 +16,14 @@ declare_rule! {
     /// itself. Write a module into a fresh folder, not over an old one.
     DIR013 "stray-file", Warning, clause "2.7", since "0.1.0",
     phase Files, needs [Version1, RootMetadata],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let entries = entries::all(context);
-    let listed: HashSet<&str> = entries
-        .iter()
-        .flat_map(|entry| &entry.entry.files)
-        .map(|file| file.path.as_str())
-        .collect();
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let listed = listed_files(context.metadata()?);
     let paths = paths::all(context);
     let named: HashSet<&str> = paths.iter().map(|path| path.path).collect();
     for module in entries::known_modules(context) {
-        // What an extension's documents name is not known; what a broken document names neither.
+        // It is unknown which files an extension or a broken document names.
         if module.kind.is_none() || module.document.is_none() || misnames_files(context, module) {
             continue;
         }
@@ -40,36 +32,29 @@ fn check(context: &Context, findings: &mut Findings) {
             .listing()
             .below(&module.folder)
             .filter(|entry| matches!(entry.kind, EntryKind::File | EntryKind::Link))
-            .filter(|entry| entry.utf8)
+            .filter(|entry| entry.utf8 && !own.contains(&entry.path))
             .map(|entry| entry.path.as_str())
-            .filter(|path| !own.iter().any(|own| own == path))
             .filter(|path| !listed.contains(path) && !named.contains(path))
             .collect();
         let Some(first) = stray.first() else {
             continue;
         };
-        let others = match stray.len() {
-            1 => String::new(),
-            n => format!(
-                " (and neither does it name {} more below this folder)",
-                n - 1
-            ),
+        let others = match stray.len() - 1 {
+            0 => String::new(),
+            n => format!(" (and neither does it name {n} more below this folder)"),
         };
-        findings.report(
-            Finding::in_file(
-                *first,
-                format!(
-                    "{} does not name this file{others}: delete it, or keep it outside the module folders",
-                    module.name()
-                ),
-            )
-            .count(stray.len()),
+        let message = format!(
+            "{} does not name this file{others}: delete it, or keep it outside the module folders",
+            module.name()
         );
+        let finding = Finding::in_file(*first, message);
+        findings.report(finding.count(stray.len()));
     }
+    Some(())
 }
 
-/// Whether the module names a file that is not there, or one file for two things: then what it does
-/// not name follows from that, and rules of its family report it.
+/// Whether the module names a missing file, or one file for two things. Stray files follow from that, and rules of its
+/// family report it.
 fn misnames_files(context: &Context, module: &Module) -> bool {
     let mut seen = HashSet::new();
     paths::of_module(module).iter().any(|path| {

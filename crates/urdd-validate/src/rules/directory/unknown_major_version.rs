@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_directory::discover::ROOT_METADATA;
+use crate::rules::prelude::*;
 use urdd_format::root_metadata::Version;
 
 declare_rule! {
@@ -13,28 +10,24 @@ declare_rule! {
     /// Check with the `urdd` of that version; or, where the version is a mistake, write `1.0.0`.
     DIR025 "unknown-major-version", Error, clause "4.1", since "0.1.0",
     phase Files, needs [Version1],
-    check check,
 }
 
-/// The `urdd_version` of `urdd.json`, where its major number is not 1.
+/// The `urdd_version` of `urdd.json`, if its major number is not 1.
 pub fn other_major(context: &Context) -> Option<&str> {
-    // Read from the document itself: that of another major version may not fit our schema.
+    // Read from the JSON: a document of another major version may not fit the schema.
     let document = context.metadata_file().json.document()?;
     let version = document.value.get("urdd_version")?.as_str()?;
     Version::new(version)?;
     (version.split('.').next() != Some("1")).then_some(version)
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     if let Some(version) = other_major(context) {
-        findings.report(
-            Finding::at(
-                ROOT_METADATA,
-                "/urdd_version",
-                "this program knows version 1 of the specification: check with a program of that version",
-            )
+        let message = "this program knows version 1 of the specification: check with a program of that version";
+        Finding::at(ROOT_METADATA, "/urdd_version", message)
             .expected("1.x.y")
-            .actual(version),
-        );
+            .actual(version)
+            .report(findings);
     }
+    Some(())
 }

@@ -1,9 +1,6 @@
 use std::collections::HashSet;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_document::entries;
+use crate::rules::prelude::*;
 use urdd_document::module::is_extension;
 
 declare_rule! {
@@ -15,25 +12,25 @@ declare_rule! {
     /// lower-case letters, digits and `_`, put it into the root, and give it a `schema.json`.
     DIR022 "unknown-module", Info, clause "11.2", since "0.1.0",
     phase Files, needs [],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let mut told = HashSet::new();
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let mut reported = HashSet::new();
     for module in context.modules() {
         if !entries::is_known(context, module) {
-            told.insert(module.folder.as_str());
-            findings.report(Finding::in_file(&module.folder, message(&module.folder)));
+            reported.insert(module.folder.as_str());
+            Finding::in_file(&module.folder, message(&module.folder)).report(findings);
         }
     }
-    // Folders that only the list calls modules.
+    // Folders that are modules only according to urdd.json.
     for entry in entries::all(context) {
         let folder = entry.entry.path.as_str();
         let known = entry.kind.is_some() || is_extension(folder);
-        if !known && context.listing().has_folder(folder) && told.insert(folder) {
-            findings.report(Finding::in_file(folder, message(folder)));
+        if !known && context.listing().has_folder(folder) && reported.insert(folder) {
+            Finding::in_file(folder, message(folder)).report(findings);
         }
     }
+    Some(())
 }
 
 fn message(folder: &str) -> &'static str {

@@ -1,9 +1,6 @@
 use std::collections::HashSet;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_document::entries;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A module folder is there that `urdd.json` does not list.
@@ -14,22 +11,21 @@ declare_rule! {
     /// Add the module to `modules` of `urdd.json`, or delete the folder.
     DIR003 "unlisted-module", Error, clause "2.3", since "0.1.0",
     phase Files, needs [Version1, RootMetadata],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    // By name too: an entry with a wrong path lists its module, and DIR021 reports what is wrong.
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    // By name too: DIR021 reports an entry with the right name and a wrong path.
     let mut listed = HashSet::new();
-    for entry in entries::all(context) {
+    for entry in listed_modules(context)? {
         listed.insert(entry.entry.path.as_str());
         listed.insert(entry.entry.name.as_str());
     }
     for module in entries::known_modules(context) {
         if !listed.contains(module.folder.as_str()) && !listed.contains(module.name()) {
-            findings.report(Finding::in_file(
-                &module.folder,
-                "urdd.json does not list this module: add it to `modules`, or delete the folder",
-            ));
+            let message =
+                "urdd.json does not list this module: add it to `modules`, or delete the folder";
+            Finding::in_file(&module.folder, message).report(findings);
         }
     }
+    Some(())
 }

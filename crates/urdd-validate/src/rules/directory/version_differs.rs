@@ -1,9 +1,7 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_directory::discover::ROOT_METADATA;
-use urdd_document::entries::{self, Entry};
-use urdd_document::module::{Module, VersionFile};
+use std::collections::HashSet;
+
+use crate::rules::prelude::*;
+use urdd_document::module::VersionFile;
 use urdd_format::root_metadata::Version;
 
 declare_rule! {
@@ -15,11 +13,19 @@ declare_rule! {
     /// Write the version of the format that the module has into both.
     DIR007 "version-differs", Error, clause "2.5", since "0.1.0",
     phase Files, needs [Version1, RootMetadata],
-    check check,
 }
 
-/// The version of the module's `VERSION` file, where it is one and `urdd.json` has another.
-pub fn differing<'a>(entry: &Entry<'a>) -> Option<(&'a Module, &'a str)> {
+/// The folders of the modules whose versions differ.
+pub fn folders(context: &Context) -> HashSet<&str> {
+    let entries = entries::all(context);
+    let differing = entries.iter().filter_map(differing);
+    differing
+        .map(|(module, _)| module.folder.as_str())
+        .collect()
+}
+
+/// The module and the version in its `VERSION` file, if that is a version and differs from the one in `urdd.json`.
+fn differing<'a>(entry: &Entry<'a>) -> Option<(&'a Module, &'a str)> {
     let module = entry.module?;
     match &module.version_file {
         VersionFile::Text(text)
@@ -31,22 +37,16 @@ pub fn differing<'a>(entry: &Entry<'a>) -> Option<(&'a Module, &'a str)> {
     }
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    for entry in entries::all(context) {
-        let Some((module, version)) = differing(&entry) else {
-            continue;
-        };
-        findings.report(
-            Finding::at(
-                ROOT_METADATA,
-                entry.pointer("version"),
-                format!(
-                    "{} says {version}: write the version of the module's format into both",
-                    module.file("VERSION")
-                ),
-            )
-            .expected(version)
-            .actual(&entry.entry.version),
-        );
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    for entry in listed_modules(context)? {
+        if let Some((module, version)) = differing(&entry) {
+            let message = format!(
+                "{} says {version}: write the version of the module's format into both",
+                module.file("VERSION")
+            );
+            let finding = Finding::of(&entry, "version", message);
+            findings.report(finding.expected(version).actual(&entry.entry.version));
+        }
     }
+    Some(())
 }

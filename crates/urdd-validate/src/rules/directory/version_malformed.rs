@@ -1,9 +1,6 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};
 use urdd_directory::root::ReadError;
-use urdd_document::entries;
 use urdd_document::module::VersionFile;
 use urdd_format::root_metadata::Version;
 
@@ -18,10 +15,9 @@ declare_rule! {
     /// leading zeros, nothing like `-beta` after it.
     DIR006 "version-malformed", Error, clause "2.5", since "0.1.0",
     phase Files, needs [],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for module in entries::known_modules(context) {
         let actual = match &module.version_file {
             VersionFile::Text(text) if Version::new(text.as_str()).is_none() => {
@@ -31,29 +27,22 @@ fn check(context: &Context, findings: &mut Findings) {
             VersionFile::Unreadable(ReadError::TooLarge { size, .. }) => format!("{size} bytes"),
             _ => continue,
         };
-        if is_converted(context, &module.file("VERSION")) {
-            continue;
+        let file = module.file("VERSION");
+        if !is_converted(context, &file) {
+            let message = "this is not a version: write three numbers joined by dots, and at most one newline after them";
+            let finding = Finding::in_file(file, message).expected("a version such as 1.0.0");
+            findings.report(finding.actual(actual));
         }
-        findings.report(
-            Finding::in_file(
-                module.file("VERSION"),
-                "this is not a version: write three numbers joined by dots, and at most one newline after them",
-            )
-            .expected("a version such as 1.0.0")
-            .actual(actual),
-        );
     }
+    Some(())
 }
 
-/// Whether line ends were converted since the file was listed, of which DIR014 tells.
+/// Whether line endings were converted since the file was listed; DIR014 reports that.
 fn is_converted(context: &Context, path: &str) -> bool {
     let modules = context.metadata().into_iter().flat_map(|m| &m.modules);
     let mut listed = modules.flat_map(|module| &module.files);
-    listed
-        .find(|file| file.path == path)
-        .and_then(|file| {
-            let (size, sha256) = (u64::from(file.size.0), file.sha256.as_str());
-            compare(context.root(), path, size, sha256)
-        })
-        .is_some_and(|change| change == Change::LineEndings)
+    listed.find(|file| file.path == path).is_some_and(|file| {
+        let (size, sha256) = (u64::from(file.size.0), file.sha256.as_str());
+        compare(context.root(), path, size, sha256) == Some(Change::LineEndings)
+    })
 }

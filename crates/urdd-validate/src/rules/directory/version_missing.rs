@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_document::entries;
+use crate::rules::prelude::*;
 use urdd_document::module::{JsonFile, VersionFile};
 use urdd_format::registry;
 
@@ -15,21 +12,19 @@ declare_rule! {
     /// `module.json`.
     DIR005 "version-missing", Error, clause "2.4", since "0.1.0",
     phase Files, needs [],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for module in entries::known_modules(context) {
-        // Some modules were published without one, before there was a specification.
-        let never_had_one = module
-            .kind
-            .is_some_and(|kind| registry::find(kind, "").is_some());
+        // Before the specification, some modules were published without one.
+        let unversioned = module.kind.and_then(|kind| registry::find(kind, ""));
+        let never_had_one = unversioned.is_some();
         let empty = matches!(module.json, JsonFile::Missing);
         if matches!(module.version_file, VersionFile::Missing) && !never_had_one && !empty {
-            findings.report(Finding::in_file(
-                module.file("VERSION"),
-                "the module has no VERSION: write the version of its format into it, such as 1.0.0",
-            ));
+            let message =
+                "the module has no VERSION: write the version of its format into it, such as 1.0.0";
+            Finding::in_file(module.file("VERSION"), message).report(findings);
         }
     }
+    Some(())
 }

@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// `num_dofs` and the lists that hold one entry per DOF do not agree on the number of DOFs.
@@ -14,13 +11,11 @@ declare_rule! {
     /// mimic joints were left out.
     DOF001 "dof-count-differs", Error, clause "6.2.1", since "0.1.0",
     phase References, needs [Module(Kind::Dof)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(dofs), Some(module)) = (context.dofs(), context.module(ModuleKind::Dof)) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let dofs = context.dofs()?;
+    let module = context.module(ModuleKind::Dof)?;
     let mut counts = vec![
         ("num_dofs", dofs.num_dofs.get()),
         ("dof_idx_to_joint_idx_mapping", dofs.joint_of_dof.len()),
@@ -28,29 +23,24 @@ fn check(context: &Context, findings: &mut Findings) {
     if let Some(v1) = dofs.v1 {
         counts.push(("dofs", v1.dofs.len()));
     }
-    let Some((name, count, others)) = odd_one(&counts) else {
-        return;
-    };
-    let all: Vec<String> = counts
-        .iter()
-        .map(|(name, count)| format!("`{name}` {count}"))
-        .collect();
-    findings.report(
-        Finding::at(
-            module.file("module.json"),
-            format!("/{name}"),
-            format!(
-                "the number of DOFs differs from place to place: {}; make them agree",
-                all.join(", ")
-            ),
-        )
-        .expected(format!("{others} DOFs"))
-        .actual(format!("{count} DOFs")),
-    );
+    if let Some((name, count, others)) = odd_one(&counts) {
+        let all = counts
+            .iter()
+            .map(|(name, count)| format!("`{name}` {count}"));
+        let message = format!(
+            "the number of DOFs differs from place to place: {}; make them agree",
+            all.collect::<Vec<_>>().join(", ")
+        );
+        Finding::of(module, format!("/{name}"), message)
+            .expected(format!("{others} DOFs"))
+            .actual(format!("{count} DOFs"))
+            .report(findings);
+    }
+    Some(())
 }
 
-/// The count that is unlike the others (where no two agree: the first), and what the others say.
-/// `None` where all agree.
+/// The name and value of the count that differs from the others (the first if no two agree), and the others' value.
+/// `None` if all agree.
 fn odd_one<'a>(counts: &[(&'a str, usize)]) -> Option<(&'a str, usize, usize)> {
     let first = counts.first()?;
     if counts.iter().all(|(_, count)| *count == first.1) {

@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// `dof_idx_to_joint_idx_mapping` and `joint_idx_to_dof_idxs_mapping` are not each other's inverse.
@@ -10,87 +7,65 @@ declare_rule! {
     /// program that goes from joints to DOFs and one that goes from DOFs to joints move different
     /// joints with the same configuration.
     ///
-    /// Write one of the two from the other. The findings stand where a mapping differs from what
-    /// follows from `urdf_module`: DOFs in joint order.
+    /// Write one of the two from the other. The findings are where a mapping differs from what follows
+    /// from `urdf_module`: DOFs in joint order.
     DOF003 "dof-mappings-disagree", Error, clause "6.2.3", since "0.1.0",
     phase References, needs [Passed(DOF001), Passed(DOF004)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(layout), Some(dofs), Some(module)) = (
-        context.robot(),
-        context.dof_layout(),
-        context.dofs(),
-        context.module(ModuleKind::Dof),
-    ) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let layout = context.dof_layout()?;
+    let dofs = context.dofs()?;
+    let module = context.module(ModuleKind::Dof)?;
     let joint_of_dof: Vec<usize> = dofs.joint_of_dof.iter().map(|joint| joint.get()).collect();
-    let dofs_of_joint = || {
-        dofs.dofs_of_joint
-            .iter()
-            .map(|list| list.iter().map(|dof| dof.get()))
-    };
-    if are_inverse(&joint_of_dof, dofs_of_joint()) {
-        return;
+    let lists = dofs.dofs_of_joint.iter();
+    let dofs_of_joint = lists.map(|list| list.iter().map(|dof| dof.get()));
+    if are_inverse(&joint_of_dof, dofs_of_joint.clone()) {
+        return Some(());
     }
-    let file = module.file("module.json");
     let name = |joint: usize| match robot.joints.get(joint) {
         Some(joint) => format!("{:?}", joint.name),
         None => "no joint".to_owned(),
     };
-    for ((joint, list), right) in dofs_of_joint().enumerate().zip(&layout.dofs_of_joint) {
+    for ((joint, list), right) in dofs_of_joint.enumerate().zip(&layout.dofs_of_joint) {
         for ((place, dof), right) in list.enumerate().zip(right.clone()) {
             if dof != right {
-                findings.report(
-                    Finding::at(
-                        &file,
-                        format!("/joint_idx_to_dof_idxs_mapping/{joint}/{place}"),
-                        format!(
-                            "the mappings disagree: joint {joint} ({}) is said to have DOF {dof}",
-                            name(joint)
-                        ),
-                    )
-                    .expected(right)
-                    .actual(dof),
+                let pointer = format!("/joint_idx_to_dof_idxs_mapping/{joint}/{place}");
+                let message = format!(
+                    "the mappings disagree: joint {joint} ({}) is said to have DOF {dof}",
+                    name(joint)
                 );
+                let finding = Finding::of(module, pointer, message);
+                findings.report(finding.expected(right).actual(dof));
             }
         }
     }
+    let all = layout.joint_of_dof.len();
     for (dof, joint) in joint_of_dof.iter().copied().enumerate() {
         let right = layout.joint_of_dof.get(dof).copied();
         if right != Some(joint) {
-            let finding = Finding::at(
-                &file,
-                format!("/dof_idx_to_joint_idx_mapping/{dof}"),
-                format!(
-                    "the mappings disagree: DOF {dof} is said to move joint {joint} ({})",
-                    name(joint)
-                ),
+            let pointer = format!("/dof_idx_to_joint_idx_mapping/{dof}");
+            let message = format!(
+                "the mappings disagree: DOF {dof} is said to move joint {joint} ({})",
+                name(joint)
             );
-            findings.report(match right {
-                Some(right) => finding.expected(right).actual(joint),
-                None => finding
-                    .expected(format!("{} DOFs in all", layout.joint_of_dof.len()))
-                    .actual(joint),
-            });
+            let right = right.map_or(format!("{all} DOFs in all"), |right| right.to_string());
+            let finding = Finding::of(module, pointer, message);
+            findings.report(finding.expected(right).actual(joint));
         }
     }
     if findings.is_empty() {
-        findings.report(
-            Finding::at(
-                &file,
-                "/dof_idx_to_joint_idx_mapping",
-                "joints have DOFs that are not listed here; list every DOF",
-            )
-            .expected(format!("{} entries", layout.joint_of_dof.len()))
-            .actual(format!("{} entries", joint_of_dof.len())),
-        );
+        let message = "joints have DOFs that are not listed here; list every DOF";
+        Finding::of(module, "/dof_idx_to_joint_idx_mapping", message)
+            .expected(format!("{all} entries"))
+            .actual(format!("{} entries", joint_of_dof.len()))
+            .report(findings);
     }
+    Some(())
 }
 
-/// Whether every DOF is listed once, by the joint that it moves, and no other.
+/// Whether every DOF is listed exactly once, by the joint that it moves.
 fn are_inverse(
     joint_of_dof: &[usize],
     dofs_of_joint: impl Iterator<Item = impl Iterator<Item = usize>>,

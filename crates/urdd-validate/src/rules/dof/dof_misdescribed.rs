@@ -1,9 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::skip::SkipReason;
+use crate::rules::prelude::*;
 use urdd_document::dof_layout::describe;
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// An entry of `dofs` does not describe its DOF.
@@ -15,56 +11,37 @@ declare_rule! {
     ///
     /// Write `dofs` from `dof_idx_to_joint_idx_mapping` and the joints of `urdf_module`.
     DOF006 "dof-misdescribed", Error, clause "6.2.5", since "0.1.0",
-    phase References, needs [Version1, Passed(DOF005)],
-    check check,
+    phase References, needs [Version1, Passed(DOF005), ModuleV1(Kind::Dof)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(layout), Some(dofs), Some(module)) = (
-        context.robot(),
-        context.dof_layout(),
-        context.dofs().and_then(|dofs| dofs.v1),
-        context.module(ModuleKind::Dof),
-    ) else {
-        return findings.skip(SkipReason::NotInThisVersion(ModuleKind::Dof));
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let layout = context.dof_layout()?;
+    let dofs = context.dofs()?.v1?;
+    let module = context.module(ModuleKind::Dof)?;
     for (index, dof) in dofs.dofs.iter().enumerate() {
-        let Some((joint_idx, place)) = layout.place(index) else {
-            continue;
-        };
-        let Some(joint) = robot.joints.get(joint_idx) else {
-            continue;
-        };
-        let Some((suffix, quantity)) = describe(joint.joint_type, place) else {
-            continue;
-        };
-        let name = format!("{}{suffix}", joint.name);
+        let (joint_idx, place) = layout.place(index)?;
+        let joint = robot.joints.get(joint_idx)?;
+        let (suffix, quantity) = describe(joint.joint_type, place)?;
         let mut expect = |key: &str, right: String, written: String| {
             if right != written {
-                findings.report(
-                    Finding::at(
-                        module.file("module.json"),
-                        format!("/dofs/{index}/{key}"),
-                        format!(
-                            "this does not describe DOF {index}, which moves joint {joint_idx}"
-                        ),
-                    )
-                    .expected(right)
-                    .actual(written),
-                );
+                let pointer = format!("/dofs/{index}/{key}");
+                let message =
+                    format!("this does not describe DOF {index}, which moves joint {joint_idx}");
+                let finding = Finding::of(module, pointer, message);
+                findings.report(finding.expected(right).actual(written));
             }
         };
+        let quoted = |name: &str| format!("{name:?}");
         expect(
             "joint_idx",
             joint_idx.to_string(),
             dof.joint_idx.to_string(),
         );
-        expect(
-            "joint_name",
-            format!("{:?}", joint.name),
-            format!("{:?}", dof.joint_name),
-        );
-        expect("name", format!("{name:?}"), format!("{:?}", dof.name));
+        expect("joint_name", quoted(&joint.name), quoted(&dof.joint_name));
+        let name = format!("{}{suffix}", joint.name);
+        expect("name", quoted(&name), quoted(&dof.name));
         expect("quantity", quantity.to_string(), dof.quantity.to_string());
     }
+    Some(())
 }

@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A joint has another number of DOFs than its type gives it.
@@ -16,18 +13,13 @@ declare_rule! {
     /// again.
     DOF004 "joint-dof-count-wrong", Error, clause "6.2.2", since "0.1.0",
     phase References, needs [Passed(URD009), Passed(DOF002)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(layout), Some(dofs), Some(module)) = (
-        context.robot(),
-        context.dof_layout(),
-        context.dofs(),
-        context.module(ModuleKind::Dof),
-    ) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let layout = context.dof_layout()?;
+    let dofs = context.dofs()?;
+    let module = context.module(ModuleKind::Dof)?;
     let joints = robot.joints.iter().zip(&layout.dofs_of_joint);
     for (index, ((joint, right), list)) in joints.zip(dofs.dofs_of_joint).enumerate() {
         if list.len() == right.len() {
@@ -37,20 +29,13 @@ fn check(context: &Context, findings: &mut Findings) {
             Some(mimic) if right.is_empty() => format!("a mimic of {:?}", mimic.joint),
             _ => format!("a {} joint", joint.joint_type),
         };
-        findings.report(
-            Finding::at(
-                module.file("module.json"),
-                format!("/joint_idx_to_dof_idxs_mapping/{index}"),
-                format!(
-                    "joint {index} ({:?}) is {kind} and has {} of its own",
-                    joint.name,
-                    count(right.len())
-                ),
-            )
-            .expected(count(right.len()))
-            .actual(count(list.len())),
-        );
+        let (name, right) = (&joint.name, count(right.len()));
+        let pointer = format!("/joint_idx_to_dof_idxs_mapping/{index}");
+        let message = format!("joint {index} ({name:?}) is {kind} and has {right} of its own");
+        let finding = Finding::of(module, pointer, message);
+        findings.report(finding.expected(right).actual(count(list.len())));
     }
+    Some(())
 }
 
 fn count(dofs: usize) -> String {

@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A list of `dof_module` that is indexed by joint does not hold one entry per joint.
@@ -14,46 +11,24 @@ declare_rule! {
     /// If `urdf_module` has changed since, write `dof_module` again.
     DOF002 "joint-lists-length", Error, clause "6.2.1", since "0.1.0",
     phase References, needs [Module(Kind::Dof), ROBOT_SOUND],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(dofs), Some(module)) = (
-        context.robot(),
-        context.dofs(),
-        context.module(ModuleKind::Dof),
-    ) else {
-        return;
-    };
-    let joints = robot.joints.len();
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let joints = context.robot()?.joints.len();
+    let dofs = context.dofs()?;
+    let module = context.module(ModuleKind::Dof)?;
     let mut lists = vec![("joint_idx_to_dof_idxs_mapping", dofs.dofs_of_joint.len())];
     if let Some(v1) = dofs.v1 {
-        lists.push((
-            "joint_idx_to_mimic_mapping",
-            v1.joint_idx_to_mimic_mapping.len(),
-        ));
+        let mimics = v1.joint_idx_to_mimic_mapping.len();
+        lists.push(("joint_idx_to_mimic_mapping", mimics));
     }
-    let wrong: Vec<&(&str, usize)> = lists
-        .iter()
-        .filter(|(_, length)| *length != joints)
-        .collect();
-    let Some((first, length)) = wrong.first() else {
-        return;
-    };
-    let names: Vec<String> = wrong
-        .iter()
-        .map(|(name, length)| format!("`{name}` has {length}"))
-        .collect();
-    findings.report(
-        Finding::at(
-            module.file("module.json"),
-            format!("/{first}"),
-            format!(
-                "one entry per joint of urdf_module is needed: {}",
-                names.join(", ")
-            ),
-        )
-        .expected(format!("{joints} entries"))
-        .actual(format!("{length} entries")),
-    );
+    if let Some(wrong) = wrong_lengths(&lists, joints) {
+        let all = wrong.in_words;
+        let message = format!("one entry per joint of urdf_module is needed: {all}");
+        Finding::of(module, wrong.pointer, message)
+            .expected(format!("{joints} entries"))
+            .actual(format!("{} entries", wrong.length))
+            .report(findings);
+    }
+    Some(())
 }

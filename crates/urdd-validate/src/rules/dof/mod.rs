@@ -8,15 +8,9 @@ mod joint_dof_count_wrong;
 mod joint_lists_length;
 mod mimic_resolved_wrong;
 
-use crate::rule::Rule;
+use crate::rule::rules;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &dof_count_differs::RULE,
-    &joint_lists_length::RULE,
-    &dof_mappings_disagree::RULE,
-    &joint_dof_count_wrong::RULE,
-    &dofs_out_of_order::RULE,
-    &dof_misdescribed::RULE,
-    &mimic_resolved_wrong::RULE,
-];
+rules! {
+    dof_count_differs, dof_mappings_disagree, dof_misdescribed, dofs_out_of_order,
+    joint_dof_count_wrong, joint_lists_length, mimic_resolved_wrong
+}

@@ -1,8 +1,6 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use super::extensions;
+use crate::rules::prelude::*;
 use crate::views::extension_schema::{self, SchemaFile};
-use urdd_document::module::is_extension;
 use urdd_document::schema_check;
 
 declare_rule! {
@@ -14,28 +12,22 @@ declare_rule! {
     /// Correct `module.json`, or `schema.json` where that is out of date.
     EXT002 "extension-breaks-schema", Error, clause "11.1", since "0.1.0",
     phase Schema, needs [],
-    check check,
 }
 
-/// Most places of one document that are reported.
-const MOST: usize = 1000;
+/// Maximum number of reported places of a document.
+const MAX_PLACES: usize = 1000;
 
-fn check(context: &Context, findings: &mut Findings) {
-    for module in context.modules() {
-        let (true, Some(document)) = (
-            module.kind.is_none() && is_extension(&module.folder),
-            module.json.document(),
-        ) else {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    for module in extensions(context) {
+        let schema = extension_schema::read(context, module);
+        let (SchemaFile::Read(schema), Some(document)) = (schema, module.json.document()) else {
             continue;
         };
-        let SchemaFile::Read(schema) = extension_schema::read(context, module) else {
-            continue;
-        };
-        // EXT001 reports a schema that cannot be used.
+        // EXT001 reports an unusable schema.
         if !extension_schema::faults(&schema, Some(&document.value)).is_empty() {
             continue;
         }
-        let violations = extension_schema::violations(&schema, &document.value, MOST);
+        let violations = extension_schema::violations(&schema, &document.value, MAX_PLACES);
         let more = match violations.is_first_only {
             true => " (the document is large: there may be more)",
             false => "",
@@ -43,9 +35,10 @@ fn check(context: &Context, findings: &mut Findings) {
         for (pointer, message) in violations.found {
             let actual = document.value.pointer(&pointer).map(schema_check::excerpt);
             let message = format!("the value does not fit schema.json: {message}{more}");
-            let mut finding = Finding::at(module.file("module.json"), pointer, message);
+            let mut finding = Finding::of(module, pointer, message);
             finding.actual = actual;
             findings.report(finding);
         }
     }
+    Some(())
 }

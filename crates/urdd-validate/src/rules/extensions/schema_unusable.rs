@@ -1,8 +1,6 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use super::extensions;
+use crate::rules::prelude::*;
 use crate::views::extension_schema::{self, SchemaFile};
-use urdd_document::module::is_extension;
 
 declare_rule! {
     /// An extension has no `schema.json` that can be used.
@@ -18,36 +16,26 @@ declare_rule! {
     /// `true`.
     EXT001 "extension-schema-unusable", Error, clause "11.1", since "0.1.0",
     phase Schema, needs [],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    for module in context.modules() {
-        if module.kind.is_some() || !is_extension(&module.folder) {
-            continue;
-        }
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    for module in extensions(context) {
         let file = module.file("schema.json");
-        let schema = match extension_schema::read(context, module) {
-            SchemaFile::Read(schema) => schema,
+        let message = match extension_schema::read(context, module) {
             SchemaFile::Missing => {
-                findings.report(Finding::in_file(
-                    file,
-                    "the extension has no schema.json: put its JSON Schema there",
-                ));
-                continue;
+                "the extension has no schema.json: put its JSON Schema there".to_owned()
             }
-            SchemaFile::Unreadable(error) => {
-                findings.report(Finding::in_file(file, error.to_string()));
-                continue;
-            }
-            SchemaFile::NotJson(message) => {
-                findings.report(Finding::in_file(file, format!("not JSON: {message}")));
+            SchemaFile::Unreadable(error) => error.to_string(),
+            SchemaFile::NotJson(message) => format!("not JSON: {message}"),
+            SchemaFile::Read(schema) => {
+                let document = module.json.document().map(|document| &document.value);
+                for fault in extension_schema::faults(&schema, document) {
+                    Finding::at(&file, fault.pointer, fault.message).report(findings);
+                }
                 continue;
             }
         };
-        let document = module.json.document().map(|document| &document.value);
-        for fault in extension_schema::faults(&schema, document) {
-            findings.report(Finding::at(&file, fault.pointer, fault.message));
-        }
+        Finding::in_file(file, message).report(findings);
     }
+    Some(())
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::text_faults;
 use urdd_directory::text_fault::TextFaultKind;
 
@@ -12,11 +10,11 @@ declare_rule! {
     /// Save it as UTF-8 without a byte order mark (in Python: `utf-8`, not `utf-8-sig`).
     JSN004 "json-byte-order-mark", Error, clause "3.1.1", since "0.1.0",
     phase Syntax, needs [],
-    check check,
 }
 
 const KINDS: &[TextFaultKind] = &[TextFaultKind::ByteOrderMark];
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     text_faults::report_json(context, KINDS, findings);
+    Some(())
 }

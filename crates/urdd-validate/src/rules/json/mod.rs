@@ -7,14 +7,9 @@ mod not_json;
 mod number_not_finite;
 mod repeated_key;
 
-use crate::rule::Rule;
+use crate::rule::rules;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &not_json::RULE,
-    &repeated_key::RULE,
-    &json_not_utf8::RULE,
-    &json_byte_order_mark::RULE,
-    &number_not_finite::RULE,
-    &json_too_deep::RULE,
-];
+rules! {
+    json_byte_order_mark, json_not_utf8, json_too_deep, not_json, number_not_finite,
+    repeated_key
+}

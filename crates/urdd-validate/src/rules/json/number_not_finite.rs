@@ -1,23 +1,21 @@
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::text_faults;
 use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
     /// A number is not finite: `NaN`, `Infinity`, or too large for a 64-bit float.
     ///
-    /// JSON has no such numbers. Some programs write them all the same (Python's `json` does),
-    /// others refuse the whole file. The usual cause is a division by zero.
+    /// JSON has no such numbers. Some programs write them anyway (Python's `json` does), others refuse
+    /// the whole file. The usual cause is a division by zero.
     ///
     /// Write null where the schema allows it, else the number that is meant.
     JSN005 "number-not-finite", Error, clause "3.1.1", since "0.1.0",
     phase Syntax, needs [],
-    check check,
 }
 
 const KINDS: &[TextFaultKind] = &[TextFaultKind::NonFiniteNumber];
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     text_faults::report_json(context, KINDS, findings);
+    Some(())
 }

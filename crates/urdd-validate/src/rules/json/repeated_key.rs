@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::text_faults;
 use urdd_directory::text_fault::TextFaultKind;
 
@@ -13,11 +11,11 @@ declare_rule! {
     /// Remove one of the two.
     JSN002 "repeated-key", Error, clause "3.1.1", since "0.1.0",
     phase Syntax, needs [],
-    check check,
 }
 
 const KINDS: &[TextFaultKind] = &[TextFaultKind::DuplicateKey];
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     text_faults::report_json(context, KINDS, findings);
+    Some(())
 }

@@ -6,13 +6,9 @@ mod sample_list_wrong;
 mod sample_pose_wrong;
 mod samples_missing;
 
-use crate::rule::Rule;
+use crate::rule::rules;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &poses_disagree::RULE,
-    &sample_configuration_wrong::RULE,
-    &sample_pose_wrong::RULE,
-    &sample_list_wrong::RULE,
-    &samples_missing::RULE,
-];
+rules! {
+    poses_disagree, sample_configuration_wrong, sample_list_wrong, sample_pose_wrong,
+    samples_missing
+}

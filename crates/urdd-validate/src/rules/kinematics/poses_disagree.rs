@@ -1,14 +1,8 @@
 use nalgebra::Isometry3;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
 use crate::reference::{MimicDofs, Reference};
-use crate::rule::declare_rule;
-use crate::skip::SkipReason;
-use crate::tolerance::{POSITION_OF_REACH, ROTATION, angle_of_distance, reach, rotation_distance};
+use crate::rules::prelude::*;
 use urdd_document::consumer;
-use urdd_format::readable::number;
-use urdd_format::registry::{ModuleKind, Profile};
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::canonical;
 use urdd_kinematics::unit;
@@ -23,7 +17,7 @@ declare_rule! {
     /// and a few of the specification's samples. A robot that is driven by such modules goes
     /// somewhere else than its URDF says.
     ///
-    /// The finding names the first joint, from the root outwards, at which the two part. Write the
+    /// The finding names the first joint, from the root outwards, at which the two differ. Write the
     /// modules again from the carried URDF, or carry the URDF from which they were written.
     KIN001 "poses-disagree", Error, clause "9.1", since "0.1.0",
     phase Kinematics, judges AsItStands,
@@ -31,122 +25,102 @@ declare_rule! {
         CarriedUrdf, Module(Kind::Urdf), Module(Kind::Chain), Module(Kind::Dof),
         Passed(URD001), ROBOT_SOUND, Passed(URD009), Passed(URD012), Passed(URD010), Passed(CHN002), Passed(CHN003), Passed(CHN006),
         Passed(DOF003), Passed(DOF004), Passed(DOF005),
-        // What these find moves links, and they say where. Legacy modules have no such fields.
+        // These report what moves links, and where. Legacy modules do not have these fields.
         NotFailed(DOF007), NotFailed(CHN007), NotFailed(CHN008), NotFailed(CHN009), NotFailed(CHN010),
     ],
-    check check,
 }
 
-/// How many of the specification's sampled configurations are compared.
+/// Number of the specification's sampled configurations that are compared.
 const SAMPLES: u64 = 8;
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let legacy = context.profile() == Profile::Legacy;
-    let (Some(source), Some(robot), Some(tree), Some(modules), Some(dofs)) = (
-        context
-            .urdf_text()
-            .and_then(|reading| reading.robot.as_ref()),
-        context.robot(),
-        context.tree(),
-        consumer::modules(context),
-        context.dofs(),
-    ) else {
-        return findings.skip(SkipReason::KinematicsOpen);
-    };
-    let mimics_have_dofs = robot
-        .joints
-        .iter()
-        .zip(dofs.dofs_of_joint)
-        .any(|(joint, dofs)| joint.active_mimic().is_some() && !dofs.is_empty());
-    let mimics = if mimics_have_dofs {
-        MimicDofs::Own
-    } else {
-        MimicDofs::Follow
-    };
-    let reference = match Reference::new(source, mimics) {
-        Ok(reference) => reference,
-        Err(reason) => return findings.skip(SkipReason::Reference(reason)),
-    };
+    let source = context.urdf_text()?.robot.as_ref()?;
+    let robot = context.robot()?;
+    let tree = context.tree()?;
+    let dofs = context.dofs()?;
+    let module = context.module(ModuleKind::Chain)?;
+    let modules = findings.or_skip(consumer::modules(context).ok_or(SkipReason::KinematicsOpen))?;
+    let mut joints = robot.joints.iter().zip(dofs.dofs_of_joint);
+    let mimics =
+        match joints.any(|(joint, dofs)| joint.active_mimic().is_some() && !dofs.is_empty()) {
+            true => MimicDofs::Own,
+            false => MimicDofs::Follow,
+        };
+    let reference = Reference::new(source, mimics).map_err(SkipReason::Reference);
+    let reference = findings.or_skip(reference)?;
     if legacy && reference.has(JointType::Planar) {
         return findings.skip(SkipReason::LegacyCoordinates);
     }
-    let file = format!("{}/module.json", ModuleKind::Chain.folder());
+    let file = module.file("module.json");
     let kinematics = match ForwardKinematics::new(&modules.chain, &modules.dof) {
         Ok(kinematics) => kinematics,
         Err(error) => {
             let message =
                 format!("forward kinematics cannot be computed from the modules: {error}");
-            return findings.report(Finding::in_file(file, message));
+            Finding::in_file(file, message).report(findings);
+            return Some(());
         }
     };
     let tolerance = POSITION_OF_REACH * reach(robot, tree);
     for (name, configuration) in configurations(&reference) {
         let found = match kinematics.link_poses(&configuration) {
             Ok(found) => Some(found),
-            // Numbers that are beyond 64 bits.
+            // Numbers beyond 64 bits.
             Err(error @ ConfigurationError::Overflow { .. }) => {
                 let message = format!("the link poses cannot be computed ({name}): {error}");
-                return findings.report(Finding::in_file(file, message));
+                Finding::in_file(file, message).report(findings);
+                return Some(());
             }
             Err(_) => None,
         };
         let Some((found, expected)) = found.zip(reference.link_poses(&configuration)) else {
-            let message =
-                "the modules and the URDF have configurations of different lengths".to_owned();
-            return findings.report(
-                Finding::in_file(file, message)
-                    .expected(format!("{} DOFs", reference.num_dofs()))
-                    .actual(format!("{} DOFs", kinematics.num_dofs())),
-            );
+            let message = "the modules and the URDF have configurations of different lengths";
+            Finding::in_file(file, message)
+                .expected(format!("{} DOFs", reference.num_dofs()))
+                .actual(format!("{} DOFs", kinematics.num_dofs()))
+                .report(findings);
+            return Some(());
         };
         let first = tree.order.iter().find(|link| {
             let pair = found.get(**link).zip(expected.get(**link));
             pair.is_none_or(|(found, expected)| !agree(found, expected, tolerance))
         });
         let Some(&link) = first else { continue };
-        let Some((found, expected)) = found.get(link).zip(expected.get(link)) else {
-            continue;
-        };
+        let (found, expected) = (found.get(link)?, expected.get(link)?);
         let joint = tree.parent_joint[link].unwrap_or(0);
-        let (shift, turn) = difference(found, expected);
+        let (shift, turn) = pose_distance(found, expected);
         let turn = angle_of_distance(turn);
-        findings.report(
-            Finding::at(
-                file.clone(),
-                format!("/joints_in_chain/{joint}"),
-                format!(
-                    "in configuration {name}, link {:?} (joint {:?}) is {} m and {} rad from where the URDF has it",
-                    robot.links[link].name,
-                    robot.joints[joint].name,
-                    number(shift, 4),
-                    number(turn, 4)
-                ),
-            )
+        let pointer = format!("/joints_in_chain/{joint}");
+        let message = format!(
+            "in configuration {name}, link {:?} (joint {:?}) is {} m and {} rad from where the URDF has it",
+            robot.links[link].name,
+            robot.joints[joint].name,
+            number(shift, 4),
+            number(turn, 4)
+        );
+        Finding::at(file, pointer, message)
             .expected(describe(expected))
             .actual(describe(found))
             .tolerance(tolerance)
-            .off_by(shift, "m"),
-        );
-        // Other configurations would say the same of the same joint.
-        return;
+            .off_by(shift, "m")
+            .report(findings);
+        // Other configurations would report the same joint.
+        return Some(());
     }
+    Some(())
 }
 
 fn configurations(reference: &Reference) -> Vec<(String, Vec<f64>)> {
     let intervals = reference.intervals();
     let each = |value: &dyn Fn(usize, [f64; 2]) -> f64| -> Vec<f64> {
-        intervals
-            .iter()
-            .enumerate()
-            .map(|(i, interval)| value(i, *interval))
-            .collect()
+        let intervals = intervals.iter().enumerate();
+        intervals.map(|(i, interval)| value(i, *interval)).collect()
     };
+    let middle = each(&|_, [lower, upper]| lower / 2.0 + upper / 2.0);
     let mut configurations = vec![
         ("zero".to_owned(), each(&|_, _| 0.0)),
-        (
-            "middle".to_owned(),
-            each(&|_, [lower, upper]| lower / 2.0 + upper / 2.0),
-        ),
+        ("middle".to_owned(), middle),
         ("lower".to_owned(), each(&|_, [lower, _]| lower)),
         ("upper".to_owned(), each(&|_, [_, upper]| upper)),
     ];
@@ -159,17 +133,8 @@ fn configurations(reference: &Reference) -> Vec<(String, Vec<f64>)> {
 }
 
 fn agree(a: &Isometry3<f64>, b: &Isometry3<f64>, tolerance: f64) -> bool {
-    let (shift, turn) = difference(a, b);
+    let (shift, turn) = pose_distance(a, b);
     shift <= tolerance && turn <= ROTATION
-}
-
-fn difference(a: &Isometry3<f64>, b: &Isometry3<f64>) -> (f64, f64) {
-    let shift = (a.translation.vector - b.translation.vector).norm();
-    let turn = rotation_distance(
-        a.rotation.to_rotation_matrix().matrix(),
-        b.rotation.to_rotation_matrix().matrix(),
-    );
-    (shift, turn)
 }
 
 fn describe(pose: &Isometry3<f64>) -> String {

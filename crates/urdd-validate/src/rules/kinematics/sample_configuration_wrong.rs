@@ -1,10 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::skip::SkipReason;
-use crate::tolerance::{NUMBER_RELATIVE, ROTATION, number_tolerance, rotation_distance};
+use crate::rules::prelude::*;
 use urdd_format::kinematics_samples::ConfigurationKind;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_kinematics::ConfigurationSpace;
 use urdd_kinematics::rotation::from_rotation_vector;
 
@@ -19,35 +14,21 @@ declare_rule! {
     KIN002 "sample-configuration-wrong", Error, clause "9.2", since "0.1.0",
     phase Kinematics,
     needs [
-        Version1, Module(Kind::KinematicsSamples), Module(Kind::Chain), Module(Kind::Dof), Module(Kind::Bounds), Passed(KIN004),
-        Passed(CHN002), Passed(CHN007), Passed(DOF003), Passed(DOF004), Passed(DOF005),
-        Passed(BND001), Passed(BND002), Passed(BND003), Passed(BND006),
+        Version1, Module(Kind::KinematicsSamples), ModuleV1(Kind::Chain), ModuleV1(Kind::Dof),
+        ModuleV1(Kind::Bounds), Passed(KIN004), Passed(CHN002), Passed(CHN007), Passed(DOF003), Passed(DOF004),
+        Passed(DOF005), Passed(BND001), Passed(BND002), Passed(BND003), Passed(BND006),
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some(module) = context.module(ModuleKind::KinematicsSamples) else {
-        return;
-    };
-    let (
-        Some(ModuleDocument::KinematicsSamples(samples)),
-        Some(ModuleDocument::Chain(chain)),
-        Some(ModuleDocument::Dof(dof)),
-        Some(ModuleDocument::Bounds(bounds)),
-    ) = (
-        &module.document,
-        context.document(ModuleKind::Chain),
-        context.document(ModuleKind::Dof),
-        context.document(ModuleKind::Bounds),
-    )
-    else {
-        return;
-    };
-    let space = match ConfigurationSpace::new(dof, chain, bounds) {
-        Ok(space) => space,
-        Err(error) => return findings.skip(SkipReason::Kinematics(error.to_string())),
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let module = context.module(ModuleKind::KinematicsSamples)?;
+    let samples = document!(context, KinematicsSamples)?;
+    let chain = document!(context, Chain)?;
+    let dof = document!(context, Dof)?;
+    let bounds = document!(context, Bounds)?;
+    let space = ConfigurationSpace::new(dof, chain, bounds);
+    let space = space.map_err(|error| SkipReason::Kinematics(error.to_string()));
+    let space = findings.or_skip(space)?;
     for (place, sample) in samples.samples.iter().enumerate() {
         let expected = match (sample.kind, sample.sample_idx) {
             (ConfigurationKind::Zero, _) => space.zero(),
@@ -57,8 +38,8 @@ fn check(context: &Context, findings: &mut Findings) {
             (ConfigurationKind::Sampled, Some(number)) => space.sampled(u64::from(number.0)),
             (ConfigurationKind::Sampled, None) => continue,
         };
-        // Rotation vectors that are drawn are compared as rotations; those of the other kinds are
-        // constants (SPEC 9.4), compared number by number as everything else.
+        // Sampled rotation vectors are compared as rotations. Those of the other kinds are constants (SPEC 9.4) and are
+        // compared number by number, like everything else.
         let vectors = match sample.kind {
             ConfigurationKind::Sampled => space.rotation_vectors(),
             _ => &[],
@@ -66,49 +47,40 @@ fn check(context: &Context, findings: &mut Findings) {
         let found = &sample.configuration;
         for (dof, (expected, found)) in expected.iter().zip(found).enumerate() {
             let in_vector = vectors.iter().any(|vector| vector.contains(&dof));
-            // Sums of bounds cancel: what counts is how large the bounds are, not the sum.
-            let size = bounds
-                .bounds
-                .get(dof)
-                .map_or(0.0, |[lower, upper]| lower.abs().max(upper.abs()));
+            // Sums of bounds cancel: what matters is the size of the bounds, not of the sum.
+            let bounds = bounds.bounds.get(dof);
+            let size = bounds.map_or(0.0, |[lower, upper]| lower.abs().max(upper.abs()));
             let tolerance = number_tolerance(*expected, *found).max(NUMBER_RELATIVE * size);
             if in_vector || (expected - found).abs() <= tolerance {
                 continue;
             }
-            findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/samples/{place}/configuration/{dof}"),
-                    format!(
-                        "in the configuration {} this DOF has another value",
-                        sample.kind
-                    ),
-                )
+            let kind = sample.kind;
+            let pointer = format!("/samples/{place}/configuration/{dof}");
+            let message = format!("in the configuration {kind} this DOF has another value");
+            Finding::of(module, pointer, message)
                 .expected(expected)
                 .actual(found)
-                .tolerance(tolerance),
-            );
+                .tolerance(tolerance)
+                .report(findings);
         }
         for vector in vectors {
-            let (Some(expected), Some(found)) = (pick(&expected, vector), pick(found, vector))
-            else {
-                continue;
-            };
+            let (expected, found) = (pick(&expected, vector)?, pick(found, vector)?);
             if same_rotation(expected, found) {
                 continue;
             }
-            findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/samples/{place}/configuration/{}", vector[0]),
-                    format!("in the configuration {} the rotation vector that begins here has another value", sample.kind),
-                )
+            let pointer = format!("/samples/{place}/configuration/{}", vector[0]);
+            let message = format!(
+                "in the configuration {} the rotation vector that begins here has another value",
+                sample.kind
+            );
+            Finding::of(module, pointer, message)
                 .expected(format!("{expected:?}"))
                 .actual(format!("{found:?}"))
-                .tolerance(ROTATION),
-            );
+                .tolerance(ROTATION)
+                .report(findings);
         }
     }
+    Some(())
 }
 
 fn pick(configuration: &[f64], dofs: &[usize; 3]) -> Option<[f64; 3]> {
@@ -116,8 +88,8 @@ fn pick(configuration: &[f64], dofs: &[usize; 3]) -> Option<[f64; 3]> {
     Some([x?, y?, z?])
 }
 
-/// Compared as rotations, since at half a turn a vector and its opposite are the same; but longer
-/// than half a turn no vector may be.
+/// Compares two rotation vectors as rotations: at half a turn, a vector and its opposite are the same. No vector may be
+/// longer than half a turn.
 fn same_rotation(expected: [f64; 3], found: [f64; 3]) -> bool {
     let length = found.iter().map(|x| x * x).sum::<f64>().sqrt();
     let matrix = |v| *from_rotation_vector(v).to_rotation_matrix().matrix();

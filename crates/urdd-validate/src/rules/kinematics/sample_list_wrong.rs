@@ -1,9 +1,6 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_format::index::SampleIdx;
 use urdd_format::kinematics_samples::ConfigurationKind;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 
 declare_rule! {
     /// The samples are not zero, middle, lower, upper, and then sampled ones numbered from 0.
@@ -15,10 +12,9 @@ declare_rule! {
     /// with one value per DOF and one pose per link.
     KIN004 "sample-list-wrong", Error, clause "9.2", since "0.1.0",
     phase References, needs [Version1, Module(Kind::KinematicsSamples), Passed(URD004), Passed(DOF003)],
-    check check,
 }
 
-/// Samples with these kinds come first, in this order.
+/// The kinds of the first samples, in order.
 const NAMED: [ConfigurationKind; 4] = [
     ConfigurationKind::Zero,
     ConfigurationKind::Middle,
@@ -26,69 +22,52 @@ const NAMED: [ConfigurationKind; 4] = [
     ConfigurationKind::Upper,
 ];
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(module), Some(robot), Some(dofs)) = (
-        context.module(ModuleKind::KinematicsSamples),
-        context.robot(),
-        context.dofs(),
-    ) else {
-        return;
-    };
-    let Some(ModuleDocument::KinematicsSamples(document)) = &module.document else {
-        return;
-    };
-    let file = module.file("module.json");
-    for (place, sample) in document.samples.iter().enumerate() {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let module = context.module(ModuleKind::KinematicsSamples)?;
+    let samples = &document!(context, KinematicsSamples)?.samples;
+    let (dofs, links) = (context.dofs()?.num_dofs.get(), context.robot()?.links.len());
+    for (place, sample) in samples.iter().enumerate() {
         let (kind, number) = match NAMED.get(place) {
             Some(kind) => (*kind, None),
-            None => (
-                ConfigurationKind::Sampled,
-                u32::try_from(place - NAMED.len()).ok().map(SampleIdx),
-            ),
+            None => {
+                let number = u32::try_from(place - NAMED.len()).ok();
+                (ConfigurationKind::Sampled, number.map(SampleIdx))
+            }
         };
         if (sample.kind, sample.sample_idx) != (kind, number) {
             let message = "a sample is in the wrong place; write Zero, Middle, Lower, Upper, then Sampled with sample_idx 0, 1, 2, …";
-            // Whatever follows is displaced too: one mistake, one message.
-            return findings.report(
-                Finding::at(file, format!("/samples/{place}"), message)
-                    .expected(describe(kind, number))
-                    .actual(describe(sample.kind, sample.sample_idx)),
-            );
+            Finding::of(module, format!("/samples/{place}"), message)
+                .expected(describe(kind, number))
+                .actual(describe(sample.kind, sample.sample_idx))
+                .report(findings);
+            // The samples that follow are displaced too: one mistake, one finding.
+            return Some(());
         }
-        let lengths = [
-            (
-                "configuration",
-                sample.configuration.len(),
-                dofs.num_dofs.get(),
-                "DOF",
-            ),
-            (
-                "link_poses",
-                sample.link_poses.len(),
-                robot.links.len(),
-                "link",
-            ),
-        ];
-        for (key, found, expected, unit) in lengths {
+        for (key, unit, found, expected) in [
+            ("configuration", "DOF", sample.configuration.len(), dofs),
+            ("link_poses", "link", sample.link_poses.len(), links),
+        ] {
             if found != expected {
-                findings.report(
-                    Finding::at(
-                        file.clone(),
-                        format!("/samples/{place}/{key}"),
-                        format!("`{key}` needs one entry per {unit}"),
-                    )
-                    .expected(format!("{expected} entries"))
-                    .actual(format!("{found} entries")),
-                );
+                let pointer = format!("/samples/{place}/{key}");
+                Finding::of(
+                    module,
+                    pointer,
+                    format!("`{key}` needs one entry per {unit}"),
+                )
+                .expected(format!("{expected} entries"))
+                .actual(format!("{found} entries"))
+                .report(findings);
             }
         }
     }
-    if let Some(missing) = NAMED.get(document.samples.len()) {
+    if let Some(missing) = NAMED.get(samples.len()) {
         let message = format!(
             "the configuration {missing} is missing; the first four samples are Zero, Middle, Lower, Upper"
         );
-        findings.report(Finding::at(file, "/samples", message).expected(missing));
+        let finding = Finding::of(module, "/samples", message);
+        findings.report(finding.expected(missing));
     }
+    Some(())
 }
 
 fn describe(kind: ConfigurationKind, number: Option<SampleIdx>) -> String {

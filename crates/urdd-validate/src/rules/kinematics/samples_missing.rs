@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// There is no `kinematics_samples_module`.
@@ -13,21 +10,19 @@ declare_rule! {
     /// Write it: zero, middle, lower and upper configuration, and a few sampled ones.
     KIN005 "samples-missing", Warning, clause "9.2", since "0.1.0",
     phase Files, consequence Format, needs [Version1],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::KinematicsSamples;
-    // A module that is listed and not there is DIR002's.
-    let listed = context.metadata().is_some_and(|metadata| {
-        metadata
-            .modules
-            .iter()
-            .any(|module| module.name == kind.name())
-    });
-    if context.module(kind).is_none() && !listed {
-        findings.report(Finding::in_directory(
-            "kinematics_samples_module is missing; consumers test their forward kinematics with it",
-        ));
+    // DIR002 reports a module that is listed and missing.
+    let mut listed = context
+        .metadata()
+        .into_iter()
+        .flat_map(|metadata| &metadata.modules);
+    if context.module(kind).is_none() && listed.all(|module| module.name != kind.name()) {
+        let message =
+            "kinematics_samples_module is missing; consumers test their forward kinematics with it";
+        Finding::in_directory(message).report(findings);
     }
+    Some(())
 }

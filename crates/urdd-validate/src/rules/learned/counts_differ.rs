@@ -1,7 +1,5 @@
 use super::subject;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_format::self_collision_model::{EVALUATION_COUNT, EVALUATION_FIRST};
 
 declare_rule! {
@@ -16,74 +14,54 @@ declare_rule! {
     LRN010 "model-counts-differ", Error, clause "8.8.9", since "0.2.0",
     phase Statistics, needs [
         Version1, Module(Kind::SelfCollisionModel), Module(Kind::ConvexHullMeshes),
-        Module(Kind::ConvexDecompositionMeshes), Module(Kind::LinkShapesSkips),
-        POSES_KNOWN, BOUNDS_SOUND, PIECES_LISTED, NotFailed(MSH020), NotFailed(MSH021), NotFailed(MSH022),
-        Passed(LRN003), Passed(LRN004), Passed(LRN005), NotFailed(LRN006), NotFailed(LRN007), NotFailed(LRN008),
-        Passed(LRN009), Passed(LRN012),
+        Module(Kind::ConvexDecompositionMeshes), Module(Kind::LinkShapesSkips), POSES_KNOWN, BOUNDS_SOUND,
+        PIECES_LISTED, NotFailed(MSH020), NotFailed(MSH021), NotFailed(MSH022), Passed(LRN003), Passed(LRN004),
+        Passed(LRN005), NotFailed(LRN006), NotFailed(LRN007), NotFailed(LRN008), Passed(LRN009), Passed(LRN012),
     ],
-    check check,
 }
 
-/// A count may be off by one for every so many that it is counted among.
+/// A count may differ by one per this many configurations that it is counted among.
 const PER_TOLERANCE: u32 = 10_000;
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some((module, model)) = subject(context) else {
-        return;
-    };
-    let judge = match context.model_judge() {
-        Ok(judge) => judge,
-        Err(reason) => return findings.skip(reason.clone()),
-    };
-    let found = match judge.count(EVALUATION_FIRST, EVALUATION_COUNT) {
-        Ok(found) => found,
-        Err(reason) => return findings.skip(reason),
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (module, model) = subject(context)?;
+    let judge = findings.or_skip(context.model_judge())?;
+    let found = findings.or_skip(judge.count(EVALUATION_FIRST, EVALUATION_COUNT))?;
     let stated = &model.evaluation;
+    let (colliding, near) = (found.num_colliding, found.num_near_contact);
+    let (missed, near_missed) = (found.num_missed, found.num_near_contact_missed);
+    let (cleared, free) = (found.num_cleared, found.num_free);
     for (key, stated, found, among) in [
         (
             "num_colliding",
             stated.num_colliding,
-            found.num_colliding,
+            colliding,
             EVALUATION_COUNT,
         ),
-        (
-            "num_missed",
-            stated.num_missed,
-            found.num_missed,
-            found.num_colliding.0,
-        ),
+        ("num_missed", stated.num_missed, missed, colliding.0),
         (
             "num_near_contact",
             stated.num_near_contact,
-            found.num_near_contact,
-            found.num_colliding.0,
+            near,
+            colliding.0,
         ),
         (
             "num_near_contact_missed",
             stated.num_near_contact_missed,
-            found.num_near_contact_missed,
-            found.num_near_contact.0,
+            near_missed,
+            near.0,
         ),
-        (
-            "num_cleared",
-            stated.num_cleared,
-            found.num_cleared,
-            found.num_free.0,
-        ),
+        ("num_cleared", stated.num_cleared, cleared, free.0),
     ] {
         let tolerance = among.div_ceil(PER_TOLERANCE);
         if found.0.abs_diff(stated.0) > tolerance {
-            findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/evaluation/{key}"),
-                    "counting these configurations again gives another number",
-                )
+            let message = "counting these configurations again gives another number";
+            Finding::of(module, format!("/evaluation/{key}"), message)
                 .expected(found)
                 .actual(stated)
-                .tolerance(f64::from(tolerance)),
-            );
+                .tolerance(f64::from(tolerance))
+                .report(findings);
         }
     }
+    Some(())
 }

@@ -1,7 +1,5 @@
 use super::subject;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_format::self_collision_model::EVALUATION_MIN;
 
 declare_rule! {
@@ -13,13 +11,10 @@ declare_rule! {
     /// Leave the model out. It saves nothing for a robot that hardly ever collides with itself, or nearly always does.
     LRN012 "model-counts-few", Error, clause "8.8.9", since "0.2.0",
     phase References, needs [Version1, Module(Kind::SelfCollisionModel), Passed(LRN009)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some((module, model)) = subject(context) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (module, model) = subject(context)?;
     let stated = &model.evaluation;
     for (key, what, count) in [
         ("num_colliding", "collisions", stated.num_colliding),
@@ -27,10 +22,11 @@ fn check(context: &Context, findings: &mut Findings) {
     ] {
         if count.0 < EVALUATION_MIN {
             let message = format!("too few {what} to state a rate");
-            let pointer = format!("/evaluation/{key}");
-            let finding = Finding::at(module.file("module.json"), pointer, message);
-            let expected = format!("at least {EVALUATION_MIN}");
-            findings.report(finding.expected(expected).actual(count));
+            Finding::of(module, format!("/evaluation/{key}"), message)
+                .expected(format!("at least {EVALUATION_MIN}"))
+                .actual(count)
+                .report(findings);
         }
     }
+    Some(())
 }

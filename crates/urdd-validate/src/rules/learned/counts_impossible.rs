@@ -1,7 +1,5 @@
 use super::subject;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_format::self_collision_model::{EVALUATION_COUNT, EVALUATION_FIRST, SampleRange};
 
 declare_rule! {
@@ -14,56 +12,33 @@ declare_rule! {
     /// again.
     LRN009 "model-counts-impossible", Error, clause "8.8.8", since "0.2.0",
     phase References, needs [Version1, Module(Kind::SelfCollisionModel)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some((module, model)) = subject(context) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (module, model) = subject(context)?;
     let stated = &model.evaluation;
     let all = u64::from(stated.num_colliding.0) + u64::from(stated.num_free.0);
     if all != u64::from(EVALUATION_COUNT) {
         let message = "`num_colliding` and `num_free` together are not all configurations";
-        let finding = Finding::at(module.file("module.json"), "/evaluation", message);
+        let finding = Finding::of(module, "/evaluation", message);
         findings.report(finding.expected(EVALUATION_COUNT).actual(all));
     }
-    for (key, count, what, most) in [
-        (
-            "num_missed",
-            stated.num_missed,
-            "num_colliding",
-            stated.num_colliding,
-        ),
-        (
-            "num_near_contact",
-            stated.num_near_contact,
-            "num_colliding",
-            stated.num_colliding,
-        ),
-        (
-            "num_near_contact_missed",
-            stated.num_near_contact_missed,
-            "num_near_contact",
-            stated.num_near_contact,
-        ),
-        (
-            "num_near_contact_missed",
-            stated.num_near_contact_missed,
-            "num_missed",
-            stated.num_missed,
-        ),
-        (
-            "num_cleared",
-            stated.num_cleared,
-            "num_free",
-            stated.num_free,
-        ),
+    let colliding = ("num_colliding", stated.num_colliding);
+    let missed = ("num_missed", stated.num_missed);
+    let near = ("num_near_contact", stated.num_near_contact);
+    let near_missed = ("num_near_contact_missed", stated.num_near_contact_missed);
+    let cleared = ("num_cleared", stated.num_cleared);
+    let free = ("num_free", stated.num_free);
+    for ((key, count), (what, most)) in [
+        (missed, colliding),
+        (near, colliding),
+        (near_missed, near),
+        (near_missed, missed),
+        (cleared, free),
     ] {
         if count.0 > most.0 {
-            let pointer = format!("/evaluation/{key}");
             let message = format!("this is more than `{what}`");
-            let finding = Finding::at(module.file("module.json"), pointer, message);
+            let finding = Finding::of(module, format!("/evaluation/{key}"), message);
             findings.report(finding.expected(format!("at most {most}")).actual(count));
         }
     }
@@ -73,8 +48,7 @@ fn check(context: &Context, findings: &mut Findings) {
     };
     let (training, calibration) = (range(&model.training), range(&model.calibration));
     let mut report = |key: &str, message: &str| {
-        let pointer = format!("/{key}");
-        findings.report(Finding::at(module.file("module.json"), pointer, message));
+        Finding::of(module, format!("/{key}"), message).report(findings);
     };
     for (key, range) in [("training", &training), ("calibration", &calibration)] {
         if range.is_empty() {
@@ -84,9 +58,8 @@ fn check(context: &Context, findings: &mut Findings) {
         }
     }
     if training.start < calibration.end && calibration.start < training.end {
-        report(
-            "calibration",
-            "some of these configurations are in `training` too",
-        );
+        let message = "some of these configurations are in `training` too";
+        report("calibration", message);
     }
+    Some(())
 }

@@ -1,7 +1,5 @@
 use super::subject;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_format::index::LinkIdx;
 use urdd_format::self_collision_model::ModelInput;
 
@@ -16,32 +14,28 @@ declare_rule! {
     phase References, needs [
         Version1, Module(Kind::SelfCollisionModel), Module(Kind::Dof), ROBOT_SOUND, NotFailed(DOF003),
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some((module, model)), Some(robot), Some(dofs)) =
-        (subject(context), context.robot(), context.dofs())
-    else {
-        return;
-    };
-    let file = || module.file("module.json");
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (module, model) = subject(context)?;
+    let robot = context.robot()?;
+    let dofs = context.dofs()?;
     let num_dofs = dofs.num_dofs.get();
     let mut judge = |pointer: String, what: &str, index: usize, count: usize| {
         if index >= count {
             let message = format!("there is no such {what}");
-            let finding = Finding::at(file(), pointer, message);
-            findings.report(finding.expected(format!("below {count}")).actual(index));
+            Finding::of(module, pointer, message)
+                .expected(format!("below {count}"))
+                .actual(index)
+                .report(findings);
         }
     };
     for (place, input) in model.inputs.iter().enumerate() {
         let at = |rest: &str| format!("/inputs/{place}/{rest}");
         match input {
-            ModelInput::Angle(of) => {
-                judge(at("Angle/dof_idx"), "DOF", of.dof_idx.get(), num_dofs);
-            }
+            ModelInput::Angle(of) => judge(at("Angle/dof_idx"), "DOF", of.dof_idx.get(), num_dofs),
             ModelInput::Length(of) => {
-                judge(at("Length/dof_idx"), "DOF", of.dof_idx.get(), num_dofs);
+                judge(at("Length/dof_idx"), "DOF", of.dof_idx.get(), num_dofs)
             }
             ModelInput::RotationVector(of) => {
                 for (k, dof) in of.dof_idxs.iter().enumerate() {
@@ -72,17 +66,16 @@ fn check(context: &Context, findings: &mut Findings) {
             _ => None,
         };
         if let Some((place, expected)) = fault {
-            let message = "this pair is out of order".to_owned();
-            let finding = Finding::at(file(), format!("/{list}/{place}"), message);
-            return findings.report(finding.expected(expected));
+            let message = "this pair is out of order";
+            let finding = Finding::of(module, format!("/{list}/{place}"), message);
+            findings.report(finding.expected(expected));
+            return Some(());
         }
     }
     if let Some(place) = others.iter().position(|pair| outputs.contains(pair)) {
-        let message = "this pair stands in `pairs` too".to_owned();
-        findings.report(Finding::at(
-            file(),
-            format!("/other_pairs/{place}"),
-            message,
-        ));
+        let message = "this pair stands in `pairs` too";
+        let finding = Finding::of(module, format!("/other_pairs/{place}"), message);
+        findings.report(finding);
     }
+    Some(())
 }

@@ -13,33 +13,18 @@ mod rates_not_met;
 mod too_large;
 mod wrong_shape;
 
-use crate::context::Context;
-use crate::rule::Rule;
-use urdd_document::module::Module;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
+use crate::rule::rules;
+use crate::rules::prelude::*;
 use urdd_format::self_collision_model::SelfCollisionModelModule;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &index_out_of_range::RULE,
-    &input_wrong::RULE,
-    &wrong_shape::RULE,
-    &overflow::RULE,
-    &too_large::RULE,
-    &other_geometry::RULE,
-    &pairs_differ::RULE,
-    &output_differs::RULE,
-    &counts_impossible::RULE,
-    &counts_differ::RULE,
-    &rates_not_met::RULE,
-    &counts_few::RULE,
-];
+rules! {
+    counts_differ, counts_few, counts_impossible, index_out_of_range, input_wrong,
+    other_geometry, output_differs, overflow, pairs_differ, rates_not_met, too_large,
+    wrong_shape
+}
 
-/// What every rule of this family looks at: the module, and what it says.
+/// The module and its document.
 fn subject(context: &Context) -> Option<(&Module, &SelfCollisionModelModule)> {
-    let kind = ModuleKind::SelfCollisionModel;
-    let Some(ModuleDocument::SelfCollisionModel(model)) = context.document(kind) else {
-        return None;
-    };
-    Some((context.module(kind)?, model))
+    let model = document!(context, SelfCollisionModel)?;
+    Some((context.module(ModuleKind::SelfCollisionModel)?, model))
 }

@@ -1,11 +1,8 @@
 use sha2::{Digest, Sha256};
 
 use super::subject;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_document::meshes::Format;
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// The self-collision model was trained on another robot, other pieces or other skips than those that are here.
@@ -17,49 +14,44 @@ declare_rule! {
     LRN006 "model-of-other-geometry", Error, clause "8.8.7", since "0.2.0",
     phase References, needs [
         Version1, Module(Kind::SelfCollisionModel), Module(Kind::Dof), Module(Kind::Chain), Module(Kind::Bounds),
-        Module(Kind::ConvexDecompositionMeshes), Module(Kind::LinkShapesSkips), RootMetadata,
-        Passed(DIR011), Passed(DIR014), POSES_KNOWN, BOUNDS_SOUND, PIECES_LISTED, NotFailed(SHP013),
+        Module(Kind::ConvexDecompositionMeshes), Module(Kind::LinkShapesSkips), RootMetadata, Passed(DIR011),
+        Passed(DIR014), POSES_KNOWN, BOUNDS_SOUND, PIECES_LISTED, NotFailed(SHP013),
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some((module, model)), Some(metadata), Some(pieces)) = (
-        subject(context),
-        context.metadata(),
-        context.meshes(ModuleKind::ConvexDecompositionMeshes),
-    ) else {
-        return;
-    };
-    let documents = [
-        ModuleKind::Dof,
-        ModuleKind::Chain,
-        ModuleKind::Bounds,
-        ModuleKind::LinkShapesSkips,
-    ];
-    let documents = documents.map(|kind| format!("{}/module.json", kind.folder()));
-    let paths = pieces.paths().map(|(_, path)| path);
-    let files = paths.filter(|path| path.format == Some(Format::Glb));
-    let files = files.map(|path| path.path.to_owned());
+/// The modules whose documents are part of the digest.
+const TRAINED_ON: [ModuleKind; 4] = [
+    ModuleKind::Dof,
+    ModuleKind::Chain,
+    ModuleKind::Bounds,
+    ModuleKind::LinkShapesSkips,
+];
+
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (module, model) = subject(context)?;
+    let metadata = context.metadata()?;
+    let pieces = context.meshes(ModuleKind::ConvexDecompositionMeshes)?;
+    let documents = TRAINED_ON.map(|kind| format!("{}/module.json", kind.folder()));
+    let glbs = pieces
+        .paths()
+        .filter(|(_, path)| path.format == Some(Format::Glb));
+    let glbs = glbs.map(|(_, path)| path.path.to_owned());
     let mut text = String::new();
-    for path in documents.into_iter().chain(files) {
-        let entries = metadata.modules.iter().flat_map(|module| &module.files);
-        let Some(file) = entries.into_iter().find(|file| file.path == path) else {
-            return;
+    for path in documents.into_iter().chain(glbs) {
+        let mut entries = metadata.modules.iter().flat_map(|module| &module.files);
+        let Some(file) = entries.find(|file| file.path == path) else {
+            return Some(());
         };
         text += file.sha256.as_str();
         text.push('\n');
     }
     let expected = urdd_directory::writer::sha256(&Sha256::digest(text));
     if expected != model.trained_on {
-        findings.report(
-            Finding::at(
-                module.file("module.json"),
-                "/trained_on",
-                "the model was trained on other files than those of this URDD",
-            )
+        let message = "the model was trained on other files than those of this URDD";
+        Finding::of(module, "/trained_on", message)
             .expected(expected.as_str())
-            .actual(model.trained_on.as_str()),
-        );
+            .actual(model.trained_on.as_str())
+            .report(findings);
     }
+    Some(())
 }

@@ -1,8 +1,6 @@
 use super::subject;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
 use crate::learned::network;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_format::rate::Rate;
 use urdd_format::self_collision_model::{CONFIRMATION_COUNT, CONFIRMATION_FIRST};
 
@@ -11,40 +9,28 @@ declare_rule! {
     ///
     /// A producer can fit a model to the configurations that its counts are of. So the validator counts twice more: on
     /// configurations that the specification fixes, and on some that follow from the model's own numbers, which no
-    /// training can know. The model is at fault where the 95 % intervals of the two rates do not meet, and the one that
-    /// the validator finds is the worse.
+    /// training can know. The model is at fault where the 95 % intervals of the two rates do not overlap, and the rate
+    /// that the validator finds is the worse.
     ///
-    /// Train without the configurations from 2^31 on, and do not choose between models by them. The rates of about one in
-    /// a hundred honest models are not confirmed by chance; train such a model again from other weights.
+    /// Train without the configurations from 2^31 on, and do not choose between models by them. The rates of about one
+    /// in a hundred honest models are not confirmed by chance; train such a model again from other weights.
     LRN011 "model-rates-not-met", Error, clause "8.8.12", since "0.2.0",
     phase Statistics, needs [Version1, Module(Kind::SelfCollisionModel), Passed(LRN010)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some((module, model)) = subject(context) else {
-        return;
-    };
-    let judge = match context.model_judge() {
-        Ok(judge) => judge,
-        Err(reason) => return findings.skip(reason.clone()),
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let (module, model) = subject(context)?;
+    let judge = findings.or_skip(context.model_judge())?;
     let stated = &model.evaluation;
     for first in [CONFIRMATION_FIRST, network::second_confirmation(model)] {
-        let found = match judge.count(first, CONFIRMATION_COUNT) {
-            Ok(found) => found,
-            Err(reason) => return findings.skip(reason),
-        };
+        let found = findings.or_skip(judge.count(first, CONFIRMATION_COUNT))?;
+        let last = first + (CONFIRMATION_COUNT - 1);
         let mut report = |key: &str, what: &str, stated: Rate, found: Rate| {
-            let last = first + (CONFIRMATION_COUNT - 1);
             let message = format!("{what} on sampled configurations {first} to {last} than stated");
-            let pointer = format!("/evaluation/{key}");
-            let finding = Finding::at(module.file("module.json"), pointer, message);
-            findings.report(
-                finding
-                    .expected(found.to_string())
-                    .actual(stated.to_string()),
-            );
+            Finding::of(module, format!("/evaluation/{key}"), message)
+                .expected(found.to_string())
+                .actual(stated.to_string())
+                .report(findings);
         };
         let (stated_misses, misses) = (stated.miss_rate(), found.miss_rate());
         if misses.is_above(&stated_misses) {
@@ -57,4 +43,5 @@ fn check(context: &Context, findings: &mut Findings) {
             report("num_cleared", what, stated_clears, clears);
         }
     }
+    Some(())
 }

@@ -1,35 +1,30 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_format::legacy::adjusted_robot::AdjustedRobotModule;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 
 declare_rule! {
-    /// The index mappings of `adjusted_robot_module` do not fit each other, or the two robots.
+    /// The index mappings of `adjusted_robot_module` do not agree with each other, or with the two robots.
     ///
-    /// The mappings carry what was computed for the base robot (meshes, shapes, a person's edits) over to
-    /// the robot that was cut out of it. A wrong index gives a link the shape of another.
+    /// The mappings carry what was computed for the base robot (meshes, shapes, a person's edits) over
+    /// to the robot that was cut out of it. A wrong index gives a link the shape of another.
     ///
-    /// `adjusted_…_to_base_…` has one entry for each link (joint) of this robot, `base_…_to_adjusted_…` one
-    /// for each of the base robot: those that are kept, and those that are listed as deleted, which have
-    /// null. Each is the inverse of the other.
+    /// `adjusted_…_to_base_…` has one entry for each link (joint) of this robot, `base_…_to_adjusted_…`
+    /// one for each of the base robot: those that are kept, and those that are listed as deleted, which
+    /// have null. Each is the inverse of the other.
     LEG004 "adjusted-mappings-wrong", Error, clause "10.4", since "0.1.0",
     phase References, needs [Legacy, Module(Kind::Urdf)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(ModuleDocument::LegacyAdjustedRobot(adjusted)), Some(module)) = (
-        context.robot(),
-        context.document(ModuleKind::AdjustedRobot),
-        context.module(ModuleKind::AdjustedRobot),
-    ) else {
-        return;
-    };
-    let file = module.file("module.json");
-    for mapping in mappings(adjusted, robot.links.len(), robot.joints.len()) {
-        mapping.check(&file, findings);
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    for (_, module, document) in context.documents(&[ModuleKind::AdjustedRobot]) {
+        let ModuleDocument::LegacyAdjustedRobot(adjusted) = document else {
+            continue;
+        };
+        for mapping in mappings(adjusted, robot.links.len(), robot.joints.len()) {
+            mapping.check(&module.file("module.json"), findings);
+        }
     }
+    Some(())
 }
 
 /// The mappings of links, or those of joints.
@@ -69,30 +64,18 @@ impl Mapping {
         let down = format!("adjusted_{what}_idx_to_base_{what}_idx_mapping");
         let up = format!("base_{what}_idx_to_adjusted_{what}_idx_mapping");
         let base = self.kept + self.deleted;
+        let deleted = self.deleted;
+        let of_base = format!("the base robot has, counting those deleted ({deleted})");
         for (name, right, written, why) in [
-            (
-                &down,
-                self.kept,
-                self.to_base.len(),
-                "this robot has".to_owned(),
-            ),
-            (
-                &up,
-                base,
-                self.to_adjusted.len(),
-                format!(
-                    "the base robot has, counting those deleted ({})",
-                    self.deleted
-                ),
-            ),
+            (&down, self.kept, self.to_base.len(), "this robot has"),
+            (&up, base, self.to_adjusted.len(), of_base.as_str()),
         ] {
             if right != written {
                 let message = format!("one entry is needed for each {what} that {why}");
-                findings.report(
-                    Finding::at(file, format!("/{name}"), message)
-                        .expected(format!("{right} entries"))
-                        .actual(format!("{written} entries")),
-                );
+                Finding::at(file, format!("/{name}"), message)
+                    .expected(format!("{right} entries"))
+                    .actual(format!("{written} entries"))
+                    .report(findings);
                 return;
             }
         }
@@ -106,11 +89,10 @@ impl Mapping {
                 };
                 let message =
                     format!("`{up}` does not lead from {what} {base} back to {what} {adjusted}");
-                findings.report(
-                    Finding::at(file, format!("/{down}/{adjusted}"), message)
-                        .expected(format!("{what} {adjusted} at /{up}/{base}"))
-                        .actual(there),
-                );
+                Finding::at(file, format!("/{down}/{adjusted}"), message)
+                    .expected(format!("{what} {adjusted} at /{up}/{base}"))
+                    .actual(there)
+                    .report(findings);
             }
         }
         if !findings.is_empty() {
@@ -122,11 +104,10 @@ impl Mapping {
             {
                 let message =
                     format!("`{down}` does not lead from {what} {adjusted} back to {what} {base}");
-                findings.report(
-                    Finding::at(file, format!("/{up}/{base}"), message)
-                        .expected("null")
-                        .actual(format!("{what} {adjusted}")),
-                );
+                Finding::at(file, format!("/{up}/{base}"), message)
+                    .expected("null")
+                    .actual(format!("{what} {adjusted}"))
+                    .report(findings);
             }
         }
     }

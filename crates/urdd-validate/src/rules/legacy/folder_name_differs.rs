@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// The folder of a URDD from before version 1 does not have its robot's name.
@@ -13,23 +10,21 @@ declare_rule! {
     /// `robot_name` of `urdd.json` says the robot's.
     LEG003 "folder-name-differs", Info, clause "10.2", since "0.1.0",
     phase References, needs [Legacy, Module(Kind::Urdf)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::Urdf)) else {
-        return;
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    // With the robot of the carried URDF, urdf_module may be missing.
+    let Some(module) = context.module(ModuleKind::Urdf) else {
+        return Some(());
     };
     let folder = context.root().folder_name();
     if folder != robot.name {
-        findings.report(
-            Finding::at(
-                module.file("module.json"),
-                "/name",
-                "the robot has another name than its folder, which is what mesh paths go by",
-            )
+        let message = "the robot has another name than its folder, which is what mesh paths go by";
+        Finding::of(module, "/name", message)
             .expected(format!("{folder:?} (the folder)"))
-            .actual(format!("{:?}", robot.name)),
-        );
+            .actual(format!("{:?}", robot.name))
+            .report(findings);
     }
+    Some(())
 }

@@ -1,9 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::rules::bounds::LEGACY_WIDENING;
-use crate::tolerance::numbers_agree;
-use urdd_format::registry::ModuleKind;
+use crate::rules::bounds::{LEGACY_WIDENING, limited_dofs};
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// The upper bound of a joint whose two limits are equal was raised by 1e-7.
@@ -15,40 +11,23 @@ declare_rule! {
     /// Nothing needs to be done. From version 1 on, a locked joint has equal bounds.
     LEG006 "locked-bound-widened", Info, clause "10.3", since "0.1.0",
     phase References, needs [Legacy, Passed(DOF005), Passed(BND002)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(layout), Some(bounds), Some(module)) = (
-        context.robot(),
-        context.dof_layout(),
-        context.bounds(),
-        context.module(ModuleKind::Bounds),
-    ) else {
-        return;
-    };
-    for (dof, (pair, joint)) in bounds.bounds.iter().zip(&layout.joint_of_dof).enumerate() {
-        let Some(joint) = robot.joints.get(*joint) else {
-            continue;
-        };
-        let Some((lower, upper)) = joint.position_limits() else {
-            continue;
-        };
-        let [_, written] = *pair;
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let module = context.module(ModuleKind::Bounds)?;
+    for limited in limited_dofs(context)? {
+        let ([lower, upper], [_, written]) = (limited.limits, limited.bounds);
         let raised = upper + LEGACY_WIDENING;
         if lower == upper && !numbers_agree(upper, written) && numbers_agree(raised, written) {
-            findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/bounds/{dof}/1"),
-                    format!(
-                        "joint {:?} is locked at {upper:?}; its upper bound was raised by {LEGACY_WIDENING:?}",
-                        joint.name
-                    ),
-                )
-                .expected(format!("{upper:?}"))
-                .actual(format!("{written:?}")),
+            let message = format!(
+                "joint {:?} is locked at {upper:?}; its upper bound was raised by {LEGACY_WIDENING:?}",
+                limited.joint.name
             );
+            Finding::of(module, format!("/bounds/{}/1", limited.dof), message)
+                .expected(format!("{upper:?}"))
+                .actual(format!("{written:?}"))
+                .report(findings);
         }
     }
+    Some(())
 }

@@ -1,8 +1,6 @@
 use std::collections::BTreeSet;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::shared_meshes;
 
 declare_rule! {
@@ -16,36 +14,25 @@ declare_rule! {
     /// meshes of the others become wrong without notice. In version 1 each link has its own file.
     LEG007 "mesh-file-shared-alike", Info, clause "10.6", since "0.1.0",
     phase References, needs [Legacy, Module(Kind::Urdf), NotFailed(MSH001), NotFailed(MSH003)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let shared: Vec<_> = shared_meshes::all(context)
-        .into_iter()
-        .filter(|shared| shared.alike)
-        .collect();
-    let Some(first) = shared.first() else {
-        return;
-    };
-    let links: BTreeSet<usize> = shared
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let mut shared = shared_meshes::all(context);
+    shared.retain(|shared| shared.alike);
+    let pairs = shared
         .iter()
-        .flat_map(|shared| [shared.first.0, shared.other.0])
-        .collect();
-    let message = format!(
-        "{} links share derived mesh files with others that place the same mesh in the same way: right as it stands, and wrong once one of them is placed otherwise",
-        links.len()
-    );
-    findings.report(
-        Finding::at(
-            format!("{}/module.json", first.kind.folder()),
-            first.other.1.clone(),
-            message,
-        )
-        .actual(format!(
-            "`{}`, of {} and {}",
-            first.path,
-            context.link_label(first.first.0),
-            context.link_label(first.other.0)
-        )),
-    );
+        .flat_map(|shared| [shared.first.0, shared.other.0]);
+    let links: BTreeSet<usize> = pairs.collect();
+    if let Some(first) = shared.first() {
+        let message = format!(
+            "{} links share derived mesh files with others that place the same mesh in the same way: right as it stands, and wrong once one of them is placed otherwise",
+            links.len()
+        );
+        let (a, b) = (first.first.0, first.other.0);
+        let (a, b) = (context.link_label(a), context.link_label(b));
+        let file = format!("{}/module.json", first.kind.folder());
+        let finding = Finding::at(file, &first.other.1, message);
+        findings.report(finding.actual(format!("`{}`, of {a} and {b}", first.path)));
+    }
+    Some(())
 }

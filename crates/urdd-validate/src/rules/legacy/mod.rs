@@ -7,14 +7,9 @@ mod mesh_file_shared_alike;
 mod parent_relative_paths;
 mod without_root_metadata;
 
-use crate::rule::Rule;
+use crate::rule::rules;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &without_root_metadata::RULE,
-    &parent_relative_paths::RULE,
-    &folder_name_differs::RULE,
-    &adjusted_mappings_wrong::RULE,
-    &locked_bound_widened::RULE,
-    &mesh_file_shared_alike::RULE,
-];
+rules! {
+    adjusted_mappings_wrong, folder_name_differs, locked_bound_widened, mesh_file_shared_alike,
+    parent_relative_paths, without_root_metadata
+}

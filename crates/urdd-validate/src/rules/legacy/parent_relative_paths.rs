@@ -1,8 +1,6 @@
 use std::collections::BTreeSet;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_document::paths::{self, Place};
 
 declare_rule! {
@@ -15,26 +13,20 @@ declare_rule! {
     /// are relative to the URDD's own root.
     LEG002 "parent-relative-paths", Info, clause "10.2", since "0.1.0",
     phase References, needs [Legacy],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let mut count = 0;
-    let mut first = None;
-    let mut siblings = BTreeSet::new();
-    for path in paths::all(context) {
-        if !path.from_parent() {
-            continue;
-        }
-        count += 1;
-        if let Place::Sibling { folder, .. } = path.place(context) {
-            siblings.insert(folder);
-        }
-        first.get_or_insert(path);
-    }
-    let Some(first) = first else {
-        return;
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let paths = paths::all(context);
+    let paths: Vec<_> = paths.iter().filter(|path| path.from_parent()).collect();
+    let Some(first) = paths.first() else {
+        return Some(());
     };
+    let siblings = paths.iter().filter_map(|path| match path.place(context) {
+        Place::Sibling { folder, .. } => Some(folder),
+        _ => None,
+    });
+    let siblings: BTreeSet<&str> = siblings.collect();
+    let count = paths.len();
     let message = if siblings.is_empty() {
         format!("{count} mesh paths begin with the folder's own name: do not rename the folder")
     } else {
@@ -47,8 +39,7 @@ fn check(context: &Context, findings: &mut Findings) {
             names.join(", ")
         )
     };
-    findings.report(
-        Finding::at(first.file(), first.pointer.clone(), message)
-            .actual(format!("{:?}", first.path)),
-    );
+    let finding = Finding::at(first.file(), &first.pointer, message);
+    findings.report(finding.actual(format!("{:?}", first.path)));
+    Some(())
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// The URDD is from before version 1, and has no `urdd.json`.
@@ -11,11 +9,10 @@ declare_rule! {
     /// Nothing needs to be done. For a URDD of version 1, write it again from its URDF.
     LEG001 "legacy-without-root-metadata", Info, clause "10.2", since "0.1.0",
     phase Files, needs [Legacy],
-    check check,
 }
 
-fn check(_: &Context, findings: &mut Findings) {
-    findings.report(Finding::in_directory(
-        "this URDD is from before version 1: it has no urdd.json, and is checked by the rules for that format",
-    ));
+fn check(_: &Context, findings: &mut Findings) -> Option<()> {
+    let message = "this URDD is from before version 1: it has no urdd.json, and is checked by the rules for that format";
+    Finding::in_directory(message).report(findings);
+    Some(())
 }

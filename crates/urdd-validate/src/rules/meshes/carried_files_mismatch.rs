@@ -1,12 +1,7 @@
 use std::collections::{HashMap, HashSet};
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_document::entries;
-use urdd_document::module::Module;
+use crate::rules::prelude::*;
 use urdd_format::original_meshes::OriginalMeshesModule;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 
 declare_rule! {
     /// `references` and `files` of `original_meshes_module` do not belong together.
@@ -18,31 +13,24 @@ declare_rule! {
     /// Give each reference the path of the file that was carried for it, the same for the same file
     /// name of the URDF, and list each of these files once, sorted byte by byte; side files too.
     MSH012 "carried-files-mismatch", Error, clause "7.5", since "0.1.0",
-    phase References, needs [Version1, Module(Kind::OriginalMeshes), NotFailed(DIR015), NotFailed(MSH009)],
-    check check,
+    phase References, needs [Version1, ModuleV1(Kind::OriginalMeshes), NotFailed(DIR015), NotFailed(MSH009)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some(ModuleDocument::OriginalMeshes(original)) =
-        context.document(ModuleKind::OriginalMeshes)
-    else {
-        return;
-    };
-    let Some(module) = context.module(ModuleKind::OriginalMeshes) else {
-        return;
-    };
-    let file = module.file("module.json");
-    // One wrong path shows in several of these: each is looked at when those before it are sound.
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let original = document!(context, OriginalMeshes)?;
+    let module = context.module(ModuleKind::OriginalMeshes)?;
+    // One wrong path shows in several of these: each runs only if those before it found nothing.
     for look in [paths, used, order] {
-        look(original, &file, findings);
+        look(original, module, findings);
         if !findings.is_empty() {
-            return;
+            return Some(());
         }
     }
     listed(context, original, module, findings);
+    Some(())
 }
 
-/// Whether every mesh file that `urdd.json` lists is one of the files or side files.
+/// Reports mesh files that `urdd.json` lists and the module does not name.
 fn listed(
     context: &Context,
     original: &OriginalMeshesModule,
@@ -52,7 +40,7 @@ fn listed(
     let side_files = original.files.iter().flat_map(|f| &f.side_files);
     let paths = original.files.iter().map(|f| &f.path).chain(side_files);
     let named: HashSet<&str> = paths.map(String::as_str).collect();
-    // Where a named file is not there, it has another name: MSH002 tells.
+    // A named file that is missing has another name: MSH002 reports it.
     if named
         .iter()
         .any(|path| entries::look(context, path).is_err())
@@ -63,24 +51,23 @@ fn listed(
     for entry in entries::all(context) {
         for file in &entry.entry.files {
             let path = file.path.as_str();
-            // What is listed and not there is DIR011's.
+            // DIR011 reports a file that is listed and missing.
             if path.starts_with(&meshes)
                 && !named.contains(path)
                 && entries::look(context, path).is_ok()
             {
                 let message = "urdd.json lists a file in `meshes/` that is not named here: name it with the mesh that needs it, or take it out";
-                findings.report(
-                    Finding::at(module.file("module.json"), "/files", message)
-                        .expected(format!("`{path}` as `path` or in `side_files`"))
-                        .actual("neither"),
-                );
+                Finding::of(module, "/files", message)
+                    .expected(format!("`{path}` as `path` or in `side_files`"))
+                    .actual("neither")
+                    .report(findings);
             }
         }
     }
 }
 
-/// Whether every reference names one of the files, and the same one for the same name.
-fn paths(original: &OriginalMeshesModule, file: &str, findings: &mut Findings) {
+/// Reports references that name an unlisted file, or another file than the same name before.
+fn paths(original: &OriginalMeshesModule, module: &Module, findings: &mut Findings) {
     let files: HashSet<&str> = original.files.iter().map(|f| f.path.as_str()).collect();
     let mut by_name: HashMap<&str, Option<&str>> = HashMap::new();
     for (at, reference) in original.references.iter().enumerate() {
@@ -89,38 +76,30 @@ fn paths(original: &OriginalMeshesModule, file: &str, findings: &mut Findings) {
         if let Some(path) = path
             && !files.contains(path)
         {
-            findings.report(
-                Finding::at(
-                    file,
-                    pointer,
-                    "`files` does not list this file: list it there",
-                )
+            let message = "`files` does not list this file: list it there";
+            Finding::of(module, pointer, message)
                 .expected("the path of one of `files`, or null")
-                .actual(format!("`{path}`")),
-            );
+                .actual(format!("`{path}`"))
+                .report(findings);
             continue;
         }
         let first = *by_name.entry(reference.filename.as_str()).or_insert(path);
         if first != path {
             let shown = |path: Option<&str>| path.map_or("null".to_owned(), |p| format!("`{p}`"));
-            findings.report(
-                Finding::at(
-                    file,
-                    pointer,
-                    format!(
-                        "`{}` is another file here than in an earlier reference",
-                        reference.filename
-                    ),
-                )
-                .expected(shown(first))
-                .actual(shown(path)),
+            let message = format!(
+                "`{}` is another file here than in an earlier reference",
+                reference.filename
             );
+            Finding::of(module, pointer, message)
+                .expected(shown(first))
+                .actual(shown(path))
+                .report(findings);
         }
     }
 }
 
-/// Whether every file is named by a reference.
-fn used(original: &OriginalMeshesModule, file: &str, findings: &mut Findings) {
+/// Reports files that no reference names.
+fn used(original: &OriginalMeshesModule, module: &Module, findings: &mut Findings) {
     let used: HashSet<&str> = original
         .references
         .iter()
@@ -128,21 +107,18 @@ fn used(original: &OriginalMeshesModule, file: &str, findings: &mut Findings) {
         .collect();
     for (at, carried) in original.files.iter().enumerate() {
         if !used.contains(carried.path.as_str()) {
-            findings.report(
-                Finding::at(
-                    file,
-                    format!("/files/{at}"),
-                    "no reference names this file: give the reference its path, or leave the file out",
-                )
+            let message =
+                "no reference names this file: give the reference its path, or leave the file out";
+            Finding::of(module, format!("/files/{at}"), message)
                 .expected("a file that a reference names")
-                .actual(format!("`{}`", carried.path)),
-            );
+                .actual(format!("`{}`", carried.path))
+                .report(findings);
         }
     }
 }
 
-/// Whether each list of files is sorted, each once.
-fn order(original: &OriginalMeshesModule, file: &str, findings: &mut Findings) {
+/// Reports lists of files that are unsorted or contain duplicates.
+fn order(original: &OriginalMeshesModule, module: &Module, findings: &mut Findings) {
     let mut lists = vec![(
         "/files".to_owned(),
         original.files.iter().map(|f| f.path.as_str()).collect(),
@@ -157,15 +133,11 @@ fn order(original: &OriginalMeshesModule, file: &str, findings: &mut Findings) {
             _ => false,
         });
         if let Some(at) = unsorted {
-            findings.report(
-                Finding::at(
-                    file,
-                    format!("{pointer}/{}", at + 1),
-                    "files are sorted by path, byte by byte, each once",
-                )
+            let message = "files are sorted by path, byte by byte, each once";
+            Finding::of(module, format!("{pointer}/{}", at + 1), message)
                 .expected(format!("a path after `{}`", list.get(at).unwrap_or(&"")))
-                .actual(format!("`{}`", list.get(at + 1).unwrap_or(&""))),
-            );
+                .actual(format!("`{}`", list.get(at + 1).unwrap_or(&"")))
+                .report(findings);
         }
     }
 }

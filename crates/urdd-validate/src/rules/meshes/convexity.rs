@@ -1,22 +1,16 @@
-//! Hulls and pieces that are no convex bodies.
+//! Hulls and pieces that are not convex bodies, for MSH017 and MSH020.
 
 use rayon::prelude::*;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings, point};
-use crate::part::{Part, Why};
+use crate::rules::prelude::*;
 use crate::solids::dents::{Dents, dents};
 use crate::solids::derived::{Derived, noun};
 use crate::solids::polytope::{NotConvex, not_convex};
 use crate::solids::surface::extent;
-use crate::tolerance::mesh_resolution;
-use urdd_format::registry::ModuleKind;
 
 /// Reports every mesh of a module that is not the closed surface of a convex body.
-pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) {
-    let Some(module) = context.module(kind) else {
-        return;
-    };
+pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) -> Option<()> {
+    let module = context.module(kind)?;
     let judge = |mesh: &'_ Derived| {
         let solid = mesh.sound()?;
         Some((not_convex(solid)?, dents(solid)))
@@ -31,13 +25,10 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) {
         let Some((fault, dents)) = fault else {
             continue;
         };
-        let resolution = mesh
-            .mesh
-            .as_ref()
-            .map_or(0.0, |mesh| mesh_resolution(extent(mesh)));
-        let depth = dents
-            .map(|dents| dents.depth)
-            .filter(|depth| *depth > resolution);
+        let extent = mesh.mesh.as_ref().map_or(0.0, extent);
+        let resolution = mesh_resolution(extent);
+        let depth = dents.map(|dents| dents.depth);
+        let depth = depth.filter(|depth| *depth > resolution);
         let what = match fault {
             NotConvex::Nothing => "it has no face with an area".to_owned(),
             NotConvex::Open(at) => format!(
@@ -55,23 +46,21 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) {
             ModuleKind::ConvexDecompositionMeshes => format!("piece {} of {label}", mesh.piece),
             _ => format!("the {} of {label}", noun(kind)),
         };
-        let mut finding = Finding::at(
-            module.file("module.json"),
-            mesh.pointer(),
-            format!("{which} is not a convex body: {what}"),
-        )
-        .expected("a closed convex surface, faces counter-clockwise seen from outside")
-        .actual(what)
-        .tolerance(resolution)
-        .part(part);
+        let message = format!("{which} is not a convex body: {what}");
+        let mut finding = Finding::of(module, mesh.pointer(), message)
+            .expected("a closed convex surface, faces counter-clockwise seen from outside")
+            .actual(what)
+            .tolerance(resolution)
+            .part(part);
         if let Some(depth) = depth {
             finding = finding.off_by(depth, "m");
         }
         findings.report(finding);
     }
+    Some(())
 }
 
-/// How many faces look inward, and the deepest dent.
+/// Number of inward faces, and the deepest dent.
 fn in_words(dents: &Dents, depth: Option<f64>) -> String {
     let faces = match dents.inward {
         0 => "vertices lie outside of its faces".to_owned(),

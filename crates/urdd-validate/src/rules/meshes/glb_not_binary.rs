@@ -1,11 +1,9 @@
 use std::io::Read;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::solids::glb_header::{HEADER, header_fault};
 use urdd_document::mesh_files::MeshFiles;
-use urdd_document::meshes::{DERIVED, Format};
+use urdd_document::meshes::Format;
 
 declare_rule! {
     /// A `.glb` file is not binary glTF 2.0.
@@ -17,43 +15,30 @@ declare_rule! {
     ///
     /// Export as binary glTF ("GLB").
     MSH010 "glb-not-binary", Error, clause "7.6", since "0.1.0",
-    phase References, needs [
-        AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
-        NotFailed(MSH003),
-    ],
-    check check,
+    phase References, needs [DERIVED_MESHES, NotFailed(MSH003)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let mut files = MeshFiles::new(context);
-    for kind in DERIVED {
-        let (Some(meshes), Some(module)) = (context.meshes(*kind), context.module(*kind)) else {
-            continue;
-        };
-        for (_, mesh) in meshes.paths() {
-            if mesh.format != Some(Format::Glb) {
-                continue;
-            }
-            // What cannot be opened is told by other rules.
+    for (_, module, meshes) in context.mesh_modules(DERIVED) {
+        let paths = meshes.paths();
+        for (_, mesh) in paths.filter(|(_, mesh)| mesh.format == Some(Format::Glb)) {
+            // Other rules report files that cannot be opened.
             let Ok((file, size)) = files.open(meshes.profile, mesh.path) else {
                 continue;
             };
             let mut header = Vec::with_capacity(HEADER);
-            if file.take(HEADER as u64).read_to_end(&mut header).is_err() {
-                continue;
+            let read = file.take(HEADER as u64).read_to_end(&mut header);
+            if read.is_ok()
+                && let Some(fault) = header_fault(&header, size)
+            {
+                let message = format!("`{}` is not binary glTF 2.0: {fault}", mesh.path);
+                Finding::of(module, &mesh.pointer, message)
+                    .expected("a GLB header: glTF, version 2, the file's length")
+                    .actual(fault)
+                    .report(findings);
             }
-            let Some(fault) = header_fault(&header, size) else {
-                continue;
-            };
-            findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    &mesh.pointer,
-                    format!("`{}` is not binary glTF 2.0: {fault}", mesh.path),
-                )
-                .expected("a GLB header: glTF, version 2, the file's length")
-                .actual(fault),
-            );
         }
     }
+    Some(())
 }

@@ -1,8 +1,5 @@
 use super::convexity;
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A convex hull is not the closed surface of a convex body.
@@ -14,12 +11,9 @@ declare_rule! {
     /// Compute the hull of the link's plain mesh again, and write every triangle, counter-clockwise seen
     /// from outside.
     MSH017 "hull-not-convex", Error, clause "7.9", since "0.1.0",
-    phase Geometry, consequence Collisions, needs [
-        Module(Kind::ConvexHullMeshes), NotFailed(MSH003),
-    ],
-    check check,
+    phase Geometry, consequence Collisions, needs [Module(Kind::ConvexHullMeshes), NotFailed(MSH003)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    convexity::report(context, ModuleKind::ConvexHullMeshes, findings);
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    convexity::report(context, ModuleKind::ConvexHullMeshes, findings)
 }

@@ -1,10 +1,7 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_document::robot::Element;
 use urdd_document::usable_geometry::UsableGeometry;
 use urdd_format::meshes::GeometryKind;
-use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::Geometry;
 
 declare_rule! {
@@ -19,55 +16,41 @@ declare_rule! {
     /// only geometry is meshes that could not be found.
     MSH011 "link-without-mesh", Error, clause "7.2", since "0.1.0",
     phase References, needs [
-        NotFailed(MSH016),
-        Module(Kind::Urdf),
-        Module(Kind::PlainMeshes),
-        MESHES_LISTED,
-        NotFailed(MSH009),
-        NotFailed(MSH012),
-        LINKS_NAMED,
+        NotFailed(MSH016), Module(Kind::Urdf), Module(Kind::PlainMeshes), MESHES_LISTED, NotFailed(MSH009),
+        NotFailed(MSH012), LINKS_NAMED,
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(meshes), Some(module)) = (
-        context.robot(),
-        context.meshes(ModuleKind::PlainMeshes),
-        context.module(ModuleKind::PlainMeshes),
-    ) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let meshes = context.meshes(ModuleKind::PlainMeshes)?;
+    let module = context.module(ModuleKind::PlainMeshes)?;
     let usable = UsableGeometry::new(context);
     for (link, named) in robot.links.iter().enumerate() {
-        let wanted =
-            usable.has(link, GeometryKind::Visual) || usable.has(link, GeometryKind::Collision);
-        let there = meshes.count(link) > 0;
-        if wanted == there {
+        let has = |kind| usable.has(link, kind);
+        let wanted = has(GeometryKind::Visual) || has(GeometryKind::Collision);
+        if wanted == (meshes.count(link) > 0) {
             continue;
         }
         let label = context.link_label(link);
-        let message = if wanted {
-            let mut kinds = shapes("visual", &named.visual);
-            kinds.extend(shapes("collision", &named.collision));
-            format!(
+        let mut kinds = shapes("visual", &named.visual);
+        kinds.extend(shapes("collision", &named.collision));
+        let finding = |message| Finding::of(module, meshes.pointer(link), message);
+        findings.report(match wanted {
+            true => finding(format!(
                 "{label} has geometry in urdf_module ({}) but no mesh here, so no program sees it: make one",
                 kinds.join(", ")
-            )
-        } else {
-            format!(
+            ))
+            .expected("a mesh")
+            .actual(format!("none for {label}")),
+            false => finding(format!(
                 "{label} has no geometry in urdf_module that a mesh could be made from, but a mesh here"
-            )
-        };
-        findings.report(
-            Finding::at(module.file("module.json"), meshes.pointer(link), message)
-                .expected(if wanted { "a mesh" } else { "null" })
-                .actual(match there {
-                    true => format!("a mesh for {label}"),
-                    false => format!("none for {label}"),
-                }),
-        );
+            ))
+            .expected("null")
+            .actual(format!("a mesh for {label}")),
+        });
     }
+    Some(())
 }
 
 /// The shapes of a link's elements, as `visual Box`.

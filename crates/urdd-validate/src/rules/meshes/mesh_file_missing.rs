@@ -1,11 +1,9 @@
 use std::collections::BTreeMap;
-use std::collections::HashSet;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use super::MODULES;
+use crate::rules::directory::listed_files;
+use crate::rules::prelude::*;
 use urdd_document::mesh_files::{Absence, MeshFiles};
-use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 
 declare_rule! {
     /// A mesh module names a file that is not there.
@@ -18,60 +16,31 @@ declare_rule! {
     /// Put the file back, or write the module again. DIR011 reports files that `urdd.json` lists
     /// and that do not exist.
     MSH002 "mesh-file-missing", Error, clause "7.1", since "0.1.0",
-    phase References, needs [
-        AnyModule(&[
-            Kind::OriginalMeshes,
-            Kind::PlainMeshes,
-            Kind::ConvexHullMeshes,
-            Kind::ConvexDecompositionMeshes,
-        ]),
-        NotFailed(MSH003),
-        NotFailed(MSH009),
-        NotFailed(MSH012),
-    ],
-    check check,
+    phase References, needs [MESHES, NotFailed(MSH003), NotFailed(MSH009), NotFailed(MSH012)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    // A listed file that is gone is one fault, and DIR011 has it.
-    let listed: HashSet<&str> = context
-        .metadata()
-        .iter()
-        .flat_map(|metadata| &metadata.modules)
-        .flat_map(|module| &module.files)
-        .map(|file| file.path.as_str())
-        .collect();
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    // DIR011 reports a file that is listed and missing.
+    let listed = context.metadata().map(listed_files).unwrap_or_default();
     let mut files = MeshFiles::new(context);
     let mut gone: BTreeMap<String, (usize, Finding)> = BTreeMap::new();
-    for kind in [
-        ModuleKind::OriginalMeshes,
-        ModuleKind::PlainMeshes,
-        ModuleKind::ConvexHullMeshes,
-        ModuleKind::ConvexDecompositionMeshes,
-    ] {
-        let (Some(document), Some(module)) = (context.document(kind), context.module(kind)) else {
-            continue;
-        };
-        let file = module.file("module.json");
+    for (kind, module, document) in context.documents(MODULES) {
         for (profile, path, pointer) in named(context, kind, document) {
             if profile == Profile::V1 && listed.contains(path.as_str()) {
                 continue;
             }
             match files.find(profile, &path) {
                 Ok(()) | Err(Absence::Other(_)) => {}
-                Err(Absence::Missing) => findings.report(
-                    Finding::at(
-                        &file,
-                        pointer,
-                        format!("`{path}` is missing: restore the file, or write the module again"),
-                    )
-                    .expected("a file")
-                    .actual("none"),
-                ),
-                // A URDD beside this one that is gone is one mistake, however many paths lead there.
+                Err(Absence::Missing) => {
+                    let message =
+                        format!("`{path}` is missing: restore the file, or write the module again");
+                    let finding = Finding::of(module, pointer, message);
+                    findings.report(finding.expected("a file").actual("none"));
+                }
+                // A missing sibling URDD is one mistake, however many paths lead there.
                 Err(Absence::NoSibling(name)) => {
                     let entry = gone.entry(name).or_insert_with_key(|name| {
-                        (0, Finding::at(&file, pointer, no_sibling(context, name)))
+                        (0, Finding::of(module, pointer, no_sibling(context, name)))
                     });
                     entry.0 += 1;
                 }
@@ -79,16 +48,13 @@ fn check(context: &Context, findings: &mut Findings) {
         }
     }
     for (name, (count, finding)) in gone {
-        findings.report(
-            finding
-                .expected(format!("a URDD in the folder `{name}` beside this one"))
-                .actual("none")
-                .count(count),
-        );
+        let expected = format!("a URDD in the folder `{name}` beside this one");
+        findings.report(finding.expected(expected).actual("none").count(count));
     }
+    Some(())
 }
 
-/// Every file that a mesh module names: profile, path, pointer.
+/// The files that a mesh module names: profile, path, pointer.
 fn named(
     context: &Context,
     kind: ModuleKind,

@@ -1,8 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_document::meshes::{DERIVED, Format};
-use urdd_format::registry::{ModuleKind, Profile};
+use crate::rules::prelude::*;
+use urdd_document::meshes::Format;
 
 declare_rule! {
     /// A derived mesh file is not named after its link.
@@ -16,7 +13,7 @@ declare_rule! {
     phase References, consequence Format, needs [
         Version1,
         Module(Kind::Urdf),
-        AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
+        DERIVED_MESHES,
         MESHES_LISTED,
         NotFailed(MSH002),
         NotFailed(MSH005),
@@ -27,49 +24,37 @@ declare_rule! {
         // A list that is displaced has the wrong names too.
         NotFailed(MSH004),
     ],
-    check check,
 }
 
-/// Longest slug, characters.
+/// Maximum length of a slug, characters.
 const MAX_SLUG: usize = 64;
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some(robot) = context.robot() else {
-        return;
-    };
-    for kind in DERIVED {
-        let (Some(meshes), Some(module)) = (context.meshes(*kind), context.module(*kind)) else {
-            continue;
-        };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    for (kind, module, meshes) in context.mesh_modules(DERIVED) {
         if meshes.profile != Profile::V1 {
             continue;
         }
         for (link, named) in robot.links.iter().enumerate() {
             let stem = format!("{link}_{}", slug(&named.name));
-            for (piece, mesh) in meshes.of_link(link).enumerate() {
-                for path in &mesh.paths {
-                    let Some(format) = path.format else {
-                        continue;
-                    };
-                    let expected = expected_path(*kind, format, &stem, piece);
-                    if path.path != expected {
-                        findings.report(
-                            Finding::at(
-                                module.file("module.json"),
-                                &path.pointer,
-                                format!(
-                                    "the file of {} is not named after it",
-                                    context.link_label(link)
-                                ),
-                            )
-                            .expected(format!("`{expected}`"))
-                            .actual(format!("`{}`", path.path)),
-                        );
-                    }
+            let pieces = meshes.of_link(link).enumerate();
+            for (piece, path) in pieces.flat_map(|(i, mesh)| mesh.paths.iter().map(move |p| (i, p)))
+            {
+                let expected = path
+                    .format
+                    .map(|format| expected_path(kind, format, &stem, piece));
+                if let Some(expected) = expected.filter(|expected| path.path != expected) {
+                    let label = context.link_label(link);
+                    let message = format!("the file of {label} is not named after it");
+                    Finding::of(module, &path.pointer, message)
+                        .expected(format!("`{expected}`"))
+                        .actual(format!("`{}`", path.path))
+                        .report(findings);
                 }
             }
         }
     }
+    Some(())
 }
 
 /// Path of a derived file (SPEC 7.3).
@@ -82,7 +67,7 @@ fn expected_path(kind: ModuleKind, format: Format, stem: &str, piece: usize) -> 
     }
 }
 
-/// A link's name as a file's name may hold it (SPEC 7.3).
+/// A link's name as part of a file name (SPEC 7.3).
 fn slug(name: &str) -> String {
     let mut slug = String::new();
     let mut replaced = false;

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::shared_meshes;
 
 declare_rule! {
@@ -15,29 +13,23 @@ declare_rule! {
     /// share a file: then it is right for both (LEG007).
     MSH005 "mesh-file-shared", Error, clause "7.3", since "0.1.0",
     phase References, needs [
-        Module(Kind::Urdf),
-        AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
-        NotFailed(MSH001),
-        NotFailed(MSH003),
-        NotFailedInV1(MSH007),
+        Module(Kind::Urdf), DERIVED_MESHES, NotFailed(MSH001), NotFailed(MSH003), NotFailedInV1(MSH007),
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for shared in shared_meshes::all(context) {
         if shared.alike {
             continue;
         }
         let ((first, first_pointer), (link, pointer)) = (shared.first, shared.other);
-        let message = if first == link {
-            format!("{} names one file twice", context.link_label(link))
-        } else {
-            format!(
-                "{} and {} name the same file, and it can be right for one of them only: write each link's own",
-                context.link_label(first),
-                context.link_label(link)
-            )
+        let label = context.link_label(link);
+        let message = match first == link {
+            true => format!("{label} names one file twice"),
+            false => format!(
+                "{} and {label} name the same file, and it can be right for one of them only: write each link's own",
+                context.link_label(first)
+            ),
         };
         let file = format!("{}/module.json", shared.kind.folder());
         let mut finding = Finding::at(file, pointer, message)
@@ -46,4 +38,5 @@ fn check(context: &Context, findings: &mut Findings) {
         finding.parts = shared.parts;
         findings.report(finding);
     }
+    Some(())
 }

@@ -1,68 +1,47 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_document::meshes::{DERIVED, Format, Mesh, Meshes};
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
+use urdd_document::meshes::{Format, Mesh, Meshes};
 
 declare_rule! {
     /// A mesh is not given in the same formats as the others of its module.
     ///
     /// `stl`, `obj` and `glb` are the same mesh for programs that read different formats. A module may
     /// do without `stl`, or without `obj`, and then has null there for every mesh. Here a file has the
-    /// extension of another format, or one mesh has a format that another one of the module has not; in
-    /// legacy modules, which have one list per format, a link has more meshes in one format than in
-    /// another. Then two programs see two different robots.
+    /// extension of another format, or one mesh has a format that another mesh of the module does not
+    /// have; in legacy modules, which have one list per format, a link has more meshes in one format
+    /// than in another. Then two programs see two different robots.
     ///
-    /// Name a file with the format's own extension in each place, and give every mesh of a module in the
-    /// same formats.
+    /// Name a file with the format's own extension in each place, and give every mesh of a module in
+    /// the same formats.
     MSH003 "mesh-format-mismatch", Error, clause "7.1", since "0.1.0",
-    phase References, needs [
-        AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
-        NotFailed(DIR015),
-        NotFailed(MSH001),
-    ],
-    check check,
+    phase References, needs [DERIVED_MESHES, NotFailed(DIR015), NotFailed(MSH001)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    for kind in DERIVED {
-        let (Some(meshes), Some(module)) = (context.meshes(*kind), context.module(*kind)) else {
-            continue;
-        };
-        let file = module.file("module.json");
-        counts(context, &meshes, *kind, &file, findings);
-        formats(context, &meshes, &file, findings);
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    for (kind, module, meshes) in context.mesh_modules(DERIVED) {
+        counts(context, &meshes, kind, module, findings);
+        formats(context, &meshes, module, findings);
         for (link, mesh) in meshes.paths() {
             let Some(format) = mesh.format else {
                 continue;
             };
-            let extension = mesh
-                .path
-                .rsplit('/')
-                .next()
-                .and_then(|name| name.rsplit_once('.'));
-            let extension = extension.map_or("", |(_, extension)| extension);
-            if !extension.eq_ignore_ascii_case(format.extension()) {
-                findings.report(
-                    Finding::at(
-                        &file,
-                        &mesh.pointer,
-                        format!(
-                            "for {} this should name a .{} file",
-                            context.link_label(link),
-                            format.extension()
-                        ),
-                    )
-                    .expected(format!("a path that ends in .{}", format.extension()))
-                    .actual(format!("`{}`", mesh.path)),
-                );
+            let right = format.extension();
+            let name = mesh.path.rsplit('/').next().unwrap_or_default();
+            let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+            if !extension.eq_ignore_ascii_case(right) {
+                let label = context.link_label(link);
+                let message = format!("for {label} this should name a .{right} file");
+                Finding::of(module, &mesh.pointer, message)
+                    .expected(format!("a path that ends in .{right}"))
+                    .actual(format!("`{}`", mesh.path))
+                    .report(findings);
             }
         }
     }
+    Some(())
 }
 
-/// Whether the meshes of a module of version 1 are there in the same formats: those of most of them.
-fn formats(context: &Context, meshes: &Meshes, file: &str, findings: &mut Findings) {
+/// Reports meshes of a module of version 1 that do not have the formats of most meshes.
+fn formats(context: &Context, meshes: &Meshes, module: &Module, findings: &mut Findings) {
     let [list] = meshes.lists.as_slice() else {
         return;
     };
@@ -77,28 +56,24 @@ fn formats(context: &Context, meshes: &Meshes, file: &str, findings: &mut Findin
             let entry = entry.rsplit_once('/').map_or("", |(entry, _)| entry);
             let key = format.extension();
             let word = |given: bool| if given { "a path" } else { "null" };
-            findings.report(
-                Finding::at(
-                    file,
-                    format!("{entry}/{key}"),
-                    format!(
-                        "{} does not have the formats of the other meshes: write all meshes of the module as {key}, or none",
-                        context.link_label(link)
-                    ),
-                )
-                .expected(word(expected))
-                .actual(word(!expected)),
+            let message = format!(
+                "{} does not have the formats of the other meshes: write all meshes of the module as {key}, or none",
+                context.link_label(link)
             );
+            Finding::of(module, format!("{entry}/{key}"), message)
+                .expected(word(expected))
+                .actual(word(!expected))
+                .report(findings);
         }
     }
 }
 
-/// Whether the lists of the formats have as many meshes for each link.
+/// Reports links that have more meshes in one format than in another.
 fn counts(
     context: &Context,
     meshes: &Meshes,
     kind: ModuleKind,
-    file: &str,
+    module: &Module,
     findings: &mut Findings,
 ) {
     for link in 0..meshes.num_links() {
@@ -107,7 +82,7 @@ fn counts(
             .iter()
             .filter_map(|list| Some((list.key, list.links.get(link)?.len())))
             .collect();
-        // The one that differs from the other two, or the second where all three differ.
+        // The one that differs from the other two, or the second if all three differ.
         let odd = match counts.as_slice() {
             [(_, a), (key, b), (_, c)] if a == c && a != b => Some((key, b, a)),
             [(key, a), (_, b), (_, c)] if b == c && a != b => Some((key, a, b)),
@@ -126,18 +101,14 @@ fn counts(
             .iter()
             .map(|(key, count)| format!("{count} in `{key}`"))
             .collect();
-        findings.report(
-            Finding::at(
-                file,
-                format!("/{key}/{link}"),
-                format!(
-                    "the formats of {} differ in {what}: {}",
-                    context.link_label(link),
-                    all.join(", ")
-                ),
-            )
-            .expected(format!("{expected} {what}"))
-            .actual(format!("{actual} {what}")),
+        let message = format!(
+            "the formats of {} differ in {what}: {}",
+            context.link_label(link),
+            all.join(", ")
         );
+        Finding::of(module, format!("/{key}/{link}"), message)
+            .expected(format!("{expected} {what}"))
+            .actual(format!("{actual} {what}"))
+            .report(findings);
     }
 }

@@ -1,9 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::part::Part;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::solids::placed;
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// A link's mesh is not its geometry in its place.
@@ -17,36 +13,32 @@ declare_rule! {
     /// Write it again, from the carried meshes. Vertices may differ by the rounding of binary32.
     MSH015 "mesh-misplaced", Error, clause "7.8", since "0.1.0",
     phase Geometry, consequence WrongPlace, needs [
-        Module(Kind::Urdf), Module(Kind::OriginalMeshes), Module(Kind::PlainMeshes),
-        NotFailedInV1(MSH001), NotFailed(MSH003), NotFailed(MSH008),
-        NotFailedInV1(MSH009), NotFailedInV1(MSH012), NotFailed(MSH016),
+        Module(Kind::Urdf), Module(Kind::OriginalMeshes), Module(Kind::PlainMeshes), NotFailedInV1(MSH001),
+        NotFailed(MSH003), NotFailed(MSH008), NotFailedInV1(MSH009), NotFailedInV1(MSH012), NotFailed(MSH016),
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some(module) = context.module(ModuleKind::PlainMeshes) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let module = context.module(ModuleKind::PlainMeshes)?;
     for (link, why) in context.unplaced() {
         findings.not_verified(Part::Plain(*link), *why);
     }
     for wrong in context.misplaced() {
         let label = context.link_label(wrong.link);
-        let hint = placed::owner(context, context.solids(), wrong.link)
-            .map_or_else(String::new, |owner| {
-                format!("; it is the mesh of {}", context.link_label(owner))
-            });
+        let owner = placed::owner(context, context.solids(), wrong.link);
+        let hint = owner.map_or_else(String::new, |owner| {
+            format!("; it is the mesh of {}", context.link_label(owner))
+        });
         let message = format!(
             "the mesh of {label} is not its geometry in the URDF, at its place: {}{hint}",
             wrong.what
         );
-        findings.report(
-            Finding::at(module.file("module.json"), &wrong.pointer, message)
-                .expected(&wrong.expected)
-                .actual(&wrong.actual)
-                .tolerance(wrong.tolerance)
-                .part(Part::Plain(wrong.link)),
-        );
+        Finding::of(module, &wrong.pointer, message)
+            .expected(&wrong.expected)
+            .actual(&wrong.actual)
+            .tolerance(wrong.tolerance)
+            .part(Part::Plain(wrong.link))
+            .report(findings);
     }
+    Some(())
 }

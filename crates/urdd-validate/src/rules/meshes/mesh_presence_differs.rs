@@ -1,9 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_document::meshes::DERIVED;
-use urdd_document::meshes::Meshes;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A link has a mesh in one mesh module and none in another.
@@ -13,54 +8,43 @@ declare_rule! {
     ///
     /// Write the mesh modules again, all from the same plain meshes.
     MSH007 "mesh-presence-differs", Error, clause "7.2", since "0.1.0",
-    phase References, needs [
-        AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
-        NotFailed(MSH001),
-        NotFailed(MSH003),
-    ],
-    check check,
+    phase References, needs [DERIVED_MESHES, NotFailed(MSH001), NotFailed(MSH003)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let modules: Vec<(ModuleKind, Meshes)> = DERIVED
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let modules: Vec<_> = context.mesh_modules(DERIVED).collect();
+    let links = modules
         .iter()
-        .filter_map(|kind| Some((*kind, context.meshes(*kind)?)))
-        .collect();
-    let links = modules.iter().map(|(_, meshes)| meshes.num_links()).max();
+        .map(|(_, _, meshes)| meshes.num_links())
+        .max();
     for link in 0..links.unwrap_or(0) {
-        let with = modules
-            .iter()
-            .filter(|(_, meshes)| meshes.count(link) > 0)
-            .count();
-        if with == 0 || with == modules.len() {
+        let (with, without): (Vec<_>, Vec<_>) =
+            (modules.iter()).partition(|(_, _, meshes)| meshes.count(link) > 0);
+        if with.is_empty() || without.is_empty() {
             continue;
         }
-        // Told at the one module that is not as the others; of two, at the one that has none.
-        let odd_has = with * 2 < modules.len();
-        let odd = modules
-            .iter()
-            .find(|(_, meshes)| (meshes.count(link) > 0) == odd_has);
-        let Some((kind, meshes)) = odd else {
-            continue;
+        // Reported at the module that differs from the others; of two, at the one without a mesh.
+        let odd_has = with.len() < without.len();
+        let (odd, others) = if odd_has {
+            (with, without)
+        } else {
+            (without, with)
         };
-        let Some(module) = context.module(*kind) else {
-            continue;
+        let (_, module, meshes) = odd.first()?;
+        let others: Vec<&str> = others.iter().map(|(kind, ..)| kind.name()).collect();
+        let (label, others) = (context.link_label(link), others.join(" and "));
+        let (message, expected, actual) = match odd_has {
+            true => {
+                let message = format!("{label} has a mesh here, but none in {others}");
+                (message, "no mesh", "a mesh")
+            }
+            false => {
+                let message = format!("{label} has no mesh here, but one in {others}");
+                (message, "a mesh", "none")
+            }
         };
-        let others: Vec<&str> = modules
-            .iter()
-            .filter(|(_, meshes)| (meshes.count(link) > 0) != odd_has)
-            .map(|(kind, _)| kind.name())
-            .collect();
-        let label = context.link_label(link);
-        let others = others.join(" and ");
-        let message = match odd_has {
-            true => format!("{label} has a mesh here, but none in {others}"),
-            false => format!("{label} has no mesh here, but one in {others}"),
-        };
-        findings.report(
-            Finding::at(module.file("module.json"), meshes.pointer(link), message)
-                .expected(if odd_has { "no mesh" } else { "a mesh" })
-                .actual(if odd_has { "a mesh" } else { "none" }),
-        );
+        let finding = Finding::of(*module, meshes.pointer(link), message);
+        findings.report(finding.expected(expected).actual(actual));
     }
+    Some(())
 }

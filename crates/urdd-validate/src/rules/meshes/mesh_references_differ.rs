@@ -1,12 +1,10 @@
 use std::collections::HashSet;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
+use urdd_document::meshes::Meshes;
 use urdd_document::robot::Robot;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::original_meshes::OriginalMeshesModule;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::urdf::Geometry;
 
 declare_rule! {
@@ -20,33 +18,26 @@ declare_rule! {
     /// with the file name as the URDF has it. In legacy modules a link's files are those of its visual
     /// meshes.
     MSH009 "mesh-references-differ", Error, clause "7.5", since "0.1.0",
-    phase References, needs [
-        Module(Kind::Urdf),
-        Module(Kind::OriginalMeshes),
-        NotFailed(MSH001),
-        LINKS_NAMED,
-    ],
-    check check,
+    phase References, needs [Module(Kind::Urdf), Module(Kind::OriginalMeshes), NotFailed(MSH001), LINKS_NAMED],
 }
 
 /// A mesh that the URDF names: link, kind, element, file name.
 type Named<'a> = (usize, GeometryKind, usize, &'a str);
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(module)) = (context.robot(), context.module(ModuleKind::OriginalMeshes))
-    else {
-        return;
-    };
-    let file = module.file("module.json");
-    match context.document(ModuleKind::OriginalMeshes) {
-        Some(ModuleDocument::OriginalMeshes(original)) => {
-            references(robot, original, &file, findings);
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let module = context.module(ModuleKind::OriginalMeshes)?;
+    match context.document(ModuleKind::OriginalMeshes)? {
+        ModuleDocument::OriginalMeshes(original) => references(robot, original, module, findings),
+        _ => {
+            let meshes = context.meshes(ModuleKind::OriginalMeshes)?;
+            legacy(context, robot, &meshes, module, findings);
         }
-        _ => legacy(context, robot, &file, findings),
     }
+    Some(())
 }
 
-/// Every mesh of the robot, in the order of SPEC 7.5.
+/// The meshes that the URDF names, in the order of SPEC 7.5.
 fn named(robot: &Robot) -> Vec<Named<'_>> {
     let mut named = Vec::new();
     for (link, elements) in robot.links.iter().enumerate() {
@@ -65,23 +56,21 @@ fn named(robot: &Robot) -> Vec<Named<'_>> {
 }
 
 /// Compares `references` with the robot's meshes.
-fn references(robot: &Robot, original: &OriginalMeshesModule, file: &str, findings: &mut Findings) {
+fn references(
+    robot: &Robot,
+    original: &OriginalMeshesModule,
+    module: &Module,
+    findings: &mut Findings,
+) {
     let shown = |(link, kind, element, filename): &Named| {
         format!("link {link}, {kind:?} {element}, `{filename}`")
     };
     let expected = named(robot);
-    let actual: Vec<Named> = original
-        .references
-        .iter()
-        .map(|r| {
-            (
-                r.link_idx.get(),
-                r.geometry,
-                r.element_idx.get(),
-                r.filename.as_str(),
-            )
-        })
-        .collect();
+    let actual = original.references.iter().map(|of| {
+        let (link, element) = (of.link_idx.get(), of.element_idx.get());
+        (link, of.geometry, element, of.filename.as_str())
+    });
+    let actual: Vec<Named> = actual.collect();
     if expected.len() != actual.len() {
         let differs = (0..).find(|at| expected.get(*at) != actual.get(*at));
         let at = differs.unwrap_or_default();
@@ -94,37 +83,32 @@ fn references(robot: &Robot, original: &OriginalMeshesModule, file: &str, findin
             (None, Some(actual)) => format!("the URDF has no {}", shown(actual)),
             (None, None) => String::new(),
         };
-        findings.report(
-            Finding::at(
-                file,
-                place,
-                format!("one reference for each mesh of urdf_module is needed; {first}"),
-            )
+        let message = format!("one reference for each mesh of urdf_module is needed; {first}");
+        Finding::of(module, place, message)
             .expected(format!("{} references", expected.len()))
-            .actual(format!("{} references", actual.len())),
-        );
+            .actual(format!("{} references", actual.len()))
+            .report(findings);
         return;
     }
     for (at, (expected, actual)) in expected.iter().zip(&actual).enumerate() {
         if expected != actual {
-            findings.report(
-                Finding::at(
-                    file,
-                    format!("/references/{at}"),
-                    "this is not the mesh that urdf_module has in this place",
-                )
+            let message = "this is not the mesh that urdf_module has in this place";
+            Finding::of(module, format!("/references/{at}"), message)
                 .expected(shown(expected))
-                .actual(shown(actual)),
-            );
+                .actual(shown(actual))
+                .report(findings);
         }
     }
 }
 
 /// Legacy: the files of a link are copies of its visual meshes, under their own names.
-fn legacy(context: &Context, robot: &Robot, file: &str, findings: &mut Findings) {
-    let Some(meshes) = context.meshes(ModuleKind::OriginalMeshes) else {
-        return;
-    };
+fn legacy(
+    context: &Context,
+    robot: &Robot,
+    meshes: &Meshes,
+    module: &Module,
+    findings: &mut Findings,
+) {
     let base = |path: &str| path.rsplit(['/', '\\']).next().unwrap_or(path).to_owned();
     let mut names: Vec<HashSet<String>> = vec![HashSet::new(); robot.links.len()];
     for (link, kind, _, filename) in named(robot) {
@@ -141,21 +125,17 @@ fn legacy(context: &Context, robot: &Robot, file: &str, findings: &mut Findings)
         if !names.contains(&base(path.path)) {
             let mut expected: Vec<&str> = names.iter().map(String::as_str).collect();
             expected.sort_unstable();
-            findings.report(
-                Finding::at(
-                    file,
-                    &path.pointer,
-                    format!(
-                        "the URDF does not name this file as a visual mesh of {}",
-                        context.link_label(link)
-                    ),
-                )
+            let message = format!(
+                "the URDF does not name this file as a visual mesh of {}",
+                context.link_label(link)
+            );
+            Finding::of(module, &path.pointer, message)
                 .expected(match expected.is_empty() {
                     true => "null: the link has no visual mesh".to_owned(),
                     false => format!("a copy of {}", expected.join(" or ")),
                 })
-                .actual(format!("`{}`", path.path)),
-            );
+                .actual(format!("`{}`", path.path))
+                .report(findings);
         }
     }
 }

@@ -1,11 +1,8 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::solids::derived::DerivedFile;
 use crate::solids::file::MeshFault;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_document::meshes::{DERIVED, Format};
-use urdd_format::registry::Profile;
+use urdd_document::meshes::Format;
 use urdd_geometry::read::Format as Content;
 
 declare_rule! {
@@ -18,34 +15,24 @@ declare_rule! {
     /// Write it again: binary STL with as many triangles as its header counts, Wavefront OBJ,
     /// binary glTF 2.0. (MSH010 reports a `.glb` that does not begin as one.)
     MSH013 "mesh-unsound", Error, clause "7.6", since "0.1.0",
-    phase Geometry, needs [
-        AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
-        NotFailed(MSH003),
-    ],
-    check check,
+    phase Geometry, needs [DERIVED_MESHES, NotFailed(MSH003)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    for kind in DERIVED {
-        let (Some(meshes), Some(module)) = (context.meshes(*kind), context.module(*kind)) else {
-            continue;
-        };
-        for mesh in context.solids().derived(*kind) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    for (kind, module, meshes) in context.mesh_modules(DERIVED) {
+        for mesh in context.solids().derived(kind) {
             for file in &mesh.files {
                 if let Some(fault) = fault(file, meshes.profile) {
-                    findings.report(
-                        Finding::at(
-                            module.file("module.json"),
-                            &file.pointer,
-                            format!("`{}`: {fault}", file.path),
-                        )
+                    let message = format!("`{}`: {fault}", file.path);
+                    Finding::of(module, &file.pointer, message)
                         .expected(expected(file.format))
-                        .actual(fault),
-                    );
+                        .actual(fault)
+                        .report(findings);
                 }
             }
         }
     }
+    Some(())
 }
 
 fn fault(file: &DerivedFile, profile: Profile) -> Option<String> {

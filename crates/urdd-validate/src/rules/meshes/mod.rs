@@ -1,8 +1,9 @@
-//! MSH: the mesh modules, and what their files hold.
+//! MSH: the mesh modules and the contents of their files.
 
 mod carried_files_mismatch;
 mod convexity;
 mod glb_not_binary;
+mod hull_and_mesh;
 mod hull_leaves_out_mesh;
 mod hull_not_convex;
 mod hull_vertex_off_mesh;
@@ -26,31 +27,27 @@ mod piece_not_convex;
 mod pieces_leave_surface;
 mod wrong_geometry_used;
 
-use crate::rule::Rule;
+use crate::rule::rules;
+use urdd_format::registry::ModuleKind;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &mesh_list_length::RULE,
-    &mesh_file_missing::RULE,
-    &mesh_format_mismatch::RULE,
-    &piece_count_mismatch::RULE,
-    &mesh_file_shared::RULE,
-    &mesh_file_name::RULE,
-    &mesh_presence_differs::RULE,
-    &wrong_geometry_used::RULE,
-    &mesh_references_differ::RULE,
-    &glb_not_binary::RULE,
-    &link_without_mesh::RULE,
-    &carried_files_mismatch::RULE,
-    &mesh_unsound::RULE,
-    &mesh_formats_differ::RULE,
-    &mesh_misplaced::RULE,
-    &original_misdescribed::RULE,
-    &hull_not_convex::RULE,
-    &hull_leaves_out_mesh::RULE,
-    &hull_vertex_off_mesh::RULE,
-    &piece_not_convex::RULE,
-    &piece_leaves_hull::RULE,
-    &pieces_leave_surface::RULE,
-    &piece_barely_leaves_hull::RULE,
+/// Every mesh module.
+const MODULES: &[ModuleKind] = &[
+    ModuleKind::OriginalMeshes,
+    ModuleKind::PlainMeshes,
+    ModuleKind::ConvexHullMeshes,
+    ModuleKind::ConvexDecompositionMeshes,
 ];
+
+/// The first of the farthest points, with its distance.
+fn farthest(points: impl Iterator<Item = ([f64; 3], f64)>) -> Option<([f64; 3], f64)> {
+    points.reduce(|a, b| if b.1 > a.1 { b } else { a })
+}
+
+rules! {
+    carried_files_mismatch, glb_not_binary, hull_leaves_out_mesh, hull_not_convex,
+    hull_vertex_off_mesh, link_without_mesh, mesh_file_missing, mesh_file_name,
+    mesh_file_shared, mesh_format_mismatch, mesh_formats_differ, mesh_list_length,
+    mesh_misplaced, mesh_presence_differs, mesh_references_differ, mesh_unsound,
+    original_misdescribed, piece_barely_leaves_hull, piece_count_mismatch, piece_leaves_hull,
+    piece_not_convex, pieces_leave_surface, wrong_geometry_used
+}

@@ -1,8 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::solids::file::MeshFault;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 
 declare_rule! {
     /// `usable` or `side_files` of a carried mesh is wrong.
@@ -14,68 +11,47 @@ declare_rule! {
     ///
     /// Set `usable` by reading the file, and list the carried files that it names, sorted.
     MSH016 "original-misdescribed", Error, clause "7.5", since "0.1.0",
-    phase Geometry, needs [
-        Version1, Module(Kind::OriginalMeshes), NotFailed(MSH002), NotFailed(MSH012),
-    ],
-    check check,
+    phase Geometry, needs [Version1, ModuleV1(Kind::OriginalMeshes), NotFailed(MSH002), NotFailed(MSH012)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let kind = ModuleKind::OriginalMeshes;
-    let (Some(ModuleDocument::OriginalMeshes(module)), Some(folder)) =
-        (context.document(kind), context.module(kind))
-    else {
-        return;
-    };
-    let file = folder.file("module.json");
-    for (at, listed) in module.files.iter().enumerate() {
-        let Some(original) = context.solids().original(&listed.path) else {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let original = document!(context, OriginalMeshes)?;
+    let module = context.module(ModuleKind::OriginalMeshes)?;
+    for (at, listed) in original.files.iter().enumerate() {
+        let Some(read) = context.solids().original(&listed.path) else {
             continue;
         };
-        let why = match &original.mesh {
-            Ok(_) => None,
-            Err(MeshFault::Broken(why)) => Some(why.clone()),
-            Err(MeshFault::TooLarge(size)) => Some(format!("it is {size} bytes long")),
+        let path = &listed.path;
+        let (usable, message) = match &read.mesh {
+            Ok(_) => (true, format!("`{path}` can be read, and has a surface")),
+            Err(MeshFault::Broken(why)) => (false, format!("`{path}` cannot be used: {why}")),
+            Err(MeshFault::TooLarge(size)) => (
+                false,
+                format!("`{path}` cannot be used: it is {size} bytes long"),
+            ),
             Err(MeshFault::Absent(_)) => continue,
         };
-        let usable = why.is_none();
         if usable != listed.usable {
-            let message = match &why {
-                Some(why) => format!("`{}` cannot be used: {why}", listed.path),
-                None => format!("`{}` can be read, and has a surface", listed.path),
-            };
-            findings.report(
-                Finding::at(&file, format!("/files/{at}/usable"), message)
-                    .expected(usable)
-                    .actual(listed.usable),
-            );
+            let finding = Finding::of(module, format!("/files/{at}/usable"), message);
+            findings.report(finding.expected(usable).actual(listed.usable));
         }
-        let Some(named) = &original.side_files else {
-            continue;
-        };
-        if *named != listed.side_files {
-            let odd = listed
-                .side_files
-                .iter()
-                .position(|side| !named.contains(side));
-            let (pointer, message) = match odd {
-                Some(odd) => (
-                    format!("/files/{at}/side_files/{odd}"),
-                    format!(
-                        "`{}` does not name `{}`",
-                        listed.path, listed.side_files[odd]
-                    ),
-                ),
-                None => (
-                    format!("/files/{at}/side_files"),
-                    format!("`{}` names other files besides", listed.path),
-                ),
+        if let Some(named) = &read.side_files
+            && *named != listed.side_files
+        {
+            let mut pointer = format!("/files/{at}/side_files");
+            let mut sides = listed.side_files.iter().enumerate();
+            let message = match sides.find(|(_, side)| !named.contains(side)) {
+                Some((odd, side)) => {
+                    pointer += &format!("/{odd}");
+                    format!("`{path}` does not name `{side}`")
+                }
+                None => format!("`{path}` names other files besides"),
             };
-            findings.report(
-                Finding::at(&file, pointer, message)
-                    .expected(format!("{named:?}"))
-                    .actual(format!("{:?}", listed.side_files)),
-            );
+            Finding::of(module, pointer, message)
+                .expected(format!("{named:?}"))
+                .actual(format!("{:?}", listed.side_files))
+                .report(findings);
         }
     }
+    Some(())
 }

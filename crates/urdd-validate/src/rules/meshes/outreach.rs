@@ -1,44 +1,38 @@
-//! How far pieces reach out of the hulls of their links.
+//! Pieces that reach out of the hulls of their links, for MSH021 and MSH023.
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings, point};
-use crate::part::Part;
+use super::farthest;
+use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::solids::polytope::{Polytope, distinct, step};
-use crate::tolerance::{PIECE_BARELY_OUT_OF_HULL, PIECE_OUT_OF_HULL};
 use crate::views::judged::judged;
-use urdd_format::readable::metres;
-use urdd_format::registry::ModuleKind;
 
 /// Which pieces to report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum How {
-    /// Those that reach out by more than they may.
+    /// Those that reach out farther than allowed.
     Far,
-    /// Those that reach out, and may.
+    /// Those that reach out within the allowance.
     Barely,
 }
 
-/// The vertex of a piece that is farthest outside of its link's hull.
+/// The vertex of a piece that is farthest outside its link's hull.
 struct Outside {
     place: [f64; 3],
     distance: f64,
-    /// What is passed over, m.
+    /// Distance up to which nothing is reported, m.
     least: f64,
-    /// What is far, m.
+    /// Largest distance allowed, m.
     most: f64,
     diagonal: f64,
 }
 
 /// Reports the pieces that reach out of the hulls of their links.
-pub fn report(context: &Context, how: How, findings: &mut Findings) {
+pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::ConvexDecompositionMeshes;
-    let Some(module) = context.module(kind) else {
-        return;
-    };
+    let module = context.module(kind)?;
     let part = |piece: &Derived| Part::Piece {
         link: piece.link,
         piece: piece.piece,
@@ -67,40 +61,33 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) {
             metres(out.distance),
             100.0 * out.distance / out.diagonal
         );
-        findings.report(
-            Finding::at(
-                module.file("module.json"),
-                piece.pointer(),
-                format!(
-                    "piece {} of {} reaches out of its hull: the vertex at {} is {distance}",
-                    piece.piece,
-                    context.link_label(piece.link),
-                    point(out.place),
-                ),
-            )
+        let message = format!(
+            "piece {} of {} reaches out of its hull: the vertex at {} is {distance}",
+            piece.piece,
+            context.link_label(piece.link),
+            point(out.place),
+        );
+        Finding::of(module, piece.pointer(), message)
             .expected("every vertex inside the hull")
             .actual(distance)
             .tolerance(tolerance)
             .off_by(out.distance, "m")
-            .part(part(piece)),
-        );
+            .part(part(piece))
+            .report(findings);
     }
+    Some(())
 }
 
 fn farthest_outside(context: &Context, piece: &Derived) -> Option<Outside> {
-    let hull = context
-        .solids()
-        .sound(ModuleKind::ConvexHullMeshes, piece.link, 0)?;
+    let solids = context.solids();
+    let hull = solids.sound(ModuleKind::ConvexHullMeshes, piece.link, 0)?;
     let polytope = Polytope::new(hull)?;
     let bounds = hull.bounds()?;
     let diagonal = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
     let vertices = distinct(piece.sound()?);
     let every = step(vertices.len(), polytope.num_faces());
-    let (place, distance) = vertices
-        .into_iter()
-        .step_by(every)
-        .map(|vertex| (vertex, polytope.outside(vertex)))
-        .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    let vertices = vertices.into_iter().step_by(every);
+    let (place, distance) = farthest(vertices.map(|vertex| (vertex, polytope.outside(vertex))))?;
     Some(Outside {
         place,
         distance,

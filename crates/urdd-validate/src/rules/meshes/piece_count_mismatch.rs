@@ -1,10 +1,7 @@
 use std::collections::BTreeMap;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_document::shapes::{LIST_MODULES, entry_counts};
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// Modules disagree about the number of convex pieces of a link.
@@ -17,81 +14,62 @@ declare_rule! {
     /// Write the link shape modules again from the convex pieces that are there.
     MSH004 "piece-count-mismatch", Error, clause "7.7", since "0.1.0",
     phase References, needs [
-        Module(Kind::ConvexDecompositionMeshes),
-        AnyModule(&[Kind::LinkShapesApproximations, Kind::LinkShapesMaxDistanceFromOrigin]),
-        MESHES_LISTED,
-        NotFailed(SHP001),
-        NO_PIECE_TWICE,
+        Module(Kind::ConvexDecompositionMeshes), SHAPE_LISTS, MESHES_LISTED, NotFailed(SHP001), NO_PIECE_TWICE,
     ],
-    check check,
 }
 
-/// A list of pieces by link.
-struct Counted {
-    kind: ModuleKind,
+/// The number of pieces of each link, by a list of a module.
+struct Counted<'a> {
+    module: &'a Module,
     key: &'static str,
     counts: Vec<usize>,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some(pieces) = context.meshes(ModuleKind::ConvexDecompositionMeshes) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let pieces = context.meshes(ModuleKind::ConvexDecompositionMeshes)?;
+    let links = 0..pieces.num_links();
     let mut lists = vec![Counted {
-        kind: ModuleKind::ConvexDecompositionMeshes,
+        module: context.module(ModuleKind::ConvexDecompositionMeshes)?,
         key: pieces.lists.first().map_or("", |list| list.key),
-        counts: (0..pieces.num_links())
-            .map(|link| pieces.count(link))
-            .collect(),
+        counts: links.clone().map(|link| pieces.count(link)).collect(),
     }];
-    for kind in LIST_MODULES {
-        let Some(document) = context.document(*kind) else {
-            continue;
-        };
-        for list in entry_counts(document) {
-            if !list.kind.full {
-                lists.push(Counted {
-                    kind: *kind,
-                    key: list.key,
-                    counts: list.links.iter().map(Vec::len).collect(),
-                });
-            }
-        }
+    for (_, module, document) in context.documents(LIST_MODULES) {
+        let of_pieces = entry_counts(document)
+            .into_iter()
+            .filter(|list| !list.kind.full);
+        lists.extend(of_pieces.map(|list| Counted {
+            module,
+            key: list.key,
+            counts: list.links.iter().map(Vec::len).collect(),
+        }));
     }
-    for link in 0..pieces.num_links() {
-        let counts: Vec<(usize, &Counted)> = lists
+    for link in links {
+        let counts = lists
             .iter()
-            .filter_map(|list| Some((*list.counts.get(link)?, list)))
-            .collect();
-        // One link, one mistake: told at the first list that is not as most are.
-        let usual = most_common(counts.iter().map(|(count, _)| *count));
-        let Some((count, odd)) = counts.iter().find(|(count, _)| *count != usual) else {
+            .filter_map(|list| Some((*list.counts.get(link)?, list)));
+        // A link is one mistake, reported at the first list that differs from most lists.
+        let usual = most_common(counts.clone().map(|(count, _)| count));
+        let mut odd = counts.filter(|(count, _)| *count != usual);
+        let Some((count, first)) = odd.next() else {
             continue;
         };
-        let Some(module) = context.module(odd.kind) else {
-            continue;
-        };
-        let others = counts.iter().filter(|(count, _)| *count != usual).count() - 1;
-        let also = match others {
+        let also = match odd.count() {
             0 => String::new(),
             n => format!(" (and {n} more lists)"),
         };
-        findings.report(
-            Finding::at(
-                module.file("module.json"),
-                format!("/{}/{link}", odd.key),
-                format!(
-                    "{} has {count} convex pieces here{also} and {usual} in the other modules that list them: write the link shape modules again from convex_decomposition_meshes_module",
-                    context.link_label(link)
-                ),
-            )
-            .expected(format!("{usual} entries"))
-            .actual(format!("{count} entries")),
+        let message = format!(
+            "{} has {count} convex pieces here{also} and {usual} in the other modules that list them: write the link shape modules again from convex_decomposition_meshes_module",
+            context.link_label(link)
         );
+        Finding::of(first.module, format!("/{}/{link}", first.key), message)
+            .expected(format!("{usual} entries"))
+            .actual(format!("{count} entries"))
+            .report(findings);
     }
+    Some(())
 }
 
-/// The number that comes most often; of several, the first.
+/// The most frequent number; of several, the first.
 fn most_common(numbers: impl Iterator<Item = usize>) -> usize {
     let mut seen: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
     for (place, number) in numbers.enumerate() {

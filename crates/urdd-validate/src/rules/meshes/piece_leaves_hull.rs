@@ -1,7 +1,5 @@
 use super::outreach::{self, How};
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A convex piece reaches far out of the hull of its link.
@@ -13,12 +11,11 @@ declare_rule! {
     /// Decompose the link's plain mesh, and cut the pieces to its hull.
     MSH021 "piece-leaves-hull", Error, clause "7.10", since "0.1.0",
     phase Geometry, consequence Collisions, needs [
-        Module(Kind::ConvexHullMeshes), Module(Kind::ConvexDecompositionMeshes),
-        NotFailed(MSH003), NotFailed(MSH007), SOUND_HULL,
+        Module(Kind::ConvexHullMeshes), Module(Kind::ConvexDecompositionMeshes), NotFailed(MSH003),
+        NotFailed(MSH007), SOUND_HULL,
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    outreach::report(context, How::Far, findings);
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    outreach::report(context, How::Far, findings)
 }

@@ -1,8 +1,5 @@
 use super::convexity;
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
-use urdd_format::registry::ModuleKind;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A convex piece is not the closed surface of a convex body.
@@ -13,12 +10,9 @@ declare_rule! {
     ///
     /// Write the convex hull of each piece, every triangle, counter-clockwise seen from outside.
     MSH020 "piece-not-convex", Error, clause "7.10", since "0.1.0",
-    phase Geometry, consequence Collisions, needs [
-        Module(Kind::ConvexDecompositionMeshes), NotFailed(MSH003),
-    ],
-    check check,
+    phase Geometry, consequence Collisions, needs [Module(Kind::ConvexDecompositionMeshes), NotFailed(MSH003)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    convexity::report(context, ModuleKind::ConvexDecompositionMeshes, findings);
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    convexity::report(context, ModuleKind::ConvexDecompositionMeshes, findings)
 }

@@ -1,16 +1,11 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings, point};
-use crate::part::Part;
-use crate::rule::declare_rule;
+use super::farthest;
+use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
 use crate::solids::surface::extent;
-use crate::tolerance::{COVER_WITHOUT_PROMISE, mesh_resolution};
 use crate::views::judged::judged;
-use urdd_format::readable::metres;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_geometry::Mesh;
 
 declare_rule! {
@@ -24,11 +19,9 @@ declare_rule! {
     /// Decompose the link's plain mesh again, or promise less.
     MSH022 "pieces-leave-surface", Error, clause "7.10", since "0.1.0",
     phase Geometry, consequence Collisions, needs [
-        Module(Kind::PlainMeshes), Module(Kind::ConvexDecompositionMeshes),
-        NotFailed(MSH003),
-        NotFailed(MSH004), NotFailed(MSH007), CONVEX_PIECE,
+        Module(Kind::PlainMeshes), Module(Kind::ConvexDecompositionMeshes), NotFailed(MSH003), NotFailed(MSH004),
+        NotFailed(MSH007), CONVEX_PIECE,
     ],
-    check check,
 }
 
 /// A part of a link that no piece covers.
@@ -38,16 +31,15 @@ struct Bare {
     tolerance: f64,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::ConvexDecompositionMeshes;
-    let (Some(module), Some(meshes)) = (context.module(kind), context.meshes(kind)) else {
-        return;
-    };
+    let module = context.module(kind)?;
+    let meshes = context.meshes(kind)?;
     let promised = match context.document(kind) {
         Some(ModuleDocument::ConvexDecompositionMeshes(module)) => module.method.surface_tolerance,
         _ => None,
     };
-    // Before threads ask for it: who works it out shares the work with them.
+    // Computed before the threads start, so that the computation itself can use all of them.
     context.misplaced();
     let pieces_of = |link: usize| -> Vec<Part> {
         let pieces = 0..meshes.count(link);
@@ -71,26 +63,24 @@ fn check(context: &Context, findings: &mut Findings) {
         let Some(bare) = bare else {
             continue;
         };
-        let mut finding = Finding::at(
-            module.file("module.json"),
-            meshes.pointer(link),
-            format!(
-                "the pieces of {} leave out its surface at {}, {} outside of all of them",
-                context.link_label(link),
-                point(bare.place),
-                metres(bare.distance)
-            ),
-        )
-        .expected("the whole surface of the plain mesh inside the pieces")
-        .actual(format!("{} outside", metres(bare.distance)))
-        .tolerance(bare.tolerance)
-        .off_by(bare.distance, "m");
+        let distance = metres(bare.distance);
+        let message = format!(
+            "the pieces of {} leave out its surface at {}, {distance} outside of all of them",
+            context.link_label(link),
+            point(bare.place)
+        );
+        let mut finding = Finding::of(module, meshes.pointer(link), message)
+            .expected("the whole surface of the plain mesh inside the pieces")
+            .actual(format!("{distance} outside"))
+            .tolerance(bare.tolerance)
+            .off_by(bare.distance, "m");
         finding.parts = pieces_of(link);
         findings.report(finding);
     }
+    Some(())
 }
 
-/// Where a link's surface is farthest outside of its pieces, if it is so by more than it may be.
+/// Where a link's surface is farthest outside its pieces, if that exceeds the tolerance.
 fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) -> Option<Bare> {
     let solids = context.solids();
     let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
@@ -106,22 +96,20 @@ fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) ->
         promised.map_or(most, |promised| promised.clamp(0.0, most)) + mesh_resolution(extent(mesh));
     let faces: usize = pieces.iter().map(Polytope::num_faces).sum();
     let points = mesh.vertices.len() + mesh.triangles.len();
-    let worst = points_of(mesh)
-        .step_by(step(points, faces))
-        .filter(|point| !pieces.iter().any(|piece| piece.holds(*point, tolerance)))
-        .map(|point| {
-            let outside = pieces.iter().map(|piece| piece.outside(point));
-            (point, outside.fold(f64::INFINITY, f64::min))
-        })
-        .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
-    (worst.1 > tolerance).then_some(Bare {
-        place: worst.0,
-        distance: worst.1,
+    let points = points_of(mesh).step_by(step(points, faces));
+    let bare = points.filter(|point| !pieces.iter().any(|piece| piece.holds(*point, tolerance)));
+    let (place, distance) = farthest(bare.map(|point| {
+        let outside = pieces.iter().map(|piece| piece.outside(point));
+        (point, outside.fold(f64::INFINITY, f64::min))
+    }))?;
+    (distance > tolerance).then_some(Bare {
+        place,
+        distance,
         tolerance,
     })
 }
 
-/// Points of a surface: corners, and the middles of triangles.
+/// Points of a surface: corners and centroids of triangles.
 fn points_of(mesh: &Mesh) -> impl Iterator<Item = [f64; 3]> {
     let mut used = vec![false; mesh.vertices.len()];
     for corner in mesh.triangles.iter().flatten() {

@@ -1,9 +1,6 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_document::usable_geometry::UsableGeometry;
 use urdd_format::meshes::GeometryKind;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 
 declare_rule! {
     /// `geometry` names the wrong source for a link's mesh.
@@ -18,7 +15,7 @@ declare_rule! {
     phase References, consequence WrongPlace, needs [
         Version1,
         Module(Kind::Urdf),
-        Module(Kind::PlainMeshes),
+        ModuleV1(Kind::PlainMeshes),
         NotFailed(MSH001),
         NotFailed(MSH009),
         NotFailed(MSH012),
@@ -29,16 +26,11 @@ declare_rule! {
         NotFailed(MSH007),
         LINKS_NAMED,
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some(ModuleDocument::PlainMeshes(plain)) = context.document(ModuleKind::PlainMeshes) else {
-        return;
-    };
-    let Some(module) = context.module(ModuleKind::PlainMeshes) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let plain = document!(context, PlainMeshes)?;
+    let module = context.module(ModuleKind::PlainMeshes)?;
     let usable = UsableGeometry::new(context);
     let preferred = plain.preferred_geometry;
     let other = match preferred {
@@ -46,27 +38,22 @@ fn check(context: &Context, findings: &mut Findings) {
         GeometryKind::Collision => GeometryKind::Visual,
     };
     for (link, mesh) in plain.link_meshes.iter().enumerate() {
-        let Some(mesh) = mesh else {
-            continue;
+        let (expected, why) = match usable.has(link, preferred) {
+            true => (preferred, "it has geometry of the preferred kind"),
+            false => (other, "it has none of the preferred kind"),
         };
-        let (expected, why) = if usable.has(link, preferred) {
-            (preferred, "it has geometry of the preferred kind")
-        } else {
-            (other, "it has none of the preferred kind")
-        };
-        if mesh.geometry != expected {
-            findings.report(
-                Finding::at(
-                    module.file("module.json"),
-                    format!("/link_meshes/{link}/geometry"),
-                    format!(
-                        "preferred_geometry is {preferred:?}, and for {} this must be {expected:?}: {why}",
-                        context.link_label(link)
-                    ),
-                )
-                .expected(format!("{expected:?}"))
-                .actual(format!("{:?}", mesh.geometry)),
+        if let Some(mesh) = mesh
+            && mesh.geometry != expected
+        {
+            let message = format!(
+                "preferred_geometry is {preferred:?}, and for {} this must be {expected:?}: {why}",
+                context.link_label(link)
             );
+            Finding::of(module, format!("/link_meshes/{link}/geometry"), message)
+                .expected(format!("{expected:?}"))
+                .actual(format!("{:?}", mesh.geometry))
+                .report(findings);
         }
     }
+    Some(())
 }

@@ -1,9 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
 use crate::rules::directory::unknown_major_version;
-use urdd_directory::discover::ROOT_METADATA;
-use urdd_document::entries;
+use crate::rules::prelude::*;
 use urdd_document::schema_check::SchemaViolation;
 
 declare_rule! {
@@ -18,10 +14,9 @@ declare_rule! {
     /// the document names it as `$schema`.
     SCH001 "breaks-schema", Error, clause "3.1.2", since "0.1.0",
     phase Schema, needs [],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     // The schema is that of version 1: DIR025 reports another one.
     if unknown_major_version::other_major(context).is_none() {
         report(ROOT_METADATA, &context.metadata_file().violations, findings);
@@ -29,6 +24,7 @@ fn check(context: &Context, findings: &mut Findings) {
     for module in entries::known_modules(context) {
         report(&module.file("module.json"), &module.violations, findings);
     }
+    Some(())
 }
 
 fn report(file: &str, violations: &[SchemaViolation], findings: &mut Findings) {

@@ -2,7 +2,8 @@
 
 mod breaks_schema;
 
-use crate::rule::Rule;
+use crate::rule::rules;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[&breaks_schema::RULE];
+rules! {
+    breaks_schema
+}

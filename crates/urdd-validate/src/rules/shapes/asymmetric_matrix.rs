@@ -1,14 +1,8 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::fold::Fold;
-use crate::rule::declare_rule;
-use crate::tolerance::NUMBER_RELATIVE;
-use crate::views::tangled::symmetric_at;
+use crate::rules::prelude::*;
+use crate::views::tangled::{of_pair, pairs, symmetric_at};
 use urdd_document::shape_matrices::{
-    Elements, MATRIX_MODULES, Matrix, Rows, at, matrices, reasons, skips,
+    Elements, MATRIX_MODULES, Matrix, at, matrices, reasons, skips,
 };
-use urdd_document::shapes::KINDS;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 
 declare_rule! {
     /// A matrix over shapes is not symmetric: a pair has one value one way round and another the other.
@@ -21,25 +15,12 @@ declare_rule! {
     /// is not what the other modules give: that one is the edit. Where the edit is meant, set both to it;
     /// else set both back.
     SHP006 "asymmetric-matrix", Error, clause "8.4", since "0.1.0",
-    phase References, needs [
-        AnyModule(&[
-            Kind::LinkShapesDistanceStatistics,
-            Kind::LinkShapesSimpleSkips,
-            Kind::LinkShapesSkips,
-            Kind::LinkShapesLieAlgErrorModels,
-        ]),
-        NotFailed(SHP005),
-    ],
-    check check,
+    phase References, needs [SHAPE_MATRICES_OR_MODELS, NotFailed(SHP005)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let shapes = context.shapes();
-    for kind in MATRIX_MODULES {
-        let (Some(document), Some(module)) = (context.document(*kind), context.module(*kind))
-        else {
-            continue;
-        };
+    for (kind, module, document) in context.documents(MATRIX_MODULES) {
         for matrix in matrices(document) {
             let Some(elements) = matrix.elements else {
                 continue;
@@ -49,66 +30,47 @@ fn check(context: &Context, findings: &mut Findings) {
                 None => shape.to_string(),
             };
             let mut fold = Fold::new(findings);
-            for i in 0..elements.rows() {
-                for j in i + 1..elements.rows() {
-                    if symmetric_at(elements, i, j) {
-                        continue;
-                    }
-                    if let Some(edited) = edited_half(context, *kind, &matrix, i, j) {
-                        fold.add(|| {
-                            let (a, b) = edited;
-                            let mirror = format!("{}/{b}/{a}", matrix.pointer);
-                            Finding::at(
-                                module.file("module.json"),
-                                format!("{}/{a}/{b}", matrix.pointer),
-                                format!(
-                                    "shapes {} and {} are skipped one way round only: this half is an edit, \
-                                     {mirror} is what the simple skips give; set both to the edit, or both back",
-                                    name(a),
-                                    name(b)
-                                ),
-                            )
-                            .expected(format!("the same as at {mirror}"))
-                            .actual(format!(
-                                "{}, and {} there",
-                                elements.text(a, b),
-                                elements.text(b, a)
-                            ))
-                        });
-                        continue;
-                    }
-                    fold.add(|| {
-                        let finding = Finding::at(
-                            module.file("module.json"),
-                            format!("{}/{i}/{j}", matrix.pointer),
-                            format!(
-                                "shapes {} and {} have one value one way round and another the other way: set both",
-                                name(i),
-                                name(j)
-                            ),
-                        )
-                        .expected(format!(
-                            "{}, as at {}/{j}/{i}",
-                            elements.text(j, i),
-                            matrix.pointer
-                        ))
-                        .actual(elements.text(i, j));
-                        match elements {
-                            Elements::Distances(_) | Elements::Models(_) => {
-                                finding.tolerance(NUMBER_RELATIVE)
-                            }
-                            Elements::Skips(_) | Elements::Reasons(_) => finding,
-                        }
-                    });
+            for (i, j) in pairs(elements.rows()) {
+                if symmetric_at(elements, i, j) {
+                    continue;
                 }
+                let edited = edited_half(context, kind, &matrix, i, j);
+                fold.add(|| {
+                    let (i, j) = edited.unwrap_or((i, j));
+                    let (a, b) = (name(i), name(j));
+                    let pointer = format!("{}/{i}/{j}", matrix.pointer);
+                    let mirror = format!("{}/{j}/{i}", matrix.pointer);
+                    let (here, there) = (elements.text(i, j), elements.text(j, i));
+                    if edited.is_some() {
+                        let message = format!(
+                            "shapes {a} and {b} are skipped one way round only: this half is an edit, \
+                             {mirror} is what the simple skips give; set both to the edit, or both back"
+                        );
+                        return Finding::of(module, pointer, message)
+                            .expected(format!("the same as at {mirror}"))
+                            .actual(format!("{here}, and {there} there"));
+                    }
+                    let message = format!(
+                        "shapes {a} and {b} have one value one way round and another the other way: set both"
+                    );
+                    let finding = Finding::of(module, pointer, message)
+                        .expected(format!("{there}, as at {mirror}"))
+                        .actual(here);
+                    match elements {
+                        Elements::Distances(_) | Elements::Models(_) => {
+                            finding.tolerance(NUMBER_RELATIVE)
+                        }
+                        Elements::Skips(_) | Elements::Reasons(_) => finding,
+                    }
+                });
             }
-            fold.finish();
         }
     }
+    Some(())
 }
 
-/// Of two elements of a skip matrix that differ, the place of the one that is not as it was before a
-/// person's edits; `None` in other modules, and where nothing says what it was.
+/// Of two elements of a skip matrix that differ, the place of the edited one. `None` in other modules, and if the value
+/// before the edits is unknown.
 fn edited_half(
     context: &Context,
     module: ModuleKind,
@@ -124,19 +86,14 @@ fn edited_half(
     let place = KINDS.iter().position(|kind| *kind == matrix.kind)?;
     let before = match context.document(module)? {
         ModuleDocument::LinkShapesSkips(skips) => {
-            let reason = same_both_ways(reasons(simple)?[place], i, j)?;
+            let reason = of_pair(reasons(simple)?[place]?, i, j)?;
             let mut skipped = skips.skipped_reasons.iter();
             skipped.any(|skipped| skipped.of_pair() == reason)
         }
-        _ => same_both_ways(skips(simple)?[place], i, j)?,
+        _ => of_pair(skips(simple)?[place]?, i, j)?,
     };
     match at(rows, i, j)? == before {
         true => Some((j, i)),
         false => Some((i, j)),
     }
-}
-
-fn same_both_ways<T: Copy + PartialEq>(rows: Rows<T>, i: usize, j: usize) -> Option<T> {
-    let (element, mirror) = (at(rows?, i, j)?, at(rows?, j, i)?);
-    (element == mirror).then_some(element)
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::tangled::{Tangled, diagonal_sound};
 use urdd_document::shape_matrices::{Elements, MATRIX_MODULES, matrices};
 
@@ -12,30 +10,18 @@ declare_rule! {
     ///
     /// Write 0, or true, on the diagonal.
     SHP007 "diagonal-wrong", Error, clause "8.4", since "0.1.0",
-    phase References, needs [
-        AnyModule(&[
-            Kind::LinkShapesDistanceStatistics,
-            Kind::LinkShapesSimpleSkips,
-            Kind::LinkShapesSkips,
-        ]),
-        NotFailed(SHP005),
-    ],
-    check check,
+    phase References, needs [SHAPE_MATRICES, NotFailed(SHP005)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    for kind in MATRIX_MODULES {
-        let (Some(document), Some(module)) = (context.document(*kind), context.module(*kind))
-        else {
-            continue;
-        };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    for (_, module, document) in context.documents(MATRIX_MODULES) {
         for matrix in matrices(document) {
             let Some(elements) = matrix.elements else {
                 continue;
             };
             let tangled = Tangled::new(elements);
             for i in 0..elements.rows() {
-                // Where the row of the shape is wrong beyond that, SHP006 says so.
+                // SHP006 reports a row with more faults.
                 if diagonal_sound(elements, i) || tangled.asymmetric(i) {
                     continue;
                 }
@@ -43,16 +29,13 @@ fn check(context: &Context, findings: &mut Findings) {
                     Elements::Distances(_) => "0",
                     _ => "true",
                 };
-                findings.report(
-                    Finding::at(
-                        module.file("module.json"),
-                        format!("{}/{i}/{i}", matrix.pointer),
-                        format!("this is the element of shape {i} and itself, which is always {expected}"),
-                    )
-                    .expected(expected)
-                    .actual(elements.text(i, i)),
+                let message = format!(
+                    "this is the element of shape {i} and itself, which is always {expected}"
                 );
+                let finding = Finding::of(module, format!("{}/{i}/{i}", matrix.pointer), message);
+                findings.report(finding.expected(expected).actual(elements.text(i, i)));
             }
         }
     }
+    Some(())
 }

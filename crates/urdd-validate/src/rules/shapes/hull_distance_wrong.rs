@@ -1,11 +1,6 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::part::Part;
-use crate::rule::declare_rule;
-use crate::tolerance::HULL_IN_VOLUME;
+use crate::rules::prelude::*;
 use crate::views::judged::judged;
 use urdd_document::shapes::max_distances;
-use urdd_format::registry::ModuleKind;
 use urdd_geometry::farthest;
 
 declare_rule! {
@@ -19,60 +14,49 @@ declare_rule! {
     SHP021 "hull-distance-wrong", Error, clause "8.3", since "0.1.0",
     phase Geometry, needs [
         Module(Kind::LinkShapesMaxDistanceFromOrigin),
-        AnyModule(&[Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
+        HULLS_OR_PIECES,
         PIECES_LISTED, OWN_FILES, SOUND_SHAPES, SHAPES_LISTED,
-        // What reaches farther than the box and the sphere is told of already.
+        // It reports a value beyond the box and the sphere.
         NotFailed(SHP004),
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::LinkShapesMaxDistanceFromOrigin;
-    let (Some(module), Some(lists)) = (
-        context.module(kind),
-        context.document(kind).and_then(max_distances),
-    ) else {
-        return;
-    };
-    let [hulls, _, _, pieces, _, _] = &lists;
+    let module = context.module(kind)?;
+    let [hulls, _, _, pieces, _, _] = max_distances(context.document(kind)?)?;
     for (list, meshes) in [
         (hulls, ModuleKind::ConvexHullMeshes),
         (pieces, ModuleKind::ConvexDecompositionMeshes),
     ] {
-        for (link, entry) in list.links.iter().enumerate() {
-            for (piece, value) in entry.iter().enumerate() {
-                let part = Part::of_shape(list.kind, link, piece);
-                if !judged(context, findings, part, &[]) {
-                    continue;
-                }
-                let Some(mesh) = context.solids().sound(meshes, link, piece) else {
-                    continue;
-                };
-                let expected = farthest::of_mesh(mesh);
-                let tolerance = HULL_IN_VOLUME * expected;
-                if (value - expected).abs() <= tolerance {
-                    continue;
-                }
-                let what = match list.kind.full {
-                    true => "the hull".to_owned(),
-                    false => format!("piece {piece}"),
-                };
-                findings.report(
-                    Finding::at(
-                        module.file("module.json"),
-                        list.pointer(link, piece),
-                        format!(
-                            "this is not the distance of the farthest vertex of {what} of {}",
-                            context.link_label(link)
-                        ),
-                    )
-                    .expected(expected)
-                    .actual(value)
-                    .tolerance(tolerance)
-                    .off_by(value - expected, "m"),
-                );
+        for (link, piece, value) in list.entries() {
+            let part = Part::of_shape(list.kind, link, piece);
+            if !judged(context, findings, part, &[]) {
+                continue;
             }
+            let Some(mesh) = context.solids().sound(meshes, link, piece) else {
+                continue;
+            };
+            let expected = farthest::of_mesh(mesh);
+            let tolerance = HULL_IN_VOLUME * expected;
+            if (value - expected).abs() <= tolerance {
+                continue;
+            }
+            let what = match list.kind.full {
+                true => "the hull".to_owned(),
+                false => format!("piece {piece}"),
+            };
+            let message = format!(
+                "this is not the distance of the farthest vertex of {what} of {}",
+                context.link_label(link)
+            );
+            Finding::of(module, list.pointer(link, piece), message)
+                .expected(expected)
+                .actual(value)
+                .tolerance(tolerance)
+                .off_by(value - expected, "m")
+                .report(findings);
         }
     }
+    Some(())
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_document::shape_matrices::{MATRIX_MODULES, Matrix, matrices};
 use urdd_document::shapes::Shapes;
 
@@ -15,55 +13,35 @@ declare_rule! {
     /// on matrices are skipped.
     SHP005 "matrix-size", Error, clause "8.4", since "0.1.0",
     phase References, needs [
-        Module(Kind::ConvexHullMeshes),
-        Module(Kind::ConvexDecompositionMeshes),
-        AnyModule(&[
-            Kind::LinkShapesDistanceStatistics,
-            Kind::LinkShapesSimpleSkips,
-            Kind::LinkShapesSkips,
-            Kind::LinkShapesLieAlgErrorModels,
-        ]),
-        MESHES_LISTED,
-        NotFailed(MSH004),
-        NotFailed(SHP002),
-        NotFailed(SHP010),
-        NO_PIECE_TWICE,
+        Module(Kind::ConvexHullMeshes), Module(Kind::ConvexDecompositionMeshes), SHAPE_MATRICES_OR_MODELS,
+        MESHES_LISTED, NotFailed(MSH004), NotFailed(SHP002), NotFailed(SHP010), NO_PIECE_TWICE,
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some(shapes) = context.shapes() else {
-        return;
-    };
-    for kind in MATRIX_MODULES {
-        let (Some(document), Some(module)) = (context.document(*kind), context.module(*kind))
-        else {
-            continue;
-        };
-        let wrong: Vec<Wrong> = matrices(document)
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let shapes = context.shapes()?;
+    for (_, module, document) in context.documents(MATRIX_MODULES) {
+        let matrices = matrices(document);
+        let mut wrong = matrices
             .iter()
-            .filter_map(|matrix| wrong_size(matrix, &shapes))
-            .collect();
-        let Some(first) = wrong.first() else {
+            .filter_map(|matrix| wrong_size(matrix, &shapes));
+        // A stale module is one mistake, though it shows in every matrix.
+        let Some(first) = wrong.next() else {
             continue;
         };
-        // A stale module is one mistake, though it shows in every matrix.
-        let also = match wrong.len() - 1 {
+        let others = wrong.count();
+        let also = match others {
             0 => String::new(),
             n => format!("; {n} more matrices of this module are of wrong sizes too"),
         };
-        findings.report(
-            Finding::at(
-                module.file("module.json"),
-                first.pointer.clone(),
-                format!("{}{also}: write the module again", first.message),
-            )
-            .expected(first.expected.clone())
-            .actual(first.actual.clone())
-            .count(wrong.len()),
-        );
+        let message = format!("{}{also}: write the module again", first.message);
+        Finding::of(module, first.pointer, message)
+            .expected(first.expected)
+            .actual(first.actual)
+            .count(1 + others)
+            .report(findings);
     }
+    Some(())
 }
 
 struct Wrong {

@@ -1,9 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::tolerance::{HULL_IN_VOLUME, LEGACY_SPHERE_SHORTFALL, number_tolerance};
+use crate::rules::prelude::*;
 use urdd_document::shapes::{ShapeList, Volume, approximations, max_distances};
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 
 declare_rule! {
     /// A shape's largest distance from its link's origin is not what its box or sphere gives.
@@ -22,46 +18,29 @@ declare_rule! {
         NotFailed(MSH004),
         SHAPES_LISTED,
         NotFailed(SHP003),
-        // Of a box that does not fit, the distance may be that of the right one.
+        // The distance may be that of the right box, where the box itself does not fit.
         NotFailed(SHP017),
         NotFailed(SHP018),
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::LinkShapesMaxDistanceFromOrigin;
-    let (Some(document), Some(module)) = (context.document(kind), context.module(kind)) else {
-        return;
-    };
-    let (Some(distances), Some(volumes)) = (
-        max_distances(document),
-        context
-            .document(ModuleKind::LinkShapesApproximations)
-            .and_then(approximations),
-    ) else {
-        return;
-    };
-    let legacy = matches!(
-        document,
-        ModuleDocument::LegacyLinkShapesMaxDistanceFromOrigin(_)
-    );
-    let ([full_hulls, full @ ..], [full_boxes, full_spheres, boxes, spheres]) =
-        (&distances, volumes.as_slice())
-    else {
-        return;
-    };
+    let document = context.document(kind)?;
+    let distances = max_distances(document)?;
     let [
+        full_hulls,
         full_box_values,
         full_sphere_values,
         pieces,
         box_values,
         sphere_values,
-    ] = full;
+    ] = &distances;
+    let volumes = approximations(context.document(ModuleKind::LinkShapesApproximations)?)?;
+    let [full_boxes, full_spheres, boxes, spheres] = &volumes;
     let mut checker = Checker {
         context,
-        file: module.file("module.json"),
-        legacy,
+        module: context.module(kind)?,
         findings,
     };
     checker.volumes(full_box_values, full_boxes);
@@ -70,26 +49,28 @@ fn check(context: &Context, findings: &mut Findings) {
     checker.volumes(sphere_values, spheres);
     checker.hulls(full_hulls, full_boxes, full_spheres);
     checker.hulls(pieces, boxes, spheres);
+    Some(())
 }
 
 struct Checker<'a> {
     context: &'a Context,
-    file: String,
-    legacy: bool,
+    module: &'a Module,
     findings: &'a mut Findings,
 }
 
 impl Checker<'_> {
-    /// The values of boxes or spheres.
+    /// Compares values with those of their boxes or spheres.
     fn volumes(&mut self, values: &ShapeList<f64>, volumes: &ShapeList<Volume>) {
-        for (link, piece, value) in entries(values) {
+        for (link, piece, value) in values.entries() {
             let Some(volume) = entry(volumes, link, piece) else {
                 continue;
             };
             let expected = volume.reach();
             let tolerance = number_tolerance(expected, value);
             let shortfall = match volume {
-                Volume::Sphere { radius, .. } if self.legacy => radius * LEGACY_SPHERE_SHORTFALL,
+                Volume::Sphere { radius, .. } if is_legacy(self.module) => {
+                    radius * LEGACY_SPHERE_SHORTFALL
+                }
                 _ => tolerance,
             };
             if value > expected + tolerance || value < expected - shortfall {
@@ -97,38 +78,31 @@ impl Checker<'_> {
                     Volume::Sphere { .. } => "distance of the sphere's centre plus its radius",
                     Volume::Box { .. } => "distance of the box's farthest corner",
                 };
-                self.findings.report(
-                    Finding::at(
-                        &self.file,
-                        values.pointer(link, piece),
-                        format!(
-                            "this is not the {what} ({}) for {}",
-                            volumes.pointer(link, piece),
-                            self.context.link_label(link)
-                        ),
-                    )
+                let message = format!(
+                    "this is not the {what} ({}) for {}",
+                    volumes.pointer(link, piece),
+                    self.context.link_label(link)
+                );
+                Finding::of(self.module, values.pointer(link, piece), message)
                     .expected(expected)
                     .actual(value)
-                    .tolerance(shortfall.max(tolerance)),
-                );
+                    .tolerance(shortfall.max(tolerance))
+                    .report(self.findings);
             }
         }
     }
 
-    /// The values of hulls or convex pieces, held to the boxes and spheres themselves.
+    /// Compares values of hulls or pieces with the boxes and spheres that contain them.
     fn hulls(
         &mut self,
         values: &ShapeList<f64>,
         boxes: &ShapeList<Volume>,
         spheres: &ShapeList<Volume>,
     ) {
-        for (link, piece, value) in entries(values) {
-            let reaches = [boxes, spheres].map(|list| entry(list, link, piece));
-            let most = reaches
-                .iter()
-                .flatten()
-                .map(Volume::reach)
-                .fold(f64::INFINITY, f64::min);
+        for (link, piece, value) in values.entries() {
+            let volumes = [boxes, spheres].map(|list| entry(list, link, piece));
+            let reaches = volumes.iter().flatten().map(Volume::reach);
+            let most = reaches.fold(f64::INFINITY, f64::min);
             let tolerance = most * HULL_IN_VOLUME;
             let label = self.context.link_label(link);
             let message = if value < 0.0 {
@@ -138,22 +112,13 @@ impl Checker<'_> {
             } else {
                 continue;
             };
-            self.findings.report(
-                Finding::at(&self.file, values.pointer(link, piece), message)
-                    .expected(format!("from 0 to {most}"))
-                    .actual(value)
-                    .tolerance(tolerance),
-            );
+            Finding::of(self.module, values.pointer(link, piece), message)
+                .expected(format!("from 0 to {most}"))
+                .actual(value)
+                .tolerance(tolerance)
+                .report(self.findings);
         }
     }
-}
-
-fn entries(list: &ShapeList<f64>) -> impl Iterator<Item = (usize, usize, f64)> {
-    let links = list.links.iter().enumerate();
-    links.flat_map(|(link, entry)| {
-        let pieces = entry.iter().enumerate();
-        pieces.map(move |(piece, value)| (link, piece, *value))
-    })
 }
 
 fn entry(list: &ShapeList<Volume>, link: usize, piece: usize) -> Option<Volume> {

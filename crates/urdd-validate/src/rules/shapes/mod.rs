@@ -1,4 +1,4 @@
-//! SHP: the link shape modules, by themselves and held to the meshes and the kinematics.
+//! SHP: the link shape modules, on their own and compared with meshes and kinematics.
 
 mod asymmetric_matrix;
 mod default_reason_wrong;
@@ -8,6 +8,7 @@ mod hull_distance_wrong;
 mod impossible_shape_size;
 mod matrix_size;
 mod max_distance_wrong;
+mod needlessly_large;
 mod needlessly_large_box;
 mod needlessly_large_sphere;
 mod negative_distance;
@@ -28,35 +29,14 @@ mod statistics_differ;
 mod statistics_out_of_order;
 mod unknown_link_in_edit;
 
-use crate::rule::Rule;
+use crate::rule::rules;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &shape_list_length::RULE,
-    &shape_presence_differs::RULE,
-    &impossible_shape_size::RULE,
-    &max_distance_wrong::RULE,
-    &matrix_size::RULE,
-    &asymmetric_matrix::RULE,
-    &diagonal_wrong::RULE,
-    &statistics_out_of_order::RULE,
-    &negative_distance::RULE,
-    &shape_list_differs::RULE,
-    &simple_skip_wrong::RULE,
-    &skip_reason_wrong::RULE,
-    &skips_not_from_edits::RULE,
-    &unknown_link_in_edit::RULE,
-    &piece_matrix_missing::RULE,
-    &no_samples::RULE,
-    &shape_leaves_out_part::RULE,
-    &shape_does_not_touch::RULE,
-    &needlessly_large_box::RULE,
-    &needlessly_large_sphere::RULE,
-    &hull_distance_wrong::RULE,
-    &rigid_pair_not_constant::RULE,
-    &distance_out_of_range::RULE,
-    &statistics_differ::RULE,
-    &skipped_pair_moves_apart::RULE,
-    &default_reason_wrong::RULE,
-    &skipped_reasons_disordered::RULE,
-];
+rules! {
+    asymmetric_matrix, default_reason_wrong, diagonal_wrong, distance_out_of_range,
+    hull_distance_wrong, impossible_shape_size, matrix_size, max_distance_wrong,
+    needlessly_large_box, needlessly_large_sphere, negative_distance, no_samples,
+    piece_matrix_missing, rigid_pair_not_constant, shape_does_not_touch, shape_leaves_out_part,
+    shape_list_differs, shape_list_length, shape_presence_differs, simple_skip_wrong,
+    skip_reason_wrong, skipped_pair_moves_apart, skipped_reasons_disordered,
+    skips_not_from_edits, statistics_differ, statistics_out_of_order, unknown_link_in_edit
+}

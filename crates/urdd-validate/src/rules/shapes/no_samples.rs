@@ -1,7 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// The distance statistics are said to be of no samples.
@@ -11,26 +8,18 @@ declare_rule! {
     ///
     /// Write the number of configurations that were sampled, at least 1.
     SHP016 "no-samples", Error, clause "8.5", since "0.1.0",
-    phase References, consequence Format, needs [Version1, Module(Kind::LinkShapesDistanceStatistics)],
-    check check,
+    phase References, consequence Format, needs [Version1, ModuleV1(Kind::LinkShapesDistanceStatistics)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let kind = ModuleKind::LinkShapesDistanceStatistics;
-    let (Some(ModuleDocument::LinkShapesDistanceStatistics(statistics)), Some(module)) =
-        (context.document(kind), context.module(kind))
-    else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let statistics = document!(context, LinkShapesDistanceStatistics)?;
+    let module = context.module(ModuleKind::LinkShapesDistanceStatistics)?;
     if statistics.num_samples.get() == 0 {
-        findings.report(
-            Finding::at(
-                module.file("module.json"),
-                "/num_samples",
-                "distances are taken over at least one sampled configuration",
-            )
+        let message = "distances are taken over at least one sampled configuration";
+        Finding::of(module, "/num_samples", message)
             .expected("1 or more")
-            .actual(0),
-        );
+            .actual(0)
+            .report(findings);
     }
+    Some(())
 }

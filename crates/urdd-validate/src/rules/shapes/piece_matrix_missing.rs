@@ -1,8 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_document::shape_matrices::{V1_MATRIX_MODULES, matrices};
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// A matrix over convex pieces is null, though the robot has few enough of them.
@@ -12,56 +9,31 @@ declare_rule! {
     ///
     /// Write the matrix.
     SHP015 "piece-matrix-missing", Error, clause "8.4", since "0.1.0",
-    phase References, needs [
-        Version1,
-        Module(Kind::ConvexDecompositionMeshes),
-        AnyModule(&[
-            Kind::LinkShapesDistanceStatistics,
-            Kind::LinkShapesSimpleSkips,
-            Kind::LinkShapesSkips,
-        ]),
-        PIECES_LISTED,
-    ],
-    check check,
+    phase References, needs [Version1, Module(Kind::ConvexDecompositionMeshes), SHAPE_MATRICES, PIECES_LISTED],
 }
 
-/// Most pieces with which matrices over them are required (SPEC 8.4).
-const MOST_PIECES: usize = 500;
+/// Number of pieces up to which matrices over them are required (SPEC 8.4).
+const REQUIRED_UP_TO: usize = 500;
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some(meshes) = context.meshes(ModuleKind::ConvexDecompositionMeshes) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let meshes = context.meshes(ModuleKind::ConvexDecompositionMeshes)?;
     let pieces: usize = (0..meshes.num_links()).map(|link| meshes.count(link)).sum();
-    if pieces > MOST_PIECES {
-        return;
+    if pieces > REQUIRED_UP_TO {
+        return Some(());
     }
-    for kind in V1_MATRIX_MODULES {
-        let (Some(document), Some(module)) = (context.document(*kind), context.module(*kind))
-        else {
-            continue;
-        };
-        let missing: Vec<String> = matrices(document)
-            .into_iter()
-            .filter(|matrix| matrix.elements.is_none())
-            .map(|matrix| matrix.pointer)
-            .collect();
+    for (_, module, document) in context.documents(V1_MATRIX_MODULES) {
+        let mut missing = matrices(document);
+        missing.retain(|matrix| matrix.elements.is_none());
+        let missing: Vec<String> = missing.into_iter().map(|matrix| matrix.pointer).collect();
         // A module written without them is one mistake.
-        let Some(first) = missing.first() else {
-            continue;
-        };
-        findings.report(
-            Finding::at(
-                module.file("module.json"),
-                first,
-                format!(
-                    "with {pieces} convex pieces the matrices over them are required, and null here: {}",
-                    missing.join(", ")
-                ),
-            )
-            .expected("a matrix")
-            .actual("null")
-            .count(missing.len()),
-        );
+        if let Some(first) = missing.first() {
+            let message = format!(
+                "with {pieces} convex pieces the matrices over them are required, and null here: {}",
+                missing.join(", ")
+            );
+            let finding = Finding::of(module, first, message).count(missing.len());
+            findings.report(finding.expected("a matrix").actual("null"));
+        }
     }
+    Some(())
 }

@@ -1,59 +1,44 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::enclosure::Side;
 use crate::views::judged::enclosures;
-use urdd_format::readable::metres;
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// A box does not touch its hull or piece on all six sides, or a sphere does not touch it.
     ///
     /// The extents of a box follow from its orientation, and the radius of a sphere from its centre:
-    /// larger ones hold the same and are farther from nothing. A side that stands off is a sign that the
-    /// numbers were made of another mesh, or with a margin, which whoever wants one adds alone.
+    /// larger ones hold the same and gain nothing. A side that does not touch is a sign that the
+    /// numbers were computed from another mesh, or with a margin, which programs that want one add
+    /// themselves.
     ///
-    /// Keep the orientation, and take the least and the largest coordinate of the vertices along each of
-    /// the box's axes; keep the centre of a sphere, and take the distance of the farthest vertex.
+    /// Keep the orientation, and take the least and the largest coordinate of the vertices along each
+    /// of the box's axes; keep the centre of a sphere, and take the distance of the farthest vertex.
     SHP018 "shape-does-not-touch", Error, clause "8.2", since "0.1.0",
-    phase Geometry, needs [
-        Version1,
-        Module(Kind::LinkShapesApproximations),
-        AnyModule(&[Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]),
-        PIECES_LISTED, OWN_FILES, SOUND_SHAPES, SHAPES_LISTED, NotFailed(SHP003),
-    ],
-    check check,
+    phase Geometry, needs [Version1, ENCLOSURES],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some(module) = context.module(ModuleKind::LinkShapesApproximations) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let module = context.module(ModuleKind::LinkShapesApproximations)?;
     for enclosure in enclosures(context, findings) {
-        // What leaves a part out stands off on the other side: SHP017 tells.
+        // A shape that leaves a part out is off on the other side: SHP017 reports it.
         if !enclosure.holds() || enclosure.touches() {
             continue;
         }
         let (side, off) = enclosure.fit.off;
-        let what = enclosure.of_what(context);
+        let (what, distance) = (enclosure.of_what(context), metres(off));
         let message = match side {
-            Side::Round => format!(
-                "the sphere is {} away from {what} on all sides",
-                metres(off)
-            ),
-            Side::Of(axis, upper) => format!(
-                "the box's side at its own {}{} is {} away from {what}",
-                if upper { '+' } else { '-' },
-                ['x', 'y', 'z'].get(axis).copied().unwrap_or_default(),
-                metres(off),
-            ),
+            Side::Round => format!("the sphere is {distance} away from {what} on all sides"),
+            Side::Of(axis, upper) => {
+                let sign = if upper { '+' } else { '-' };
+                let axis = ['x', 'y', 'z'].get(axis)?;
+                format!("the box's side at its own {sign}{axis} is {distance} away from {what}")
+            }
         };
-        findings.report(
-            Finding::at(module.file("module.json"), &enclosure.pointer, message)
-                .expected("a vertex on every side")
-                .actual(format!("{} away", metres(off)))
-                .tolerance(enclosure.tolerance)
-                .off_by(off, "m"),
-        );
+        Finding::of(module, &enclosure.pointer, message)
+            .expected("a vertex on every side")
+            .actual(format!("{distance} away"))
+            .tolerance(enclosure.tolerance)
+            .off_by(off, "m")
+            .report(findings);
     }
+    Some(())
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_document::shapes::{LIST_MODULES, entry_counts};
 
 declare_rule! {
@@ -13,49 +11,28 @@ declare_rule! {
     /// Write the link shape modules again from the same URDF as `urdf_module`, with null (or an empty
     /// list) for links without a hull.
     SHP001 "shape-list-length", Error, clause "8.2", since "0.1.0",
-    phase References, needs [
-        Module(Kind::Urdf),
-        AnyModule(&[Kind::LinkShapesApproximations, Kind::LinkShapesMaxDistanceFromOrigin]),
-        LINKS_NAMED,
-    ],
-    check check,
+    phase References, needs [Module(Kind::Urdf), SHAPE_LISTS, LINKS_NAMED],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some(robot) = context.robot() else {
-        return;
-    };
-    let links = robot.links.len();
-    for kind in LIST_MODULES {
-        let (Some(document), Some(module)) = (context.document(*kind), context.module(*kind))
-        else {
-            continue;
-        };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let links = context.robot()?.links.len();
+    for (_, module, document) in context.documents(LIST_MODULES) {
         let lists = entry_counts(document);
-        let wrong: Vec<(&str, usize)> = lists
-            .iter()
-            .map(|list| (list.key, list.links.len()))
-            .filter(|(_, length)| *length != links)
-            .collect();
-        let Some((first, length)) = wrong.first() else {
+        let lists = lists.iter().map(|list| (list.key, list.links.len()));
+        let Some(wrong) = wrong_lengths(&lists.collect::<Vec<_>>(), links) else {
             continue;
         };
-        // A stale module is one mistake, though it shows in every list.
-        let message = if wrong.len() == lists.len() {
-            format!(
+        let length = wrong.length;
+        let message = match wrong.are_all {
+            true => format!(
                 "the lists here have {length} entries, but urdf_module has {links} links: the module is stale; write it again from the same robot"
-            )
-        } else {
-            let names: Vec<String> = wrong
-                .iter()
-                .map(|(name, length)| format!("`{name}` has {length}"))
-                .collect();
-            format!("one entry per link is needed: {}", names.join(", "))
+            ),
+            false => format!("one entry per link is needed: {}", wrong.in_words),
         };
-        findings.report(
-            Finding::at(module.file("module.json"), format!("/{first}"), message)
-                .expected(format!("{links} entries (links of urdf_module)"))
-                .actual(format!("{length} entries")),
-        );
+        Finding::of(module, wrong.pointer, message)
+            .expected(format!("{links} entries (links of urdf_module)"))
+            .actual(format!("{length} entries"))
+            .report(findings);
     }
+    Some(())
 }

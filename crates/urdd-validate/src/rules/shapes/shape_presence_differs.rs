@@ -1,8 +1,5 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_document::shapes::{LIST_MODULES, entry_counts};
-use urdd_format::registry::ModuleKind;
 
 declare_rule! {
     /// A link with a hull has no box, sphere or distance here, or one without a hull has one.
@@ -12,58 +9,38 @@ declare_rule! {
     ///
     /// Write the link shape modules again from the hulls that are there.
     SHP002 "shape-presence-differs", Error, clause "8.2", since "0.1.0",
-    phase References, needs [
-        Module(Kind::ConvexHullMeshes),
-        AnyModule(&[Kind::LinkShapesApproximations, Kind::LinkShapesMaxDistanceFromOrigin]),
-        MESHES_LISTED,
-        NotFailed(SHP001),
-    ],
-    check check,
+    phase References, needs [Module(Kind::ConvexHullMeshes), SHAPE_LISTS, MESHES_LISTED, NotFailed(SHP001)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let Some(hulls) = context.meshes(ModuleKind::ConvexHullMeshes) else {
-        return;
-    };
-    for kind in LIST_MODULES {
-        let (Some(document), Some(module)) = (context.document(*kind), context.module(*kind))
-        else {
-            continue;
-        };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let hulls = context.meshes(ModuleKind::ConvexHullMeshes)?;
+    for (_, module, document) in context.documents(LIST_MODULES) {
         let mut lists = entry_counts(document);
         lists.retain(|list| list.kind.full);
         for link in 0..hulls.num_links() {
             let hull = hulls.count(link) > 0;
-            let wrong: Vec<_> = lists
-                .iter()
-                .filter(|list| {
-                    list.links
-                        .get(link)
-                        .is_some_and(|entry| entry.is_empty() == hull)
-                })
-                .collect();
+            let mut wrong = lists.iter().filter(|list| {
+                let entry = list.links.get(link);
+                entry.is_some_and(|entry| entry.is_empty() == hull)
+            });
             // A link is one mistake, though it shows in every list of the module.
-            let Some(first) = wrong.first() else {
+            let Some(first) = wrong.next() else {
                 continue;
             };
-            let also = match wrong.len() - 1 {
+            let also = match wrong.count() {
                 0 => String::new(),
                 n => format!(", nor as it should be in {n} more lists of this module"),
             };
-            let label = context.link_label(link);
-            let message = match hull {
-                true => format!(
-                    "{label} has a hull in convex_hull_meshes_module, but no entry here{also}"
-                ),
-                false => format!(
-                    "{label} has no hull in convex_hull_meshes_module, but an entry here{also}"
-                ),
+            let (has, but, expected, actual) = match hull {
+                true => ("a hull", "no entry", "an entry", "null"),
+                false => ("no hull", "an entry", "null", "an entry"),
             };
-            findings.report(
-                Finding::at(module.file("module.json"), first.pointer(link, 0), message)
-                    .expected(if hull { "an entry" } else { "null" })
-                    .actual(if hull { "null" } else { "an entry" }),
-            );
+            let label = context.link_label(link);
+            let message =
+                format!("{label} has {has} in convex_hull_meshes_module, but {but} here{also}");
+            let finding = Finding::of(module, first.pointer(link, 0), message);
+            findings.report(finding.expected(expected).actual(actual));
         }
     }
+    Some(())
 }

@@ -1,22 +1,16 @@
 use std::collections::HashSet;
 
-use crate::context::Context;
 use crate::distances::other_reasons::OtherReasons;
 use crate::distances::plan;
 use crate::distances::poses::Poses;
 use crate::distances::shape_set::ShapeSet;
 use crate::distances::tolerances::Tolerances;
-use crate::finding::{Finding, Findings};
-use crate::fold::Fold;
-use crate::rule::declare_rule;
-use crate::skip::SkipReason;
-use crate::views::judged;
+use crate::rules::prelude::*;
+use crate::views::judged::JudgedShapes;
 use crate::views::shape_pair::CONTACT;
-use crate::views::tangled::Tangled;
-use urdd_document::shape_matrices::{Elements, at, skips, skips_pointer, statistics};
-use urdd_document::shapes::{KINDS, ShapeKind, Shapes};
-use urdd_format::readable::metres;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
+use crate::views::tangled::sound_pairs;
+use urdd_document::shape_matrices::{Elements, skips, skips_pointer};
+use urdd_document::shapes::Shapes;
 
 declare_rule! {
     /// A pair of shapes is skipped, and is in contact in some configurations and apart in others.
@@ -42,58 +36,38 @@ declare_rule! {
         POSES_KNOWN, BOUNDS_SOUND_IN_VERSION_1,
         PIECES_LISTED, OWN_FILES_IN_VERSION_1,
         SHAPES_LISTED, NotFailed(SHP003), Passed(SHP005), NotFailed(SHP010),
-        // What these find makes skips wrong too.
+        // Their faults make skips wrong too.
         NotFailedInV1(SHP017), NotFailed(SHP011), NotFailed(SHP013), NotFailed(SHP023), NotFailed(SHP024),
     ],
-    check check,
 }
 
-/// How many configurations are looked at, eight at a time; with less work each, about a tenth of a
-/// second in all.
+/// Number of configurations, eight at a time. Fewer if they take more work than this; in total about a tenth of a second.
 const CONFIGURATIONS: u64 = 96;
 const WORK: u64 = 100_000_000;
 
-fn check(context: &Context, findings: &mut Findings) {
-    // Without simple skips, those that no edit is about are in the other module, with others.
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    // Without simple skips, the other module contains those that no edit is about, among others.
     let modules = [
         ModuleKind::LinkShapesSimpleSkips,
         ModuleKind::LinkShapesSkips,
     ];
-    let usable = modules.into_iter().find_map(|kind| {
-        let document = context.document(kind)?;
-        Some((context.module(kind)?, document, skips(document)?))
-    });
-    let (Some((module, document, six)), Some(shapes)) = (usable, context.shapes()) else {
-        return;
-    };
-    let Some(edited) = edited(context, document) else {
-        return findings.skip(SkipReason::EditsNotRecorded);
-    };
-    let poses = match Poses::new(context) {
-        Ok(poses) => poses,
-        Err(reason) => return findings.skip(reason),
-    };
-    let statistics = context
-        .document(ModuleKind::LinkShapesDistanceStatistics)
-        .and_then(statistics);
-    let sampled = statistics.and_then(|six| six.iter().flatten().find_map(|one| one.num_samples));
+    let (_, module, document) = context.documents(&modules).next()?;
+    let shapes = context.shapes()?;
+    let edited = edited(context, document).ok_or(SkipReason::EditsNotRecorded);
+    let edited = findings.or_skip(edited)?;
+    let poses = findings.or_skip(Poses::new(context))?;
     let mut skipped = Vec::new();
-    for (kind, rows) in KINDS.into_iter().zip(six) {
-        let Some(rows) = rows else {
-            continue;
-        };
-        skipped.push((kind, pairs(rows, &shapes, kind, &poses, &edited)));
+    for (kind, rows) in by_kind(skips(document)?) {
+        skipped.push((kind, movable_pairs(rows, &shapes, kind, &poses, &edited)));
     }
-    let work: u64 = skipped
-        .iter()
-        .map(|(_, pairs)| pairs.len() as u64 * plan::HULL)
-        .sum();
+    let statistics = context.statistics().into_iter().flatten().flatten();
+    let sampled = statistics.into_iter().find_map(|one| one.num_samples);
+    let pairs: usize = skipped.iter().map(|(_, pairs)| pairs.len()).sum();
+    let work = pairs as u64 * plan::HULL;
     let eights = (WORK / (8 * work.max(1))).clamp(1, CONFIGURATIONS / 8);
     let n = u32::try_from(8 * eights).unwrap_or(8);
-    let motion = match poses.motion(0..sampled.map_or(n, |sampled| n.min(sampled.max(1)))) {
-        Ok(motion) => motion,
-        Err(reason) => return findings.skip(reason),
-    };
+    let n = sampled.map_or(n, |sampled| n.min(sampled.max(1)));
+    let motion = findings.or_skip(poses.motion(0..n))?;
     let known = context.distances().ok();
     let known = |kind: ShapeKind| {
         let of = known?.kinds().iter().flatten();
@@ -112,46 +86,41 @@ fn check(context: &Context, findings: &mut Findings) {
             }
         };
         let tolerances = Tolerances::new(context, context.solids(), &shapes, kind);
-        let judged = judged::shapes(context, findings, &shapes, kind);
-        let judged = |shape: usize| judged.get(shape).copied().unwrap_or(true);
-        let mut fold = Fold::new(findings);
+        let judged = JudgedShapes::new(context, findings, &shapes, kind);
         let by_reason = OtherReasons::new(context, document, &poses, set);
+        let mut fold = Fold::new(findings);
         for (i, j) in pairs {
-            if by_reason.may_skip(&shapes, (i, j)) {
+            if by_reason.may_skip(&shapes, (i, j)) || !judged.pair(i, j) {
                 continue;
             }
-            let pair = set.pair(i, j, &motion).filter(|_| judged(i) && judged(j));
-            let Some(distances) = pair else {
+            let Some(distances) = set.pair(i, j, &motion) else {
                 continue;
             };
             let apart = CONTACT + tolerances.pair(i, j);
             let met = distances.iter().position(|distance| *distance <= CONTACT);
-            let mut numbered = distances.iter().enumerate();
-            let farthest = numbered.by_ref().max_by(|a, b| a.1.total_cmp(b.1));
-            let (Some(met), Some((parted, most))) = (met, farthest.filter(|(_, d)| **d > apart))
-            else {
-                continue;
-            };
-            fold.add(|| {
-                Finding::at(
-                    module.file("module.json"),
-                    format!("{}/{i}/{j}", skips_pointer(document, kind)),
-                    format!(
-                        "shapes {} and {} are skipped, and are in contact in sampled configuration {met} and {} apart in {parted}",
-                        shapes.describe(context, kind, i),
-                        shapes.describe(context, kind, j),
+            let farthest = distances
+                .iter()
+                .enumerate()
+                .max_by(|a, b| a.1.total_cmp(b.1));
+            let farthest = farthest.filter(|(_, distance)| **distance > apart);
+            if let Some((met, (parted, most))) = met.zip(farthest) {
+                fold.add(|| {
+                    let [a, b] = [i, j].map(|shape| shapes.describe(context, kind, shape));
+                    let pointer = format!("{}/{i}/{j}", skips_pointer(document, kind));
+                    let message = format!(
+                        "shapes {a} and {b} are skipped, and are in contact in sampled configuration {met} and {} apart in {parted}",
                         metres(*most)
-                    ),
-                )
-                .expected(false)
-                .actual(true)
-            });
+                    );
+                    let finding = Finding::of(module, pointer, message);
+                    finding.expected(false).actual(true)
+                });
+            }
         }
-        fold.finish();
     }
+    Some(())
 }
 
-/// The pairs of links that a person's edits are about; `None` where these are not recorded.
+/// The pairs of links that edits are about; `None` if edits are not recorded.
 fn edited(context: &Context, document: &ModuleDocument) -> Option<HashSet<(usize, usize)>> {
     let ModuleDocument::LinkShapesSkips(module) = document else {
         let recorded = !matches!(document, ModuleDocument::LegacyLinkShapesSkips(_));
@@ -165,29 +134,18 @@ fn edited(context: &Context, document: &ModuleDocument) -> Option<HashSet<(usize
     Some(links.collect())
 }
 
-/// The pairs that are skipped and can move against each other, but for those of edits.
-fn pairs(
+/// The skipped pairs that can move relative to each other, without those of edits.
+fn movable_pairs(
     rows: &[Vec<bool>],
     shapes: &Shapes,
     kind: ShapeKind,
     poses: &Poses,
     edited: &HashSet<(usize, usize)>,
 ) -> Vec<(usize, usize)> {
-    let tangled = Tangled::new(Elements::Skips(rows));
-    let mut pairs = Vec::new();
-    for i in 0..rows.len() {
-        for j in i + 1..rows.len() {
-            // A pair whose two elements differ is SHP006's.
-            if at(rows, i, j) != Some(true) || at(rows, j, i) != Some(true) || tangled.pair(i, j) {
-                continue;
-            }
-            if let (Some(a), Some(b)) = (shapes.link(kind, i), shapes.link(kind, j))
-                && !poses.is_rigid(a, b)
-                && !edited.contains(&(a.min(b), a.max(b)))
-            {
-                pairs.push((i, j));
-            }
-        }
-    }
-    pairs
+    let skipped = sound_pairs(rows, Elements::Skips).filter(|(_, _, skip)| *skip);
+    let movable = skipped.filter(|(i, j, _)| {
+        let links = shapes.link(kind, *i).zip(shapes.link(kind, *j));
+        links.is_some_and(|(a, b)| !poses.is_rigid(a, b) && !edited.contains(&(a.min(b), a.max(b))))
+    });
+    movable.map(|(i, j, _)| (i, j)).collect()
 }

@@ -1,13 +1,8 @@
 use std::collections::HashMap;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::fold::Fold;
-use crate::rule::declare_rule;
-use crate::views::tangled::Tangled;
-use urdd_document::shape_matrices::{Elements, at, reasons, skips, skips_pointer};
-use urdd_document::shapes::KINDS;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
+use crate::rules::prelude::*;
+use crate::views::tangled::{Tangled, of_pair, sound_pairs};
+use urdd_document::shape_matrices::{Elements, reasons, skips, skips_pointer};
 
 declare_rule! {
     /// A skip does not follow from the reason of the pair and the edits.
@@ -20,94 +15,63 @@ declare_rule! {
     /// writes the matrices from it.
     SHP013 "skips-not-from-edits", Error, clause "8.7", since "0.1.0",
     phase References, needs [
-        Version1,
-        Module(Kind::Urdf),
-        Module(Kind::LinkShapesSimpleSkips),
-        Module(Kind::LinkShapesSkips),
-        Passed(SHP005),
-        NotFailed(SHP012),
-        Passed(SHP014),
+        Version1, Module(Kind::Urdf), ModuleV1(Kind::LinkShapesSimpleSkips), ModuleV1(Kind::LinkShapesSkips),
+        Passed(SHP005), NotFailed(SHP012), Passed(SHP014),
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::LinkShapesSkips;
-    let (Some(document), Some(module), Some(shapes), Some(robot)) = (
-        context.document(kind),
-        context.module(kind),
-        context.shapes(),
-        context.robot(),
-    ) else {
-        return;
-    };
-    let simple = context
-        .document(ModuleKind::LinkShapesSimpleSkips)
-        .and_then(reasons);
-    let (ModuleDocument::LinkShapesSkips(edited), Some(simple), Some(six)) =
-        (document, simple, skips(document))
-    else {
-        return;
-    };
-    // Each edit sets all pairs of its two links, so of several the last counts.
+    let document = context.document(kind)?;
+    let edited = document!(context, LinkShapesSkips)?;
+    let module = context.module(kind)?;
+    let shapes = context.shapes()?;
+    let robot = context.robot()?;
+    // Each edit sets all pairs of its two links, so the last of several counts.
     let mut last: HashMap<(usize, usize), (usize, bool)> = HashMap::new();
     for (place, edit) in edited.edits.iter().enumerate() {
         if let (Some(a), Some(b)) = (robot.link(&edit.link_a), robot.link(&edit.link_b)) {
             last.insert((a.min(b), a.max(b)), (place, edit.skip));
         }
     }
-    for ((kind, simple), rows) in KINDS.into_iter().zip(simple).zip(six) {
+    let simple = reasons(context.document(ModuleKind::LinkShapesSimpleSkips)?)?;
+    for ((kind, simple), rows) in KINDS.into_iter().zip(simple).zip(skips(document)?) {
         let (Some(simple), Some(rows)) = (simple, rows) else {
             continue;
         };
-        let tangled = Tangled::new(Elements::Skips(rows));
         let tangled_simple = Tangled::new(Elements::Reasons(simple));
         let mut fold = Fold::new(findings);
-        for i in 0..rows.len() {
-            for j in i + 1..rows.len() {
-                let (Some(skip), Some(mirror)) = (at(rows, i, j), at(rows, j, i)) else {
-                    continue;
-                };
-                let (Some(a), Some(b)) = (shapes.link(kind, i), shapes.link(kind, j)) else {
-                    continue;
-                };
-                let edit = last.get(&(a.min(b), a.max(b))).copied();
-                // A pair whose two elements differ is SHP006's, here and in the reasons.
-                let reason = at(simple, i, j).filter(|reason| {
-                    at(simple, j, i) == Some(*reason) && !tangled_simple.pair(i, j)
-                });
-                let by_reason = reason.map(|reason| {
-                    let mut skipped = edited.skipped_reasons.iter();
-                    skipped.any(|skipped| skipped.of_pair() == reason)
-                });
-                let expected = edit.map(|(_, skip)| skip).or(by_reason);
-                let right = expected.is_none_or(|expected| expected == skip);
-                if skip != mirror || right || tangled.pair(i, j) {
-                    continue;
-                }
-                fold.add(|| {
-                    let why = match (edit, reason) {
-                        (Some((place, skip)), _) => format!("/edits/{place} says {skip}"),
-                        (None, reason) => format!(
-                            "no edit is about it, and its reason, {}, is {}one of `skipped_reasons`",
-                            reason.map_or("unknown", |reason| reason.as_str()),
-                            if skip { "not " } else { "" }
-                        ),
-                    };
-                    Finding::at(
-                        module.file("module.json"),
-                        format!("{}/{i}/{j}", skips_pointer(document, kind)),
-                        format!(
-                            "the pair of shapes {} and {}: {why}",
-                            shapes.describe(context, kind, i),
-                            shapes.describe(context, kind, j)
-                        ),
-                    )
-                    .expected(!skip)
-                    .actual(skip)
-                });
+        for (i, j, skip) in sound_pairs(rows, Elements::Skips) {
+            let Some((a, b)) = shapes.link(kind, i).zip(shapes.link(kind, j)) else {
+                continue;
+            };
+            let edit = last.get(&(a.min(b), a.max(b))).copied();
+            // SHP006 reports a pair whose two reasons differ.
+            let reason = of_pair(simple, i, j).filter(|_| !tangled_simple.pair(i, j));
+            let by_reason = reason.map(|reason| {
+                let mut skipped = edited.skipped_reasons.iter();
+                skipped.any(|skipped| skipped.of_pair() == reason)
+            });
+            let expected = edit.map(|(_, skip)| skip).or(by_reason);
+            if expected.is_none_or(|expected| expected == skip) {
+                continue;
             }
+            fold.add(|| {
+                let why = match (edit, reason) {
+                    (Some((place, skip)), _) => format!("/edits/{place} says {skip}"),
+                    (None, reason) => format!(
+                        "no edit is about it, and its reason, {}, is {}one of `skipped_reasons`",
+                        reason.map_or("unknown", |reason| reason.as_str()),
+                        if skip { "not " } else { "" }
+                    ),
+                };
+                let [a, b] = [i, j].map(|shape| shapes.describe(context, kind, shape));
+                let pointer = format!("{}/{i}/{j}", skips_pointer(document, kind));
+                let message = format!("the pair of shapes {a} and {b}: {why}");
+                let finding = Finding::of(module, pointer, message);
+                finding.expected(!skip).actual(skip)
+            });
         }
-        fold.finish();
     }
+    Some(())
 }

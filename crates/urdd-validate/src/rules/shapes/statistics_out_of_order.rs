@@ -1,11 +1,6 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::fold::Fold;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::shape_pair::Pairs;
-use urdd_document::shape_matrices::statistics;
-use urdd_document::shapes::KINDS;
-use urdd_format::registry::ModuleKind;
+use crate::views::tangled::pairs;
 
 declare_rule! {
     /// A mean distance does not lie between the smallest and the largest.
@@ -17,43 +12,28 @@ declare_rule! {
     /// Compute all three again in one run.
     SHP008 "statistics-out-of-order", Error, clause "8.5", since "0.1.0",
     phase References, needs [Module(Kind::LinkShapesDistanceStatistics), NotFailed(SHP005)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let kind = ModuleKind::LinkShapesDistanceStatistics;
-    let Some(module) = context.module(kind) else {
-        return;
-    };
-    let six = context.document(kind).and_then(statistics);
-    for (kind, one) in KINDS.into_iter().zip(six.into_iter().flatten()) {
-        let Some(one) = one else {
-            continue;
-        };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let module = context.module(ModuleKind::LinkShapesDistanceStatistics)?;
+    for (kind, one) in by_kind(context.statistics()?) {
         let [mean_key, ..] = one.keys;
-        let pairs = Pairs::new(&one);
+        let stated = Pairs::new(&one);
         let mut fold = Fold::new(findings);
-        for i in 0..one.mean.len() {
-            for j in i + 1..one.mean.len() {
-                // Pairs of two minds and negative distances are other rules' business.
-                let Some(pair) = pairs.read(i, j) else {
-                    continue;
-                };
-                if pair.in_order() {
-                    continue;
-                }
+        for (i, j) in pairs(one.mean.len()) {
+            // Other rules report asymmetric and negative distances.
+            let pair = stated.read(i, j).filter(|pair| !pair.in_order());
+            if let Some(pair) = pair {
                 fold.add(|| {
-                    Finding::at(
-                        module.file("module.json"),
-                        format!("/{}/{mean_key}/{i}/{j}", kind.name),
-                        "the mean distance lies outside the smallest and the largest",
-                    )
-                    .expected(format!("from {} to {}", pair.min, pair.max))
-                    .actual(pair.mean)
-                    .tolerance(pair.tolerance)
+                    let pointer = format!("/{}/{mean_key}/{i}/{j}", kind.name);
+                    let message = "the mean distance lies outside the smallest and the largest";
+                    Finding::of(module, pointer, message)
+                        .expected(format!("from {} to {}", pair.min, pair.max))
+                        .actual(pair.mean)
+                        .tolerance(pair.tolerance)
                 });
             }
         }
-        fold.finish();
     }
+    Some(())
 }

@@ -1,10 +1,7 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
+use crate::rules::prelude::*;
 
 declare_rule! {
-    /// An edit of the skips names a link that the robot has not.
+    /// An edit of the skips names a link that the robot does not have.
     ///
     /// The edit does nothing, and the collision checks that a person wanted skipped, or not skipped,
     /// are as they were. Most often a link was renamed.
@@ -12,37 +9,24 @@ declare_rule! {
     /// Write the link's name as `urdf_module` has it, or take the edit out.
     SHP014 "unknown-link-in-edit", Error, clause "8.7", since "0.1.0",
     phase References, needs [
-        Version1,
-        Module(Kind::Urdf),
-        Module(Kind::LinkShapesSkips),
-        NotFailed(CHN001),
-        LINKS_NAMED,
+        Version1, Module(Kind::Urdf), ModuleV1(Kind::LinkShapesSkips), NotFailed(CHN001), LINKS_NAMED,
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let kind = ModuleKind::LinkShapesSkips;
-    let (Some(ModuleDocument::LinkShapesSkips(skips)), Some(module), Some(robot)) = (
-        context.document(kind),
-        context.module(kind),
-        context.robot(),
-    ) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let skips = document!(context, LinkShapesSkips)?;
+    let module = context.module(ModuleKind::LinkShapesSkips)?;
+    let robot = context.robot()?;
     for (place, edit) in skips.edits.iter().enumerate() {
         for (key, name) in [("link_a", &edit.link_a), ("link_b", &edit.link_b)] {
             if robot.link(name).is_none() {
-                findings.report(
-                    Finding::at(
-                        module.file("module.json"),
-                        format!("/edits/{place}/{key}"),
-                        "the robot has no link of this name",
-                    )
+                let message = "the robot has no link of this name";
+                Finding::of(module, format!("/edits/{place}/{key}"), message)
                     .expected("the name of a link of urdf_module")
-                    .actual(format!("`{name}`")),
-                );
+                    .actual(format!("`{name}`"))
+                    .report(findings);
             }
         }
     }
+    Some(())
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// The lower limit of a joint is above its upper limit.
@@ -11,35 +9,29 @@ declare_rule! {
     /// Swap or correct `lower` and `upper` in the URDF, and write the URDD again.
     SRC001 "crossed-limits", Warning, clause "6.1.7", since "0.1.0",
     phase References, judges Source, needs [SourceRobot],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
-        let (Some((lower, upper)), Some(limit)) = (joint.position_limits(), joint.limit) else {
-            continue;
-        };
-        if lower > upper {
+        let limits = joint.position_limits().zip(joint.limit);
+        if let Some(((lower, upper), limit)) = limits
+            && lower > upper
+        {
+            let name = &joint.name;
             let absent = match (limit.lower, limit.upper) {
                 (None, _) => " (`lower` is absent, which means 0)",
                 (_, None) => " (`upper` is absent, which means 0)",
                 _ => "",
             };
-            findings.report(
-                Finding::at(
-                    &file,
-                    format!("/joints/{index}/limit"),
-                    format!(
-                        "the limits of joint `{}` are crossed{absent}: no position is allowed",
-                        joint.name
-                    ),
-                )
+            let message =
+                format!("the limits of joint `{name}` are crossed{absent}: no position is allowed");
+            Finding::at(&file, format!("/joints/{index}/limit"), message)
                 .expected("lower <= upper")
-                .actual(format!("joint `{}`: {lower} > {upper}", joint.name)),
-            );
+                .actual(format!("joint `{name}`: {lower} > {upper}"))
+                .report(findings);
         }
     }
+    Some(())
 }

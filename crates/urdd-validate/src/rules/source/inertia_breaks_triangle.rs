@@ -1,10 +1,6 @@
 use super::inertia_not_positive_definite::positive;
 use super::moments;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::tolerance::INERTIA_TRIANGLE;
-use urdd_format::readable::number;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A principal moment of inertia is larger than the sum of the other two.
@@ -17,40 +13,37 @@ declare_rule! {
     /// Compute the tensor again, correct the URDF, and write the URDD again.
     SRC005 "inertia-breaks-the-triangle-inequality", Warning, clause "6.1.7", since "0.1.0",
     phase References, judges Source, needs [SourceRobot],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
     for (index, link) in robot.links.iter().enumerate() {
         let Some(tensor) = link.inertial.and_then(|inertial| inertial.inertia) else {
             continue;
         };
         let moments = moments::principal(tensor);
-        // What is not positive definite is SRC004's.
+        // SRC004 reports tensors that are not positive definite.
         if !positive(moments) || excess(moments) <= INERTIA_TRIANGLE {
             continue;
         }
-        findings.report(
-            Finding::at(
-                &file,
-                format!("/links/{index}/inertial/inertia"),
-                format!(
-                    "link `{}`: no body has this inertia; its largest principal moment is larger than the sum of the others by {:.2} %",
-                    link.name,
-                    100.0 * excess(moments)
-                ),
-            )
-            .expected(format!("at most {} kg m²", number(moments[0] + moments[1], 5)))
-            .actual(format!("link `{}`: {}", link.name, moments::show(moments)))
-            .tolerance(INERTIA_TRIANGLE * moments[2]),
+        let least = number(moments[0] + moments[1], 5);
+        let pointer = format!("/links/{index}/inertial/inertia");
+        let message = format!(
+            "link `{}`: no body has this inertia; its largest principal moment is larger than the sum of the others by {:.2} %",
+            link.name,
+            100.0 * excess(moments)
         );
+        Finding::at(&file, pointer, message)
+            .expected(format!("at most {least} kg m²"))
+            .actual(format!("link `{}`: {}", link.name, moments::show(moments)))
+            .tolerance(INERTIA_TRIANGLE * moments[2])
+            .report(findings);
     }
+    Some(())
 }
 
-/// By what part of itself the largest of three moments, ascending, is more than the others' sum.
+/// By what fraction of itself the largest of three ascending moments exceeds the sum of the others.
 fn excess(moments: [f64; 3]) -> f64 {
     1.0 - moments[0] / moments[2] - moments[1] / moments[2]
 }

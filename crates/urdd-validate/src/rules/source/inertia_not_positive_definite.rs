@@ -1,8 +1,5 @@
-use super::moments;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::tolerance::INERTIA_DEFINITE;
+use super::{links_of, moments};
+use crate::rules::prelude::*;
 use urdd_document::robot::Link;
 use urdd_format::urdf::JointType;
 
@@ -20,71 +17,51 @@ declare_rule! {
     /// Compute the tensor again (about the centre of mass, in the axes of the inertial's origin),
     /// correct the URDF, and write the URDD again.
     SRC004 "inertia-not-positive-definite", Warning, clause "6.1.7", since "0.1.0",
-    phase References, judges Source, needs [
-        SourceRobot, ROBOT_SOUND,
-    ],
-    check check,
+    phase References, judges Source, needs [SourceRobot, ROBOT_SOUND],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(bodies), Some(file)) = (
-        context.robot(),
-        context.rigid_groups(),
-        context.robot_file(),
-    ) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let bodies = context.rigid_groups()?;
+    let file = context.robot_file()?;
     for body in &bodies.groups {
-        let links = || {
-            body.links
-                .iter()
-                .filter_map(|index| Some((*index, robot.links.get(*index)?)))
-        };
-        for (index, link) in links() {
-            let Some(moments) = tensor(link).map(moments::principal) else {
+        let mut links = links_of(robot, body);
+        for (index, link) in links.clone() {
+            let moments = tensor(link).map(moments::principal);
+            let Some(moments) = moments.filter(|moments| !positive(*moments)) else {
                 continue;
             };
-            if positive(moments) {
-                continue;
-            }
-            findings.report(
-                Finding::at(
-                    &file,
-                    format!("/links/{index}/inertial/inertia"),
-                    format!("link `{}`: the inertia is not positive definite", link.name),
-                )
+            let pointer = format!("/links/{index}/inertial/inertia");
+            let message = format!("link `{}`: the inertia is not positive definite", link.name);
+            Finding::at(&file, pointer, message)
                 .expected("three positive principal moments")
                 .actual(format!("link `{}`: {}", link.name, moments::show(moments)))
-                .tolerance(INERTIA_DEFINITE * moments[2].abs()),
-            );
+                .tolerance(INERTIA_DEFINITE * moments[2].abs())
+                .report(findings);
         }
-        let turned_by = body
-            .moved_by
-            .and_then(|joint| robot.joints.get(joint))
-            .filter(|joint| joint.joint_type != JointType::Prismatic);
-        let point = links().find(|(_, link)| is_point_mass(link));
-        let no_inertia = links().all(|(_, link)| tensor(link).is_none());
+        let moved_by = body.moved_by.and_then(|joint| robot.joints.get(joint));
+        let turned_by = moved_by.filter(|joint| joint.joint_type != JointType::Prismatic);
+        let point = links.clone().find(|(_, link)| is_point_mass(link));
+        let no_inertia = links.all(|(_, link)| tensor(link).is_none());
         if let (Some(joint), Some((index, link)), true) = (turned_by, point, no_inertia) {
-            findings.report(
-                Finding::at(
-                    &file,
-                    format!("/links/{index}/inertial/inertia"),
-                    format!(
-                        "joint `{}` turns link `{}`, which has mass, but no inertia",
-                        joint.name, link.name
-                    ),
-                )
+            let pointer = format!("/links/{index}/inertial/inertia");
+            let message = format!(
+                "joint `{}` turns link `{}`, which has mass, but no inertia",
+                joint.name, link.name
+            );
+            Finding::at(&file, pointer, message)
                 .expected("three positive principal moments")
                 .actual(format!(
                     "link `{}`: every moment is 0 or missing",
                     link.name
-                )),
-            );
+                ))
+                .report(findings);
         }
     }
+    Some(())
 }
 
-/// A link's tensor, where it has one other than zero.
+/// A link's tensor, unless it is missing or zero.
 fn tensor(link: &Link) -> Option<[f64; 6]> {
     link.inertial?.inertia.filter(|tensor| *tensor != [0.0; 6])
 }
@@ -96,7 +73,7 @@ fn is_point_mass(link: &Link) -> bool {
     })
 }
 
-/// Whether principal moments, ascending, are those of a positive definite tensor.
+/// Whether ascending principal moments are those of a positive definite tensor.
 pub(super) fn positive(moments: [f64; 3]) -> bool {
     moments[0] > INERTIA_DEFINITE * moments[2].abs()
 }

@@ -1,8 +1,6 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use super::links_of;
+use crate::rules::prelude::*;
 use urdd_document::robot::Link;
-use urdd_format::readable::number;
 
 declare_rule! {
     /// A mass is negative, or 0 where something moves.
@@ -15,10 +13,7 @@ declare_rule! {
     /// Give the link its mass in the URDF, or remove the `<inertial>` of a link that is only a frame.
     /// Then write the URDD again.
     SRC003 "mass-not-positive", Warning, clause "6.1.7", since "0.1.0",
-    phase References, judges Source, needs [
-        SourceRobot, ROBOT_SOUND,
-    ],
-    check check,
+    phase References, judges Source, needs [SourceRobot, ROBOT_SOUND],
 }
 
 #[derive(Debug, PartialEq)]
@@ -27,22 +22,14 @@ enum Fault {
     InertiaAlone,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(bodies), Some(file)) = (
-        context.robot(),
-        context.rigid_groups(),
-        context.robot_file(),
-    ) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let bodies = context.rigid_groups()?;
+    let file = context.robot_file()?;
     for body in &bodies.groups {
-        let links = || {
-            body.links
-                .iter()
-                .filter_map(|index| Some((*index, robot.links.get(*index)?)))
-        };
+        let mut links = links_of(robot, body);
         let mut told = false;
-        for (index, link) in links() {
+        for (index, link) in links.clone() {
             let Some(fault) = fault(link) else { continue };
             told = true;
             let (message, expected) = match fault {
@@ -55,17 +42,17 @@ fn check(context: &Context, findings: &mut Findings) {
                     "a positive mass, or no `<inertial>`",
                 ),
             };
-            findings.report(
-                Finding::at(&file, format!("/links/{index}/inertial/mass"), message)
-                    .expected(expected)
-                    .actual(found(link)),
-            );
+            let pointer = format!("/links/{index}/inertial/mass");
+            Finding::at(&file, pointer, message)
+                .expected(expected)
+                .actual(found(link))
+                .report(findings);
         }
         let Some(joint) = body.moved_by.and_then(|joint| robot.joints.get(joint)) else {
             continue;
         };
-        let stated = links().find(|(_, link)| link.inertial.is_some());
-        let weightless = links().all(|(_, link)| mass(link) == 0.0);
+        let stated = links.clone().find(|(_, link)| link.inertial.is_some());
+        let weightless = links.all(|(_, link)| mass(link) == 0.0);
         if let (Some((index, link)), true, false) = (stated, weightless, told) {
             let others = match body.links.len() {
                 1 => String::new(),
@@ -80,13 +67,14 @@ fn check(context: &Context, findings: &mut Findings) {
                     _ => "none of them has mass",
                 }
             );
-            findings.report(
-                Finding::at(&file, format!("/links/{index}/inertial/mass"), message)
-                    .expected("a positive mass")
-                    .actual(found(link)),
-            );
+            let pointer = format!("/links/{index}/inertial/mass");
+            Finding::at(&file, pointer, message)
+                .expected("a positive mass")
+                .actual(found(link))
+                .report(findings);
         }
     }
+    Some(())
 }
 
 fn no_mass(link: &Link) -> &'static str {

@@ -1,8 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
-use crate::tolerance::MIMIC_LIMIT;
-use urdd_format::readable::number;
+use crate::rules::prelude::*;
 use urdd_format::urdf::JointType;
 
 declare_rule! {
@@ -16,54 +12,41 @@ declare_rule! {
     /// Narrow the driver's limits, widen the mimic's, or correct `multiplier` and `offset`, in the
     /// URDF, and write the URDD again.
     SRC002 "mimic-leaves-its-limits", Warning, clause "6.1.7", since "0.1.0",
-    phase References, judges Source, needs [
-        SourceRobot, Passed(URD008), Passed(URD009), Passed(URD012),
-    ],
-    check check,
+    phase References, judges Source, needs [SourceRobot, Passed(URD008), Passed(URD009), Passed(URD012)],
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(mimics), Some(file)) =
-        (context.robot(), context.mimics(), context.robot_file())
-    else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let mimics = context.mimics()?;
+    let file = context.robot_file()?;
     for (index, (joint, resolved)) in robot.joints.iter().zip(&mimics.by_joint).enumerate() {
-        let Some(driver) = resolved.and_then(|resolved| robot.joints.get(resolved.driver)) else {
+        let (Some(resolved), Some(own)) = (resolved, joint.position_limits()) else {
             continue;
         };
-        // A fixed driver stands at 0.
-        let driven = match driver.joint_type {
+        let driver = robot.joints.get(resolved.driver)?;
+        // A fixed driver stays at 0.
+        let limits = match driver.joint_type {
             JointType::Fixed => Some((0.0, 0.0)),
             _ => driver.position_limits(),
         };
-        let (Some(resolved), Some(own), Some(limits)) = (resolved, joint.position_limits(), driven)
-        else {
+        // SRC001 reports crossed limits.
+        let Some(limits) = limits.filter(|limits| limits.0 <= limits.1 && own.0 <= own.1) else {
             continue;
         };
-        // Crossed limits are SRC001's.
-        if own.0 > own.1 || limits.0 > limits.1 {
-            continue;
-        }
-        let (range, tolerance) = (
-            follow(limits, resolved.multiplier, resolved.offset),
-            MIMIC_LIMIT * own.0.abs().max(own.1.abs()),
-        );
+        let range = follow(limits, resolved.multiplier, resolved.offset);
+        let tolerance = MIMIC_LIMIT * own.0.abs().max(own.1.abs());
         let beyond = (own.0 - range.0).max(range.1 - own.1);
         if beyond <= tolerance {
             continue;
         }
-        findings.report(
-            Finding::at(
-                &file,
-                format!("/joints/{index}/limit"),
-                format!(
-                    "joint `{}` follows joint `{}`, and leaves its own limits by up to {} while the driver is within its limits",
-                    joint.name,
-                    driver.name,
-                    number(beyond, 6)
-                ),
-            )
+        let pointer = format!("/joints/{index}/limit");
+        let message = format!(
+            "joint `{}` follows joint `{}`, and leaves its own limits by up to {} while the driver is within its limits",
+            joint.name,
+            driver.name,
+            number(beyond, 6)
+        );
+        Finding::at(&file, pointer, message)
             .expected(format!("joint `{}` within {}", joint.name, interval(own)))
             .actual(format!(
                 "{} for `{}` from {} to {}",
@@ -72,17 +55,16 @@ fn check(context: &Context, findings: &mut Findings) {
                 number(limits.0, 6),
                 number(limits.1, 6)
             ))
-            .tolerance(tolerance),
-        );
+            .tolerance(tolerance)
+            .report(findings);
     }
+    Some(())
 }
 
-/// Where a mimic goes while its driver goes through an interval.
+/// The interval of a mimic while its driver moves through an interval.
 fn follow(driver: (f64, f64), multiplier: f64, offset: f64) -> (f64, f64) {
-    let (a, b) = (
-        multiplier * driver.0 + offset,
-        multiplier * driver.1 + offset,
-    );
+    let at = |position: f64| multiplier * position + offset;
+    let (a, b) = (at(driver.0), at(driver.1));
     (a.min(b), a.max(b))
 }
 

@@ -1,4 +1,4 @@
-//! SRC: odd robots, whose URDD may be right all the same.
+//! SRC: unusual robots, whose URDD may still be correct.
 
 mod crossed_limits;
 mod inertia_breaks_triangle;
@@ -11,17 +11,20 @@ mod no_effort_and_no_speed;
 mod no_limits;
 mod repeated_element;
 
-use crate::rule::Rule;
+use crate::rule::rules;
+use urdd_document::rigid_groups::RigidGroup;
+use urdd_document::robot::{Link, Robot};
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &crossed_limits::RULE,
-    &mimic_leaves_limits::RULE,
-    &mass_not_positive::RULE,
-    &inertia_not_positive_definite::RULE,
-    &inertia_breaks_triangle::RULE,
-    &no_limits::RULE,
-    &mesh_not_carried::RULE,
-    &repeated_element::RULE,
-    &no_effort_and_no_speed::RULE,
-];
+/// The links of a rigid group, with their indices.
+fn links_of<'a>(
+    robot: &'a Robot,
+    group: &'a RigidGroup,
+) -> impl Iterator<Item = (usize, &'a Link)> + Clone {
+    let links = group.links.iter();
+    links.filter_map(|index| Some((*index, robot.links.get(*index)?)))
+}
+
+rules! {
+    crossed_limits, inertia_breaks_triangle, inertia_not_positive_definite, mass_not_positive,
+    mesh_not_carried, mimic_leaves_limits, no_effort_and_no_speed, no_limits, repeated_element
+}

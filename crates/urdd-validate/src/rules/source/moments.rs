@@ -6,7 +6,7 @@ use urdd_format::readable::number;
 
 /// The principal moments of a tensor (xx, xy, xz, yy, yz, zz), ascending.
 pub(super) fn principal([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> [f64; 3] {
-    // Brought to the size of 1 first: numbers near the ends of binary64 would not survive squaring.
+    // Scaled to 1 first: squaring numbers near the ends of binary64 would overflow or underflow.
     let scale = [xx, xy, xz, yy, yz, zz]
         .into_iter()
         .fold(0.0, |largest: f64, element| largest.max(element.abs()));
@@ -19,7 +19,7 @@ pub(super) fn principal([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> [f64; 3] {
     moments.map(|moment| moment * scale)
 }
 
-/// Moments as people read them: what is rounding alone is 0.
+/// Moments for messages; those within rounding of 0 are shown as 0.
 pub(super) fn show(moments: [f64; 3]) -> String {
     let largest = moments.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
     let shown = moments.map(|moment| match moment.abs() > 1e-14 * largest {

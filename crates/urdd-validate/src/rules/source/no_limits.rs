@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_format::urdf::JointType;
 
 declare_rule! {
@@ -14,15 +12,14 @@ declare_rule! {
     /// `continuous` where it turns without end. Then write the URDD again.
     SRC006 "joint-without-limits", Warning, clause "6.1.7", since "0.1.0",
     phase References, judges Source, needs [SourceRobot, Version1],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
-        let needs_limits = matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic);
+        let (name, kind) = (&joint.name, joint.joint_type);
+        let needs_limits = matches!(kind, JointType::Revolute | JointType::Prismatic);
         if !needs_limits || joint.mimic.is_some() || joint.position_limits().is_some() {
             continue;
         }
@@ -30,17 +27,11 @@ fn check(context: &Context, findings: &mut Findings) {
             None => "no `limit`",
             Some(_) => "a `limit` with neither `lower` nor `upper`",
         };
-        findings.report(
-            Finding::at(
-                &file,
-                format!("/joints/{index}/limit"),
-                format!(
-                    "joint `{}` ({}) has no limits; it counts as not limited",
-                    joint.name, joint.joint_type
-                ),
-            )
+        let message = format!("joint `{name}` ({kind}) has no limits; it counts as not limited");
+        Finding::at(&file, format!("/joints/{index}/limit"), message)
             .expected("`lower` and `upper`")
-            .actual(format!("joint `{}`: {actual}", joint.name)),
-        );
+            .actual(format!("joint `{name}`: {actual}"))
+            .report(findings);
     }
+    Some(())
 }

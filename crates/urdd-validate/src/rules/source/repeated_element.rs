@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_directory::position::LineIndex;
 
 declare_rule! {
@@ -14,26 +12,22 @@ declare_rule! {
     /// elements. Then write the URDD again.
     SRC008 "repeated-element", Warning, clause "6.1.8", since "0.1.0",
     phase References, judges AsItStands, needs [CarriedUrdf, Passed(URD011)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Ok(carried), Some(reading)) = (context.urdf(), context.urdf_text()) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let carried = context.urdf().ok()?;
+    let reading = context.urdf_text()?;
     let lines = LineIndex::new(&carried.text);
     for again in &reading.repeated {
         let first = lines.position(again.first);
-        findings.report(
-            Finding::in_file(
-                &carried.path,
-                format!(
-                    "a second `<{}>` in a `<{}>`: only the first counts; remove one of them",
-                    again.element, again.parent
-                ),
-            )
-            .position(Some(lines.position(again.offset)))
-            .actual(format!("the first is in line {}", first.line)),
+        let message = format!(
+            "a second `<{}>` in a `<{}>`: only the first counts; remove one of them",
+            again.element, again.parent
         );
+        Finding::in_file(&carried.path, message)
+            .position(Some(lines.position(again.offset)))
+            .actual(format!("the first is in line {}", first.line))
+            .report(findings);
     }
+    Some(())
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// Crashes, always.
@@ -9,10 +7,9 @@ declare_rule! {
     /// `incomplete` and exit status 101, and never as a URDD without faults.
     TST001 "crashes", Error, clause "13.1", since "0.1.0",
     phase Files, needs [],
-    check check,
 }
 
-#[expect(clippy::panic, reason = "it is what the rule is for")]
-fn check(context: &Context, _: &mut Findings) {
-    panic!("crashed on purpose at {} modules", context.modules().len());
+#[expect(clippy::panic, reason = "the purpose of the rule")]
+fn check(context: &Context, _: &mut Findings) -> Option<()> {
+    panic!("crashed on purpose at {} modules", context.modules().len())
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::urdf_text::compare::first_names;
 use urdd_document::robot::Robot;
 
@@ -14,38 +12,27 @@ declare_rule! {
     /// again.
     URD006 "links-in-a-circle", Error, clause "6.1.4", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD005)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
     for circle in circles(&parents(robot)) {
-        let names: Vec<&str> = circle
-            .iter()
-            .filter_map(|link| robot.links.get(*link))
-            .map(|link| link.name.as_str())
-            .collect();
-        let Some(first) = circle.first() else {
-            continue;
-        };
-        findings.report(
-            Finding::at(
-                file.clone(),
-                format!("/links/{first}"),
-                format!(
-                    "{} are in a circle, each the child of the next: remove one of their joints, or swap its parent and child",
-                    first_names(&names)
-                ),
-            )
-            .expected("a way from every link to the root")
-            .actual(format!("a circle of {} links", circle.len())),
+        let links = circle.iter().filter_map(|link| robot.links.get(*link));
+        let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
+        let message = format!(
+            "{} are in a circle, each the child of the next: remove one of their joints, or swap its parent and child",
+            first_names(&names)
         );
+        Finding::at(&file, format!("/links/{}", circle.first()?), message)
+            .expected("a way from every link to the root")
+            .actual(format!("a circle of {} links", circle.len()))
+            .report(findings);
     }
+    Some(())
 }
 
-/// For each link, the link that it hangs on.
+/// The parent link of each link.
 fn parents(robot: &Robot) -> Vec<Option<usize>> {
     let mut parents = vec![None; robot.links.len()];
     for joint in &robot.joints {
@@ -58,9 +45,9 @@ fn parents(robot: &Robot) -> Vec<Option<usize>> {
     parents
 }
 
-/// The circles into which a map leads, each from its lowest member on.
+/// The circles of a map, each starting at its lowest member.
 pub(super) fn circles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
-    // The walk on which each was first met.
+    // The walk that first reached each member.
     let mut walk_of: Vec<Option<usize>> = vec![None; next.len()];
     let mut circles = Vec::new();
     for start in 0..next.len() {

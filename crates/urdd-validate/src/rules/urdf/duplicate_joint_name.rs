@@ -1,7 +1,5 @@
 use super::duplicate_link_name::repeated;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// Two joints have one name.
@@ -12,23 +10,19 @@ declare_rule! {
     /// Give every joint a different name in the URDF, and write the URDD again.
     URD003 "duplicate-joint-name", Error, clause "6.1.3", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
     let names = robot.joints.iter().map(|joint| joint.name.as_str());
     for (index, first, name) in repeated(names) {
-        findings.report(
-            Finding::at(
-                file.clone(),
-                format!("/joints/{index}/name"),
-                format!("there is a joint `{name}` already; give this one a name of its own"),
-            )
+        let pointer = format!("/joints/{index}/name");
+        let message = format!("there is a joint `{name}` already; give this one a name of its own");
+        Finding::at(&file, pointer, message)
             .expected("a name that no other joint has")
-            .actual(format!("`{name}`, the name of /joints/{first} too")),
-        );
+            .actual(format!("`{name}`, the name of /joints/{first} too"))
+            .report(findings);
     }
+    Some(())
 }

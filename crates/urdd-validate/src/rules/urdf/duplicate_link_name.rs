@@ -1,8 +1,6 @@
 use std::collections::HashMap;
 
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// Two links have one name.
@@ -13,28 +11,24 @@ declare_rule! {
     /// Give every link a different name in the URDF, and write the URDD again.
     URD002 "duplicate-link-name", Error, clause "6.1.3", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
     let names = robot.links.iter().map(|link| link.name.as_str());
     for (index, first, name) in repeated(names) {
-        findings.report(
-            Finding::at(
-                file.clone(),
-                format!("/links/{index}/name"),
-                format!("there is a link `{name}` already; give this one a name of its own"),
-            )
+        let pointer = format!("/links/{index}/name");
+        let message = format!("there is a link `{name}` already; give this one a name of its own");
+        Finding::at(&file, pointer, message)
             .expected("a name that no other link has")
-            .actual(format!("`{name}`, the name of /links/{first} too")),
-        );
+            .actual(format!("`{name}`, the name of /links/{first} too"))
+            .report(findings);
     }
+    Some(())
 }
 
-/// Names that were there before: the place, the place of the first, and the name.
+/// Names that occurred before: index, index of the first occurrence, name.
 pub(super) fn repeated<'a>(
     names: impl Iterator<Item = &'a str>,
 ) -> impl Iterator<Item = (usize, usize, &'a str)> {

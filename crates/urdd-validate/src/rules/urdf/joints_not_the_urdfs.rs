@@ -1,8 +1,6 @@
 use super::parts::Part;
 use super::source_differences;
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// The links or joints of `urdf_module` are not those of the carried URDF.
@@ -21,13 +19,11 @@ declare_rule! {
     /// carry the URDF from which the module was written.
     URD001 "joints-not-the-urdfs", Error, clause "6.1.2", since "0.1.0",
     phase References, judges AsItStands, needs [
-        Module(Kind::Urdf), CarriedUrdf, Passed(URD011), Passed(URD002), Passed(URD003),
-        ROBOT_SOUND, Passed(URD005), Passed(URD007), Passed(URD008),
-        Passed(URD009), Passed(URD010), Passed(URD012),
+        Module(Kind::Urdf), CarriedUrdf, Passed(URD011), Passed(URD002), Passed(URD003), ROBOT_SOUND,
+        Passed(URD005), Passed(URD007), Passed(URD008), Passed(URD009), Passed(URD010), Passed(URD012),
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    source_differences::report(context, findings, Part::Joints);
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    source_differences::report(context, findings, Part::Joints)
 }

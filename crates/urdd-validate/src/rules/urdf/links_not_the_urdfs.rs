@@ -1,8 +1,6 @@
 use super::parts::Part;
 use super::source_differences;
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// What `urdf_module` says of a link, or of the robot, is not what the carried URDF says.
@@ -22,9 +20,8 @@ declare_rule! {
     phase References, judges AsItStands, consequence WrongPlace, needs [
         Module(Kind::Urdf), CarriedUrdf, Passed(URD011), Passed(URD002), Passed(URD003),
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    source_differences::report(context, findings, Part::Rest);
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    source_differences::report(context, findings, Part::Rest)
 }

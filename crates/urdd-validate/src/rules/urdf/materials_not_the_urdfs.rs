@@ -1,8 +1,6 @@
 use super::parts::Part;
 use super::source_differences;
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A material in `urdf_module` is not the one in the carried URDF.
@@ -17,9 +15,8 @@ declare_rule! {
     phase References, judges AsItStands, consequence Appearance, needs [
         Module(Kind::Urdf), CarriedUrdf, Passed(URD011), Passed(URD002), Passed(URD003),
     ],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    source_differences::report(context, findings, Part::Materials);
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    source_differences::report(context, findings, Part::Materials)
 }

@@ -1,7 +1,5 @@
 use super::cycle::circles;
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::urdf_text::compare::first_names;
 
 declare_rule! {
@@ -13,27 +11,16 @@ declare_rule! {
     /// Remove the `<mimic>` of the joint that is driven, in the URDF, and write the URDD again.
     URD009 "mimics-in-a-circle", Error, clause "6.1.5", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD008)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
-        return;
-    };
-    let follows: Vec<Option<usize>> = robot
-        .joints
-        .iter()
-        .map(|joint| robot.joint(&joint.active_mimic()?.joint))
-        .collect();
-    for circle in circles(&follows) {
-        let names: Vec<&str> = circle
-            .iter()
-            .filter_map(|joint| robot.joints.get(*joint))
-            .map(|joint| joint.name.as_str())
-            .collect();
-        let Some(first) = circle.first() else {
-            continue;
-        };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
+    let joints = robot.joints.iter();
+    let follows = joints.map(|joint| robot.joint(&joint.active_mimic()?.joint));
+    for circle in circles(&follows.collect::<Vec<_>>()) {
+        let joints = circle.iter().filter_map(|joint| robot.joints.get(*joint));
+        let names: Vec<&str> = joints.map(|joint| joint.name.as_str()).collect();
         let message = match names.as_slice() {
             [name] => format!("joint `{name}` follows itself"),
             _ => format!(
@@ -41,14 +28,11 @@ fn check(context: &Context, findings: &mut Findings) {
                 first_names(&names)
             ),
         };
-        findings.report(
-            Finding::at(
-                file.clone(),
-                format!("/joints/{first}/mimic/joint"),
-                message,
-            )
+        let pointer = format!("/joints/{}/mimic/joint", circle.first()?);
+        Finding::at(&file, pointer, message)
             .expected("a joint that leads to one that follows nothing")
-            .actual(format!("a circle of {}", names.len())),
-        );
+            .actual(format!("a circle of {}", names.len()))
+            .report(findings);
     }
+    Some(())
 }

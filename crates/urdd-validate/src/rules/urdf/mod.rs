@@ -17,22 +17,10 @@ mod unknown_mimic_driver;
 mod unreadable_urdf;
 mod zero_axis;
 
-use crate::rule::Rule;
+use crate::rule::rules;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &joints_not_the_urdfs::RULE,
-    &duplicate_link_name::RULE,
-    &duplicate_joint_name::RULE,
-    &not_one_root::RULE,
-    &two_parents::RULE,
-    &cycle::RULE,
-    &unknown_link::RULE,
-    &unknown_mimic_driver::RULE,
-    &mimic_circle::RULE,
-    &zero_axis::RULE,
-    &unreadable_urdf::RULE,
-    &mimic_of_many_dofs::RULE,
-    &links_not_the_urdfs::RULE,
-    &materials_not_the_urdfs::RULE,
-];
+rules! {
+    cycle, duplicate_joint_name, duplicate_link_name, joints_not_the_urdfs, links_not_the_urdfs,
+    materials_not_the_urdfs, mimic_circle, mimic_of_many_dofs, not_one_root, two_parents,
+    unknown_link, unknown_mimic_driver, unreadable_urdf, zero_axis
+}

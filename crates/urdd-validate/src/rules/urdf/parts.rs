@@ -1,13 +1,13 @@
-//! To which rule a value of `urdf_module` belongs, where it is compared with the carried URDF.
+//! Which rule compares which values of `urdf_module` with the carried URDF.
 
-/// The parts of a robot, each of which one rule compares.
+/// The parts of a robot; one rule compares each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
-    /// Which links and joints there are, and what kinematics depend on: URD001.
+    /// The set of links and joints, and everything that affects kinematics: URD001.
     Joints,
     /// Materials: URD014.
     Materials,
-    /// All else: URD013.
+    /// Everything else: URD013.
     Rest,
 }
 
@@ -16,7 +16,7 @@ impl Part {
     pub(super) fn of(pointer: &str) -> Part {
         let parts: Vec<&str> = pointer.split('/').skip(1).collect();
         match parts.as_slice() {
-            // By the version, a quaternion counts or does not.
+            // Whether a quaternion counts depends on the version.
             ["links" | "joints" | "version"] | ["links" | "joints", _, "name", ..] => Part::Joints,
             [
                 "joints",
@@ -30,8 +30,8 @@ impl Part {
     }
 }
 
-/// The origin or material of a visual or collision element, where a JSON Pointer leads into one.
-/// What differs in it is one finding.
+/// The origin or material of a visual or collision element that contains a JSON Pointer's value. Differences within it
+/// are one finding.
 pub(super) fn element_part(pointer: &str) -> Option<&str> {
     let mut ends = pointer.match_indices('/').map(|(at, _)| at).skip(1);
     // /links/3/visual/0/origin/xyz/2

@@ -1,37 +1,25 @@
-//! What URD001, URD013 and URD014 share: `urdf_module` against the carried URDF.
+//! Compares `urdf_module` with the carried URDF, for URD001, URD013 and URD014.
 
 use serde_json::Value;
 
 use super::parts::{Part, element_part};
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
+use crate::rules::prelude::*;
 use crate::urdf_text::compare::{Difference, differences};
 use crate::urdf_text::{Reading, as_legacy};
 use urdd_directory::position::LineIndex;
 use urdd_document::schema_check::excerpt;
-use urdd_format::registry::{ModuleDocument, ModuleKind};
 
 /// Reports where a part of the module differs from the URDF.
-pub(super) fn report(context: &Context, findings: &mut Findings, part: Part) {
-    let (Some(module), Ok(carried), Some(reading)) = (
-        context.module(ModuleKind::Urdf),
-        context.urdf(),
-        context.urdf_text(),
-    ) else {
-        return;
+pub(super) fn report(context: &Context, findings: &mut Findings, part: Part) -> Option<()> {
+    let module = context.module(ModuleKind::Urdf)?;
+    let carried = context.urdf().ok()?;
+    let reading = context.urdf_text()?;
+    let robot = reading.robot.as_ref()?;
+    let actual = &module.json.document()?.value;
+    let expected = match module.document.as_ref()? {
+        ModuleDocument::LegacyUrdf(_) => as_legacy(robot)?,
+        _ => serde_json::to_value(robot).ok()?,
     };
-    let (Some(robot), Some(document), Some(actual)) = (
-        &reading.robot,
-        &module.document,
-        module.json.document().map(|document| &document.value),
-    ) else {
-        return;
-    };
-    let expected = match document {
-        ModuleDocument::LegacyUrdf(_) => as_legacy(robot),
-        _ => serde_json::to_value(robot).ok(),
-    };
-    let Some(expected) = expected else { return };
     let lines = LineIndex::new(&carried.text);
     let mut last = None;
     for mut found in differences(&expected, actual) {
@@ -60,15 +48,16 @@ pub(super) fn report(context: &Context, findings: &mut Findings, part: Part) {
             .map_or(String::new(), |place| {
                 format!(" ({}, line {})", carried.path, place.line)
             });
-        let mut finding = Finding::at(module.file("module.json"), found.pointer, words)
+        let mut finding = Finding::of(module, found.pointer, words)
             .expected(format!("{}{line}", excerpt(&found.expected)))
             .actual(excerpt(&found.actual));
         finding.tolerance = found.tolerance;
         findings.report(finding);
     }
+    Some(())
 }
 
-/// Whether a value says nothing: null, zeros, empty texts, and what is made of these.
+/// Whether a value is null, zero or empty, or consists only of such values.
 fn is_nothing(value: &Value) -> bool {
     match value {
         Value::Null => true,
@@ -80,7 +69,7 @@ fn is_nothing(value: &Value) -> bool {
     }
 }
 
-/// What it means that an origin or a material of a shape is lost.
+/// The message for a lost origin or material of a shape.
 fn lost(reading: &Reading, source: &str) -> String {
     let (element, name) = source.rsplit_once('/').unwrap_or((source, ""));
     let geometry = reading.offset(&format!("{element}/geometry"));

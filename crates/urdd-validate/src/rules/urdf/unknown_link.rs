@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A joint names a parent or child link that does not exist.
@@ -12,26 +10,22 @@ declare_rule! {
     /// Correct the name, or add the link, in the URDF, and write the URDD again.
     URD007 "unknown-link", Error, clause "6.1.4", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD002)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
         for (end, link) in [("parent", &joint.parent), ("child", &joint.child)] {
             if robot.link(link).is_none() {
-                findings.report(
-                    Finding::at(
-                        file.clone(),
-                        format!("/joints/{index}/{end}/link"),
-                        format!("{end} of joint `{}` is not a link of the robot", joint.name),
-                    )
+                let pointer = format!("/joints/{index}/{end}/link");
+                let message = format!("{end} of joint `{}` is not a link of the robot", joint.name);
+                Finding::at(&file, pointer, message)
                     .expected("the name of a link")
-                    .actual(format!("`{link}`")),
-                );
+                    .actual(format!("`{link}`"))
+                    .report(findings);
             }
         }
     }
+    Some(())
 }

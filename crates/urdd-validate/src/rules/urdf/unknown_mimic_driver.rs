@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A mimic joint names a joint that does not exist.
@@ -12,30 +10,22 @@ declare_rule! {
     /// Correct `joint` of the `<mimic>`, or remove the `<mimic>`, in the URDF. Then write the URDD again.
     URD008 "unknown-mimic-driver", Error, clause "6.1.5", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD003)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
-        let Some(mimic) = joint.active_mimic() else {
-            continue;
-        };
-        if robot.joint(&mimic.joint).is_none() {
-            findings.report(
-                Finding::at(
-                    file.clone(),
-                    format!("/joints/{index}/mimic/joint"),
-                    format!(
-                        "joint `{}` follows a joint that the robot does not have",
-                        joint.name
-                    ),
-                )
+        if let Some(mimic) = joint.active_mimic()
+            && robot.joint(&mimic.joint).is_none()
+        {
+            let name = &joint.name;
+            let message = format!("joint `{name}` follows a joint that the robot does not have");
+            Finding::at(&file, format!("/joints/{index}/mimic/joint"), message)
                 .expected("the name of a joint")
-                .actual(format!("`{}`", mimic.joint)),
-            );
+                .actual(format!("`{}`", mimic.joint))
+                .report(findings);
         }
     }
+    Some(())
 }

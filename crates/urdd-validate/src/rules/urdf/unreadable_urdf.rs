@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use urdd_directory::position::{self, LineIndex};
 use urdd_document::schema_check::excerpt;
 
@@ -17,22 +15,18 @@ declare_rule! {
     /// means that xacro was not run.
     URD011 "unreadable-urdf", Error, clause "6.1.2", since "0.1.0",
     phase Syntax, needs [CarriedUrdf],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Ok(carried), Some(reading)) = (context.urdf(), context.urdf_text()) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let carried = context.urdf().ok()?;
+    let reading = context.urdf_text()?;
     if let Some(offset) = carried.not_utf8_at {
-        findings.report(
-            Finding::in_file(
-                &carried.path,
-                "the URDF is not in UTF-8; save it as UTF-8, and say so in its XML declaration",
-            )
-            .position(Some(position::position(&carried.text, offset))),
-        );
-        return;
+        let message =
+            "the URDF is not in UTF-8; save it as UTF-8, and say so in its XML declaration";
+        Finding::in_file(&carried.path, message)
+            .position(Some(position::position(&carried.text, offset)))
+            .report(findings);
+        return Some(());
     }
     let lines = LineIndex::new(&carried.text);
     for problem in &reading.problems {
@@ -43,4 +37,5 @@ fn check(context: &Context, findings: &mut Findings) {
         }
         findings.report(finding);
     }
+    Some(())
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::{Finding, Findings};
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 
 declare_rule! {
     /// A joint that needs an axis has an axis without a direction.
@@ -12,33 +10,25 @@ declare_rule! {
     /// Give the joint an axis in the URDF (without one it is `1 0 0`), and write the URDD again.
     URD010 "zero-axis", Error, clause "6.1.6", since "0.1.0",
     phase References, judges Robot, needs [Module(Kind::Urdf)],
-    check check,
 }
 
-fn check(context: &Context, findings: &mut Findings) {
-    let (Some(robot), Some(file)) = (context.robot(), context.robot_file()) else {
-        return;
-    };
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let robot = context.robot()?;
+    let file = context.robot_file()?;
     for (index, joint) in robot.joints.iter().enumerate() {
-        if !joint.has_axis() || has_direction(joint.axis) {
-            continue;
+        if joint.has_axis() && !has_direction(joint.axis) {
+            let (name, kind) = (&joint.name, joint.joint_type);
+            let message = format!("the axis of joint `{name}` ({kind}) has no direction");
+            Finding::at(&file, format!("/joints/{index}/axis/xyz"), message)
+                .expected("a vector other than zero")
+                .actual(format!("{:?}", joint.axis))
+                .report(findings);
         }
-        findings.report(
-            Finding::at(
-                file.clone(),
-                format!("/joints/{index}/axis/xyz"),
-                format!(
-                    "the axis of joint `{}` ({}) has no direction",
-                    joint.name, joint.joint_type
-                ),
-            )
-            .expected("a vector other than zero")
-            .actual(format!("{:?}", joint.axis)),
-        );
     }
+    Some(())
 }
 
-/// Whether the vector can be made a unit vector in binary64.
+/// Whether the vector can be normalised in binary64.
 fn has_direction(axis: [f64; 3]) -> bool {
     axis.iter().map(|x| x * x).sum::<f64>().is_normal()
 }

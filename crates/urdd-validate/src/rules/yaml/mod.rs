@@ -9,16 +9,9 @@ mod yaml_repeated_key;
 mod yaml_tag;
 mod yaml_too_deep;
 
-use crate::rule::Rule;
+use crate::rule::rules;
 
-/// The rules of this family.
-pub const RULES: &[&Rule] = &[
-    &not_yaml::RULE,
-    &yaml_tag::RULE,
-    &yaml_anchor::RULE,
-    &yaml_merge_key::RULE,
-    &yaml_repeated_key::RULE,
-    &yaml_ambiguous::RULE,
-    &yaml_differs::RULE,
-    &yaml_too_deep::RULE,
-];
+rules! {
+    not_yaml, yaml_ambiguous, yaml_anchor, yaml_differs, yaml_merge_key, yaml_repeated_key,
+    yaml_tag, yaml_too_deep
+}

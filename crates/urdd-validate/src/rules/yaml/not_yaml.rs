@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::text_faults;
 use urdd_directory::text_fault::TextFaultKind;
 
@@ -13,7 +11,6 @@ declare_rule! {
     /// Mend it at the place that is given, or write it again from `module.json`.
     YML001 "not-yaml", Error, clause "3.2.2", since "0.1.0",
     phase Syntax, needs [],
-    check check,
 }
 
 const KINDS: &[TextFaultKind] = &[
@@ -25,6 +22,7 @@ const KINDS: &[TextFaultKind] = &[
     TextFaultKind::YamlNonStringKey,
 ];
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     text_faults::report_yaml(context, KINDS, findings);
+    Some(())
 }

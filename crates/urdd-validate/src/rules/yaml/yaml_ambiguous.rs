@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::text_faults;
 use urdd_directory::text_fault::TextFaultKind;
 
@@ -15,11 +13,11 @@ declare_rule! {
     /// look like something else (`"no"`, `"1:30"`, `"0x1"`).
     YML006 "yaml-ambiguous", Error, clause "3.2.3", since "0.1.0",
     phase Syntax, needs [],
-    check check,
 }
 
 const KINDS: &[TextFaultKind] = &[TextFaultKind::YamlAmbiguousScalar];
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     text_faults::report_yaml(context, KINDS, findings);
+    Some(())
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::text_faults;
 use urdd_directory::text_fault::TextFaultKind;
 
@@ -14,11 +12,11 @@ declare_rule! {
     /// it (PyYAML: a dumper whose `ignore_aliases` is true).
     YML003 "yaml-anchor", Error, clause "3.2.2", since "0.1.0",
     phase Syntax, needs [],
-    check check,
 }
 
 const KINDS: &[TextFaultKind] = &[TextFaultKind::YamlAnchorOrAlias];
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     text_faults::report_yaml(context, KINDS, findings);
+    Some(())
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::text_faults;
 use urdd_directory::text_fault::TextFaultKind;
 
@@ -14,7 +12,6 @@ declare_rule! {
     /// and write `module.yaml` from it.
     YML007 "yaml-differs", Error, clause "3.2.1", since "0.1.0",
     phase Syntax, needs [],
-    check check,
 }
 
 /// Faults that end the reading: what the YAML then lacks follows from them.
@@ -24,6 +21,7 @@ const UNREAD: &[TextFaultKind] = &[
     TextFaultKind::YamlTooDeep,
 ];
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     text_faults::report_yaml_unless(context, &[TextFaultKind::YamlDiffers], UNREAD, findings);
+    Some(())
 }

@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::text_faults;
 use urdd_directory::text_fault::TextFaultKind;
 
@@ -12,11 +10,11 @@ declare_rule! {
     /// Write the keys out at each place.
     YML004 "yaml-merge-key", Error, clause "3.2.2", since "0.1.0",
     phase Syntax, needs [],
-    check check,
 }
 
 const KINDS: &[TextFaultKind] = &[TextFaultKind::YamlMergeKey];
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     text_faults::report_yaml(context, KINDS, findings);
+    Some(())
 }

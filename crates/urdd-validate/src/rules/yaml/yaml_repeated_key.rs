@@ -1,6 +1,4 @@
-use crate::context::Context;
-use crate::finding::Findings;
-use crate::rule::declare_rule;
+use crate::rules::prelude::*;
 use crate::views::text_faults;
 use urdd_directory::text_fault::TextFaultKind;
 
@@ -12,11 +10,11 @@ declare_rule! {
     /// Remove one of the two.
     YML005 "yaml-repeated-key", Error, clause "3.2.2", since "0.1.0",
     phase Syntax, needs [],
-    check check,
 }
 
 const KINDS: &[TextFaultKind] = &[TextFaultKind::YamlDuplicateKey];
 
-fn check(context: &Context, findings: &mut Findings) {
+fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     text_faults::report_yaml(context, KINDS, findings);
+    Some(())
 }

@@ -1,0 +1,58 @@
+//! Compares the hulls of links with their plain meshes, for MSH018 and MSH019.
+
+use rayon::prelude::*;
+
+use crate::rules::prelude::*;
+use crate::solids::derived::Derived;
+use crate::views::judged::judged;
+use urdd_geometry::Mesh;
+
+/// A vertex, its distance from where it should be, and the tolerance, m.
+pub type Off = ([f64; 3], f64, f64);
+
+/// What a finding says.
+pub struct Words {
+    pub message: String,
+    pub expected: &'static str,
+    pub actual: String,
+}
+
+/// Reports every hull for which `off`, given the hull and the plain mesh, finds a vertex. `words` describes it, given
+/// the link, the place and the distance.
+pub fn report(
+    context: &Context,
+    findings: &mut Findings,
+    off: impl Fn(&Mesh, &Mesh) -> Option<Off> + Sync,
+    words: impl Fn(&str, &str, &str) -> Words,
+) -> Option<()> {
+    let kind = ModuleKind::ConvexHullMeshes;
+    let module = context.module(kind)?;
+    // Computed before the threads start, so that the computation itself can use all of them.
+    context.misplaced();
+    let solids = context.solids();
+    let hulls = solids.derived(kind).iter().filter(|hull| {
+        let by = [Part::Plain(hull.link)];
+        judged(context, findings, Part::Hull(hull.link), &by)
+    });
+    let hulls: Vec<&Derived> = hulls.collect();
+    let off_of = |link| {
+        let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
+        off(solids.sound(kind, link, 0)?, mesh)
+    };
+    let off: Vec<Option<Off>> = hulls.par_iter().map(|hull| off_of(hull.link)).collect();
+    for (hull, off) in hulls.iter().zip(off) {
+        let Some((place, distance, tolerance)) = off else {
+            continue;
+        };
+        let label = context.link_label(hull.link);
+        let words = words(&label, &point(place), &metres(distance));
+        Finding::of(module, hull.pointer(), words.message)
+            .expected(words.expected)
+            .actual(words.actual)
+            .tolerance(tolerance)
+            .off_by(distance, "m")
+            .part(Part::Hull(hull.link))
+            .report(findings);
+    }
+    Some(())
+}

@@ -1,0 +1,53 @@
+//! Names that rules use.
+
+pub(super) use crate::context::Context;
+pub(super) use crate::finding::{Finding, Findings, point};
+pub(super) use crate::fold::Fold;
+pub(super) use crate::part::{Part, Why};
+pub(super) use crate::rule::declare_rule;
+pub(super) use crate::skip::SkipReason;
+pub(super) use crate::tolerance::*;
+pub(super) use crate::views::list_lengths::wrong_lengths;
+pub(super) use urdd_directory::discover::ROOT_METADATA;
+pub(super) use urdd_document::entries::{self, Entry};
+pub(super) use urdd_document::meshes::DERIVED;
+pub(super) use urdd_document::module::Module;
+pub(super) use urdd_document::shapes::{KINDS, ShapeKind};
+pub(super) use urdd_format::readable::{metres, number};
+pub(super) use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
+
+/// The document of a module, if it is of version 1: `document!(context, PlainMeshes)`. [`Need::ModuleV1`] guarantees it.
+///
+/// [`Need::ModuleV1`]: crate::rule::Need::ModuleV1
+macro_rules! document {
+    ($context:expr, $kind:ident) => {
+        match $context.document(ModuleKind::$kind) {
+            Some(ModuleDocument::$kind(document)) => Some(&**document),
+            _ => None,
+        }
+    };
+}
+pub(super) use document;
+
+/// The modules that `urdd.json` lists.
+pub(super) fn listed_modules(context: &Context) -> Option<Vec<Entry<'_>>> {
+    context.metadata().map(|_| entries::all(context))
+}
+
+/// Whether the module's version is from before the specification.
+pub(super) fn is_legacy(module: &Module) -> bool {
+    module
+        .spec
+        .is_some_and(|spec| spec.profile == Profile::Legacy)
+}
+
+/// The values that are present, with their kinds of shape.
+pub(super) fn by_kind<T>(six: [Option<T>; 6]) -> impl Iterator<Item = (ShapeKind, T)> {
+    let six = KINDS.into_iter().zip(six);
+    six.filter_map(|(kind, one)| Some((kind, one?)))
+}
+
+/// A value that may be absent, as a report shows it.
+pub(super) fn or_null<T: std::fmt::Debug>(value: Option<T>) -> String {
+    value.map_or_else(|| "null".to_owned(), |value| format!("{value:?}"))
+}

@@ -1,0 +1,42 @@
+//! Boxes and spheres that are larger than needed, for SHP019 and SHP020.
+
+use rayon::prelude::*;
+
+use crate::rules::prelude::*;
+use crate::views::enclosure::Enclosure;
+use crate::views::judged::enclosures;
+
+/// Reports every box or sphere whose `ratio` of size to that of the smallest one is above `most`. `words` names shape and
+/// size: "box", "volume".
+pub fn report(
+    context: &Context,
+    findings: &mut Findings,
+    most: f64,
+    [shape, size]: [&str; 2],
+    ratio: impl Fn(&Enclosure) -> Option<f64> + Sync,
+) -> Option<()> {
+    let module = context.module(ModuleKind::LinkShapesApproximations)?;
+    let tight = context.profile() == Profile::V1;
+    // SHP017 and SHP018 report those that do not fit.
+    let fits = |e: &Enclosure| e.holds() && (e.touches() || !tight);
+    let mut found: Vec<(Enclosure, f64)> = enclosures(context, findings)
+        .into_par_iter()
+        .filter(fits)
+        .filter_map(|enclosure| {
+            let ratio = ratio(&enclosure).filter(|ratio| *ratio > most)?;
+            Some((enclosure, ratio))
+        })
+        .collect();
+    // The worst first: only a few are shown.
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    for (enclosure, ratio) in found {
+        let of_what = enclosure.of_what(context);
+        let message =
+            format!("the {shape} about {of_what} has {ratio:.2} times the {size} of the least one");
+        Finding::of(module, &enclosure.pointer, message)
+            .expected(format!("at most {most} times"))
+            .actual(format!("{ratio:.2} times"))
+            .report(findings);
+    }
+    Some(())
+}

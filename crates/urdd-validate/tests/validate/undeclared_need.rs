@@ -1,0 +1,79 @@
+//! A rule that takes something without declaring the need is caught, and never counts as passed.
+
+use tempfile::tempdir;
+use testkit::fixture::{Fixture, toy_robot};
+use testkit::folder::Folder;
+use urdd_document::urdd::Urdd;
+use urdd_validate::code::Code;
+use urdd_validate::context::Context;
+use urdd_validate::engine::Outcome;
+use urdd_validate::finding::Findings;
+use urdd_validate::rule::{Consequence, Judges, Need, Phase, Rule, Severity};
+use urdd_validate::rules;
+use urdd_validate::settings::Settings;
+use urdd_validate::skip::SkipReason;
+
+static FORGETFUL: Rule = Rule {
+    code: Code::TST001,
+    name: "takes-the-composition",
+    severity: Severity::Error,
+    clause: "13.1",
+    since: "0.2.0",
+    consequence: Consequence::Format,
+    phase: Phase::References,
+    judges: Judges::AsItStands,
+    needs: &[],
+    doc: &[" Takes a module that it does not need."],
+    check: |context, _| {
+        context.document(urdd_format::registry::ModuleKind::Composition)?;
+        Some(())
+    },
+};
+
+#[test]
+fn a_forgotten_need_is_caught() {
+    let mut folder = Folder::new();
+    let mut urdd = Fixture::core(&toy_robot());
+    urdd.seal();
+    let path = folder.put(&urdd);
+    let run = urdd_validate::validate_with(&[path], &Settings::default(), &[&FORGETFUL]).unwrap();
+    let examined = run.subjects[0].result.as_ref().unwrap();
+    match &examined.checks[0].outcome {
+        Outcome::Crashed(message) if cfg!(debug_assertions) => {
+            assert!(message.starts_with("TST001 takes"), "{message}");
+        }
+        Outcome::Skipped(SkipReason::UndeclaredNeed) if !cfg!(debug_assertions) => {}
+        other => panic!("{other:?}"),
+    }
+    assert!(SkipReason::UndeclaredNeed.is_obstacle());
+}
+
+/// Without its needs, no rule passes on a URDD that has nothing: whichever need a rule forgets, it is caught.
+#[test]
+fn every_rule_takes_what_it_needs() {
+    let empty = tempdir().unwrap();
+    let context = Context::new(Urdd::read(empty.path()).unwrap(), None);
+    let mut passed = Vec::new();
+    for rule in rules::all() {
+        // These read `urdf_module` in legacy URDDs alone.
+        if [Code::MSH005, Code::LEG007].contains(&rule.code) {
+            continue;
+        }
+        if rule.needs.iter().any(is_of_document) {
+            let mut findings = Findings::default();
+            if (rule.check)(&context, &mut findings).is_some() {
+                passed.push(rule.code);
+            }
+        }
+    }
+    assert_eq!(passed, []);
+}
+
+/// Whether a URDD without any file does not meet the need.
+fn is_of_document(need: &Need) -> bool {
+    match need {
+        Need::Module(_) | Need::ModuleV1(_) | Need::RootMetadata | Need::CarriedUrdf => true,
+        Need::All(needs) => needs.iter().any(is_of_document),
+        _ => false,
+    }
+}
